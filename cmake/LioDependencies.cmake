@@ -1,0 +1,18 @@
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(yaml-cpp 0.7 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(BZip2 REQUIRED)
+include(FindLcm)
+if(LIO_BUILD_TESTS)
+  find_package(GTest 1.12 REQUIRED)
+  find_package(benchmark REQUIRED)
+  include(GoogleTest)
+endif()

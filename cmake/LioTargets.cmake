@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# Warnings, language level and sanitizers, linked privately by every target of ours.
+find_program(LIO_CCACHE ccache)
+if(LIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${LIO_CCACHE})
+endif()
+
+add_library(lio_warnings INTERFACE)
+target_compile_features(lio_warnings INTERFACE cxx_std_20)
+target_compile_options(lio_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual
+  $<$<BOOL:${LIO_WERROR}>:-Werror>)
+
+# Sanitizers concern every object that is linked together, so they are set for the whole build.
+if(LIO_SANITIZE)
+  add_compile_options(-fsanitize=${LIO_SANITIZE} -fno-omit-frame-pointer
+    $<$<STREQUAL:${LIO_SANITIZE},address$<COMMA>undefined>:-fno-sanitize-recover=all>)
+  add_link_options(-fsanitize=${LIO_SANITIZE})
+endif()
+
+# lio_library(NAME MODULE...): a static library of every source in src/<MODULE>/, one folder a module.
+function(lio_library name)
+  set(sources "")
+  foreach(module IN LISTS ARGN)
+    file(GLOB module_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${module}/*.cpp)
+    list(APPEND sources ${module_sources})
+  endforeach()
+  add_library(${name} STATIC ${sources})
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/include)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_link_libraries(${name} PRIVATE lio_warnings)
+endfunction()
+
+# lio_program(NAME SOURCE... LIBS LIBRARY...): one thin program.
+function(lio_program name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  target_compile_definitions(${name} PRIVATE LIO_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS})
+endfunction()
+
+# lio_test(NAME MODULE... LIBS LIBRARY...): one test program of every test/<MODULE>/*_test.cpp.
+function(lio_test name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  set(sources "")
+  foreach(module IN LISTS arg_UNPARSED_ARGUMENTS)
+    file(GLOB module_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/test/${module}/*_test.cpp)
+    list(APPEND sources ${module_sources})
+  endforeach()
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name} ${sources})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/test)
+  target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS} GTest::gtest GTest::gmock
+    GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The estimator: the first file to read. A single-threaded state machine that takes samples and
+// chunks in the order they arrive and returns outputs. Matching a scan is handed out as a job, so
+// that a daemon can run it on another thread while the filter goes on:
+//
+//   odometry.AddImu(sample); odometry.AddChunk(chunk);           // filter thread
+//   while (auto job = odometry.NextJob()) {                      // at most one job in flight
+//     MatchOutcome outcome = matching.Run(*job);                 // any one thread
+//     InsertTask insert = odometry.FinishJob(std::move(outcome));  // filter thread
+//     matching.Insert(insert);                                   // before the next Run
+//   }
+//   for (auto& output : odometry.TakeOutputs()) ...
+//
+// What is estimated for a scan depends only on the messages and their order, never on when a job
+// is finished: replay and live agree to the last bit (docs/design.md).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "lio/pipeline/options.hpp"
+#include "lio/pipeline/outputs.hpp"
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+
+namespace lio {
+
+// CPU clock for stage times; the core has none of its own. Null: no times.
+using ClockNs = std::int64_t (*)();
+
+struct MatchJob;      // match_side.hpp
+struct MatchOutcome;  // match_side.hpp
+struct InsertTask;    // match_side.hpp
+
+// A human-readable event with a severity, e.g. why the start still waits.
+struct Notice {
+  enum class Severity { kInfo, kWarning };
+  Timestamp stamp;
+  Severity severity = Severity::kInfo;
+  std::string text;
+};
+
+// One accepted scan: rows of trajectory.tum, covariance.csv and registration.csv. `filter` is
+// absent before the start.
+struct ScanOutput {
+  std::optional<FilterReport> filter;
+  ScanReport scan;
+};
+
+using Output = std::variant<ScanOutput, NavOutput, Notice>;
+
+class Odometry {
+ public:
+  // Throws std::invalid_argument naming every fault of the options.
+  explicit Odometry(const Options& options, ClockNs clock = nullptr);
+  ~Odometry();
+  Odometry(Odometry&&) noexcept;
+  Odometry& operator=(Odometry&&) noexcept;
+
+  void AddImu(const ImuSample& sample);
+  // `decode_ns`: CPU time that decoding the message took, for the stage times.
+  void AddChunk(ScanChunk chunk, std::int64_t decode_ns = 0);
+  // The log has ended: closes what is still open.
+  void Flush();
+
+  std::optional<MatchJob> NextJob();
+  InsertTask FinishJob(MatchOutcome outcome);
+
+  // Live only: drops the oldest waiting scans beyond options.pipeline.max_queued_scans, counted.
+  void ShedLoad();
+
+  // Everything that happened since the last call, in order. NavOutputs of source kImuPropagated
+  // come one an IMU sample.
+  std::vector<Output> TakeOutputs();
+
+  const Counters& counters() const;
+  TrackingStatus status() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lio

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What the odometry tells the world: plain data, encoded by lio_io and written by the programs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/base/time.hpp"
+
+namespace lio {
+
+enum class TrackingStatus : std::int8_t {
+  kInit = 0,  // waiting for a start
+  kOk = 1,
+  kDegenerate = 2,  // matched, but some direction is not held by the scene
+  kCoasting = 3,    // no accepted match; carried by the IMU
+  kLost = 4,        // no accepted match for long
+};
+
+enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
+
+// The state at one instant. Covariances: position and velocity in world, rotation error on the
+// right (R_true = R Exp(d)), order [position; rotation].
+struct NavOutput {
+  Timestamp stamp;
+  std::int64_t scan_seq = -1;  // the last scan that was fused
+  TrackingStatus status = TrackingStatus::kInit;
+  OdometrySource source = OdometrySource::kScanUpdate;
+  Pose T_world_imu;
+  Matrix6 pose_cov = Matrix6::Zero();
+  Vector3 v_world_imu_mps = Vector3::Zero();
+  Matrix3 velocity_cov = Matrix3::Zero();
+  Vector3 w_imu_radps = Vector3::Zero();   // bias-corrected rate, in imu
+  Pose T_map_imu;                          // smooth pose against the map
+  Matrix6 map_pose_cov = Matrix6::Zero();  // right error [translation; rotation] of T_map_imu
+};
+
+// The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel
+// bias, then the right error of T_map_imu [translation; rotation].
+struct FilterReport {
+  NavOutput nav;
+  Vector3 gyro_bias_radps = Vector3::Zero();
+  Vector3 accel_bias_mps2 = Vector3::Zero();
+  Vector3 g_world_mps2 = Vector3::Zero();
+  double nis = 0.0;  // normalised innovation squared of the last update
+  int nis_dof = 0;   // 0: no update
+  Eigen::MatrixXd cov;
+};
+
+enum class MatchStatus : std::int8_t {
+  kConverged = 0,
+  kMaxIterations = 1,
+  kTooFewPoints = 2,
+  kEmptyMap = 3,  // nothing to match against yet: the scan starts the map
+  kDiverged = 4,
+  kDegenerate = 5,  // converged, with weak directions
+};
+
+enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };
+inline constexpr int kNumStages = 7;
+using StageTimes = std::array<std::int64_t, kNumStages>;  // ns of CPU work, indexed by Stage
+
+// One registration: a row of registration.csv.
+struct ScanReport {
+  Timestamp stamp;  // sweep end
+  std::int64_t scan_seq = 0;
+  int num_raw = 0;
+  int num_used = 0;
+  int num_matched = 0;
+  int iterations = 0;
+  MatchStatus status = MatchStatus::kConverged;
+  bool fused = false;
+  double residual_rms_m = 0.0;
+  Vector6 information_eigenvalues = Vector6::Zero();  // ascending
+  unsigned weak_mask = 0;                             // bit i: eigenvalue i is a weak direction
+  double nis = 0.0;
+  StageTimes stage_ns{};
+};
+
+// A count of everything that was lost, refused or odd. Zero everywhere on a clean log.
+struct Counters {
+  std::int64_t num_imu = 0;
+  std::int64_t num_imu_nonfinite = 0;
+  std::int64_t num_imu_duplicate = 0;
+  std::int64_t num_imu_late = 0;  // stamped before what was already fused
+  std::int64_t num_imu_out_of_range = 0;
+  std::int64_t num_imu_gaps = 0;
+  std::int64_t num_chunks = 0;
+  std::int64_t num_chunks_duplicate = 0;
+  std::int64_t num_chunks_late = 0;
+  std::int64_t num_chunks_missing = 0;
+  std::int64_t num_chunks_bad = 0;  // inconsistent index, count or time span
+  std::int64_t num_points_nonfinite = 0;
+  std::int64_t num_scans = 0;  // sweeps closed, empty ones included
+  std::int64_t num_scans_empty = 0;
+  std::int64_t num_scans_dropped = 0;  // overload, live only
+  std::int64_t num_scans_late = 0;
+  std::int64_t num_scans_without_imu = 0;
+  std::int64_t num_scan_gaps = 0;
+  std::int64_t num_matches_rejected = 0;
+  std::int64_t num_gated = 0;
+  std::int64_t num_clock_jumps = 0;
+  std::int64_t num_restarts = 0;
+};
+
+// Registered points for viewers: in the map's frame.
+struct RegisteredCloud {
+  Timestamp stamp;
+  std::int64_t scan_seq = 0;
+  std::vector<Eigen::Vector3f> points_map;
+};
+
+}  // namespace lio

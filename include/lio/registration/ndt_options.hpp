@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The normal-distributions map and its matcher.
+#pragma once
+
+namespace lio {
+
+struct NdtOptions {
+  double voxel_m = 1.0;       // edge of a map cell; larger is coarser and catches from farther
+  int min_cell_points = 6;    // a cell with fewer points does not count
+  int max_cell_points = 100;  // a cell with as many is frozen
+  int max_iterations = 12;
+  double converged_step_m = 1e-3;  // a step smaller than both of these ends the iteration
+  double converged_step_rad = 1e-4;
+  double min_surface_std_m = 0.03;  // floor of a cell's thickness; not below the range noise
+  int max_cells = 400000;         // the map's memory bound; the least recently seen cells go first
+  double max_distance_m = 200.0;  // cells farther from the vehicle are dropped
+};
+
+}  // namespace lio

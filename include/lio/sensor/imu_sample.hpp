@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// One inertial sample.
+#pragma once
+
+#include "lio/base/rotation.hpp"
+#include "lio/base/time.hpp"
+
+namespace lio {
+
+struct ImuSample {
+  Timestamp stamp;
+  Vector3 w_imu_radps = Vector3::Zero();  // angular rate of imu against an inertial frame, in imu
+  Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
+};
+
+}  // namespace lio
