@@ -24,7 +24,7 @@ enum class DecodeStatus : std::uint8_t {
   kTruncated,     // shorter than its fixed part
   kWrongType,     // another fingerprint
   kSizeMismatch,  // its counts and its size disagree
-  kBadFormat,     // unknown point format or step
+  kBadFormat,     // unknown point format or step, or a stamp outside 1970..2116
   kTooLarge,      // above kMaxMessageBytes
 };
 inline constexpr int kNumDecodeStatuses = 6;
@@ -32,6 +32,13 @@ std::string_view Name(DecodeStatus status);
 
 inline constexpr std::size_t kMaxMessageBytes = 8u << 20;
 
+// The messages' fingerprints: the first eight bytes of each, big-endian, and the only version there
+// is. A released type is never edited, so these never change (a test compares them).
+inline constexpr std::uint64_t kImuFingerprint = 0x4116ba332106780e;
+inline constexpr std::uint64_t kScanFingerprint = 0x8a84c8aeb5c1b9ef;
+
+// On anything but kOk the outputs are left as they were or half filled; do not use them. Values are
+// not judged here: samples may be NaN, chunks inconsistent.
 DecodeStatus DecodeImu(ByteView bytes, ImuSample& sample, std::int32_t& seq);
 DecodeStatus DecodeChunk(ByteView bytes, ScanChunk& chunk);  // reuses chunk.points' memory
 
