@@ -14,8 +14,10 @@ target_compile_options(lio_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 
 # Sanitizers concern every object that is linked together, so they are set for the whole build.
 if(LIO_SANITIZE)
-  add_compile_options(-fsanitize=${LIO_SANITIZE} -fno-omit-frame-pointer
-    $<$<STREQUAL:${LIO_SANITIZE},address$<COMMA>undefined>:-fno-sanitize-recover=all>)
+  add_compile_options(-fsanitize=${LIO_SANITIZE} -fno-omit-frame-pointer)
+  if(LIO_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=all)
+  endif()
   add_link_options(-fsanitize=${LIO_SANITIZE})
 endif()
 
