@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Every option named once: key, field, meaning with unit, and limits as data. Loading, printing,
+// range checks and config/default.yaml all come from here, so a new option is one line here and
+// one in its struct (a test counts the fields of both).
+//
+//   VisitFields(visitor, options) calls visitor(key, field, meaning) or
+//   visitor(key, field, meaning, range) for each field in order. A field may be a struct of fields
+//   itself (kIsGroup), or an optional one.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+#include "lio/pipeline/options.hpp"
+
+namespace lio {
+
+// Both ends belong to the range. Vectors: every entry.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+// Names as configuration writes them, indexed by the enumerator's value.
+template <class Enum>
+inline constexpr std::array<std::string_view, 0> kEnumNames{};
+template <>
+inline constexpr std::array<std::string_view, 3> kEnumNames<MatchMethod>{"ndt", "loam", "gicp"};
+template <>
+inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto", "present",
+                                                                          "removed"};
+
+// Structs whose fields VisitFields lists.
+template <class T, class... Ts>
+inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
+template <class T>
+inline constexpr bool kIsGroup =
+    kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, PipelineOptions, StartOptions,
+             ReduceOptions, NdtOptions, FilterOptions>;
+
+template <class T, class Struct>
+concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
+
+inline constexpr double kMaxDensity = 10.0;  // a sensor noisier than this is a unit mistake
+inline constexpr double kMaxQuaternionNormError = 1e-3;  // nearer to 1 is rounding: normalised
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<Pose> auto& o) {
+  visit("translation_m", o.translation, "origin of the lidar in imu, x y z [m]", Range{-100, 100});
+  visit("rotation_wxyz", o.rotation, "unit quaternion, w first");
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<OwnVehicleBox> auto& o) {
+  visit("min_m", o.min_m, "corner with the smallest x y z, lidar frame [m]", Range{-100, 100});
+  visit("max_m", o.max_m, "corner with the largest x y z, lidar frame [m]", Range{-100, 100});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<LidarRig> auto& o) {
+  visit("model", o.model, "beam table in config/lidars: hdl32e, vlp16, hdl64e, os1_64; or generic");
+  visit("min_range_m", o.min_range_m, "nearer returns are dropped [m]", Range{0, 100});
+  visit("max_range_m", o.max_range_m, "farther returns are dropped [m]", Range{1, 1000});
+  visit("own_vehicle_box", o.own_vehicle_box, "returns inside are the vehicle itself; optional");
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<ImuRig> auto& o) {
+  const Range density{1e-9, kMaxDensity};
+  visit("gyro_noise_density", o.gyro_noise_density, "white noise [rad/s/sqrt(Hz)]", density);
+  visit("accel_noise_density", o.accel_noise_density, "white noise [m/s^2/sqrt(Hz)]", density);
+  visit("gyro_bias_walk_density", o.gyro_bias_walk_density, "bias walk [rad/s^2/sqrt(Hz)]",
+        Range{0, kMaxDensity});
+  visit("accel_bias_walk_density", o.accel_bias_walk_density, "bias walk [m/s^3/sqrt(Hz)]",
+        Range{0, kMaxDensity});
+  visit("gyro_bias_std_radps", o.gyro_bias_std_radps, "turn-on bias, 1 sigma [rad/s]", Range{0, 1});
+  visit("accel_bias_std_mps2", o.accel_bias_std_mps2, "turn-on bias, 1 sigma [m/s^2]",
+        Range{0, 10});
+  visit("gravity", o.gravity, "is gravity part of the accelerometer's reading; auto finds out");
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<Rig> auto& o) {
+  visit("T_imu_lidar", o.T_imu_lidar,
+        "p_imu = T_imu_lidar * p_lidar; required when pipeline.use_imu");
+  visit("lidar", o.lidar, "the lidar");
+  visit("imu", o.imu, "the IMU: continuous-time densities, one number for the three axes");
+  visit("gravity_mps2", o.gravity_mps2, "local gravity [m/s^2]", Range{1, 20});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<PipelineOptions> auto& o) {
+  visit("use_imu", o.use_imu, "false: lidar-only odometry by a constant-velocity guess");
+  visit("method", o.method, "registration of scans against the map");
+  visit("incomplete_sweep_wait_s", o.incomplete_sweep_wait_s,
+        "an incomplete sweep is closed when the IMU is this far past its end [s]", Range{0, 1});
+  visit("max_queued_scans", o.max_queued_scans,
+        "live only: with more waiting scans the oldest is dropped", Range{1, 1000});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<StartOptions> auto& o) {
+  visit("rest_s", o.rest_s, "a static start uses this much rest [s]", Range{0.1, 1.5});
+  visit("max_gyro_std_radps", o.max_gyro_std_radps, "more spread than this is motion [rad/s]",
+        Range{1e-6, 1});
+  visit("max_accel_std_mps2", o.max_accel_std_mps2, "more spread than this is motion [m/s^2]",
+        Range{1e-6, 10});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<ReduceOptions> auto& o) {
+  visit("voxel_m", o.voxel_m, "largest edge of the thinning grid; smaller is denser, slower [m]",
+        Range{0.01, 10});
+  visit("min_voxel_m", o.min_voxel_m, "smallest edge of the thinning grid, reached indoors [m]",
+        Range{0.01, 10});
+  visit("target_points", o.target_points, "the edge adapts to leave about this many points",
+        Range{100, 1000000});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
+  visit("voxel_m", o.voxel_m, "edge of a map cell; larger is coarser, catches from farther [m]",
+        Range{0.05, 20});
+  visit("min_cell_points", o.min_cell_points, "a cell with fewer points does not count",
+        Range{3, 1000});
+  visit("max_cell_points", o.max_cell_points, "a cell with as many points is frozen",
+        Range{3, 1000000});
+  visit("max_iterations", o.max_iterations, "of one match", Range{1, 1000});
+  visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
+        Range{0, 1});
+  visit("converged_step_rad", o.converged_step_rad, "the rotation step is smaller [rad]",
+        Range{0, 1});
+  visit("min_surface_std_m", o.min_surface_std_m,
+        "floor of a cell's thickness; not below the range noise [m]", Range{1e-4, 1});
+  visit("max_cells", o.max_cells, "memory bound of the map; the least recently seen go first",
+        Range{1000, 100000000});
+  visit("max_distance_m", o.max_distance_m, "cells farther from the vehicle are dropped [m]",
+        Range{10, 100000});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
+  visit("history_s", o.history_s, "how late a measurement may come [s]", Range{0.1, 60});
+  visit("max_imu_gap_s", o.max_imu_gap_s, "longer IMU gaps are bridged with inflated noise [s]",
+        Range{0.001, 10});
+  visit("gate_probability", o.gate_probability,
+        "a pose farther off than this quantile is not fused", Range{0.5, 0.999999999});
+  visit("max_gated_in_a_row", o.max_gated_in_a_row,
+        "then the covariance is inflated, and later the filter restarted", Range{1, 1000});
+  visit("registration_cov_scale", o.registration_cov_scale,
+        "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
+  visit("map_walk_scale", o.map_walk_scale,
+        "how far a map grown from scans drifts; larger widens the covariance", Range{0, 100});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<Options> auto& o) {
+  visit("rig", o.rig, "what is fixed about the vehicle");
+  visit("pipeline", o.pipeline, "what runs");
+  visit("start", o.start, "the static start");
+  visit("reduce", o.reduce, "how a sweep is thinned before it is deskewed and matched");
+  visit("ndt", o.ndt, "the normal-distributions map and its matcher");
+  visit("filter", o.filter, "the error-state filter");
+}
+
+}  // namespace lio

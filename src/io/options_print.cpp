@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lio/io/options_yaml.hpp"
+#include "lio/pipeline/options_fields.hpp"
+
+namespace lio {
+namespace {
+
+// The shortest text that reads back as the same double, and looks like one.
+std::string Text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+std::string Text(int value) {
+  return fmt::format("{}", value);
+}
+std::string Text(bool value) {
+  return value ? "true" : "false";
+}
+std::string Text(const std::string& value) {
+  return value;
+}
+std::string Text(const Vector3& v) {
+  return fmt::format("[{}, {}, {}]", Text(v.x()), Text(v.y()), Text(v.z()));
+}
+std::string Text(const Quaternion& q) {
+  return fmt::format("[{}, {}, {}, {}]", Text(q.w()), Text(q.x()), Text(q.y()), Text(q.z()));
+}
+template <class Enum>
+requires std::is_enum_v<Enum> std::string Text(Enum value) {
+  return std::string(kEnumNames<Enum>[static_cast<std::size_t>(value)]);
+}
+
+std::string Limits(const Range& range) {
+  return std::isinf(range.min) ? "" : fmt::format("; {} .. {}", range.min, range.max);
+}
+template <class T>
+std::string Choices(const T& /*field*/) {
+  std::string choices;
+  if constexpr (std::is_enum_v<T>) {
+    for (std::string_view name : kEnumNames<T>) {
+      (choices += choices.empty() ? "; one of " : ", ") += name;
+    }
+  }
+  return choices;
+}
+
+class Printer {
+ public:
+  template <class T>
+  void operator()(const char* key, const T& field, const char* meaning, Range range = {}) {
+    if constexpr (kIsGroup<T>) {
+      PrintGroup(key, field, meaning);
+    } else {
+      const std::string entry = indent_ + key + ": " + Text(field);
+      text_ += fmt::format("{:<38} # {}{}{}\n", entry, meaning, Limits(range), Choices(field));
+    }
+  }
+  // An absent group is shown with its keys in comments.
+  template <class T>
+  void operator()(const char* key, const std::optional<T>& field, const char* meaning) {
+    if (field) {
+      PrintGroup(key, *field, meaning);
+      return;
+    }
+    const std::string outer = indent_;
+    indent_ += "# ";
+    PrintGroup(key, T{}, meaning);
+    indent_ = outer;
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  template <class Group>
+  void PrintGroup(const char* key, const Group& group, const char* meaning) {
+    if (indent_.empty() && !text_.empty()) text_ += "\n";
+    text_ += fmt::format("{:<38} # {}\n", indent_ + key + ":", meaning);
+    const std::string outer = indent_;
+    indent_ += "  ";
+    VisitFields(*this, group);
+    indent_ = outer;
+  }
+
+  std::string text_;
+  std::string indent_;
+};
+
+}  // namespace
+
+std::string PrintOptions(const Options& options) {
+  Printer printer;
+  VisitFields(printer, options);
+  return "# Options of liod: value, meaning [unit]; valid range, ends included.\n" + printer.text();
+}
+
+}  // namespace lio

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/options_yaml.hpp"
+
+#include <fstream>
+#include <functional>
+#include <map>
+
+#include "lio/io/nearest_name.hpp"
+#include "lio/pipeline/options_fields.hpp"
+#include "yaml_values.hpp"
+
+namespace lio {
+namespace {
+
+std::string Join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+struct Key {
+  std::function<std::string(const YAML::Node&)> parse;  // null: a group of keys
+};
+
+struct OptionalGroup {
+  std::string path;
+  std::vector<std::string> fields;  // paths
+  std::function<void()> disengage;
+};
+
+// Every key of an Options by dotted path, with how to set it. All optional groups are engaged.
+class KeyTable {
+ public:
+  explicit KeyTable(Options& options) { VisitFields(*this, options); }
+
+  template <class T>
+  void operator()(const char* key, T& field, const char* /*meaning*/, Range = {}) {
+    const std::string outer = path_;
+    path_ = Join(path_, key);
+    Add(field);
+    path_ = outer;
+  }
+
+  const Key* Find(const std::string& path) const {
+    const auto found = keys_.find(path);
+    return found == keys_.end() ? nullptr : &found->second;
+  }
+  const OptionalGroup* FindOptional(const std::string& path) const {
+    for (const OptionalGroup& group : optional_groups) {
+      if (group.path == path) return &group;
+    }
+    return nullptr;
+  }
+  std::string Nearest(const std::string& path) const {
+    std::vector<std::string> names;
+    for (const auto& [name, key] : keys_) names.push_back(name);
+    return NearestName(path, names);
+  }
+
+  std::vector<OptionalGroup> optional_groups;
+
+ private:
+  template <class T>
+  void Add(T& field) {
+    if constexpr (kIsGroup<T>) {
+      keys_[path_] = {};
+      VisitFields(*this, field);
+    } else {
+      keys_[path_].parse = [&field](const YAML::Node& node) { return ParseValue(node, field); };
+      if (!optional_groups.empty() && path_.starts_with(optional_groups.back().path + ".")) {
+        optional_groups.back().fields.push_back(path_);
+      }
+    }
+  }
+  template <class T>
+  void Add(std::optional<T>& field) {
+    optional_groups.push_back({path_, {}, [&field] { field.reset(); }});
+    Add(field.emplace());
+  }
+
+  std::map<std::string, Key> keys_;
+  std::string path_;
+};
+
+class Loader {
+ public:
+  void ApplyFile(const std::filesystem::path& file);
+  void ApplySet(const std::string& set);
+  LoadResult Finish();
+
+ private:
+  void ApplyMap(const YAML::Node& map, const std::string& path);
+  void ApplyKey(const YAML::Node& key, const YAML::Node& value, const std::string& path);
+  void SettleOptionalGroups();
+
+  std::string Where(const YAML::Node& node) const {
+    return is_set_ ? source_ : source_ + ":" + std::to_string(node.Mark().line + 1);
+  }
+  void Fault(const std::string& where, const std::string& what) {
+    result_.faults.push_back(where + ": " + what);
+  }
+
+  LoadResult result_;
+  KeyTable keys_{result_.options};
+  std::map<std::string, std::string> given_;  // where each given key has its value from, by path
+  std::string source_;                        // the file, or "--set"
+  bool is_set_ = false;
+};
+
+void Loader::ApplyFile(const std::filesystem::path& file) {
+  source_ = file.string();
+  is_set_ = false;
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) {
+    Fault(source_, "cannot be read; give an existing YAML file");
+    return;
+  }
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(stream);
+    if (documents.size() > 1) Fault(Where(documents[1]), "holds a second YAML document");
+    if (!documents.empty()) ApplyMap(documents.front(), "");
+  } catch (const YAML::Exception& e) {
+    Fault(source_ + ":" + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
+  }
+}
+
+void Loader::ApplySet(const std::string& set) {
+  source_ = "--set " + set;
+  is_set_ = true;
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    Fault(source_, "expects KEY=VALUE, e.g. ndt.voxel_m=1.5");
+    return;
+  }
+  try {
+    ApplyKey(YAML::Node(set.substr(0, equals)), YAML::Load(set.substr(equals + 1)), "");
+  } catch (const YAML::Exception& e) {
+    Fault(source_, "VALUE is not valid YAML: " + e.msg);
+  }
+}
+
+void Loader::ApplyMap(const YAML::Node& map, const std::string& path) {
+  if (map.IsNull()) return;
+  if (!map.IsMap()) {
+    Fault(Where(map), (path.empty() ? "" : path + ": ") + "expects keys, not " + Describe(map));
+    return;
+  }
+  std::map<std::string, int> seen;
+  for (const auto& pair : map) {
+    if (pair.first.IsScalar() && seen[pair.first.Scalar()]++ > 0) {
+      Fault(Where(pair.first), Join(path, pair.first.Scalar()) + ": is given twice");
+    }
+    ApplyKey(pair.first, pair.second, path);
+  }
+}
+
+void Loader::ApplyKey(const YAML::Node& key, const YAML::Node& value, const std::string& path) {
+  if (!key.IsScalar()) {
+    Fault(Where(key), "a key must be a name, not " + Describe(key));
+    return;
+  }
+  const std::string full = Join(path, key.Scalar());
+  const Key* known = keys_.Find(full);
+  if (known == nullptr) {
+    Fault(Where(key), full + ": unknown key; did you mean " + keys_.Nearest(full) + "?");
+    return;
+  }
+  const OptionalGroup* optional = keys_.FindOptional(full);
+  if (optional != nullptr && value.IsNull()) {
+    for (const std::string& field : optional->fields) given_.erase(field);
+    return;
+  }
+  given_[full] = Where(key);
+  if (!known->parse) {
+    ApplyMap(value, full);
+    return;
+  }
+  const std::string problem = known->parse(value);
+  if (!problem.empty()) Fault(Where(key), full + ": " + problem);
+}
+
+void Loader::SettleOptionalGroups() {
+  for (const OptionalGroup& group : keys_.optional_groups) {
+    std::vector<std::string> missing;
+    for (const std::string& field : group.fields) {
+      if (!given_.contains(field)) missing.push_back(field);
+    }
+    if (missing.size() == group.fields.size()) {
+      group.disengage();
+      continue;
+    }
+    for (const std::string& field : missing) {
+      Fault(given_[group.path], field + ": is missing; the keys of its group go together");
+    }
+  }
+}
+
+LoadResult Loader::Finish() {
+  SettleOptionalGroups();
+  for (const OptionFault& fault : Validate(result_.options)) {
+    const auto where = given_.find(fault.key);
+    Fault(where == given_.end() ? "configuration" : where->second,
+          fault.key + ": " + fault.message);
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+LoadResult LoadOptions(const std::vector<std::filesystem::path>& files,
+                       const std::vector<std::string>& sets) {
+  Loader loader;
+  for (const std::filesystem::path& file : files) loader.ApplyFile(file);
+  for (const std::string& set : sets) loader.ApplySet(set);
+  return loader.Finish();
+}
+
+}  // namespace lio

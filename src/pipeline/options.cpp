@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "lio/pipeline/options_fields.hpp"
+
+namespace lio {
+namespace {
+
+std::string Text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.9g", value);
+  return buffer;
+}
+
+std::string RangeText(const Range& range) {
+  if (std::isinf(range.max)) return "at least " + Text(range.min);
+  if (std::isinf(range.min)) return "at most " + Text(range.max);
+  return "within " + Text(range.min) + " .. " + Text(range.max);
+}
+
+// Checks each field on its own: finite, and inside its range.
+class FieldChecker {
+ public:
+  explicit FieldChecker(std::vector<OptionFault>& faults) : faults_(faults) {}
+
+  template <class T>
+  void operator()(const char* key, const T& field, const char* /*meaning*/, Range range = {}) {
+    const std::string outer = key_;
+    key_ += key;
+    Check(field, range);
+    key_ = outer;
+  }
+
+ private:
+  void Fault(std::string message) { faults_.push_back({key_, std::move(message)}); }
+
+  void Check(double value, const Range& range) {
+    if (!std::isfinite(value)) {
+      Fault("must be a finite number");
+    } else if (value < range.min || value > range.max) {
+      Fault("is " + Text(value) + ", must be " + RangeText(range));
+    }
+  }
+  void Check(int value, const Range& range) { Check(static_cast<double>(value), range); }
+  void Check(bool, const Range&) {}
+  void Check(const Vector3& value, const Range& range) {
+    const auto is_inside = [&](double v) { return v >= range.min && v <= range.max; };
+    if (!value.allFinite()) {
+      Fault("must be finite numbers");
+    } else if (!std::all_of(value.begin(), value.end(), is_inside)) {
+      Fault("every entry must be " + RangeText(range));
+    }
+  }
+  void Check(const Quaternion& value, const Range&) {
+    if (!value.coeffs().allFinite()) {
+      Fault("must be finite numbers");
+    } else if (std::abs(value.norm() - 1.0) > kMaxQuaternionNormError) {
+      Fault("has norm " + Text(value.norm()) + ", a rotation needs norm 1 (w first)");
+    }
+  }
+  void Check(const std::string& value, const Range&) {
+    const auto is_plain = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    if (value.empty() || !std::all_of(value.begin(), value.end(), is_plain)) {
+      Fault("must be a name of lower-case letters, digits and underscores");
+    }
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void Check(Enum value, const Range&) {
+    if (static_cast<std::size_t>(value) >= kEnumNames<Enum>.size()) Fault("is no known choice");
+  }
+  template <class T>
+  void Check(const std::optional<T>& value, const Range& range) {
+    if (value) Check(*value, range);
+  }
+  template <class Group>
+  requires kIsGroup<Group>
+  void Check(const Group& group, const Range&) {
+    key_ += '.';
+    VisitFields(*this, group);
+  }
+
+  std::vector<OptionFault>& faults_;
+  std::string key_;  // dotted path of the field being checked
+};
+
+void CheckBox(const OwnVehicleBox& box, std::vector<OptionFault>& faults) {
+  if (!(box.min_m.array() < box.max_m.array()).all()) {
+    faults.push_back({"rig.lidar.own_vehicle_box", "min_m must be below max_m in x, y and z"});
+  }
+}
+
+// What fields demand of each other.
+void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
+  if (o.pipeline.use_imu && !o.rig.T_imu_lidar) {
+    faults.push_back({"rig.T_imu_lidar",
+                      "is required with an IMU: give translation_m and rotation_wxyz, or set "
+                      "pipeline.use_imu to false"});
+  }
+  if (o.rig.lidar.own_vehicle_box) CheckBox(*o.rig.lidar.own_vehicle_box, faults);
+  if (o.rig.lidar.min_range_m >= o.rig.lidar.max_range_m) {
+    faults.push_back({"rig.lidar.min_range_m", "must be below rig.lidar.max_range_m"});
+  }
+  if (o.reduce.min_voxel_m > o.reduce.voxel_m) {
+    faults.push_back({"reduce.min_voxel_m", "must not be above reduce.voxel_m"});
+  }
+  if (o.ndt.min_cell_points > o.ndt.max_cell_points) {
+    faults.push_back({"ndt.min_cell_points", "must not be above ndt.max_cell_points"});
+  }
+}
+
+}  // namespace
+
+std::vector<OptionFault> Validate(const Options& options) {
+  std::vector<OptionFault> faults;
+  FieldChecker checker(faults);
+  VisitFields(checker, options);
+  CheckAcross(options, faults);
+  return faults;
+}
+
+}  // namespace lio

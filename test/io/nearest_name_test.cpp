@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace lio {
+namespace {
+
+TEST(EditDistance, CountsInsertDeleteSubstituteAndSwap) {
+  EXPECT_EQ(EditDistance("", ""), 0);
+  EXPECT_EQ(EditDistance("abc", ""), 3);
+  EXPECT_EQ(EditDistance("voxel", "voxel_m"), 2);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3);
+  EXPECT_EQ(EditDistance("voxle", "voxel"), 1);
+}
+
+TEST(NearestName, FindsTypingMistakesAndNamesOfOtherGroups) {
+  const std::vector<std::string> names = {"ndt.max_cells", "ndt.voxel_m", "rig.gravity_mps2"};
+  EXPECT_EQ(NearestName("ndt.voxle_m", names), "ndt.voxel_m");
+  EXPECT_EQ(NearestName("gravity_mps", names), "rig.gravity_mps2");
+  EXPECT_EQ(NearestName("x", {}), "");
+}
+
+}  // namespace
+}  // namespace lio
