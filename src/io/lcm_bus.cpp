@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The bus over liblcm, by its C interface and raw subscriptions: the typed ones decode before
+// anybody can look at the bytes, and one bad count then ends the process.
+#include <lcm/lcm.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "lio/io/bus.hpp"
+
+namespace lio {
+namespace {
+
+constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667";
+constexpr std::size_t kMaxChannelBytes = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
+
+std::string EffectiveUrl(const std::string& url) {
+  if (!url.empty()) return url;
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
+}
+
+// liblcm takes subscriptions as regular expressions.
+std::string Literally(const std::string& channel) {
+  std::string expression;
+  for (const char c : channel) {
+    if (std::strchr("\\^$.|?*+()[]{}", c) != nullptr) expression += '\\';
+    expression += c;
+  }
+  return expression;
+}
+
+// liblcm explains itself on stderr, over several lines. Collects what is written there meanwhile,
+// so that it can become a part of the one line that an error gets.
+class StderrCapture {
+ public:
+  StderrCapture() : saved_(::dup(STDERR_FILENO)), memory_(::memfd_create("stderr", MFD_CLOEXEC)) {
+    ::dup2(memory_, STDERR_FILENO);
+  }
+  ~StderrCapture() {
+    if (saved_ >= 0) Finish();
+  }
+  StderrCapture(const StderrCapture&) = delete;
+  StderrCapture& operator=(const StderrCapture&) = delete;
+
+  std::string Finish() {
+    std::fflush(stderr);
+    std::string text(static_cast<std::size_t>(std::max<off_t>(::lseek(memory_, 0, SEEK_END), 0)),
+                     ' ');
+    text.resize(static_cast<std::size_t>(
+        std::max<ssize_t>(::pread(memory_, text.data(), text.size(), 0), 0)));
+    ::dup2(saved_, STDERR_FILENO);
+    ::close(saved_);
+    ::close(memory_);
+    saved_ = -1;
+    return text;
+  }
+
+ private:
+  int saved_;
+  int memory_;
+};
+
+lcm_t* Open(const std::string& url) {
+  StderrCapture capture;
+  lcm_t* lcm = lcm_create(url.c_str());
+  const std::string words = capture.Finish();
+  if (lcm == nullptr) {
+    throw TransportError("LCM cannot open " + url + " (" + words.substr(0, words.find('\n')) +
+                         "); if this machine has no multicast route: sudo ip link set lo up && "
+                         "sudo ip route add 224.0.0.0/4 dev lo");
+  }
+  std::fputs(words.c_str(), stderr);
+  return lcm;
+}
+
+class LcmBus final : public Bus {
+ public:
+  explicit LcmBus(const std::string& url) : lcm_(Open(url)) {}
+  ~LcmBus() override { lcm_destroy(lcm_); }
+  LcmBus(const LcmBus&) = delete;
+  LcmBus& operator=(const LcmBus&) = delete;
+
+  void Subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
+    if (channel.empty() || channel.size() > kMaxChannelBytes) {
+      throw std::invalid_argument("channel name '" + channel + "' must have 1 to 63 characters");
+    }
+    subscribers_.push_back(std::make_unique<Subscriber>(*this, std::move(handler)));
+    lcm_subscription_t* subscription = lcm_subscribe(lcm_, Literally(channel).c_str(),
+                                                     &LcmBus::Deliver, subscribers_.back().get());
+    if (subscription == nullptr) throw TransportError("LCM refuses the channel name " + channel);
+    lcm_subscription_set_queue_capacity(subscription, queue_capacity);
+  }
+
+  // Polls itself: lcm_handle_timeout aborts the process when a tcpq connection is down, and with
+  // more than 1024 files open.
+  ReceiveResult Receive(std::chrono::milliseconds timeout) override {
+    pollfd waiting{.fd = lcm_get_fileno(lcm_), .events = POLLIN, .revents = 0};
+    if (waiting.fd < 0) {
+      std::this_thread::sleep_for(timeout);
+      return ReceiveResult::kClosed;
+    }
+    const int num_ready = ::poll(&waiting, 1, static_cast<int>(timeout.count()));
+    if (num_ready <= 0) return ReceiveResult::kTimeout;
+    return lcm_handle(lcm_) == 0 ? ReceiveResult::kMessage : ReceiveResult::kClosed;
+  }
+
+  bool Publish(const std::string& channel, ByteView data) override {
+    return lcm_publish(lcm_, channel.c_str(), data.data(), static_cast<unsigned>(data.size())) == 0;
+  }
+
+  std::int64_t num_oversized() const override { return num_oversized_; }
+  std::int64_t num_handler_faults() const override { return num_handler_faults_; }
+
+ private:
+  struct Subscriber {
+    Subscriber(LcmBus& owner, Handler function) : bus(owner), handler(std::move(function)) {}
+    LcmBus& bus;
+    Handler handler;
+  };
+
+  // liblcm's C frames are below: nothing may be thrown through them. The size is checked first,
+  // because a datagram without the end of its channel name is announced with almost 2^32 bytes.
+  static void Deliver(const lcm_recv_buf_t* buffer, const char*, void* user) noexcept {
+    const auto& subscriber = *static_cast<const Subscriber*>(user);
+    if (buffer->data_size > kMaxMessageBytes) {
+      ++subscriber.bus.num_oversized_;
+      return;
+    }
+    try {
+      subscriber.handler({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
+                         buffer->recv_utime);
+    } catch (...) {
+      ++subscriber.bus.num_handler_faults_;
+    }
+  }
+
+  lcm_t* lcm_;
+  std::vector<std::unique_ptr<Subscriber>> subscribers_;
+  std::atomic<std::int64_t> num_oversized_ = 0;
+  std::atomic<std::int64_t> num_handler_faults_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Bus> OpenLcmBus(const std::string& url) {
+  return std::make_unique<LcmBus>(EffectiveUrl(url));
+}
+
+int UdpPort(const std::string& url) {
+  const std::string effective = EffectiveUrl(url);
+  if (!effective.starts_with("udpm://")) return 0;
+  constexpr int kDefaultPort = 7667;
+  const std::string address = effective.substr(7, effective.find('?') - 7);
+  const std::size_t colon = address.rfind(':');
+  if (colon == std::string::npos || colon + 1 == address.size()) return kDefaultPort;
+  return std::atoi(address.c_str() + colon + 1);
+}
+
+}  // namespace lio
