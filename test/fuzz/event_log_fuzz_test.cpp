@@ -7,7 +7,7 @@
 #include <random>
 
 #include "lio/io/event_log.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/temp_dir.hpp"
 
 namespace lio {
 namespace {
@@ -16,7 +16,7 @@ constexpr int kNumMutants = 1000;
 constexpr std::int64_t kHeaderBytes = 28;
 
 TEST(EventLogFuzz, EveryByteOfADamagedLogIsReadOrCounted) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   const auto path = folder.path() / "log.lcm";
   {
     EventLogWriter writer(path);

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "support/temporary_folder.hpp"
+#include "support/temp_dir.hpp"
 
 namespace lio {
 namespace {
@@ -71,7 +71,7 @@ class EventLogTest : public ::testing::Test {
     return numbers;
   }
 
-  test::TemporaryFolder folder_;
+  test::TempDir folder_;
   std::filesystem::path path_ = folder_.path() / "events.lcm";
   std::int64_t skipped_bytes_ = -1;
 };

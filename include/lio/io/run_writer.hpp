@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The files of one run, the same from lio-replay and from liod --out:
+//   trajectory.tum           a row a scan once started: t x y z qx qy qz qw, imu in world at sweep
+//   end covariance.csv           the same rows: t_s and the 6x6 of [position in world; right
+//   rotation] trajectory_imu_rate.tum  a row an inertial sample registration.csv         a row a
+//   scan: points, residual, information, status, stage times stats.json               counts,
+//   speed, memory, stage times options.yaml             the effective options map.pcd when asked
+//   for
+// Everything but times of computing is the same, byte for byte, for the same input.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lio/io/input_decoder.hpp"
+#include "lio/pipeline/odometry.hpp"
+
+namespace lio {
+
+struct RunStats {
+  Counters counters;
+  InputCounters input;
+  std::int64_t num_skipped_bytes = 0;                       // damage of the log
+  std::vector<std::pair<std::string, std::int64_t>> extra;  // further counts, in this order
+  double log_duration_s = 0.0;                              // from the first message to the last
+  double wall_s = 0.0;
+};
+
+class RunWriter {
+ public:
+  // Creates the folder where needed and overwrites what is there from earlier runs. Throws
+  // std::runtime_error naming the file when it cannot.
+  RunWriter(const std::filesystem::path& folder, const Options& options);
+
+  // Rows that would not be later than the one before are left out and counted in stats.json.
+  void Write(const Output& output);
+  void WriteMap(std::span<const Eigen::Vector3f> points);
+  // Completes all files. Throws std::runtime_error when a file could not be written in full.
+  void Finish(const RunStats& stats);
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    std::ofstream stream;
+  };
+
+  File Open(const std::string& name) const;
+  static void Close(File& file);
+  void WriteScan(const ScanOutput& output);
+  void WriteStats(const RunStats& stats);
+
+  std::filesystem::path folder_;
+  File trajectory_;
+  File covariance_;
+  File imu_rate_;
+  File registration_;
+  Timestamp last_scan_{-1};
+  Timestamp last_imu_rate_{-1};
+  std::int64_t num_rows_not_later_ = 0;
+  std::array<std::vector<float>, kNumStages> stage_ms_;
+};
+
+}  // namespace lio

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/input_decoder.hpp"
+
+#include <numeric>
+
+namespace lio {
+
+Channels::Channels(const std::string& prefix)
+    : imu(prefix + "IMU"),
+      scan(prefix + "SCAN"),
+      command(prefix + "CMD"),
+      odometry(prefix + "ODOM"),
+      odometry_imu_rate(prefix + "ODOM_IMU"),
+      state(prefix + "STATE"),
+      registration(prefix + "REG"),
+      status(prefix + "STATUS"),
+      cloud(prefix + "CLOUD"),
+      cloud_full(prefix + "CLOUD_FULL") {}
+
+std::int64_t InputCounters::TotalRefused() const {
+  return std::accumulate(num_refused.begin(), num_refused.end(), std::int64_t{0});
+}
+
+bool InputDecoder::Accept(DecodeStatus status) {
+  if (status != DecodeStatus::kOk) Refuse(status);
+  return status == DecodeStatus::kOk;
+}
+
+bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
+  std::int32_t seq = 0;
+  if (!Accept(DecodeImu(bytes, sample, seq))) return false;
+  // Modulo 2^32, so that a wrapping sequence is no hole. A step back is a driver that started anew
+  // or a reordered sample, a step of thousands a new driver: neither says how many were lost.
+  constexpr std::uint32_t kMaxHole = 10'000;
+  const std::uint32_t step =
+      static_cast<std::uint32_t>(seq) - static_cast<std::uint32_t>(last_imu_seq_);
+  if (has_imu_ && step > 1 && step <= kMaxHole) counters_.num_imu_missing += step - 1;
+  has_imu_ = true;
+  last_imu_seq_ = seq;
+  return true;
+}
+
+bool InputDecoder::Chunk(ByteView bytes, ScanChunk& chunk) {
+  return Accept(DecodeChunk(bytes, chunk));
+}
+
+}  // namespace lio

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/pcd_file.hpp"
+
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <stdexcept>
+
+namespace lio {
+
+void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points) {
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  cloud.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) cloud.push_back({p.x(), p.y(), p.z()});
+  try {
+    // PCL refuses empty clouds in binary form.
+    const bool is_written = points.empty()
+                                ? pcl::PCDWriter().writeASCII(path.string(), cloud) == 0
+                                : pcl::PCDWriter().writeBinary(path.string(), cloud) == 0;
+    if (is_written) return;
+  } catch (const pcl::IOException&) {
+    // Told below, with the file's name.
+  }
+  throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace lio

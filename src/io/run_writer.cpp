@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/run_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "lio/io/options_yaml.hpp"
+#include "lio/io/pcd_file.hpp"
+
+namespace lio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, kNumStages> kStageNames = {"decode", "reduce", "deskew", "match",
+                                                             "insert", "filter", "total"};
+constexpr std::array<const char*, 6> kMatchStatusNames = {
+    "converged", "max_iterations", "too_few_points", "empty_map", "diverged", "degenerate"};
+constexpr std::array<const char*, 6> kPoseErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
+
+// All digits of the stamp: a double of seconds since the epoch holds 0.2 us at best.
+std::string Seconds(Timestamp stamp) {
+  return fmt::format("{}.{:09}", stamp.ns / 1'000'000'000, stamp.ns % 1'000'000'000);
+}
+
+std::string TumRow(const NavOutput& nav) {
+  const Vector3& p = nav.T_world_imu.translation;
+  const Quaternion& q = nav.T_world_imu.rotation;
+  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
+                     Seconds(nav.stamp), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+std::string CovarianceHeader() {
+  std::string header = "t_s";
+  for (const char* row : kPoseErrorNames) {
+    for (const char* column : kPoseErrorNames) header += fmt::format(",cov_{}_{}", row, column);
+  }
+  return header + "\n";
+}
+
+std::string CovarianceRow(const NavOutput& nav) {
+  std::string text = Seconds(nav.stamp);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      text += fmt::format(",{:.12e}", nav.pose_cov(row, column));
+    }
+  }
+  return text + "\n";
+}
+
+std::string RegistrationHeader() {
+  std::string header =
+      "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
+      "weak_mask";
+  for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
+  for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
+  return header + "\n";
+}
+
+double Milliseconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-6;
+}
+
+std::string RegistrationRow(const ScanReport& scan) {
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", Seconds(scan.stamp), scan.scan_seq,
+                  scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
+                  kMatchStatusNames.at(static_cast<std::size_t>(scan.status)), scan.fused ? 1 : 0,
+                  scan.residual_rms_m, scan.nis, scan.weak_mask);
+  for (const double eigenvalue : scan.information_eigenvalues) {
+    row += fmt::format(",{:.9e}", eigenvalue);
+  }
+  for (const std::int64_t ns : scan.stage_ns) row += fmt::format(",{:.6f}", Milliseconds(ns));
+  return row + "\n";
+}
+
+// The smallest value that `fraction` of all values do not exceed; `sorted` is not empty.
+float Quantile(const std::vector<float>& sorted, double fraction) {
+  const auto rank =
+      static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5);
+  return sorted[rank];
+}
+
+Json StageStats(std::vector<float> values_ms) {
+  if (values_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
+  std::sort(values_ms.begin(), values_ms.end());
+  const auto rounded = [](float ms) { return std::round(static_cast<double>(ms) * 1e6) * 1e-6; };
+  return {{"median", rounded(Quantile(values_ms, 0.5))},
+          {"p99", rounded(Quantile(values_ms, 0.99))},
+          {"max", rounded(values_ms.back())}};
+}
+
+Json CounterStats(const Counters& c) {
+  return {{"num_scans", c.num_scans},
+          {"num_scans_dropped", c.num_scans_dropped},
+          {"num_scans_empty", c.num_scans_empty},
+          {"num_scans_late", c.num_scans_late},
+          {"num_scans_without_imu", c.num_scans_without_imu},
+          {"num_scan_gaps", c.num_scan_gaps},
+          {"num_imu", c.num_imu},
+          {"num_imu_nonfinite", c.num_imu_nonfinite},
+          {"num_imu_duplicate", c.num_imu_duplicate},
+          {"num_imu_late", c.num_imu_late},
+          {"num_imu_out_of_range", c.num_imu_out_of_range},
+          {"num_imu_gaps", c.num_imu_gaps},
+          {"num_chunks", c.num_chunks},
+          {"num_chunks_duplicate", c.num_chunks_duplicate},
+          {"num_chunks_late", c.num_chunks_late},
+          {"num_chunks_missing", c.num_chunks_missing},
+          {"num_chunks_bad", c.num_chunks_bad},
+          {"num_points_nonfinite", c.num_points_nonfinite},
+          {"num_matches_rejected", c.num_matches_rejected},
+          {"num_gated", c.num_gated},
+          {"num_clock_jumps", c.num_clock_jumps},
+          {"num_restarts", c.num_restarts}};
+}
+
+double PeakMemoryMb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0 * 1e-6;
+}
+
+}  // namespace
+
+RunWriter::File RunWriter::Open(const std::string& name) const {
+  File file{folder_ / name, {}};
+  file.stream.open(file.path, std::ios::binary | std::ios::trunc);
+  if (!file.stream) throw std::runtime_error("cannot write " + file.path.string());
+  return file;
+}
+
+void RunWriter::Close(File& file) {
+  file.stream.close();
+  if (!file.stream) throw std::runtime_error("cannot write " + file.path.string() + " in full");
+}
+
+RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options)
+    : folder_(folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
+  }
+  for (const char* stale : {"stats.json", "map.pcd"})
+    std::filesystem::remove(folder / stale, error);
+  File options_file = Open("options.yaml");
+  options_file.stream << PrintOptions(options);
+  Close(options_file);
+  trajectory_ = Open("trajectory.tum");
+  imu_rate_ = Open("trajectory_imu_rate.tum");
+  covariance_ = Open("covariance.csv");
+  covariance_.stream << CovarianceHeader();
+  registration_ = Open("registration.csv");
+  registration_.stream << RegistrationHeader();
+}
+
+void RunWriter::Write(const Output& output) {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan);
+  const auto* nav = std::get_if<NavOutput>(&output);
+  if (nav == nullptr || nav->source != OdometrySource::kImuPropagated) return;
+  if (nav->stamp <= last_imu_rate_) {
+    ++num_rows_not_later_;
+    return;
+  }
+  last_imu_rate_ = nav->stamp;
+  imu_rate_.stream << TumRow(*nav);
+}
+
+void RunWriter::WriteScan(const ScanOutput& output) {
+  registration_.stream << RegistrationRow(output.scan);
+  for (std::size_t i = 0; i < kNumStages; ++i) {
+    stage_ms_[i].push_back(static_cast<float>(Milliseconds(output.scan.stage_ns[i])));
+  }
+  if (!output.filter) return;
+  const NavOutput& nav = output.filter->nav;
+  if (nav.stamp <= last_scan_) {
+    ++num_rows_not_later_;
+    return;
+  }
+  last_scan_ = nav.stamp;
+  trajectory_.stream << TumRow(nav);
+  covariance_.stream << CovarianceRow(nav);
+}
+
+void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points) {
+  WritePcd(folder_ / "map.pcd", points);
+}
+
+void RunWriter::WriteStats(const RunStats& stats) {
+  Json json = CounterStats(stats.counters);
+  for (int i = 1; i < kNumDecodeStatuses; ++i) {
+    const auto name = Name(static_cast<DecodeStatus>(i));
+    json[fmt::format("num_messages_{}", name)] =
+        stats.input.num_refused[static_cast<std::size_t>(i)];
+  }
+  json["num_imu_missing"] = stats.input.num_imu_missing;
+  json["num_skipped_bytes"] = stats.num_skipped_bytes;
+  json["num_rows_not_later"] = num_rows_not_later_;
+  for (const auto& [name, count] : stats.extra) json[name] = count;
+  json["log_duration_s"] = stats.log_duration_s;
+  json["wall_s"] = stats.wall_s;
+  json["realtime_factor"] = stats.wall_s > 0 ? stats.log_duration_s / stats.wall_s : 0.0;
+  json["rss_peak_mb"] = PeakMemoryMb();
+  for (std::size_t i = 0; i < kNumStages; ++i) {
+    json["stage_ms"][kStageNames[i]] = StageStats(stage_ms_[i]);
+  }
+  File file = Open("stats.json");
+  file.stream << json.dump(2) << "\n";
+  Close(file);
+}
+
+void RunWriter::Finish(const RunStats& stats) {
+  for (File* file : {&trajectory_, &covariance_, &imu_rate_, &registration_}) Close(*file);
+  WriteStats(stats);
+}
+
+}  // namespace lio

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/run_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "lio/io/options_yaml.hpp"
+#include "lio/io/pcd_file.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr Timestamp kStamp{1'700'000'000'000'000'007};
+
+std::vector<std::string> Lines(const std::filesystem::path& file) {
+  std::istringstream text(test::ReadText(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+ScanOutput Scan(Timestamp stamp) {
+  ScanOutput output;
+  output.filter.emplace();
+  output.filter->nav.stamp = stamp;
+  output.filter->nav.T_world_imu = {Quaternion(0.5, -0.5, 0.5, 0.5), Vector3(1, -2, 3.25)};
+  output.filter->nav.pose_cov(0, 1) = 0.125;
+  output.scan.stamp = stamp;
+  output.scan.status = MatchStatus::kEmptyMap;
+  return output;
+}
+
+NavOutput ImuRate(Timestamp stamp) {
+  NavOutput nav;
+  nav.stamp = stamp;
+  nav.source = OdometrySource::kImuPropagated;
+  return nav;
+}
+
+class RunWriterTest : public ::testing::Test {
+ protected:
+  nlohmann::json Stats() { return nlohmann::json::parse(test::ReadText(out_ / "stats.json")); }
+
+  test::TempDir folder_;
+  std::filesystem::path out_ = folder_.path() / "deep" / "out";
+};
+
+TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
+  RunWriter writer(out_, Options{});
+  writer.Write(Scan(kStamp));
+  writer.Finish({});
+  EXPECT_THAT(Lines(out_ / "trajectory.tum"),
+              ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.250000000 "
+                          "-0.500000000000 0.500000000000 0.500000000000 0.500000000000"));
+}
+
+TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
+  RunWriter writer(out_, Options{});
+  writer.Write(Scan(kStamp));
+  writer.Finish({});
+  const auto lines = Lines(out_ / "covariance.csv");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_THAT(lines[0], StartsWith("t_s,cov_x_x,cov_x_y,"));
+  EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','), 36);
+  EXPECT_EQ(std::count(lines[1].begin(), lines[1].end(), ','), 36);
+  EXPECT_THAT(lines[1], StartsWith("1700000000.000000007,0.000000000000e+00,1.250000000000e-01,"));
+}
+
+TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
+  RunWriter writer(out_, Options{});
+  ScanOutput waiting = Scan(kStamp);
+  waiting.filter.reset();
+  writer.Write(waiting);
+  writer.Finish({});
+  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
+  const auto rows = Lines(out_ / "registration.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), ','),
+            std::count(rows[1].begin(), rows[1].end(), ','));
+  EXPECT_THAT(rows[1], HasSubstr(",empty_map,0,"));
+}
+
+TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {
+  RunWriter writer(out_, Options{});
+  for (const Timestamp stamp : {kStamp, kStamp, kStamp - Duration{5}, kStamp + Duration{1}}) {
+    writer.Write(Scan(stamp));
+    writer.Write(ImuRate(stamp));
+  }
+  writer.Finish({});
+  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 2u);
+  EXPECT_EQ(Lines(out_ / "covariance.csv").size(), 3u);
+  EXPECT_EQ(Lines(out_ / "trajectory_imu_rate.tum").size(), 2u);
+  EXPECT_EQ(Stats()["num_rows_not_later"], 4);
+}
+
+TEST_F(RunWriterTest, StatsHoldCountsSpeedAndStageTimes) {
+  RunWriter writer(out_, Options{});
+  for (int i = 1; i <= 100; ++i) {
+    ScanOutput scan = Scan(kStamp + Duration{i});
+    scan.scan.stage_ns[static_cast<std::size_t>(Stage::kMatch)] = i * 1'000'000;
+    writer.Write(scan);
+  }
+  RunStats stats;
+  stats.counters.num_scans = 100;
+  stats.counters.num_gated = 3;
+  stats.input.num_refused[static_cast<std::size_t>(DecodeStatus::kWrongType)] = 2;
+  stats.num_skipped_bytes = 17;
+  stats.extra = {{"num_dropped_kernel", 5}};
+  stats.log_duration_s = 10.0;
+  stats.wall_s = 0.5;
+  writer.Finish(stats);
+  const auto json = Stats();
+  EXPECT_EQ(json["num_scans"], 100);
+  EXPECT_EQ(json["num_gated"], 3);
+  EXPECT_EQ(json["num_messages_wrong_type"], 2);
+  EXPECT_EQ(json["num_skipped_bytes"], 17);
+  EXPECT_EQ(json["num_dropped_kernel"], 5);
+  EXPECT_EQ(json["realtime_factor"], 20.0);
+  EXPECT_GT(json["rss_peak_mb"], 1.0);
+  EXPECT_NEAR(json["stage_ms"]["match"]["median"], 50.5, 0.6);
+  EXPECT_EQ(json["stage_ms"]["match"]["p99"], 99.0);
+  EXPECT_EQ(json["stage_ms"]["match"]["max"], 100.0);
+  EXPECT_EQ(json["stage_ms"]["total"]["max"], 0.0);
+}
+
+TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
+  RunWriter writer(out_, Options{});
+  // All are int64, one after the other: give each a value of its own.
+  constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
+  std::array<std::int64_t, kNumCounters> values{};
+  for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1'000'000 + static_cast<int>(i);
+  const auto counters = std::bit_cast<Counters>(values);
+  writer.Finish({.counters = counters, .input = {}, .extra = {}});
+  const std::string text = test::ReadText(out_ / "stats.json");
+  for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
+}
+
+TEST_F(RunWriterTest, WithoutScansStageTimesAreNull) {
+  RunWriter writer(out_, Options{});
+  writer.Finish({});
+  EXPECT_TRUE(Stats()["stage_ms"]["total"]["median"].is_null());
+}
+
+TEST_F(RunWriterTest, OptionsAreThoseThatWereUsed) {
+  Options options;
+  options.ndt.voxel_m = 1.75;
+  RunWriter writer(out_, options);
+  EXPECT_EQ(test::ReadText(out_ / "options.yaml"), PrintOptions(options));
+}
+
+TEST_F(RunWriterTest, EarlierRunsAreOverwritten) {
+  {
+    RunWriter writer(out_, Options{});
+    writer.Write(Scan(kStamp));
+    writer.WriteMap(std::vector<Eigen::Vector3f>{{1, 2, 3}});
+    writer.Finish({});
+  }
+  RunWriter writer(out_, Options{});
+  writer.Finish({});
+  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "map.pcd"));
+}
+
+TEST_F(RunWriterTest, WhatCannotBeWrittenIsNamed) {
+  const auto file = folder_.Write("file", "");
+  EXPECT_THROW(RunWriter(file / "out", Options{}), std::runtime_error);
+}
+
+TEST(PcdFile, PointsAreBinaryFloats) {
+  const test::TempDir folder;
+  const auto path = folder.path() / "map.pcd";
+  WritePcd(path, std::vector<Eigen::Vector3f>{{1.5F, 2, 3}, {4, 5, 6}});
+  const std::string text = test::ReadText(path);
+  EXPECT_THAT(text, HasSubstr("FIELDS x y z"));
+  EXPECT_THAT(text, HasSubstr("POINTS 2"));
+  const std::string body = text.substr(text.find("DATA binary\n") + 12);
+  float x = 0;
+  std::memcpy(&x, body.data(), sizeof(x));
+  EXPECT_EQ(x, 1.5F);
+}
+
+TEST(PcdFile, EmptyCloudsAndUnwritablePathsAreHandled) {
+  const test::TempDir folder;
+  WritePcd(folder.path() / "empty.pcd", {});
+  EXPECT_THAT(test::ReadText(folder.path() / "empty.pcd"), HasSubstr("POINTS 0"));
+  EXPECT_THROW(WritePcd(folder.path() / "no" / "map.pcd", std::vector<Eigen::Vector3f>{{1, 2, 3}}),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace lio
