@@ -6,9 +6,10 @@
 namespace lio {
 
 struct ReduceOptions {
-  double voxel_m = 0.5;  // largest edge of the thinning grid; smaller makes scans denser, slower
-  double min_voxel_m = 0.1;  // smallest edge, reached indoors
-  int target_points = 2500;  // the edge adapts from scan to scan to leave about this many points
+  double voxel_m = 0.5;      // edge of the thinning grid for the first scan
+  double min_voxel_m = 0.1;  // the edge then adapts from scan to scan between these two ...
+  double max_voxel_m = 1.0;
+  int target_points = 2500;  // ... to leave about this many points; more is slower
 };
 
 }  // namespace lio

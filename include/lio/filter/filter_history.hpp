@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The filter over a window of time: every event (inertial sample, pose, rebase) with its posterior,
+// ordered by stamp. An event that comes late is inserted at its own time and everything after it is
+// replayed, so the result does not depend on the order of arrival.
+//
+// Outcomes are values. Equal stamps: inertial samples first, then poses, then rebases.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "lio/filter/pose_update.hpp"
+#include "lio/filter/process_model.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio {
+
+enum class EventOutcome {
+  kApplied,
+  kTooOld,       // before the window
+  kBeforeStart,  // before the state the filter started from
+  kDuplicate,    // an event of the kind is already there at this stamp
+  kGated,        // a pose that was too far off to be believed
+};
+
+struct HistoryOptions {
+  ProcessNoise noise;
+  Vector3 g_world = Vector3(0, 0, -9.80665);
+  double span_s = 3.0;
+  double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
+  // A longer step between samples is a gap: what the sensors did in between is unknown by these.
+  double gap_s = 0.03;
+  double gap_accel_std_mps2 = 1.0;
+  double gap_gyro_std_radps = 0.2;
+};
+
+struct PoseEvent {
+  PoseMeasurement measurement;
+  bool force = false;  // fuse even beyond the gate, the covariance inflated to what was seen
+};
+
+class FilterHistory {
+ public:
+  // `sample` holds at start.stamp.
+  FilterHistory(const HistoryOptions& options, const Estimate& start, const ImuSample& sample);
+
+  EventOutcome AddImu(const ImuSample& sample);
+  // `result`, when given, is filled under kApplied and kGated.
+  EventOutcome AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result = nullptr);
+  // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
+  EventOutcome AddRebase(Timestamp stamp);
+
+  const Estimate& head() const { return nodes_.back().posterior; }
+  Timestamp start_stamp() const { return start_stamp_; }
+  // The estimate at `stamp`, after all events up to it. Before the window: the oldest one's.
+  Estimate At(Timestamp stamp) const;
+  // T_world_imu at every event strictly between the two stamps, and at both of them.
+  StampedPoses Trajectory(Timestamp from, Timestamp to) const;
+
+ private:
+  enum class Kind { kImu, kPose, kRebase };
+  struct Node {
+    Timestamp stamp;
+    Kind kind = Kind::kImu;
+    ImuSample sample;  // measured, or interpolated at the stamp of a pose or rebase
+    PoseEvent pose;
+    UpdateResult update;
+    Estimate posterior;
+  };
+
+  std::optional<EventOutcome> Refuse(Timestamp stamp, Kind kind) const;
+  std::size_t Insert(Node node);  // replays; returns where it is
+  void Replay(std::size_t from);
+  void Step(std::size_t at);
+  void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to) const;
+  // The sample at `stamp` from the node before index `at` and the first measured one from it on.
+  ImuSample SampleAt(Timestamp stamp, std::size_t at) const;
+  std::size_t FirstAfter(Timestamp stamp) const;
+  void Trim();
+
+  HistoryOptions options_;
+  Timestamp start_stamp_;
+  std::deque<Node> nodes_;  // never empty; the first one is where replays begin
+};
+
+}  // namespace lio

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The filter's state and the conventions of its errors, written once.
+//
+// Frames: world (z up, gravity-aligned, origin at the imu's first pose), imu (the body), map (the
+// frame of the map that scans are matched against; it starts as world and drifts from it).
+// Two poses: T_world_imu is levelled by gravity and is the output in world; T_map_imu is what
+// registration measures. docs/filter.md says why both are needed.
+//
+// Error state, 21 numbers, true = nominal (+) error:
+//   position       p_true = p + dp                 m, world
+//   rotation       R_true = R Exp(dtheta)          rad, right (local)
+//   velocity       v_true = v + dv                 m/s, world
+//   gyro bias, accel bias                          rad/s, m/s^2, added
+//   map pose       M_true = M ExpSe3(mu)           [m; rad], right (local)
+// Gravity is the vector g_world = (0, 0, -g): an accelerometer at rest reads -R^T g_world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lio/base/pose.hpp"
+#include "lio/base/time.hpp"
+
+namespace lio {
+
+inline constexpr int kPos = 0;
+inline constexpr int kRot = 3;
+inline constexpr int kVel = 6;
+inline constexpr int kGyroBias = 9;
+inline constexpr int kAccelBias = 12;
+inline constexpr int kMapPose = 15;  // translation, then rotation
+inline constexpr int kStateDim = 21;
+
+using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
+using ErrorMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
+
+struct NavState {
+  Pose T_world_imu;
+  Vector3 v_world_imu = Vector3::Zero();  // m/s
+  Vector3 gyro_bias = Vector3::Zero();    // rad/s
+  Vector3 accel_bias = Vector3::Zero();   // m/s^2
+  Pose T_map_imu;
+};
+
+NavState BoxPlus(const NavState& state, const ErrorVector& error);
+ErrorVector BoxMinus(const NavState& a, const NavState& b);  // BoxPlus(b, BoxMinus(a, b)) == a
+
+struct Estimate {
+  Timestamp stamp;
+  NavState state;
+  ErrorMatrix cov = ErrorMatrix::Zero();
+};
+
+// The 6x6 covariance of position in world and right rotation error.
+Matrix6 PoseCov(const Estimate& estimate);
+
+}  // namespace lio

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// One inertial step: the nominal state and its covariance from one sample to the next.
+//
+// Between samples rate and specific force run linearly. Rotation: mean rate plus the coning term
+// dt^2/12 (w0 x w1); velocity and position: the accelerations at both ends in world, linear between
+// (second order: halving dt quarters the error). Noise: continuous densities over dt, white
+// acceleration giving the position-velocity cross terms dt^3/3, dt^2/2. Sources: Sola,
+// arXiv 1711.02508, sections 4 and 5; Forster et al., TRO 2017; for the map pose docs/filter.md.
+#pragma once
+
+#include "lio/filter/nav_state.hpp"
+#include "lio/sensor/imu_sample.hpp"
+
+namespace lio {
+
+// Continuous densities; see sensor/rig.hpp for units.
+struct ProcessNoise {
+  double gyro_density = 0.0;
+  double accel_density = 0.0;
+  double gyro_bias_walk_density = 0.0;
+  double accel_bias_walk_density = 0.0;
+};
+
+NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
+                        const Vector3& g_world);
+
+// d(error at `to`) / d(error at `from`), along PropagateState. Dense form, for tests and reading.
+ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, const ImuSample& from,
+                             const ImuSample& to);
+
+// Both at once. `from.stamp` is the estimate's stamp; needs to.stamp >= from.stamp.
+void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
+               const ProcessNoise& noise, const Vector3& g_world);
+
+// The sample at `stamp` by linear interpolation, held beyond both ends.
+ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp);
+
+}  // namespace lio

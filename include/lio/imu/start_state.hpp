@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The filter's first state, from the first second of data: at rest, or on the move.
+//
+// Both give an estimate with an honest covariance, correlations included: position zero and yaw zero
+// by definition; tilt, velocity and biases as well as the data say.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "lio/filter/nav_state.hpp"
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sensor/rig.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio {
+
+// Mean and spread of a stretch of inertial data.
+struct ImuStatistics {
+  int num_samples = 0;
+  double span_s = 0.0;
+  Vector3 mean_w_radps = Vector3::Zero();
+  Vector3 mean_f_mps2 = Vector3::Zero();
+  double gyro_std_radps = 0.0;  // the largest of the three axes
+  double accel_std_mps2 = 0.0;
+};
+ImuStatistics Summarise(std::span<const ImuSample> samples);
+
+// Is gravity in the accelerometer's reading? `automatic` goes by the mean's length at rest or in
+// smooth motion: nearer to g than to zero.
+bool GravityPresent(const ImuStatistics& statistics, const Rig& rig);
+
+struct StartState {
+  Estimate estimate;
+  Vector3 g_world = Vector3::Zero();  // zero when the accelerometer's reading has none
+  std::string how;                    // for people
+};
+
+// The vehicle stood still over all of `samples`; the state is for `stamp`.
+StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig);
+
+// The vehicle moved. `T_map_imu`: its poses from scan matching alone, in any fixed frame, at least
+// three; the state is for the first of them. `samples` reach from there to the last pose.
+StartState StartMoving(std::span<const ImuSample> samples, const StampedPoses& T_map_imu,
+                       const Rig& rig);
+
+}  // namespace lio

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A bounded map of surface patches: hashed voxels, each with the running mean and covariance of the
+// points that fell into it, and from them, where its shape is known, a plane.
+//
+// A cell counts only when its shape is known: cells filled from a standing vehicle hold single scan
+// rings, which look like lines and hold the vehicle back by metres when it drives off
+// (docs/filter.md, "ring lock"). Sums are kept relative to the voxel's centre, so that precision
+// does not depend on the distance from the origin. Not safe for concurrent use while inserting.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lio/base/rotation.hpp"
+#include "lio/map/voxel_key.hpp"
+#include "lio/registration/ndt_options.hpp"
+
+namespace lio {
+
+// What matching reads of a cell. Vectors in the map's frame, `mean` from the voxel's centre.
+struct SurfacePatch {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  float thickness_var = 0.f;  // variance along the normal, floored; 0: the cell does not count
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  float num_points = 0.f;
+  Eigen::Vector3f tangent1_per_std = Eigen::Vector3f::Zero();  // tangent / sqrt(its variance)
+  Eigen::Vector3f tangent2_per_std = Eigen::Vector3f::Zero();
+};
+
+class GaussianMap {
+ public:
+  static constexpr std::int32_t kNoCell = -1;
+
+  // Throws std::invalid_argument when an option is out of its range.
+  explicit GaussianMap(const NdtOptions& options);
+
+  struct Hit {
+    std::int32_t cell = kNoCell;  // index for patch(); kNoCell where the map is empty
+    Eigen::Vector3f local;        // the point from the voxel's centre
+  };
+  Hit Find(const Vector3& point_map) const;
+  const SurfacePatch& patch(std::int32_t cell) const { return patches_[ToIndex(cell)]; }
+  bool IsFrozen(std::int32_t cell) const {
+    return IsFrozen(sums_[ToIndex(cell)], patches_[ToIndex(cell)]);
+  }
+
+  // Adds a scan; then drops what is too far from `centre_map` and, beyond the cap, the cells that
+  // were not added to for longest.
+  void Insert(std::span<const Vector3> points_map, const Vector3& centre_map);
+
+  std::size_t num_cells() const { return num_cells_; }
+  // Upper bound of cell indices, for scratch arrays beside the map.
+  std::size_t cell_capacity() const { return patches_.size(); }
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Sums {
+    Vector3 mean = Vector3::Zero();                         // from the voxel's centre
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
+    VoxelKey key = 0;
+    std::int32_t num_points = 0;
+    std::int32_t shaped_at = 0;    // num_points when the patch was last computed
+    std::int32_t newer = kNoCell;  // list by time of last insertion
+    std::int32_t older = kNoCell;
+    std::uint32_t touched = 0;  // number of the last scan that added to it
+  };
+  struct Slot {
+    VoxelKey key = 0;
+    std::int32_t cell = kNoCell;
+  };
+
+  static std::size_t ToIndex(std::int32_t cell) { return static_cast<std::size_t>(cell); }
+  bool IsFrozen(const Sums& sums, const SurfacePatch& patch) const {
+    return sums.num_points >= options_.max_cell_points && patch.thickness_var > 0.f;
+  }
+  std::int32_t FindOrAdd(VoxelKey key);
+  void AddPoint(Sums& sums, const Vector3& local) const;
+  void UpdatePatch(std::int32_t cell);
+  void Remove(std::int32_t cell);
+  void Touch(std::int32_t cell);
+  void Unlink(std::int32_t cell);
+  void LinkNewest(std::int32_t cell);
+  void Grow();
+  void EraseSlot(std::size_t at);
+  std::size_t SlotOf(VoxelKey key) const;
+  void DropFarCells(const Vector3& centre_map);
+  Vector3 CentreOf(VoxelKey key) const;
+
+  NdtOptions options_;
+  double inverse_voxel_;
+  std::vector<Slot> slots_;  // open addressing, linear probing, a power of two
+  std::vector<SurfacePatch> patches_;
+  std::vector<Sums> sums_;
+  std::vector<std::int32_t> free_cells_;
+  std::vector<std::int32_t> touched_cells_;  // scratch of Insert
+  std::size_t num_cells_ = 0;
+  std::int32_t newest_ = kNoCell;
+  std::int32_t oldest_ = kNoCell;
+  std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
+  std::uint32_t scan_number_ = 0;
+};
+
+}  // namespace lio

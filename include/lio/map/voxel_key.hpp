@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Integer names of voxels: three signed 21-bit coordinates packed into 64 bits, and a hash of them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace lio {
+
+using VoxelKey = std::uint64_t;
+
+inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| is below this
+
+// floor() without the library call: exact for |x| < 2^31.
+inline std::int32_t FloorToInt(float x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
+inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
+  constexpr std::uint64_t kMask = (1u << 21) - 1;
+  return ((static_cast<std::uint64_t>(x + kVoxelCoordinateLimit) & kMask) << 42) |
+         ((static_cast<std::uint64_t>(y + kVoxelCoordinateLimit) & kMask) << 21) |
+         (static_cast<std::uint64_t>(z + kVoxelCoordinateLimit) & kMask);
+}
+
+// Fibonacci hashing with a fold, so that neighbouring voxels spread over the table.
+inline std::uint64_t HashVoxel(VoxelKey key) {
+  const std::uint64_t h = key * 0x9E3779B97F4A7C15ull;
+  return h ^ (h >> 32);
+}
+
+}  // namespace lio

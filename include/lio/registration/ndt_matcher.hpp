@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Normal-distributions matching: every point against the surface patch of the voxel it falls into.
+//
+// Cost: sum over points of rho(d^2 / s), d the distance from the patch's plane, s its variance
+// there, grown by what this scan and the patch's own few points leave open:
+//   s = l0 (1 + m/n (1 + a1^2/l1 + a2^2/l2)) + reach^2
+// with l0 the thickness, n the patch's points, m this scan's points in the cell, a the offsets
+// along the tangents of variances l; rho is Geman-McClure's. `reach` begins at what the guess may
+// be off and shrinks to nothing, so the same code catches from decimetres and ends exact.
+// Covariance: the sandwich H^-1 (sum_c g_c g_c') H^-1 with scores summed per cell, since points of
+// one cell share its errors (docs/filter.md).
+//
+// The map's voxel grid is turned against the map's frame by a fixed odd rotation: a floor or a wall
+// that lay on a voxel face would be split between two cells by its noise.
+#pragma once
+
+#include "lio/map/gaussian_map.hpp"
+#include "lio/registration/ndt_options.hpp"
+#include "lio/registration/scan_matcher.hpp"
+#include "lio/registration/weak_directions.hpp"
+
+namespace lio {
+
+class NdtMatcher final : public ScanMatcher {
+ public:
+  explicit NdtMatcher(const NdtOptions& options);
+
+  MatchResult Match(const MatchInput& input) override;
+  void Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) override;
+  void Clear() override;
+  MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
+
+ private:
+  // A point and the patch it is held against.
+  struct Pair {
+    std::int32_t point = 0;
+    std::int32_t cell = 0;
+    Eigen::Vector3f from_mean;  // of the patch, grid axes
+  };
+  struct System;
+  struct Scores;
+
+  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu);
+  System Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, float reach_var,
+                   Scores* scores) const;
+  double NewContentShare() const;
+  void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
+
+  NdtOptions options_;
+  GaussianMap map_;
+  std::vector<Pair> pairs_;                // of the current iteration, in the points' order
+  std::vector<std::int32_t> cell_counts_;  // this scan's points by cell; zero between scans
+};
+
+}  // namespace lio

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Scan-to-map registration: one interface, several backends. A matcher owns its map. The pose it
+// measures is that of the imu in the map's frame, at the sweep's end; points come in the imu frame
+// at that instant, already deskewed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/pipeline/outputs.hpp"
+
+namespace lio {
+
+struct MatchInput {
+  std::span<const Eigen::Vector3f> points_imu;
+  Pose T_map_imu_guess;
+  // Right error of the guess, [translation; rotation]: sets how far correspondences are sought. It
+  // is not a prior: it stays out of the cost.
+  Matrix6 guess_cov = Matrix6::Zero();
+};
+
+struct MatchResult {
+  MatchStatus status = MatchStatus::kEmptyMap;
+  Pose T_map_imu;                         // under every status; the guess where nothing was matched
+  Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
+  Matrix6 cov = Matrix6::Zero();          // of T_map_imu, right error; large along weak directions
+  Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
+  unsigned weak_mask = 0;                 // bit i: eigenvalue i is not held by the scene
+  int num_matched = 0;
+  int iterations = 0;
+  double residual_rms_m = 0.0;
+  double new_content_share = 1.0;  // of the matched cells after this scan is inserted: 0..1
+
+  bool IsUsable() const {
+    return status == MatchStatus::kConverged || status == MatchStatus::kDegenerate;
+  }
+};
+
+class ScanMatcher {
+ public:
+  virtual ~ScanMatcher() = default;
+
+  virtual MatchResult Match(const MatchInput& input) = 0;
+  virtual void Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) = 0;
+  virtual void Clear() = 0;
+
+  struct MapSize {
+    std::size_t num_cells = 0;
+    std::size_t memory_bytes = 0;
+  };
+  virtual MapSize map_size() const = 0;
+};
+
+}  // namespace lio

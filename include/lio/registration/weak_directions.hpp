@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Which directions of a pose does a scene hold? The noise of a map's normals alone feigns
+// information along every direction, so a direction counts as held only when its information is
+// well above what that noise would give (docs/filter.md). No tuned eigenvalue threshold.
+#pragma once
+
+#include "lio/base/pose.hpp"
+
+namespace lio {
+
+struct DirectionSplit {
+  double metres_per_rad = 1.0;            // lever that makes rotations comparable to translations
+  Vector6 eigenvalues = Vector6::Zero();  // of the scaled information, ascending
+  Matrix6 directions = Matrix6::Identity();  // columns, scaled coordinates
+  unsigned weak_mask = 0;                    // bit i: direction i is weak
+
+  int num_weak() const { return __builtin_popcount(weak_mask); }
+  // Scales [translation; rotation] to metres.
+  Vector6 Scale() const {
+    Vector6 scale;
+    scale << Vector3::Ones(), Vector3::Constant(metres_per_rad);
+    return scale;
+  }
+};
+
+// `feigned`: information that normals of no accuracy better than their own would show.
+DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& feigned);
+
+// The Gauss-Newton step -H^-1 g within the held directions, [translation; rotation].
+Vector6 StepInHeldDirections(const DirectionSplit& split, const Vector6& gradient);
+
+// H^-1 S H^-1 within the held directions, plus a variance of (100 m)^2 along the weak ones.
+Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
+
+}  // namespace lio

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Thins a sweep: drops what is not finite, too near, too far or the vehicle itself, and keeps one
+// point a voxel, the one nearest the voxel's centre, whatever order the points come in.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lio/scan/reduce_options.hpp"
+#include "lio/scan/sweep.hpp"
+#include "lio/sensor/rig.hpp"
+
+namespace lio {
+
+// A return that will be used: lidar frame at its own instant.
+struct ScanPoint {
+  Eigen::Vector3f position;       // m
+  std::uint32_t t_offset_ns = 0;  // after the sweep's start
+};
+
+struct ReducedScan {
+  std::vector<ScanPoint> points;
+  int num_raw = 0;
+  int num_nonfinite = 0;
+  float voxel_m = 0;  // the edge that was used
+};
+
+class ScanReducer {
+ public:
+  ScanReducer(const ReduceOptions& options, const LidarRig& rig);
+
+  // Adapts the voxel edge for the next call to options.target_points, so results depend on the
+  // scans before, and on nothing else. Cost: linear; no allocation once warm but the result.
+  ReducedScan Reduce(const Sweep& sweep);
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t epoch = 0;
+    std::uint32_t index = 0;  // of the chosen point in the sweep
+    float distance_sq = 0.f;  // of it from the voxel's centre, in voxels
+  };
+  static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
+
+  bool IsWanted(const LidarPoint& point) const;
+  // Gives the number of voxels hit, or kTableFull.
+  std::size_t FillSlots(const Sweep& sweep, int& num_nonfinite);
+  void AdaptVoxel(std::size_t num_kept);
+
+  ReduceOptions options_;
+  LidarRig rig_;
+  float voxel_m_;
+  std::uint32_t epoch_ = 0;
+  std::vector<Slot> slots_;  // open addressing, a power of two; slots of older epochs are free
+};
+
+}  // namespace lio

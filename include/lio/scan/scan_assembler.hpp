@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Puts chunks together to sweeps. A sweep is closed when its last chunk is in, when a chunk of the
+// sweep after the next one begins, or when CloseUpTo() says that time has passed it; what is still
+// missing then is counted, and the smaller sweep is used. Order of arrival is free among the chunks
+// of two neighbouring sweeps. Only stamps and sequence numbers decide, never the clock.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "lio/pipeline/outputs.hpp"
+#include "lio/scan/sweep.hpp"
+
+namespace lio {
+
+class ScanAssembler {
+ public:
+  // Counts into `counters`, which outlives the assembler.
+  explicit ScanAssembler(Counters& counters) : counters_(&counters) {}
+
+  void Add(ScanChunk chunk, std::int64_t decode_ns);
+  // Closes every sweep whose last known point is before `stamp`.
+  void CloseUpTo(Timestamp stamp);
+  void CloseAll();
+
+  // Closed sweeps in order of time, oldest first.
+  std::optional<Sweep> Take();
+
+ private:
+  struct Partial {
+    std::int32_t scan_seq = 0;
+    std::int8_t sensor_id = 0;
+    Timestamp first;  // stamps of the earliest and latest point so far
+    Timestamp last;
+    std::vector<ScanChunk> chunks;  // by index; empty points and count 0: not here yet
+    int num_received = 0;
+    std::int64_t decode_ns = 0;
+  };
+
+  Partial* FindOrOpen(const ScanChunk& chunk);
+  void CloseOldest();
+
+  Counters* counters_;
+  std::deque<Partial> open_;  // at most two, oldest first
+  std::deque<Sweep> closed_;
+  std::optional<Timestamp> last_end_;     // of the newest closed sweep
+  std::optional<std::int32_t> last_seq_;  // of the newest closed sweep
+};
+
+}  // namespace lio

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/filter_history.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace lio {
+namespace {
+
+// Beyond the gate by force: the filter was surer of itself than it had reason to be.
+void InflateToInnovation(Estimate& estimate, double nis) {
+  constexpr double kExpectedNis = 6.0;
+  if (nis > kExpectedNis) estimate.cov *= nis / kExpectedNis;
+}
+
+void RebaseMapPose(Estimate& estimate) {
+  estimate.cov.middleRows<6>(kMapPose).setZero();
+  estimate.cov.middleCols<6>(kMapPose).setZero();
+}
+
+}  // namespace
+
+FilterHistory::FilterHistory(const HistoryOptions& options, const Estimate& start,
+                             const ImuSample& sample)
+    : options_(options), start_stamp_(start.stamp) {
+  Node node;
+  node.stamp = start.stamp;
+  node.sample = sample;
+  node.sample.stamp = start.stamp;
+  node.posterior = start;
+  nodes_.push_back(std::move(node));
+}
+
+std::size_t FilterHistory::FirstAfter(Timestamp stamp) const {
+  std::size_t at = nodes_.size();  // late events are seldom very late: search from the end
+  while (at > 0 && nodes_[at - 1].stamp > stamp) --at;
+  return at;
+}
+
+std::optional<EventOutcome> FilterHistory::Refuse(Timestamp stamp, Kind kind) const {
+  if (stamp < start_stamp_) return EventOutcome::kBeforeStart;
+  if (stamp < nodes_.front().stamp) return EventOutcome::kTooOld;
+  for (std::size_t at = FirstAfter(stamp); at > 0 && nodes_[at - 1].stamp == stamp; --at) {
+    if (nodes_[at - 1].kind == kind) return EventOutcome::kDuplicate;
+  }
+  return std::nullopt;
+}
+
+ImuSample FilterHistory::SampleAt(Timestamp stamp, std::size_t at) const {
+  const ImuSample& before = nodes_[at - 1].sample;
+  for (std::size_t i = at; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind == Kind::kImu) return InterpolateSample(before, nodes_[i].sample, stamp);
+  }
+  ImuSample held = before;
+  held.stamp = stamp;
+  return held;
+}
+
+void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to) const {
+  const double dt = SecondsBetween(from.stamp, to.stamp);
+  if (dt <= 0) return;
+  ProcessNoise noise = options_.noise;
+  if (dt > options_.gap_s) {  // an error that lasts for dt: its density grows with dt
+    noise.accel_density = std::hypot(noise.accel_density,
+                                     options_.gap_accel_std_mps2 * std::sqrt(dt));
+    noise.gyro_density = std::hypot(noise.gyro_density,
+                                    options_.gap_gyro_std_radps * std::sqrt(dt));
+  }
+  Propagate(estimate, from, to, noise, options_.g_world);
+}
+
+void FilterHistory::Step(std::size_t at) {
+  Node& node = nodes_[at];
+  if (node.kind != Kind::kImu) node.sample = SampleAt(node.stamp, at);
+  node.posterior = nodes_[at - 1].posterior;
+  StepTo(node.posterior, nodes_[at - 1].sample, node.sample);
+  node.posterior.stamp = node.stamp;
+  if (node.kind == Kind::kRebase) RebaseMapPose(node.posterior);
+  if (node.kind != Kind::kPose) return;
+
+  node.update = FusePose(node.posterior, node.pose.measurement, options_.nis_limit);
+  if (!node.update.fused && node.pose.force) {
+    InflateToInnovation(node.posterior, node.update.nis);
+    node.update.fused = FusePose(node.posterior, node.pose.measurement,
+                                 std::numeric_limits<double>::infinity())
+                            .fused;
+  }
+  if (node.update.fused) BlendMapPose(node.posterior, node.pose.measurement);
+}
+
+void FilterHistory::Replay(std::size_t from) {
+  for (std::size_t at = from; at < nodes_.size(); ++at) Step(at);
+}
+
+std::size_t FilterHistory::Insert(Node node) {
+  std::size_t at = FirstAfter(node.stamp);
+  while (at > 1 && nodes_[at - 1].stamp == node.stamp && nodes_[at - 1].kind > node.kind) --at;
+  // Poses just before a new sample took theirs by holding; now they can interpolate.
+  std::size_t from = at;
+  if (node.kind == Kind::kImu) {
+    while (from > 1 && nodes_[from - 1].kind != Kind::kImu) --from;
+  }
+  nodes_.insert(nodes_.begin() + static_cast<std::ptrdiff_t>(at), std::move(node));
+  Replay(from);
+  return at;
+}
+
+EventOutcome FilterHistory::AddImu(const ImuSample& sample) {
+  if (const auto refused = Refuse(sample.stamp, Kind::kImu)) return *refused;
+  Node node;
+  node.stamp = sample.stamp;
+  node.sample = sample;
+  Insert(std::move(node));
+  Trim();
+  return EventOutcome::kApplied;
+}
+
+EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event,
+                                    UpdateResult* result) {
+  if (const auto refused = Refuse(stamp, Kind::kPose)) return *refused;
+  Node node;
+  node.stamp = stamp;
+  node.kind = Kind::kPose;
+  node.pose = event;
+  const UpdateResult update = nodes_[Insert(std::move(node))].update;
+  if (result != nullptr) *result = update;
+  return update.fused ? EventOutcome::kApplied : EventOutcome::kGated;
+}
+
+EventOutcome FilterHistory::AddRebase(Timestamp stamp) {
+  if (const auto refused = Refuse(stamp, Kind::kRebase)) return *refused;
+  Node node;
+  node.stamp = stamp;
+  node.kind = Kind::kRebase;
+  Insert(std::move(node));
+  return EventOutcome::kApplied;
+}
+
+Estimate FilterHistory::At(Timestamp stamp) const {
+  const std::size_t after = FirstAfter(stamp);
+  if (after == 0) return nodes_.front().posterior;
+  Estimate estimate = nodes_[after - 1].posterior;
+  StepTo(estimate, nodes_[after - 1].sample, SampleAt(stamp, after));
+  estimate.stamp = stamp;
+  return estimate;
+}
+
+StampedPoses FilterHistory::Trajectory(Timestamp from, Timestamp to) const {
+  StampedPoses poses;
+  poses.push_back({from, At(from).state.T_world_imu});
+  for (std::size_t at = FirstAfter(from); at < nodes_.size() && nodes_[at].stamp < to; ++at) {
+    if (nodes_[at].stamp > poses.back().stamp) {
+      poses.push_back({nodes_[at].stamp, nodes_[at].posterior.state.T_world_imu});
+    } else {
+      poses.back().pose = nodes_[at].posterior.state.T_world_imu;
+    }
+  }
+  if (to > poses.back().stamp) poses.push_back({to, At(to).state.T_world_imu});
+  return poses;
+}
+
+void FilterHistory::Trim() {
+  const Timestamp oldest = nodes_.back().stamp - Duration::FromSeconds(options_.span_s);
+  while (nodes_.size() > 2 && nodes_[1].stamp <= oldest) nodes_.pop_front();
+}
+
+}  // namespace lio

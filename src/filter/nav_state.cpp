@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/nav_state.hpp"
+
+namespace lio {
+
+NavState BoxPlus(const NavState& state, const ErrorVector& error) {
+  NavState result;
+  result.T_world_imu.translation = state.T_world_imu.translation + error.segment<3>(kPos);
+  result.T_world_imu.rotation =
+      (state.T_world_imu.rotation * ExpSo3(error.segment<3>(kRot))).normalized();
+  result.v_world_imu = state.v_world_imu + error.segment<3>(kVel);
+  result.gyro_bias = state.gyro_bias + error.segment<3>(kGyroBias);
+  result.accel_bias = state.accel_bias + error.segment<3>(kAccelBias);
+  result.T_map_imu = state.T_map_imu * ExpSe3(error.segment<6>(kMapPose));
+  return result;
+}
+
+ErrorVector BoxMinus(const NavState& a, const NavState& b) {
+  ErrorVector error;
+  error << a.T_world_imu.translation - b.T_world_imu.translation,
+      LogSo3(b.T_world_imu.rotation.conjugate() * a.T_world_imu.rotation),
+      a.v_world_imu - b.v_world_imu, a.gyro_bias - b.gyro_bias, a.accel_bias - b.accel_bias,
+      LogSe3(b.T_map_imu.Inverse() * a.T_map_imu);
+  return error;
+}
+
+Matrix6 PoseCov(const Estimate& estimate) {
+  return estimate.cov.topLeftCorner<6, 6>();
+}
+
+}  // namespace lio

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/pose_update.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace lio {
+namespace {
+
+// P <- (I - K H) P (I - K H)^T + K R K^T, then x <- x (+) K r and P <- G P G^T.
+template <int kRows>
+void Apply(Estimate& estimate, const Eigen::Matrix<double, kRows, kStateDim>& H,
+           const Eigen::Matrix<double, kStateDim, kRows>& K,
+           const Eigen::Matrix<double, kRows, 1>& residual,
+           const Eigen::Matrix<double, kRows, kRows>& R) {
+  const ErrorMatrix remain = ErrorMatrix::Identity() - K * H;
+  const ErrorMatrix joseph = remain * estimate.cov * remain.transpose() + K * R * K.transpose();
+  const ErrorVector error = K * residual;
+  estimate.state = BoxPlus(estimate.state, error);
+
+  // Errors are now relative to the new nominal rotation and map pose.
+  const Matrix3 reset_rotation = RightJacobianSo3(error.segment<3>(kRot));
+  const Matrix6 reset_map = LeftJacobianSe3(-error.segment<6>(kMapPose));
+  ErrorMatrix cov = joseph;
+  cov.middleRows<3>(kRot) = reset_rotation * joseph.middleRows<3>(kRot);
+  cov.middleRows<6>(kMapPose) = reset_map * joseph.middleRows<6>(kMapPose);
+  const ErrorMatrix half = cov;
+  cov.middleCols<3>(kRot) = half.middleCols<3>(kRot) * reset_rotation.transpose();
+  cov.middleCols<6>(kMapPose) = half.middleCols<6>(kMapPose) * reset_map.transpose();
+  estimate.cov = 0.5 * (cov + cov.transpose());
+}
+
+}  // namespace
+
+UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, double nis_limit) {
+  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+  Eigen::Matrix<double, 6, kStateDim> H = Eigen::Matrix<double, 6, kStateDim>::Zero();
+  H.middleCols<6>(kMapPose) = LeftJacobianInverseSe3(residual);
+  const Matrix6 noise_jacobian = RightJacobianInverseSe3(residual);
+  const Matrix6 R = noise_jacobian * measurement.cov * noise_jacobian.transpose();
+
+  const Eigen::Matrix<double, kStateDim, 6> PHt = estimate.cov * H.transpose();
+  const Matrix6 S = H * PHt + R;
+  const Eigen::LDLT<Matrix6> factor(S);
+  UpdateResult result;
+  result.nis = residual.dot(factor.solve(residual));
+  if (!(result.nis <= nis_limit)) return result;
+  const Eigen::Matrix<double, kStateDim, 6> K = factor.solve(PHt.transpose()).transpose();
+  Apply<6>(estimate, H, K, residual, R);
+  result.fused = true;
+  return result;
+}
+
+void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
+  const double keep = 1.0 - measurement.new_content_share;
+  ErrorMatrix& P = estimate.cov;
+  P.middleRows<6>(kMapPose) *= keep;
+  P.middleCols<6>(kMapPose) *= keep;
+  P.bottomRightCorner<6, 6>() += measurement.new_content_share * measurement.blend_cov;
+}
+
+void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,
+                const Eigen::MatrixXd& R) {
+  const Eigen::MatrixXd PHt = estimate.cov * H.transpose();
+  const Eigen::MatrixXd S = H * PHt + R;
+  const Eigen::MatrixXd K = S.ldlt().solve(PHt.transpose()).transpose();
+  Apply<Eigen::Dynamic>(estimate, H, K, residual, R);
+}
+
+}  // namespace lio

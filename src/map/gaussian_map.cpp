@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/map/gaussian_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kInitialSlots = 1u << 12;
+// A patch is a plane when it is this much thinner than wide, wide enough in both directions (as a
+// share of the voxel) and its normal is known this well [rad]. From the ring-lock experiments.
+constexpr double kMaxThicknessRatio = 0.1;
+constexpr double kMinWidthPerVoxel = 0.12;
+constexpr double kMaxNormalStd_rad = 0.05;
+// Sums change little with each point once a cell is well filled: reshape it at this growth.
+constexpr double kReshapeGrowth = 1.1;
+constexpr std::size_t kFarCellsWalk = 64;  // the walk for far cells takes this many scans
+
+std::int32_t Floor(double x) {
+  return static_cast<std::int32_t>(std::floor(x));
+}
+
+}  // namespace
+
+GaussianMap::GaussianMap(const NdtOptions& options)
+    : options_(options), inverse_voxel_(1.0 / options.voxel_m), slots_(kInitialSlots) {
+  if (!(options.voxel_m > 0) || options.min_cell_points < 3 ||
+      options.max_cell_points <= options.min_cell_points || options.max_cells < 1) {
+    throw std::invalid_argument("GaussianMap: voxel_m, cell points or max_cells out of range");
+  }
+}
+
+Vector3 GaussianMap::CentreOf(VoxelKey key) const {
+  constexpr std::uint64_t kMask = (1u << 21) - 1;
+  const auto coordinate = [&](int shift) {
+    return static_cast<double>(static_cast<std::int64_t>((key >> shift) & kMask) -
+                               kVoxelCoordinateLimit);
+  };
+  return options_.voxel_m * (Vector3(coordinate(42), coordinate(21), coordinate(0)).array() + 0.5);
+}
+
+std::size_t GaussianMap::SlotOf(VoxelKey key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = HashVoxel(key) & mask;
+  while (slots_[at].cell != kNoCell && slots_[at].key != key) at = (at + 1) & mask;
+  return at;
+}
+
+GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
+  const Vector3 scaled = inverse_voxel_ * point_map;
+  const std::int32_t x = Floor(scaled.x());
+  const std::int32_t y = Floor(scaled.y());
+  const std::int32_t z = Floor(scaled.z());
+  const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
+  return {slots_[SlotOf(PackVoxel(x, y, z))].cell, (options_.voxel_m * from_centre).cast<float>()};
+}
+
+void GaussianMap::Grow() {
+  std::vector<Slot> old(slots_.size() * 2);
+  old.swap(slots_);
+  for (const Slot& slot : old) {
+    if (slot.cell != kNoCell) slots_[SlotOf(slot.key)] = slot;
+  }
+}
+
+std::int32_t GaussianMap::FindOrAdd(VoxelKey key) {
+  const std::size_t at = SlotOf(key);
+  if (slots_[at].cell != kNoCell) return slots_[at].cell;
+  std::int32_t cell;
+  if (free_cells_.empty()) {
+    cell = static_cast<std::int32_t>(sums_.size());
+    sums_.emplace_back();
+    patches_.emplace_back();
+  } else {
+    cell = free_cells_.back();
+    free_cells_.pop_back();
+    sums_[ToIndex(cell)] = {};
+    patches_[ToIndex(cell)] = {};
+  }
+  sums_[ToIndex(cell)].key = key;
+  slots_[at] = {key, cell};
+  LinkNewest(cell);
+  if (++num_cells_ * 2 > slots_.size()) Grow();
+  return cell;
+}
+
+void GaussianMap::LinkNewest(std::int32_t cell) {
+  Sums& sums = sums_[ToIndex(cell)];
+  sums.older = newest_;
+  sums.newer = kNoCell;
+  if (newest_ != kNoCell) sums_[ToIndex(newest_)].newer = cell;
+  newest_ = cell;
+  if (oldest_ == kNoCell) oldest_ = cell;
+}
+
+void GaussianMap::Unlink(std::int32_t cell) {
+  const Sums& sums = sums_[ToIndex(cell)];
+  (sums.newer == kNoCell ? newest_ : sums_[ToIndex(sums.newer)].older) = sums.older;
+  (sums.older == kNoCell ? oldest_ : sums_[ToIndex(sums.older)].newer) = sums.newer;
+}
+
+void GaussianMap::Touch(std::int32_t cell) {
+  if (newest_ == cell) return;
+  Unlink(cell);
+  LinkNewest(cell);
+}
+
+// Removal from a table with linear probing: later entries of the run move up into the hole.
+void GaussianMap::EraseSlot(std::size_t at) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t hole = at;
+  for (std::size_t next = (hole + 1) & mask; slots_[next].cell != kNoCell;
+       next = (next + 1) & mask) {
+    const std::size_t home = HashVoxel(slots_[next].key) & mask;
+    const bool stays = ((next - home) & mask) < ((next - hole) & mask);
+    if (stays) continue;
+    slots_[hole] = slots_[next];
+    hole = next;
+  }
+  slots_[hole] = {};
+}
+
+void GaussianMap::Remove(std::int32_t cell) {
+  EraseSlot(SlotOf(sums_[ToIndex(cell)].key));
+  Unlink(cell);
+  sums_[ToIndex(cell)].num_points = 0;
+  patches_[ToIndex(cell)] = {};
+  free_cells_.push_back(cell);
+  --num_cells_;
+}
+
+// Welford's update. A full cell whose shape is still unknown forgets slowly instead of freezing, or
+// a cell filled by single rings while parked would stay a line for ever.
+void GaussianMap::AddPoint(Sums& sums, const Vector3& local) const {
+  if (sums.num_points >= options_.max_cell_points) {
+    const double keep = 1.0 - 1.0 / options_.max_cell_points;
+    for (double* sum : {&sums.xx, &sums.xy, &sums.xz, &sums.yy, &sums.yz, &sums.zz}) *sum *= keep;
+    sums.shaped_at = 0;
+  } else {
+    ++sums.num_points;
+  }
+  const Vector3 before = local - sums.mean;
+  sums.mean += before / sums.num_points;
+  const Vector3 after = local - sums.mean;
+  sums.xx += before.x() * after.x();
+  sums.xy += before.x() * after.y();
+  sums.xz += before.x() * after.z();
+  sums.yy += before.y() * after.y();
+  sums.yz += before.y() * after.z();
+  sums.zz += before.z() * after.z();
+}
+
+void GaussianMap::UpdatePatch(std::int32_t cell) {
+  Sums& sums = sums_[ToIndex(cell)];
+  SurfacePatch& patch = patches_[ToIndex(cell)];
+  patch.mean = sums.mean.cast<float>();
+  patch.num_points = static_cast<float>(sums.num_points);
+  if (sums.num_points < options_.min_cell_points) return;
+  if (sums.num_points < kReshapeGrowth * sums.shaped_at) return;
+  sums.shaped_at = sums.num_points;
+
+  Matrix3 cov;
+  cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
+  cov /= sums.num_points - 1;
+  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
+  eigen.computeDirect(cov);
+  const Vector3 variance = eigen.eigenvalues();  // ascending
+  const double thickness =
+      std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
+  const double min_width = kMinWidthPerVoxel * options_.voxel_m;
+  const bool is_plane =
+      variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
+      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1];
+  if (!is_plane) {
+    patch.thickness_var = 0.f;
+    return;
+  }
+  patch.thickness_var = static_cast<float>(thickness);
+  patch.normal = eigen.eigenvectors().col(0).cast<float>();
+  patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
+  patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
+}
+
+void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& centre_map) {
+  ++scan_number_;
+  touched_cells_.clear();
+  for (const Vector3& point : points_map) {
+    const Vector3 scaled = inverse_voxel_ * point;
+    if (!(scaled.cwiseAbs().maxCoeff() < kVoxelCoordinateLimit - 1)) continue;
+    const std::int32_t x = Floor(scaled.x());
+    const std::int32_t y = Floor(scaled.y());
+    const std::int32_t z = Floor(scaled.z());
+    const std::int32_t cell = FindOrAdd(PackVoxel(x, y, z));
+    Sums& sums = sums_[ToIndex(cell)];
+    if (sums.touched != scan_number_) {
+      sums.touched = scan_number_;
+      Touch(cell);
+      if (IsFrozen(cell)) continue;
+      touched_cells_.push_back(cell);
+    } else if (IsFrozen(cell)) {
+      continue;
+    }
+    const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
+    AddPoint(sums, options_.voxel_m * from_centre);
+  }
+  for (const std::int32_t cell : touched_cells_) UpdatePatch(cell);
+  while (num_cells_ > static_cast<std::size_t>(options_.max_cells)) Remove(oldest_);
+  DropFarCells(centre_map);
+}
+
+void GaussianMap::DropFarCells(const Vector3& centre_map) {
+  const std::size_t num_to_visit = sums_.size() / kFarCellsWalk + 1;
+  const double limit_sq = options_.max_distance_m * options_.max_distance_m;
+  for (std::size_t i = 0; i < num_to_visit; ++i) {
+    if (++sweep_position_ >= sums_.size()) sweep_position_ = 0;
+    const Sums& sums = sums_[sweep_position_];
+    if (sums.num_points == 0) continue;
+    if ((CentreOf(sums.key) - centre_map).squaredNorm() > limit_sq) {
+      Remove(static_cast<std::int32_t>(sweep_position_));
+    }
+  }
+}
+
+std::size_t GaussianMap::memory_bytes() const {
+  return slots_.capacity() * sizeof(Slot) + patches_.capacity() * sizeof(SurfacePatch) +
+         sums_.capacity() * sizeof(Sums);
+}
+
+}  // namespace lio

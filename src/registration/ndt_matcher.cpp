@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/ndt_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lio {
+namespace {
+
+constexpr int kMinMatched = 50;
+constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
+constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
+constexpr float kMaxLever = 4.f;       // cap of a^2/l, where a patch is extrapolated
+constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, each iteration
+constexpr double kMinReach_m = 0.01;   // a smaller reach is none
+constexpr double kMaxReach_m = 2.0;
+constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
+
+// Fixed odd rotation between the map's axes and the voxel grid's.
+const Pose& GridFromMap() {
+  static const Pose kRotation{ExpSo3(Vector3(0.31, -0.23, 0.41)), Vector3(0.37, 0.41, 0.29)};
+  return kRotation;
+}
+
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+
+Vector6f JacobianRow(const Eigen::Vector3f& point_imu, const Eigen::Vector3f& direction_imu) {
+  Vector6f row;
+  row << direction_imu, point_imu.cross(direction_imu);
+  return row;
+}
+
+double InitialReach(const Matrix6& guess_cov) {
+  const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  const double reach = std::sqrt(std::max(0.0, translation_var) +
+                                 std::max(0.0, rotation_var) * kReachLever_m * kReachLever_m);
+  return std::min(reach, kMaxReach_m);
+}
+
+}  // namespace
+
+struct NdtMatcher::System {
+  Matrix6 information = Matrix6::Zero();
+  Matrix6 feigned = Matrix6::Zero();  // information that the normals' noise alone would show
+  Vector6 gradient = Vector6::Zero();
+  double weight_sum = 0.0;
+  double residual_sq_sum = 0.0;
+  int num_matched = 0;
+};
+
+// Gradients summed per cell: the parts of the score whose errors are independent.
+struct NdtMatcher::Scores {
+  std::vector<Vector6f> by_cell;  // indexed like cells, of which only `cells` are in use
+  std::vector<std::int32_t> cells;
+};
+
+NdtMatcher::NdtMatcher(const NdtOptions& options) : options_(options), map_(options) {}
+
+void NdtMatcher::Clear() {
+  map_ = GaussianMap(options_);
+}
+
+void NdtMatcher::Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) {
+  const Pose T_grid_imu = GridFromMap() * T_map_imu;
+  const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
+  std::vector<Vector3> points_grid;
+  points_grid.reserve(points_imu.size());
+  for (const Eigen::Vector3f& point : points_imu) {
+    points_grid.push_back(rotation * point.cast<double>() + T_grid_imu.translation);
+  }
+  map_.Insert(points_grid, T_grid_imu.translation);
+}
+
+void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu) {
+  for (const Pair& pair : pairs_) cell_counts_[static_cast<std::size_t>(pair.cell)] = 0;
+  pairs_.clear();
+  cell_counts_.resize(map_.cell_capacity(), 0);
+  const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 point_grid = rotation * points[i].cast<double>() + T_grid_imu.translation;
+    const GaussianMap::Hit hit = map_.Find(point_grid);
+    if (hit.cell == GaussianMap::kNoCell) continue;
+    const SurfacePatch& patch = map_.patch(hit.cell);
+    if (patch.thickness_var <= 0.f) continue;
+    pairs_.push_back({static_cast<std::int32_t>(i), hit.cell, hit.local - patch.mean});
+    ++cell_counts_[static_cast<std::size_t>(hit.cell)];
+  }
+}
+
+NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points,
+                                         const Pose& T_grid_imu, float reach_var,
+                                         Scores* scores) const {
+  System system;
+  const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
+  for (const Pair& pair : pairs_) {
+    const SurfacePatch& patch = map_.patch(pair.cell);
+    const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
+    const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
+    const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
+    const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
+    const float variance =
+        patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
+    const float distance = patch.normal.dot(pair.from_mean);
+    const float distance_sq = distance * distance / variance;
+    if (distance_sq > kGateSq) continue;
+    const float kernel = 1.f / (1.f + distance_sq / kKernelWidthSq);
+    const float weight = kernel * kernel / variance;
+
+    const Eigen::Vector3f& point = points[static_cast<std::size_t>(pair.point)];
+    const Vector6f row = JacobianRow(point, to_imu * patch.normal);
+    const Vector6f tangent1 = JacobianRow(point, to_imu * patch.tangent1_per_std);
+    const Vector6f tangent2 = JacobianRow(point, to_imu * patch.tangent2_per_std);
+    const float feigned = weight * patch.thickness_var / patch.num_points;
+    const Matrix6f information = weight * row * row.transpose();
+    const Matrix6f noise =
+        feigned * (tangent1 * tangent1.transpose() + tangent2 * tangent2.transpose());
+    const Vector6f gradient = (weight * distance) * row;
+    system.information += information.cast<double>();
+    system.feigned += noise.cast<double>();
+    system.gradient += gradient.cast<double>();
+    system.weight_sum += kernel * kernel;
+    system.residual_sq_sum += kernel * kernel * distance * distance;
+    ++system.num_matched;
+    if (scores != nullptr) {
+      Vector6f& score = scores->by_cell[static_cast<std::size_t>(pair.cell)];
+      if (score.isZero(0.f)) scores->cells.push_back(pair.cell);
+      score += gradient;
+    }
+  }
+  return system;
+}
+
+// Mean over the matched points of (points this scan adds to the cell) / (points in it after).
+double NdtMatcher::NewContentShare() const {
+  if (pairs_.empty()) return 1.0;
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    if (map_.IsFrozen(pair.cell)) continue;
+    const double here = cell_counts_[static_cast<std::size_t>(pair.cell)];
+    const double before = static_cast<double>(map_.patch(pair.cell).num_points);
+    sum += here / (before + here);
+  }
+  return sum / static_cast<double>(pairs_.size());
+}
+
+void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
+  Associate(input.points_imu, T_grid_imu);
+  Scores scores;
+  scores.by_cell.assign(map_.cell_capacity(), Vector6f::Zero());
+  const System system = Linearize(input.points_imu, T_grid_imu, 0.f, &scores);
+  result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
+  result.num_matched = system.num_matched;
+  result.new_content_share = NewContentShare();
+  if (system.num_matched < kMinMatched) {
+    result.status = MatchStatus::kTooFewPoints;
+    return;
+  }
+  const DirectionSplit split = SplitDirections(system.information, system.feigned);
+  Matrix6 score_cov = Matrix6::Zero();
+  for (const std::int32_t cell : scores.cells) {
+    const Vector6 score = scores.by_cell[static_cast<std::size_t>(cell)].cast<double>();
+    score_cov += score * score.transpose();
+  }
+  const auto num_cells = static_cast<double>(scores.cells.size());
+  score_cov *= num_cells / std::max(1.0, num_cells - 6.0);
+  result.information = system.information;
+  result.eigenvalues = split.eigenvalues;
+  result.weak_mask = split.weak_mask;
+  result.cov = CovarianceFromScores(split, score_cov);
+  result.residual_rms_m = std::sqrt(system.residual_sq_sum / system.weight_sum);
+  if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {
+    result.status = MatchStatus::kDegenerate;
+  }
+}
+
+MatchResult NdtMatcher::Match(const MatchInput& input) {
+  MatchResult result;
+  result.T_map_imu = input.T_map_imu_guess;
+  if (map_.num_cells() == 0) return result;
+  Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
+  double reach = InitialReach(input.guess_cov);
+  result.status = MatchStatus::kMaxIterations;
+  for (result.iterations = 1; result.iterations <= options_.max_iterations; ++result.iterations) {
+    if (reach < kMinReach_m) reach = 0.0;
+    Associate(input.points_imu, T_grid_imu);
+    const System system =
+        Linearize(input.points_imu, T_grid_imu, static_cast<float>(reach * reach), nullptr);
+    if (system.num_matched < kMinMatched) break;
+    const DirectionSplit split = SplitDirections(system.information, system.feigned);
+    const Vector6 step = StepInHeldDirections(split, system.gradient);
+    if (!step.allFinite()) {
+      result.status = MatchStatus::kDiverged;
+      return result;
+    }
+    T_grid_imu = T_grid_imu * ExpSe3(step);
+    if (reach == 0.0 && step.head<3>().norm() < options_.converged_step_m &&
+        step.tail<3>().norm() < options_.converged_step_rad) {
+      result.status = MatchStatus::kConverged;
+      break;
+    }
+    reach *= kReachShrink;
+  }
+  Finish(input, T_grid_imu, result);
+  return result;
+}
+
+}  // namespace lio

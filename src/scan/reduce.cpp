@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/scan/reduce.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lio/map/voxel_key.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kInitialSlots = 1u << 14;
+
+// A total order on points, so that a tie in distance does not depend on the order of arrival.
+bool Precedes(const LidarPoint& a, const LidarPoint& b) {
+  if (a.t_offset_ns != b.t_offset_ns) return a.t_offset_ns < b.t_offset_ns;
+  if (a.ring != b.ring) return a.ring < b.ring;
+  if (a.x_m != b.x_m) return a.x_m < b.x_m;
+  if (a.y_m != b.y_m) return a.y_m < b.y_m;
+  return a.z_m < b.z_m;
+}
+
+struct Voxel {
+  VoxelKey key;
+  float distance_sq;  // of the point from the voxel's centre, in voxels
+};
+
+Voxel VoxelOf(const LidarPoint& point, float inverse_voxel) {
+  const float x = point.x_m * inverse_voxel;
+  const float y = point.y_m * inverse_voxel;
+  const float z = point.z_m * inverse_voxel;
+  const std::int32_t ix = FloorToInt(x);
+  const std::int32_t iy = FloorToInt(y);
+  const std::int32_t iz = FloorToInt(z);
+  const float dx = x - static_cast<float>(ix) - 0.5f;
+  const float dy = y - static_cast<float>(iy) - 0.5f;
+  const float dz = z - static_cast<float>(iz) - 0.5f;
+  return {PackVoxel(ix, iy, iz), dx * dx + dy * dy + dz * dz};
+}
+
+}  // namespace
+
+ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
+    : options_(options),
+      rig_(rig),
+      voxel_m_(static_cast<float>(options.voxel_m)),
+      slots_(kInitialSlots) {}
+
+bool ScanReducer::IsWanted(const LidarPoint& point) const {
+  const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
+  const auto near = static_cast<float>(rig_.min_range_m);
+  const auto far = static_cast<float>(rig_.max_range_m);
+  if (range_sq < near * near || range_sq > far * far) return false;
+  if (!rig_.own_vehicle_box) return true;
+  const Vector3 p(point.x_m, point.y_m, point.z_m);
+  const OwnVehicleBox& box = *rig_.own_vehicle_box;
+  return !((p.array() >= box.min_m.array()).all() && (p.array() <= box.max_m.array()).all());
+}
+
+std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
+  if (++epoch_ == 0) {  // wrapped: forget every slot
+    std::fill(slots_.begin(), slots_.end(), Slot{});
+    epoch_ = 1;
+  }
+  const float inverse_voxel = 1.0f / voxel_m_;
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t num_kept = 0;
+  num_nonfinite = 0;
+  for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
+    const LidarPoint& point = sweep.points[i];
+    if (!std::isfinite(point.x_m + point.y_m + point.z_m)) {
+      ++num_nonfinite;
+      continue;
+    }
+    if (!IsWanted(point)) continue;
+    const Voxel voxel = VoxelOf(point, inverse_voxel);
+    std::size_t at = HashVoxel(voxel.key) & mask;
+    while (slots_[at].epoch == epoch_ && slots_[at].key != voxel.key) at = (at + 1) & mask;
+    Slot& slot = slots_[at];
+    if (slot.epoch != epoch_) {
+      slot = {voxel.key, epoch_, i, voxel.distance_sq};
+      if (++num_kept * 2 > slots_.size()) return kTableFull;
+    } else if (voxel.distance_sq < slot.distance_sq ||
+               (voxel.distance_sq == slot.distance_sq &&
+                Precedes(point, sweep.points[slot.index]))) {
+      slot.index = i;
+      slot.distance_sq = voxel.distance_sq;
+    }
+  }
+  return num_kept;
+}
+
+ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
+  ReducedScan result;
+  result.num_raw = static_cast<int>(sweep.points.size());
+  result.voxel_m = voxel_m_;
+  std::size_t num_kept = FillSlots(sweep, result.num_nonfinite);
+  while (num_kept == kTableFull) {
+    slots_.assign(slots_.size() * 4, Slot{});
+    num_kept = FillSlots(sweep, result.num_nonfinite);
+  }
+  std::vector<std::uint32_t> chosen;
+  chosen.reserve(num_kept);
+  for (const Slot& slot : slots_) {
+    if (slot.epoch == epoch_) chosen.push_back(slot.index);
+  }
+  std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return Precedes(sweep.points[a], sweep.points[b]);
+  });
+  result.points.reserve(chosen.size());
+  for (const std::uint32_t i : chosen) {
+    const LidarPoint& point = sweep.points[i];
+    result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
+  }
+  AdaptVoxel(num_kept);
+  return result;
+}
+
+// Points lie on surfaces, so their number goes with the inverse square of the edge.
+void ScanReducer::AdaptVoxel(std::size_t num_kept) {
+  if (num_kept == 0) return;
+  const double ratio = std::sqrt(static_cast<double>(num_kept) / options_.target_points);
+  const double wanted = voxel_m_ * std::clamp(ratio, 0.8, 1.25);
+  voxel_m_ = static_cast<float>(std::clamp(wanted, options_.min_voxel_m, options_.max_voxel_m));
+}
+
+}  // namespace lio

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/scan/scan_assembler.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lio {
+namespace {
+
+constexpr std::uint32_t kMaxOffsetNs = 500'000'000;  // no lidar turns slower than twice a second
+constexpr Duration kMaxSweepSpan{500'000'000};
+constexpr std::size_t kMaxOpenSweeps = 2;
+
+std::uint32_t LastOffset(const ScanChunk& chunk) {
+  std::uint32_t last = 0;
+  for (const LidarPoint& point : chunk.points) last = std::max(last, point.t_offset_ns);
+  return last;
+}
+
+bool IsUsable(const ScanChunk& chunk) {
+  return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count &&
+         LastOffset(chunk) <= kMaxOffsetNs;
+}
+
+}  // namespace
+
+ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
+  for (Partial& partial : open_) {
+    if (partial.scan_seq != chunk.scan_seq || partial.sensor_id != chunk.sensor_id) continue;
+    const bool near =
+        chunk.stamp - partial.first < kMaxSweepSpan && partial.last - chunk.stamp < kMaxSweepSpan;
+    if (!near) continue;  // the same number again after a restart of the sender
+    return static_cast<int>(partial.chunks.size()) == chunk.chunk_count ? &partial : nullptr;
+  }
+  const bool is_late = last_end_ && chunk.stamp < *last_end_ && last_seq_ == chunk.scan_seq;
+  if (is_late) return nullptr;
+  if (open_.size() == kMaxOpenSweeps) CloseOldest();
+  Partial partial;
+  partial.scan_seq = chunk.scan_seq;
+  partial.sensor_id = chunk.sensor_id;
+  partial.first = partial.last = chunk.stamp;
+  partial.chunks.resize(static_cast<std::size_t>(chunk.chunk_count));
+  for (ScanChunk& slot : partial.chunks) slot.chunk_count = 0;
+  const auto after = std::find_if(open_.begin(), open_.end(),
+                                  [&](const Partial& p) { return chunk.stamp < p.first; });
+  return &*open_.insert(after, std::move(partial));
+}
+
+void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
+  ++counters_->num_chunks;
+  if (!IsUsable(chunk)) {
+    ++counters_->num_chunks_bad;
+    return;
+  }
+  Partial* partial = FindOrOpen(chunk);
+  if (partial == nullptr) {
+    ++counters_->num_chunks_late;
+    return;
+  }
+  ScanChunk& slot = partial->chunks[static_cast<std::size_t>(chunk.chunk_index)];
+  if (slot.chunk_count != 0) {
+    ++counters_->num_chunks_duplicate;
+    return;
+  }
+  const Timestamp last = chunk.stamp + Duration{LastOffset(chunk)};
+  partial->first = std::min(partial->first, chunk.stamp);
+  partial->last = std::max(partial->last, last);
+  partial->decode_ns += decode_ns;
+  slot = std::move(chunk);
+  ++partial->num_received;
+  while (!open_.empty() &&
+         open_.front().num_received == static_cast<int>(open_.front().chunks.size())) {
+    CloseOldest();
+  }
+}
+
+void ScanAssembler::CloseUpTo(Timestamp stamp) {
+  while (!open_.empty() && open_.front().last < stamp) CloseOldest();
+}
+
+void ScanAssembler::CloseAll() {
+  while (!open_.empty()) CloseOldest();
+}
+
+void ScanAssembler::CloseOldest() {
+  Partial partial = std::move(open_.front());
+  open_.pop_front();
+  Sweep sweep;
+  sweep.start = partial.first;
+  sweep.end = partial.last;
+  sweep.scan_seq = partial.scan_seq;
+  sweep.decode_ns = partial.decode_ns;
+  sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
+  counters_->num_chunks_missing += sweep.num_missing_chunks;
+  if (partial.chunks.size() == 1) {
+    sweep.points = std::move(partial.chunks.front().points);
+  } else {
+    std::size_t num_points = 0;
+    for (const ScanChunk& chunk : partial.chunks) num_points += chunk.points.size();
+    sweep.points.reserve(num_points);
+    for (const ScanChunk& chunk : partial.chunks) {
+      const auto shift = static_cast<std::uint32_t>((chunk.stamp - sweep.start).ns);
+      for (LidarPoint point : chunk.points) {
+        point.t_offset_ns += shift;
+        sweep.points.push_back(point);
+      }
+    }
+  }
+  last_end_ = sweep.end;
+  last_seq_ = sweep.scan_seq;
+  closed_.push_back(std::move(sweep));
+}
+
+std::optional<Sweep> ScanAssembler::Take() {
+  if (closed_.empty()) return std::nullopt;
+  Sweep sweep = std::move(closed_.front());
+  closed_.pop_front();
+  return sweep;
+}
+
+}  // namespace lio
