@@ -62,10 +62,10 @@ void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuS
   if (dt <= 0) return;
   ProcessNoise noise = options_.noise;
   if (dt > options_.gap_s) {  // an error that lasts for dt: its density grows with dt
-    noise.accel_density = std::hypot(noise.accel_density,
-                                     options_.gap_accel_std_mps2 * std::sqrt(dt));
-    noise.gyro_density = std::hypot(noise.gyro_density,
-                                    options_.gap_gyro_std_radps * std::sqrt(dt));
+    noise.accel_density =
+        std::hypot(noise.accel_density, options_.gap_accel_std_mps2 * std::sqrt(dt));
+    noise.gyro_density =
+        std::hypot(noise.gyro_density, options_.gap_gyro_std_radps * std::sqrt(dt));
   }
   Propagate(estimate, from, to, noise, options_.g_world);
 }
@@ -82,9 +82,9 @@ void FilterHistory::Step(std::size_t at) {
   node.update = FusePose(node.posterior, node.pose.measurement, options_.nis_limit);
   if (!node.update.fused && node.pose.force) {
     InflateToInnovation(node.posterior, node.update.nis);
-    node.update.fused = FusePose(node.posterior, node.pose.measurement,
-                                 std::numeric_limits<double>::infinity())
-                            .fused;
+    node.update.fused =
+        FusePose(node.posterior, node.pose.measurement, std::numeric_limits<double>::infinity())
+            .fused;
   }
   if (node.update.fused) BlendMapPose(node.posterior, node.pose.measurement);
 }
@@ -116,8 +116,7 @@ EventOutcome FilterHistory::AddImu(const ImuSample& sample) {
   return EventOutcome::kApplied;
 }
 
-EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event,
-                                    UpdateResult* result) {
+EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result) {
   if (const auto refused = Refuse(stamp, Kind::kPose)) return *refused;
   Node node;
   node.stamp = stamp;

@@ -20,8 +20,8 @@ constexpr double kUnknownTiltStd_rad = 1.0;
 // Local gravity differs from the configured value by up to 0.03 m/s^2 between equator and poles.
 constexpr double kGravityStd_mps2 = 0.02;
 
-// The rotation that takes `up_imu` to world's z, without turning about it more than needed, and with
-// the imu's x axis at yaw zero.
+// The rotation that takes `up_imu` to world's z, without turning about it more than needed, and
+// with the imu's x axis at yaw zero.
 Quaternion LevelledRotation(const Vector3& up_imu) {
   const Quaternion tilt = Quaternion::FromTwoVectors(up_imu, Vector3::UnitZ());
   const Vector3 forward = tilt * Vector3::UnitX();
@@ -86,7 +86,9 @@ std::string Describe(const char* how, const Estimate& estimate, bool has_gravity
   return text;
 }
 
-void AnchorMap(Estimate& estimate) { estimate.state.T_map_imu = estimate.state.T_world_imu; }
+void AnchorMap(Estimate& estimate) {
+  estimate.state.T_map_imu = estimate.state.T_world_imu;
+}
 
 // Integrals of the samples from the first pose on, in the imu frame of the first pose.
 struct Preintegral {
@@ -96,8 +98,8 @@ struct Preintegral {
   Vector3 position = Vector3::Zero();
 };
 
-std::vector<Preintegral> Preintegrate(std::span<const ImuSample> samples,
-                                      const StampedPoses& poses, const Vector3& gyro_bias) {
+std::vector<Preintegral> Preintegrate(std::span<const ImuSample> samples, const StampedPoses& poses,
+                                      const Vector3& gyro_bias) {
   std::vector<Preintegral> integrals;
   NavState state;
   state.gyro_bias = gyro_bias;
@@ -115,16 +117,15 @@ std::vector<Preintegral> Preintegrate(std::span<const ImuSample> samples,
   for (const StampedPose& pose : poses) {
     while (next < samples.size() && samples[next].stamp <= pose.stamp) step_to(samples[next++]);
     if (next < samples.size()) step_to(InterpolateSample(from, samples[next], pose.stamp));
-    integrals.push_back({pose.stamp, state.T_world_imu.rotation, state.v_world_imu,
-                         state.T_world_imu.translation});
+    integrals.push_back(
+        {pose.stamp, state.T_world_imu.rotation, state.v_world_imu, state.T_world_imu.translation});
   }
   return integrals;
 }
 
 // Mean rate error over the window: what turns the integrated rotation into the matched one.
 Vector3 GyroBiasFrom(const std::vector<Preintegral>& integrals, const StampedPoses& poses) {
-  const Quaternion matched =
-      poses.front().pose.rotation.conjugate() * poses.back().pose.rotation;
+  const Quaternion matched = poses.front().pose.rotation.conjugate() * poses.back().pose.rotation;
   const double span_s = SecondsBetween(poses.front().stamp, poses.back().stamp);
   return LogSo3(matched.conjugate() * integrals.back().rotation) / span_s;
 }

@@ -49,13 +49,11 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   time(Stage::kReduce, begin);
 
   begin = Now();
-  outcome.points_imu =
-      Deskew(reduced.points, sweep.start, sweep.end, job.T_any_imu, T_imu_lidar_);
+  outcome.points_imu = Deskew(reduced.points, sweep.start, sweep.end, job.T_any_imu, T_imu_lidar_);
   time(Stage::kDeskew, begin);
 
   begin = Now();
-  outcome.match =
-      matcher_->Match({outcome.points_imu, job.T_map_imu_guess, job.guess_cov});
+  outcome.match = matcher_->Match({outcome.points_imu, job.T_map_imu_guess, job.guess_cov});
   time(Stage::kMatch, begin);
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();

@@ -169,7 +169,8 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   result.information = system.information;
   result.eigenvalues = split.eigenvalues;
   result.weak_mask = split.weak_mask;
-  result.cov = CovarianceFromScores(split, score_cov);
+  result.held_cov = CovarianceFromScores(split, score_cov);
+  result.cov = result.held_cov + WeakCovariance(split);
   result.residual_rms_m = std::sqrt(system.residual_sq_sum / system.weight_sum);
   if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {
     result.status = MatchStatus::kDegenerate;

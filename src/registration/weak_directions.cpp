@@ -52,18 +52,25 @@ Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_c
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   const Matrix6 scores = inverse_scale.asDiagonal() * score_cov * inverse_scale.asDiagonal();
   Matrix6 inverse = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    if (split.weak_mask & (1u << i)) continue;
+    const Vector6 v = split.directions.col(i);
+    inverse += v * v.transpose() / split.eigenvalues[i];
+  }
+  const Matrix6 scaled = inverse * scores * inverse;
+  const Matrix6 cov = inverse_scale.asDiagonal() * scaled * inverse_scale.asDiagonal();
+  return 0.5 * (cov + cov.transpose());
+}
+
+Matrix6 WeakCovariance(const DirectionSplit& split) {
+  const Vector6 inverse_scale = split.Scale().cwiseInverse();
   Matrix6 cov = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {
-    const Vector6 v = split.directions.col(i);
-    if (split.weak_mask & (1u << i)) {
-      cov += kWeakStd_m * kWeakStd_m * v * v.transpose();
-    } else {
-      inverse += v * v.transpose() / split.eigenvalues[i];
-    }
+    if (!(split.weak_mask & (1u << i))) continue;
+    const Vector6 v = inverse_scale.cwiseProduct(split.directions.col(i));
+    cov += kWeakStd_m * kWeakStd_m * v * v.transpose();
   }
-  cov += inverse * scores * inverse;
-  cov = inverse_scale.asDiagonal() * cov * inverse_scale.asDiagonal();
-  return 0.5 * (cov + cov.transpose());
+  return cov;
 }
 
 }  // namespace lio

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The filter's first state, from the first second of data: at rest, or on the move.
 //
-// Both give an estimate with an honest covariance, correlations included: position zero and yaw zero
-// by definition; tilt, velocity and biases as well as the data say.
+// Both give an estimate with an honest covariance, correlations included: position zero and yaw
+// zero by definition; tilt, velocity and biases as well as the data say.
 #pragma once
 
 #include <span>

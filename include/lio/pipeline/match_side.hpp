@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The part of the estimator that works on points: reduce, deskew, match, insert. It owns the map and
-// takes self-contained jobs, so that it may run on a thread of its own. One job at a time, in order.
+// The part of the estimator that works on points: reduce, deskew, match, insert. It owns the map
+// and takes self-contained jobs, so that it may run on a thread of its own. One job at a time, in
+// order.
 #pragma once
 
 #include <memory>
@@ -21,9 +22,9 @@ struct MatchJob {
   StampedPoses T_any_imu;  // covers the sweep
   Pose T_map_imu_guess;    // at the sweep's end
   Matrix6 guess_cov = Matrix6::Zero();
-  bool clear_map = false;       // forget everything first: the estimator starts anew
-  bool refine_deskew = false;   // match, deskew again along what was found, match again
-  std::int64_t filter_ns = 0;   // CPU time the filter spent since the job before
+  bool clear_map = false;      // forget everything first: the estimator starts anew
+  bool refine_deskew = false;  // match, deskew again along what was found, match again
+  std::int64_t filter_ns = 0;  // CPU time the filter spent since the job before
 };
 
 struct MatchOutcome {
@@ -32,7 +33,7 @@ struct MatchOutcome {
   int num_used = 0;
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;  // deskewed, at the sweep's end
-  StageTimes stage_ns{};  // insert: of the scan before
+  StageTimes stage_ns{};                    // insert: of the scan before
 };
 
 struct InsertTask {

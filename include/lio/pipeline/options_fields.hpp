@@ -114,10 +114,9 @@ void VisitFields(Visitor& visit, MaybeConst<StartOptions> auto& o) {
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<ReduceOptions> auto& o) {
-  visit("voxel_m", o.voxel_m, "largest edge of the thinning grid; smaller is denser, slower [m]",
-        Range{0.01, 10});
-  visit("min_voxel_m", o.min_voxel_m, "smallest edge of the thinning grid, reached indoors [m]",
-        Range{0.01, 10});
+  visit("voxel_m", o.voxel_m, "edge of the thinning grid for the first scan [m]", Range{0.01, 10});
+  visit("min_voxel_m", o.min_voxel_m, "the edge then adapts, from this [m]", Range{0.01, 10});
+  visit("max_voxel_m", o.max_voxel_m, "to this [m]", Range{0.01, 10});
   visit("target_points", o.target_points, "the edge adapts to leave about this many points",
         Range{100, 1000000});
 }

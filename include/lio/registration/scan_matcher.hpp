@@ -28,6 +28,7 @@ struct MatchResult {
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
   Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
   Matrix6 cov = Matrix6::Zero();          // of T_map_imu, right error; large along weak directions
+  Matrix6 held_cov = Matrix6::Zero();     // the same without the part along weak directions
   Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
   unsigned weak_mask = 0;                 // bit i: eigenvalue i is not held by the scene
   int num_matched = 0;

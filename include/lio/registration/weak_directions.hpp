@@ -30,7 +30,10 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& feigne
 // The Gauss-Newton step -H^-1 g within the held directions, [translation; rotation].
 Vector6 StepInHeldDirections(const DirectionSplit& split, const Vector6& gradient);
 
-// H^-1 S H^-1 within the held directions, plus a variance of (100 m)^2 along the weak ones.
+// H^-1 S H^-1 within the held directions, zero along the weak ones.
 Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
+
+// A variance of (100 m)^2 along the weak directions, zero along the held ones.
+Matrix6 WeakCovariance(const DirectionSplit& split);
 
 }  // namespace lio

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The chi-square distribution with six degrees of freedom, that of a pose's innovation.
+#pragma once
+
+namespace lio {
+
+// P(X <= x), closed form for even degrees of freedom.
+double ChiSquareCdf6(double x);
+
+// The x with ChiSquareCdf6(x) = probability, for 0 <= probability < 1.
+double ChiSquareQuantile6(double probability);
+
+}  // namespace lio

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Holds closed sweeps until the inertial stream has passed their end, so that they can be deskewed
+// and fused at their own time. Sweeps leave in order of time; what comes late is dropped and
+// counted.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "lio/pipeline/outputs.hpp"
+#include "lio/scan/sweep.hpp"
+
+namespace lio {
+
+using SweepPtr = std::shared_ptr<const Sweep>;
+
+class ScanGate {
+ public:
+  // Counts into `counters`, which outlives this.
+  explicit ScanGate(Counters& counters) : counters_(&counters) {}
+
+  // The sweep is dropped, and counted, when it is empty or ends before one that came already.
+  void Add(Sweep sweep);
+
+  // The oldest sweep if the inertial stream, whose newest stamp is given, has passed its end, or
+  // has been silent for too long while the lidar went on. Absent: nothing is ready.
+  SweepPtr Open(std::optional<Timestamp> newest_imu);
+  // The oldest sweep whatever the inertial stream says.
+  SweepPtr Force();
+
+  bool empty() const { return waiting_.empty(); }
+  const Sweep& oldest() const { return *waiting_.front(); }
+  // Time between the ends of the oldest and the newest waiting sweep.
+  double waiting_span_s() const;
+  void Clear() { waiting_.clear(); }
+
+ private:
+  Counters* counters_;
+  std::deque<SweepPtr> waiting_;
+  std::optional<Timestamp> last_end_;  // of the newest sweep that was let in
+  int num_late_in_a_row_ = 0;
+};
+
+}  // namespace lio

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "lio/base/chi_square.hpp"
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
+constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
+constexpr Duration kStampSlack{20'000'000};
+
+std::string JoinFaults(const std::vector<OptionFault>& faults) {
+  std::string text = "unusable options:";
+  for (const OptionFault& fault : faults) text += " " + fault.key + ": " + fault.message + ";";
+  return text;
+}
+
+}  // namespace
+
+Odometry::Impl::Impl(const Options& options, ClockNs clock)
+    : options_(options),
+      clock_(clock),
+      nis_limit_(ChiSquareQuantile6(options.filter.gate_probability)),
+      use_imu_(options.pipeline.use_imu) {
+  const std::vector<OptionFault> faults = Validate(options);
+  if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
+  if (!use_imu_) phase_ = Phase::kRunning;
+}
+
+void Odometry::Impl::Say(Timestamp stamp, Notice::Severity severity, std::string text) {
+  outputs_.emplace_back(Notice{stamp, severity, std::move(text)});
+}
+
+HistoryOptions Odometry::Impl::MakeHistoryOptions() const {
+  const ImuRig& imu = options_.rig.imu;
+  HistoryOptions history;
+  history.noise = {imu.gyro_noise_density, imu.accel_noise_density, imu.gyro_bias_walk_density,
+                   imu.accel_bias_walk_density};
+  history.g_world = g_world_;
+  history.span_s = options_.filter.history_s;
+  history.nis_limit = nis_limit_;
+  return history;
+}
+
+std::optional<Timestamp> Odometry::Impl::NewestImu() const {
+  if (imu_.empty()) return std::nullopt;
+  return imu_.back().stamp;
+}
+
+void Odometry::Impl::AddImu(const ImuSample& sample) {
+  if (!use_imu_) {
+    ++counters_.num_imu;
+    return;
+  }
+  const std::int64_t begin = Now();
+  const ImuIntake::Result result = intake_.Add(sample);
+  if (result.jumped) BeginNewStretch(result.accepted.front());
+  for (const ImuSample& accepted : result.accepted) Accept(accepted);
+  filter_ns_ += Now() - begin;
+  OpenGate();
+}
+
+void Odometry::Impl::Accept(const ImuSample& sample) {
+  if (cut_ && sample.stamp <= *cut_) {
+    ++counters_.num_imu_late;
+    return;
+  }
+  auto at = imu_.end();
+  while (at != imu_.begin() && std::prev(at)->stamp > sample.stamp) --at;
+  if (at != imu_.begin() && std::prev(at)->stamp == sample.stamp) {
+    ++counters_.num_imu_duplicate;
+    return;
+  }
+  const bool is_newest = at == imu_.end();
+  imu_.insert(at, sample);
+  const Timestamp newest = imu_.back().stamp;
+  while (SecondsBetween(imu_.front().stamp, newest) > kImuBuffer_s) imu_.pop_front();
+  if (history_) {
+    history_->AddImu(sample);
+    if (is_newest) EmitImuRate();
+  }
+  assembler_.CloseUpTo(newest - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
+}
+
+// After a long gap or a step of the clock the state goes on from where it was, unsure of what
+// happened in between, at the new time.
+void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
+  imu_.clear();
+  cut_.reset();
+  gate_.Clear();
+  ready_.clear();
+  ++counters_.num_restarts;
+  if (!history_) {
+    scout_.reset();
+    scouted_.clear();
+    Say(first.stamp, Notice::Severity::kWarning, "inertial stamps jumped: the start begins anew");
+    return;
+  }
+  Estimate estimate = history_->head();
+  const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
+  const double unknown_s = std::clamp(jump_s, 0.1, 3.0);
+  ImuSample coast;  // straight on, without turning
+  coast.stamp = estimate.stamp;
+  coast.w_imu_radps = estimate.state.gyro_bias;
+  coast.f_imu_mps2 =
+      estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * g_world_;
+  ImuSample end = coast;
+  end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
+  HistoryOptions history = MakeHistoryOptions();
+  ProcessNoise noise = history.noise;
+  noise.accel_density = 2.0 * history.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
+  Propagate(estimate, coast, end, noise, g_world_);
+  estimate.stamp = first.stamp;
+  history_.emplace(history, estimate, first);
+  last_published_.reset();
+  char text[120];
+  std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
+  Say(first.stamp, Notice::Severity::kWarning, text);
+}
+
+void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  const Timestamp stamp = chunk.stamp;
+  assembler_.Add(std::move(chunk), decode_ns);
+  if (!use_imu_ || imu_.empty()) {
+    assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
+  }
+  OpenGate();
+}
+
+void Odometry::Impl::Flush() {
+  assembler_.CloseAll();
+  OpenGate();
+  if (use_imu_ && imu_.empty() && !gate_.empty()) {
+    GoLidarOnly("the log ended without inertial samples");
+  }
+  OpenGate();
+}
+
+void Odometry::Impl::GoLidarOnly(const std::string& why) {
+  use_imu_ = false;
+  phase_ = Phase::kRunning;
+  Say(gate_.oldest().end, Notice::Severity::kWarning, why + ": lidar-only odometry");
+}
+
+void Odometry::Impl::OpenGate() {
+  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
+  if (use_imu_ && imu_.empty() && gate_.waiting_span_s() > kNoImuAtAll_s) {
+    GoLidarOnly("no inertial samples come");
+  }
+  if (!use_imu_) {
+    while (SweepPtr sweep = gate_.Force()) ready_.push_back(std::move(sweep));
+    return;
+  }
+  while (SweepPtr sweep = gate_.Open(NewestImu())) Admit(std::move(sweep));
+}
+
+void Odometry::Impl::Admit(SweepPtr sweep) {
+  const Timestamp earliest = history_ ? history_->start_stamp() : imu_.front().stamp;
+  if (sweep->start + kStampSlack < earliest) {
+    ++counters_.num_scans_without_imu;
+    return;
+  }
+  // From here on nothing may change what the scan was deskewed and predicted with.
+  const auto bracket = std::lower_bound(
+      imu_.begin(), imu_.end(), sweep->end,
+      [](const ImuSample& sample, Timestamp stamp) { return sample.stamp < stamp; });
+  cut_ = bracket == imu_.end() ? sweep->end : bracket->stamp;
+  ready_.push_back(std::move(sweep));
+}
+
+void Odometry::Impl::ShedLoad() {
+  if (phase_ == Phase::kScouting) return;
+  const auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
+  // The sweep in flight is the front one.
+  const std::size_t first = in_flight_ ? 1 : 0;
+  while (ready_.size() > limit + first) {
+    ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(first));
+    ++counters_.num_scans_dropped;
+  }
+}
+
+Odometry::Odometry(const Options& options, ClockNs clock)
+    : impl_(std::make_unique<Impl>(options, clock)) {}
+Odometry::~Odometry() = default;
+Odometry::Odometry(Odometry&&) noexcept = default;
+Odometry& Odometry::operator=(Odometry&&) noexcept = default;
+
+void Odometry::AddImu(const ImuSample& sample) {
+  impl_->AddImu(sample);
+}
+void Odometry::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  impl_->AddChunk(std::move(chunk), decode_ns);
+}
+void Odometry::Flush() {
+  impl_->Flush();
+}
+std::optional<MatchJob> Odometry::NextJob() {
+  return impl_->NextJob();
+}
+InsertTask Odometry::FinishJob(MatchOutcome outcome) {
+  return impl_->FinishJob(std::move(outcome));
+}
+void Odometry::ShedLoad() {
+  impl_->ShedLoad();
+}
+std::vector<Output> Odometry::TakeOutputs() {
+  return impl_->TakeOutputs();
+}
+const Counters& Odometry::counters() const {
+  return impl_->counters();
+}
+TrackingStatus Odometry::status() const {
+  return impl_->status();
+}
+
+}  // namespace lio

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The state machine behind Odometry, in three files: odometry.cpp takes data in, odometry_start.cpp
+// finds the first state, odometry_scan.cpp matches and fuses.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lio/filter/filter_history.hpp"
+#include "lio/imu/imu_intake.hpp"
+#include "lio/imu/start_state.hpp"
+#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/motion_scout.hpp"
+#include "lio/pipeline/odometry.hpp"
+#include "lio/pipeline/scan_gate.hpp"
+#include "lio/scan/scan_assembler.hpp"
+
+namespace lio {
+
+class Odometry::Impl {
+ public:
+  Impl(const Options& options, ClockNs clock);
+
+  void AddImu(const ImuSample& sample);
+  void AddChunk(ScanChunk chunk, std::int64_t decode_ns);
+  void Flush();
+  std::optional<MatchJob> NextJob();
+  InsertTask FinishJob(MatchOutcome outcome);
+  void ShedLoad();
+  std::vector<Output> TakeOutputs() { return std::exchange(outputs_, {}); }
+
+  const Counters& counters() const { return counters_; }
+  TrackingStatus status() const { return status_; }
+
+ private:
+  // kScouting: sweeps are matched by a constant-velocity model until the first second says whether
+  // the vehicle rests or moves. kRunning: the filter runs.
+  enum class Phase { kScouting, kRunning };
+
+  // --- odometry.cpp: intake
+  void Accept(const ImuSample& sample);
+  void BeginNewStretch(const ImuSample& first);
+  void CollectSweeps();
+  void OpenGate();
+  void Admit(SweepPtr sweep);
+  void GoLidarOnly(const std::string& why);
+  std::optional<Timestamp> NewestImu() const;
+  HistoryOptions MakeHistoryOptions() const;
+  void Say(Timestamp stamp, Notice::Severity severity, std::string text);
+  std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
+
+  // --- odometry_start.cpp
+  void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
+  void TryStart(Timestamp stamp);
+  bool HasMoved() const;
+  void StartFrom(const StartState& start, std::size_t first_sweep);
+  std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
+  ImuSample SampleAt(Timestamp stamp) const;
+
+  // --- odometry_scan.cpp
+  FilterHistory& history() { return scout_ ? scout_->history() : *history_; }
+  MatchJob MakeJob(const SweepPtr& sweep, bool clear_map);
+  void FinishRunning(MatchOutcome& outcome, InsertTask& insert);
+  bool Fuse(const MatchOutcome& outcome, ScanReport& report);
+  FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
+  NavOutput MakeNav(const Estimate& estimate) const;
+  void EmitImuRate();
+  void UpdateStatus(const MatchOutcome& outcome, bool fused);
+
+  Options options_;
+  ClockNs clock_;
+  Counters counters_;
+  std::vector<Output> outputs_;
+  TrackingStatus status_ = TrackingStatus::kInit;
+  double nis_limit_;
+
+  bool use_imu_;
+  ImuIntake intake_{counters_};
+  std::deque<ImuSample> imu_;     // accepted, by stamp, of the last seconds
+  std::optional<Timestamp> cut_;  // samples up to here come too late: a scan has used them
+  ScanAssembler assembler_{counters_};
+  ScanGate gate_{counters_};
+  std::deque<SweepPtr> ready_;  // covered by inertial data, not yet done with
+
+  Phase phase_ = Phase::kScouting;
+  std::optional<MotionScout> scout_;  // while scouting, or for good without an IMU
+  StampedPoses scouted_;              // T_map_imu found while scouting, one a sweep of ready_
+  Timestamp last_wait_notice_;
+  std::optional<FilterHistory> history_;  // while running with an IMU
+  Vector3 g_world_ = Vector3::Zero();
+
+  SweepPtr in_flight_;          // the sweep whose job is out
+  bool is_first_scan_ = true;   // of the running phase
+  std::int64_t last_seq_ = -1;  // the last scan that was fused
+  int num_gated_in_a_row_ = 0;
+  int num_unmatched_in_a_row_ = 0;
+  std::optional<Timestamp> last_fused_;
+  std::optional<Timestamp> last_published_;
+  std::int64_t filter_ns_ = 0;  // CPU time of the filter since the last job
+};
+
+}  // namespace lio

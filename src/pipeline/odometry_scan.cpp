@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kLost_s = 2.0;          // no accepted match for this long
+constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
+
+}  // namespace
+
+std::optional<MatchJob> Odometry::Impl::NextJob() {
+  if (in_flight_) return std::nullopt;
+  const std::size_t at = phase_ == Phase::kScouting ? scouted_.size() : 0;
+  if (at >= ready_.size()) return std::nullopt;
+  const std::int64_t begin = Now();
+  in_flight_ = ready_[at];
+  const bool is_first = phase_ == Phase::kScouting ? scouted_.empty() : is_first_scan_;
+  const bool needs_scout = phase_ == Phase::kScouting || !use_imu_;
+  if (needs_scout) {
+    if (is_first) scout_.emplace(in_flight_->end, options_.filter.history_s, nis_limit_);
+    scout_->AdvanceTo(in_flight_->end);
+  }
+  MatchJob job = MakeJob(in_flight_, is_first);
+  job.filter_ns = filter_ns_ + Now() - begin;
+  filter_ns_ = 0;
+  return job;
+}
+
+MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
+  const Estimate predicted = history().At(sweep->end);
+  MatchJob job;
+  job.sweep = sweep;
+  job.T_any_imu = history().Trajectory(sweep->start, sweep->end);
+  job.T_map_imu_guess = predicted.state.T_map_imu;
+  job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.clear_map = clear_map;
+  job.refine_deskew = scout_.has_value();
+  return job;
+}
+
+InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
+  InsertTask insert;
+  const bool is_current = in_flight_ && outcome.sweep == in_flight_;
+  in_flight_.reset();
+  counters_.num_points_nonfinite += outcome.num_nonfinite;
+  // A jump of the clock while the job was out has cleared the queue: the result has no place.
+  const std::size_t at = phase_ == Phase::kScouting ? scouted_.size() : 0;
+  if (!is_current || at >= ready_.size() || ready_[at] != outcome.sweep) return insert;
+  if (phase_ == Phase::kScouting) {
+    FinishScouting(outcome, insert);
+  } else {
+    FinishRunning(outcome, insert);
+    ready_.pop_front();
+  }
+  insert.points_imu = std::move(outcome.points_imu);
+  return insert;
+}
+
+bool Odometry::Impl::Fuse(const MatchOutcome& outcome, ScanReport& report) {
+  const FilterOptions& filter = options_.filter;
+  PoseEvent event;
+  event.measurement.T_map_imu = outcome.match.T_map_imu;
+  event.measurement.cov = filter.registration_cov_scale * outcome.match.cov;
+  event.measurement.new_content_share = outcome.match.new_content_share;
+  event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
+  event.force = num_gated_in_a_row_ >= filter.max_gated_in_a_row;
+  UpdateResult update;
+  const EventOutcome fused = history().AddPose(outcome.sweep->end, event, &update);
+  report.nis = update.nis;
+  if (fused == EventOutcome::kApplied) {
+    num_gated_in_a_row_ = 0;
+    return true;
+  }
+  if (fused == EventOutcome::kGated) {
+    ++counters_.num_gated;
+    ++num_gated_in_a_row_;
+  } else {
+    ++counters_.num_scans_late;
+  }
+  return false;
+}
+
+void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
+  const std::int64_t begin = Now();
+  const Timestamp end = outcome.sweep->end;
+  ScanReport report;
+  report.stamp = end;
+  report.scan_seq = outcome.sweep->scan_seq;
+  report.num_raw = static_cast<int>(outcome.sweep->points.size());
+  report.num_used = outcome.num_used;
+  report.num_matched = outcome.match.num_matched;
+  report.iterations = outcome.match.iterations;
+  report.status = outcome.match.status;
+  report.residual_rms_m = outcome.match.residual_rms_m;
+  report.information_eigenvalues = outcome.match.eigenvalues;
+  report.weak_mask = outcome.match.weak_mask;
+
+  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  if (outcome.match.IsUsable()) report.fused = Fuse(outcome, report);
+  num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
+  if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
+  // Where the map has nothing to match against, it is grown from where the filter stands.
+  const bool leaves_map = outcome.match.status == MatchStatus::kTooFewPoints ||
+                          num_unmatched_in_a_row_ > kMaxUnmatchedInARow;
+  if (starts_map || leaves_map) history().AddRebase(end);
+  const Estimate estimate = history().At(end);
+  if (report.fused || starts_map || leaves_map) insert.T_map_imu = estimate.state.T_map_imu;
+  if (report.fused || starts_map) {
+    last_fused_ = end;
+    last_seq_ = outcome.sweep->scan_seq;
+  }
+  is_first_scan_ = false;
+  UpdateStatus(outcome, report.fused || starts_map);
+
+  report.stage_ns = outcome.stage_ns;
+  std::int64_t& filter_ns = report.stage_ns[static_cast<std::size_t>(Stage::kFilter)];
+  filter_ns += Now() - begin;
+  for (int i = 0; i < kNumStages - 1; ++i) {
+    report.stage_ns[static_cast<std::size_t>(Stage::kTotal)] +=
+        report.stage_ns[static_cast<std::size_t>(i)];
+  }
+  outputs_.emplace_back(ScanOutput{MakeFilterReport(estimate, report), report});
+}
+
+void Odometry::Impl::UpdateStatus(const MatchOutcome& outcome, bool fused) {
+  const TrackingStatus before = status_;
+  if (fused) {
+    status_ = outcome.match.weak_mask != 0 ? TrackingStatus::kDegenerate : TrackingStatus::kOk;
+  } else {
+    const double silent_s =
+        last_fused_ ? SecondsBetween(*last_fused_, outcome.sweep->end) : kLost_s;
+    status_ = silent_s >= kLost_s ? TrackingStatus::kLost : TrackingStatus::kCoasting;
+  }
+  if (status_ == TrackingStatus::kLost && before != TrackingStatus::kLost) {
+    Say(outcome.sweep->end, Notice::Severity::kWarning,
+        "lost: no scan was matched for two seconds");
+  }
+}
+
+NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
+  NavOutput nav;
+  nav.stamp = estimate.stamp;
+  nav.scan_seq = last_seq_;
+  nav.status = status_;
+  nav.T_world_imu = estimate.state.T_world_imu;
+  nav.pose_cov = PoseCov(estimate);
+  nav.v_world_imu_mps = estimate.state.v_world_imu;
+  nav.velocity_cov = estimate.cov.block<3, 3>(kVel, kVel);
+  nav.w_imu_radps = -estimate.state.gyro_bias;
+  if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(estimate.stamp).w_imu_radps;
+  nav.T_map_imu = estimate.state.T_map_imu;
+  nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
+  return nav;
+}
+
+FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
+                                              const ScanReport& report) const {
+  FilterReport filter;
+  filter.nav = MakeNav(estimate);
+  filter.gyro_bias_radps = estimate.state.gyro_bias;
+  filter.accel_bias_mps2 = estimate.state.accel_bias;
+  filter.g_world_mps2 = g_world_;
+  filter.nis = report.nis;
+  filter.nis_dof = report.fused ? 6 : 0;
+  filter.cov = estimate.cov;
+  return filter;
+}
+
+void Odometry::Impl::EmitImuRate() {
+  const Estimate& head = history_->head();
+  if (is_first_scan_ || (last_published_ && head.stamp <= *last_published_)) return;
+  last_published_ = head.stamp;
+  NavOutput nav = MakeNav(head);
+  nav.source = OdometrySource::kImuPropagated;
+  outputs_.emplace_back(nav);
+}
+
+}  // namespace lio

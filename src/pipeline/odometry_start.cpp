@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
+
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over a second
+constexpr double kMovedAngle_rad = 0.01;
+constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
+constexpr double kWaitNoticeEvery_s = 1.0;
+
+}  // namespace
+
+std::vector<ImuSample> Odometry::Impl::SamplesBetween(Timestamp from, Timestamp to) const {
+  std::vector<ImuSample> samples;
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp >= from && sample.stamp <= to) samples.push_back(sample);
+  }
+  return samples;
+}
+
+ImuSample Odometry::Impl::SampleAt(Timestamp stamp) const {
+  const auto after =
+      std::lower_bound(imu_.begin(), imu_.end(), stamp,
+                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
+  if (after == imu_.end()) return InterpolateSample(imu_.back(), imu_.back(), stamp);
+  if (after == imu_.begin()) return InterpolateSample(*after, *after, stamp);
+  return InterpolateSample(*std::prev(after), *after, stamp);
+}
+
+void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {
+  const Timestamp end = outcome.sweep->end;
+  PoseEvent event;
+  event.measurement.T_map_imu = outcome.match.T_map_imu;
+  event.measurement.cov = outcome.match.cov;
+  event.force = true;
+  if (outcome.match.IsUsable()) {
+    history().AddPose(end, event);
+  } else {
+    history().AddRebase(end);
+  }
+  const Pose T_map_imu = history().At(end).state.T_map_imu;
+  insert.T_map_imu = T_map_imu;
+  scouted_.push_back({end, T_map_imu});
+  TryStart(end);
+}
+
+bool Odometry::Impl::HasMoved() const {
+  const Pose motion = scouted_.front().pose.Inverse() * scouted_.back().pose;
+  return motion.translation.norm() > kMovedDistance_m ||
+         LogSo3(motion.rotation).norm() > kMovedAngle_rad;
+}
+
+void Odometry::Impl::TryStart(Timestamp stamp) {
+  const Timestamp first = ready_.front()->start;
+  const double span_s = SecondsBetween(first, stamp);
+  if (span_s < options_.start.rest_s || scouted_.size() < 3) return;
+  const std::vector<ImuSample> samples = SamplesBetween(first, stamp);
+  if (samples.size() < 3) return;
+  if (HasMoved()) {
+    // The scout begins with unknown velocity, so its first step is its worst: leave it out.
+    const std::vector<ImuSample> all = SamplesBetween(imu_.front().stamp, stamp);
+    StartFrom(StartMoving(all, scouted_, options_.rig), 0);
+    return;
+  }
+  const ImuStatistics statistics = Summarise(samples);
+  const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
+                       statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
+  if (is_calm || span_s >= kMaxRestWait_s) {
+    StartFrom(StartAtRest(samples, stamp, options_.rig), scouted_.size() - 1);
+    return;
+  }
+  if (SecondsBetween(last_wait_notice_, stamp) < kWaitNoticeEvery_s) return;
+  last_wait_notice_ = stamp;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "waiting for rest: gyro spread %.4f rad/s (limit %.4f), accel %.3f m/s^2 (%.3f)",
+                statistics.gyro_std_radps, options_.start.max_gyro_std_radps,
+                statistics.accel_std_mps2, options_.start.max_accel_std_mps2);
+  Say(stamp, Notice::Severity::kInfo, text);
+}
+
+void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep) {
+  ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
+  scout_.reset();
+  scouted_.clear();
+  g_world_ = start.g_world;
+  history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);
+  }
+  phase_ = Phase::kRunning;
+  is_first_scan_ = true;
+  last_fused_ = start.estimate.stamp;
+  status_ = TrackingStatus::kOk;
+  Say(start.estimate.stamp, Notice::Severity::kInfo, start.how);
+}
+
+}  // namespace lio
