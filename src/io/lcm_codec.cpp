@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lcm_wire.hpp"
 #include "lio/filter_state_t.hpp"
 #include "lio/imu_t.hpp"
 #include "lio/odometry_t.hpp"
@@ -27,54 +28,11 @@ constexpr std::size_t kScanFixedBytes = 8 + 8 + 8 + 4 + 2 + 2 + 1 + 1 + 2 + 4 + 
 // Half of what fits into nanoseconds, so that no difference or offset of stamps overflows.
 constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
 
-// Reads big-endian fields one after the other; the caller has checked the size.
-class FieldReader {
- public:
-  explicit FieldReader(const std::uint8_t* data) : next_(data) {}
-
-  template <typename T>
-  T Read() {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) bits = bits << 8 | *next_++;
-    if constexpr (sizeof(T) == 8) {
-      return std::bit_cast<T>(bits);
-    } else {
-      return static_cast<T>(bits);
-    }
-  }
-  Vector3 ReadVector() {
-    const double x = Read<double>();
-    const double y = Read<double>();
-    const double z = Read<double>();
-    return {x, y, z};
-  }
-
- private:
-  const std::uint8_t* next_;
-};
-
-DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint, std::size_t fixed_bytes) {
-  if (bytes.size() > kMaxMessageBytes) return DecodeStatus::kTooLarge;
-  if (bytes.size() < sizeof(fingerprint)) return DecodeStatus::kTruncated;
-  if (FieldReader(bytes.data()).Read<std::uint64_t>() != fingerprint) {
-    return DecodeStatus::kWrongType;
-  }
-  return bytes.size() < fixed_bytes ? DecodeStatus::kTruncated : DecodeStatus::kOk;
-}
-
 bool ReadStamp(FieldReader& reader, Timestamp& stamp) {
   const auto utime = reader.Read<std::int64_t>();
   if (utime < 0 || utime > kMaxUtime) return false;
   stamp = Timestamp::FromMicroseconds(utime);
   return true;
-}
-
-template <typename Message>
-Bytes Encode(const Message& message) {
-  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  const int written = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  if (written != static_cast<int>(bytes.size())) throw std::logic_error("message did not encode");
-  return bytes;
 }
 
 void Copy(const Vector3& from, double (&to)[3]) {
@@ -191,7 +149,7 @@ Bytes EncodeImu(const ImuSample& sample, std::int32_t seq) {
   Copy(sample.w_imu_radps, message.gyro);
   Copy(sample.f_imu_mps2, message.accel);
   message.temperature_c = std::numeric_limits<double>::quiet_NaN();
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 Bytes EncodeChunk(const ScanChunk& chunk) {
@@ -208,7 +166,7 @@ Bytes EncodeChunk(const ScanChunk& chunk) {
         point.t_offset_ns + shift_ns, std::numeric_limits<std::uint32_t>::max()));
     StorePoint(point, i, message);
   }
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 Bytes EncodeCloud(const RegisteredCloud& cloud) {
@@ -219,7 +177,7 @@ Bytes EncodeCloud(const RegisteredCloud& cloud) {
     const Eigen::Vector3f& p = cloud.points_map[i];
     StorePoint({.x_m = p.x(), .y_m = p.y(), .z_m = p.z()}, i, message);
   }
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 Bytes EncodeOdometry(const NavOutput& nav) {
@@ -237,7 +195,7 @@ Bytes EncodeOdometry(const NavOutput& nav) {
   Copy(nav.T_map_imu.translation, message.map_pos);
   Copy(nav.T_map_imu.rotation, message.map_quat);
   Copy(nav.map_pose_cov, message.map_pose_cov);
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 Bytes EncodeFilterState(const FilterReport& report) {
@@ -259,7 +217,7 @@ Bytes EncodeFilterState(const FilterReport& report) {
       message.cov.push_back(report.cov(row, column));
     }
   }
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 Bytes EncodeRegistration(const ScanReport& report) {
@@ -283,7 +241,7 @@ Bytes EncodeRegistration(const ScanReport& report) {
   message.insert_us = Microseconds(report.stage_ns, Stage::kInsert);
   message.filter_us = Microseconds(report.stage_ns, Stage::kFilter);
   message.total_us = Microseconds(report.stage_ns, Stage::kTotal);
-  return Encode(message);
+  return EncodeMessage(message);
 }
 
 }  // namespace lio

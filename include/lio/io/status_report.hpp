@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What the daemon tells about itself on LIO_STATUS, and what it may be told on LIO_CMD.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "lio/io/input_decoder.hpp"
+#include "lio/pipeline/outputs.hpp"
+
+namespace lio {
+
+// Of one second's scans; all zero when there were none.
+struct LatencySummary {
+  float p50_ms = 0.0F;
+  float p99_ms = 0.0F;
+  float max_ms = 0.0F;
+};
+
+struct StatusReport {
+  std::int64_t utime = 0;        // us since the epoch, host's clock
+  std::int64_t start_utime = 0;  // when the daemon started, host's clock
+  Timestamp newest_stamp;        // sensor time of the newest accepted message
+  std::int32_t seq = 0;
+  TrackingStatus state = TrackingStatus::kInit;
+  Counters counters;
+  InputCounters input;
+  std::int64_t num_imu_queue_dropped = 0;
+  std::int64_t num_chunk_queue_dropped = 0;
+  std::int64_t num_kernel_dropped = -1;  // -1: unknown
+  std::int64_t num_publish_failed = 0;
+  std::int64_t num_outputs_dropped = 0;
+  std::int64_t num_commands_refused = 0;
+  std::int32_t receive_buffer_bytes = 0;  // 0: unknown
+  LatencySummary queue;                   // arrival of a scan's last datagram to start of its match
+  LatencySummary compute;                 // from there to its odometry
+  LatencySummary latency;                 // both
+  float cpu_load_cores = 0.0F;            // over the last second
+  float rss_mb = 0.0F;
+  float map_mb = 0.0F;
+  std::uint64_t config_hash = 0;
+  std::string note;  // the last notice
+};
+
+// `version` as "major.minor.patch".
+Bytes EncodeStatus(const StatusReport& report, const std::string& version);
+
+enum class CommandAction : std::int32_t { kCloudFullOff = 0, kCloudFullOn = 1 };
+
+struct Command {
+  std::int64_t request_id = 0;
+  CommandAction action = CommandAction::kCloudFullOff;
+};
+
+// Unknown actions are kBadFormat.
+DecodeStatus DecodeCommand(ByteView bytes, Command& command);
+Bytes EncodeCommand(const Command& command);
+
+// 64-bit FNV-1a: a short name for a text, e.g. a set of options.
+std::uint64_t Fnv1a(std::string_view text);
+
+}  // namespace lio

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <charconv>
+
+#include "lcm_wire.hpp"
+#include "lio/command_t.hpp"
+#include "lio/io/status_report.hpp"
+#include "lio/status_t.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::uint64_t kCommandFingerprint = 0xb3339b3ca0a8fda7;
+constexpr std::size_t kCommandBytes = 8 + 8 + 8 + 4;
+
+void CopyCounters(const Counters& from, status_t& to) {
+  to.imu = from.num_imu;
+  to.imu_nonfinite = from.num_imu_nonfinite;
+  to.imu_duplicate = from.num_imu_duplicate;
+  to.imu_late = from.num_imu_late;
+  to.imu_out_of_range = from.num_imu_out_of_range;
+  to.imu_gaps = from.num_imu_gaps;
+  to.chunks = from.num_chunks;
+  to.chunks_duplicate = from.num_chunks_duplicate;
+  to.chunks_late = from.num_chunks_late;
+  to.chunks_missing = from.num_chunks_missing;
+  to.chunks_bad = from.num_chunks_bad;
+  to.points_nonfinite = from.num_points_nonfinite;
+  to.scans = from.num_scans;
+  to.scans_empty = from.num_scans_empty;
+  to.scans_dropped = from.num_scans_dropped;
+  to.scans_late = from.num_scans_late;
+  to.scans_without_imu = from.num_scans_without_imu;
+  to.scan_gaps = from.num_scan_gaps;
+  to.matches_rejected = from.num_matches_rejected;
+  to.gated = from.num_gated;
+  to.clock_jumps = from.num_clock_jumps;
+  to.restarts = from.num_restarts;
+}
+
+void CopyLosses(const StatusReport& from, status_t& to) {
+  const auto refused = [&](DecodeStatus reason) {
+    return from.input.num_refused[static_cast<std::size_t>(reason)];
+  };
+  to.bad_truncated = refused(DecodeStatus::kTruncated);
+  to.bad_wrong_type = refused(DecodeStatus::kWrongType);
+  to.bad_size_mismatch = refused(DecodeStatus::kSizeMismatch);
+  to.bad_format = refused(DecodeStatus::kBadFormat);
+  to.bad_too_large = refused(DecodeStatus::kTooLarge);
+  to.imu_seq_missing = from.input.num_imu_missing;
+  to.imu_queue_dropped = from.num_imu_queue_dropped;
+  to.chunk_queue_dropped = from.num_chunk_queue_dropped;
+  to.kernel_dropped = from.num_kernel_dropped;
+  to.publish_failed = from.num_publish_failed;
+  to.outputs_dropped = from.num_outputs_dropped;
+  to.commands_refused = from.num_commands_refused;
+}
+
+void CopyLatencies(const StatusReport& from, status_t& to) {
+  to.queue_p50_ms = from.queue.p50_ms;
+  to.queue_p99_ms = from.queue.p99_ms;
+  to.queue_max_ms = from.queue.max_ms;
+  to.compute_p50_ms = from.compute.p50_ms;
+  to.compute_p99_ms = from.compute.p99_ms;
+  to.compute_max_ms = from.compute.max_ms;
+  to.latency_p50_ms = from.latency.p50_ms;
+  to.latency_p99_ms = from.latency.p99_ms;
+  to.latency_max_ms = from.latency.max_ms;
+}
+
+// "1.2.3" to {1, 2, 3}; what is missing is 0.
+void CopyVersion(const std::string& text, std::int8_t (&version)[3]) {
+  const char* next = text.data();
+  const char* end = next + text.size();
+  for (std::int8_t& part : version) {
+    int number = 0;
+    next = std::from_chars(next, end, number).ptr;
+    part = static_cast<std::int8_t>(number);
+    if (next != end) ++next;
+  }
+}
+
+}  // namespace
+
+Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
+  status_t message{};
+  message.utime = report.utime;
+  message.start_utime = report.start_utime;
+  message.sensor_utime = report.newest_stamp.Microseconds();
+  message.seq = report.seq;
+  message.state = static_cast<std::int8_t>(report.state);
+  CopyCounters(report.counters, message);
+  CopyLosses(report, message);
+  message.rcvbuf_bytes = report.receive_buffer_bytes;
+  CopyLatencies(report, message);
+  message.cpu_load = report.cpu_load_cores;
+  message.rss_mb = report.rss_mb;
+  message.map_mb = report.map_mb;
+  message.config_hash = static_cast<std::int64_t>(report.config_hash);
+  CopyVersion(version, message.version);
+  message.note = report.note;
+  return EncodeMessage(message);
+}
+
+DecodeStatus DecodeCommand(ByteView bytes, Command& command) {
+  const DecodeStatus head = CheckHead(bytes, kCommandFingerprint, kCommandBytes);
+  if (head != DecodeStatus::kOk) return head;
+  if (bytes.size() != kCommandBytes) return DecodeStatus::kSizeMismatch;
+  FieldReader reader(bytes.data() + sizeof(kCommandFingerprint));
+  reader.Read<std::int64_t>();  // utime
+  command.request_id = reader.Read<std::int64_t>();
+  const auto action = reader.Read<std::int32_t>();
+  if (action != command_t::CLOUD_FULL_OFF && action != command_t::CLOUD_FULL_ON) {
+    return DecodeStatus::kBadFormat;
+  }
+  command.action = static_cast<CommandAction>(action);
+  return DecodeStatus::kOk;
+}
+
+Bytes EncodeCommand(const Command& command) {
+  command_t message{};
+  message.request_id = command.request_id;
+  message.action = static_cast<std::int32_t>(command.action);
+  return EncodeMessage(message);
+}
+
+std::uint64_t Fnv1a(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  }
+  return hash;
+}
+
+}  // namespace lio

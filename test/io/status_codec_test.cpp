@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <set>
+
+#include "lio/command_t.hpp"
+#include "lio/io/status_report.hpp"
+#include "lio/status_t.hpp"
+
+namespace lio {
+namespace {
+
+status_t Decoded(const Bytes& bytes) {
+  status_t message;
+  EXPECT_EQ(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  return message;
+}
+
+TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
+  // All are int64, one after the other, here and on the wire: give each a value of its own.
+  constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
+  std::array<std::int64_t, kNumCounters> values{};
+  for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1000 + static_cast<int>(i);
+  StatusReport report;
+  report.counters = std::bit_cast<Counters>(values);
+  const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
+  const std::set<std::int64_t> arrived = {message.imu,
+                                          message.imu_nonfinite,
+                                          message.imu_duplicate,
+                                          message.imu_late,
+                                          message.imu_out_of_range,
+                                          message.imu_gaps,
+                                          message.chunks,
+                                          message.chunks_duplicate,
+                                          message.chunks_late,
+                                          message.chunks_missing,
+                                          message.chunks_bad,
+                                          message.points_nonfinite,
+                                          message.scans,
+                                          message.scans_empty,
+                                          message.scans_dropped,
+                                          message.scans_late,
+                                          message.scans_without_imu,
+                                          message.scan_gaps,
+                                          message.matches_rejected,
+                                          message.gated,
+                                          message.clock_jumps,
+                                          message.restarts};
+  EXPECT_EQ(arrived, std::set<std::int64_t>(values.begin(), values.end()));
+  EXPECT_EQ(message.gated, report.counters.num_gated);
+  EXPECT_EQ(message.chunks_bad, report.counters.num_chunks_bad);
+}
+
+TEST(StatusCodec, LossesLatenciesAndIdentityArrive) {
+  StatusReport report;
+  report.utime = 5;
+  report.newest_stamp = Timestamp{7000};
+  report.state = TrackingStatus::kLost;
+  report.input.num_refused[static_cast<std::size_t>(DecodeStatus::kSizeMismatch)] = 3;
+  report.num_kernel_dropped = 11;
+  report.latency = {1.0F, 2.0F, 3.0F};
+  report.config_hash = 0xfedcba9876543210;
+  report.note = "waiting for rest";
+  const status_t message = Decoded(EncodeStatus(report, "1.22.3"));
+  EXPECT_EQ(message.utime, 5);
+  EXPECT_EQ(message.sensor_utime, 7);
+  EXPECT_EQ(message.state, 4);
+  EXPECT_EQ(message.bad_size_mismatch, 3);
+  EXPECT_EQ(message.kernel_dropped, 11);
+  EXPECT_EQ(message.latency_p99_ms, 2.0F);
+  EXPECT_EQ(static_cast<std::uint64_t>(message.config_hash), report.config_hash);
+  EXPECT_EQ(message.version[1], 22);
+  EXPECT_EQ(message.version[2], 3);
+  EXPECT_EQ(message.note, "waiting for rest");
+}
+
+TEST(CommandCodec, CommandsRoundTripAndAgreeWithTheGeneratedType) {
+  const Bytes bytes = EncodeCommand({42, CommandAction::kCloudFullOn});
+  Command command;
+  ASSERT_EQ(DecodeCommand(bytes, command), DecodeStatus::kOk);
+  EXPECT_EQ(command.request_id, 42);
+  EXPECT_EQ(command.action, CommandAction::kCloudFullOn);
+  command_t message;
+  ASSERT_EQ(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 28);
+  EXPECT_EQ(message.action, command_t::CLOUD_FULL_ON);
+}
+
+TEST(CommandCodec, TruncatedLongerForeignAndUnknownCommandsAreRefused) {
+  Bytes bytes = EncodeCommand({42, CommandAction::kCloudFullOn});
+  Command command;
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_EQ(DecodeCommand({bytes.data(), size}, command), DecodeStatus::kTruncated);
+  }
+  bytes.push_back(0);
+  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kSizeMismatch);
+  bytes.pop_back();
+  bytes[27] = 99;
+  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kBadFormat);
+  bytes[0] ^= 1;
+  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kWrongType);
+}
+
+TEST(Fnv1a, AgreesWithPublishedValues) {
+  EXPECT_EQ(Fnv1a(""), 0xcbf29ce484222325u);
+  EXPECT_EQ(Fnv1a("foobar"), 0x85944171f73967e8u);
+}
+
+}  // namespace
+}  // namespace lio
