@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Uneven, sloping ground with roads sunk into it between kerbs.
+#pragma once
+
+#include <vector>
+
+#include "lio/sim/mesh.hpp"
+#include "lio/sim/random.hpp"
+
+namespace lio::sim {
+
+// Smooth ground: a slope, hills of 60 to 250 m and bumps of 5 to 15 m.
+class Terrain {
+ public:
+  struct Shape {
+    Vector2 slope_ratio = Vector2::Zero();  // rise per metre along x and y
+    double hill_m = 0.8;
+    double bump_m = 0.015;
+  };
+  Terrain(const Shape& shape, Random& random);
+
+  double Height(const Vector2& p_m) const;
+
+ private:
+  struct Wave {
+    Vector2 wave_vector_per_m;
+    double amplitude_m = 0.0;
+    double phase_rad = 0.0;
+  };
+  Shape shape_;
+  std::vector<Wave> waves_;
+};
+
+struct Road {
+  std::vector<Vector2> line_m;
+  double half_width_m = 4.0;
+};
+
+// Distance to the edge of the nearest road: negative on it. Corners where roads meet are rounded
+// with about `rounding_m`.
+class RoadNetwork {
+ public:
+  explicit RoadNetwork(std::vector<Road> roads, double rounding_m = 4.0);
+
+  double SignedDistance(const Vector2& p_m) const;
+  const std::vector<Road>& roads() const { return roads_; }
+
+ private:
+  std::vector<Road> roads_;
+  double rounding_m_;
+};
+
+struct GroundOptions {
+  double cell_m = 1.0;
+  double reach_m = 40.0;       // how far beside the roads the fine mesh goes
+  double far_reach_m = 120.0;  // how far a coarse one, a little lower, goes on
+  double kerb_m = 0.12;        // 0: none
+  double pavement_m = 4.0;     // width of paving beside the road
+  Material road = Material::kAsphalt;
+  Material pavement = Material::kPaving;
+  Material beyond = Material::kGrass;
+};
+
+// Appends the ground to `mesh`: roads at the terrain's height, the rest a kerb higher, and the kerb
+// as a step along the exact edge.
+void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
+               const GroundOptions& options);
+
+}  // namespace lio::sim

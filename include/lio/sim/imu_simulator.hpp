@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// An inertial unit that moves along a trajectory: reads specific force and angular rate at its
+// sample instants, with the errors of its model.
+//
+//   gyro  = clip(round(M_g w + b_g + n_g)),   accel = clip(round(M_a f + b_a + n_a)),
+//   f = R_imu_world (a - g_world)
+//
+// Densities become samples by their dt: n has sigma density / sqrt(dt), walks step by
+// density sqrt(dt). b is turn-on bias + random walk + a first-order Gauss-Markov process (bias
+// instability). M is I + scale and misalignment errors. The Earth's rotation (15 deg/h) is left
+// out.
+#pragma once
+
+#include <cstdint>
+
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sim/imu_model.hpp"
+#include "lio/sim/random.hpp"
+#include "lio/sim/trajectory.hpp"
+
+namespace lio::sim {
+
+// What the accelerometer's output means; see docs/simulator.md.
+enum class ImuVariant { kSpecificForce, kGravityRemoved, kInG };
+
+struct ImuSetup {
+  ImuModel model;
+  ImuVariant variant = ImuVariant::kSpecificForce;
+  double gravity_mps2 = 9.80665;
+  std::uint64_t seed = 1;
+};
+
+// One instant: what was measured, and what is true.
+struct SimulatedImu {
+  ImuSample sample;  // stamp: trajectory time; not SI in the in-g variant
+  Kinematics truth;
+  Vector3 gyro_bias_radps = Vector3::Zero();
+  Vector3 accel_bias_mps2 = Vector3::Zero();
+};
+
+class ImuSimulator {
+ public:
+  // Borrows the trajectory.
+  ImuSimulator(const ImuSetup& setup, const Trajectory& trajectory);
+
+  // The sample at a trajectory time; times must ascend by the model's period.
+  SimulatedImu Sample(std::int64_t t_ns);
+
+ private:
+  // Errors of three equal axes.
+  class Triad {
+   public:
+    Triad(const InertialModel& model, double dt_s, Random random);
+    Vector3 Measure(const Vector3& truth);
+    const Vector3& bias() const { return bias_; }
+
+   private:
+    Vector3 Noise(double sigma);
+
+    InertialModel model_;
+    double dt_s_;
+    Random random_;
+    Matrix3 coupling_ = Matrix3::Identity();
+    Vector3 turn_on_ = Vector3::Zero();
+    Vector3 walk_ = Vector3::Zero();
+    Vector3 slow_ = Vector3::Zero();
+    Vector3 bias_ = Vector3::Zero();
+  };
+
+  ImuSetup setup_;
+  const Trajectory* trajectory_;
+  Triad gyro_;
+  Triad accel_;
+};
+
+// Normal gravity at sea level and above (WGS 84, Somigliana's formula with free-air correction).
+double NormalGravity(double latitude_rad, double altitude_m);
+
+}  // namespace lio::sim

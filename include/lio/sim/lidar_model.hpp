@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A spinning lidar as its data file in config/lidars/ describes it: where each beam points, when it
+// fires, how well it measures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lio::sim {
+
+struct Beam {
+  double elevation_rad = 0.0;
+  double fire_time_s = 0.0;         // after the column's instant
+  double azimuth_offset_rad = 0.0;  // counter-clockwise from the column's heading
+};
+
+struct LidarModel {
+  std::string name;
+  double rotation_hz = 10.0;  // clockwise seen from above
+  double column_period_s = 46.08e-6;
+  double cut_azimuth_rad = 0.0;  // heading at which one sweep ends and the next begins
+  double min_range_m = 0.9;
+  double max_range_m = 100.0;
+  double range_std_m = 0.02;  // at normal incidence
+  double range_step_m = 0.002;
+  double beam_width_horizontal_rad = 2.8e-3;
+  double range_at_10_percent_m = 60.0;  // half of the echoes of a matt 10 % target are lost there
+  std::vector<Beam> beams;              // lowest first: the index is the ring
+};
+
+// `name_or_path`: a model of config/lidars/ or a file of that form. Throws std::runtime_error that
+// says what is missing or wrong and which models there are.
+LidarModel LoadLidarModel(const std::string& name_or_path);
+
+}  // namespace lio::sim

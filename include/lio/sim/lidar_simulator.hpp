@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A spinning lidar carried through a scene: each beam is cast from the pose the sensor has at the
+// instant the beam fires, and its echo gets the errors a real one has.
+//
+// Echo: a surface of reflectivity rho seen at incidence angle a and range r sends back
+// rho sqrt(cos a) / r^2 (rough surfaces fall off slower than Lambert's cosine); polished ones add a
+// lobe a few degrees wide. The chance of an echo falls from 1 to 0 around the strength that a 10 %
+// target has at the range of the model's data file. Range noise grows with incidence and with
+// weakness. Where a beam straddles an edge between two columns, the two echoes merge when they are
+// near each other, else one of them wins (mixed pixels). Numbers are drawn by (seed, column, beam),
+// so that any thread gets the same.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lio/sensor/scan_chunk.hpp"
+#include "lio/sim/lidar_model.hpp"
+#include "lio/sim/scene.hpp"
+#include "lio/sim/trajectory.hpp"
+
+namespace lio::sim {
+
+// A cloud of dust or spray around the sensor for a while.
+struct Dust {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+  double echoes_per_m = 0.02;  // chance of an echo from dust per metre of ray
+};
+
+struct LidarErrors {
+  double noise_scale = 1.0;      // of the range noise
+  double dropout_ratio = 0.002;  // echoes lost for no reason
+  bool has_mixed_pixels = true;
+  bool has_weak_echoes = true;  // false: every surface in range answers
+  std::vector<Dust> dust;
+};
+
+struct LidarSetup {
+  LidarModel model;
+  Pose T_imu_lidar;
+  LidarErrors errors;
+  std::uint64_t seed = 1;
+  double begin_s = 0.0;  // trajectory time at which sweep 0 begins
+};
+
+struct SimulatedSweep {
+  std::int64_t begin_ns = 0;  // trajectory time of t_offset_ns = 0
+  std::int64_t num_rays = 0;
+  std::vector<LidarPoint> points;     // in order of firing
+  std::vector<std::int32_t> objects;  // what each point is: see Hit::object
+};
+
+class LidarSimulator {
+ public:
+  // Borrows scene and trajectory.
+  LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory);
+
+  // The turn number `index` from 0 on. Safe from several threads.
+  SimulatedSweep Sweep(std::int64_t index) const;
+  double SweepEnd_s(std::int64_t index) const;  // trajectory time of its last firing
+
+ private:
+  struct Columns;
+  struct Echoes;
+  Columns ColumnsOf(std::int64_t index) const;
+  double ColumnTime(std::int64_t column) const;
+  double HeadingAt(double t_s) const;
+  void CastTile(const Scene::Interval& interval, const Columns& columns, std::int64_t first,
+                Echoes& echoes) const;
+  void AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column, std::size_t beam,
+                SimulatedSweep& sweep) const;
+  float StraddledRange(const Echoes& echoes, std::size_t index, std::uint64_t bits) const;
+
+  LidarSetup setup_;
+  const Scene* scene_;
+  const Trajectory* trajectory_;
+  std::vector<Vector3> column_directions_;  // of each beam when the column's heading is 0
+  std::vector<std::size_t> firing_order_;   // beams by firing time
+  double weakest_echo_ = 0.0;               // strength at which half of the echoes are lost
+};
+
+}  // namespace lio::sim

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Messages on their way from the simulated sensors to the log.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+
+namespace lio::sim {
+
+struct ImuMessage {
+  ImuSample sample;
+  std::int32_t seq = 0;
+};
+
+struct Message {
+  Timestamp arrival;  // when it would be received; the log's order
+  std::variant<ImuMessage, ScanChunk> body;
+};
+
+// Puts messages of bounded disorder into the order of arrival; equal arrivals keep the order in
+// which they came.
+class ArrivalQueue {
+ public:
+  void Push(Message message) {
+    const Timestamp arrival = message.arrival;
+    waiting_.emplace(arrival, std::move(message));
+  }
+  // The next message that arrives before `limit`.
+  std::optional<Message> PopBefore(Timestamp limit) {
+    if (waiting_.empty() || waiting_.begin()->first >= limit) return std::nullopt;
+    Message message = std::move(waiting_.begin()->second);
+    waiting_.erase(waiting_.begin());
+    return message;
+  }
+
+ private:
+  std::multimap<Timestamp, Message> waiting_;
+};
+
+}  // namespace lio::sim

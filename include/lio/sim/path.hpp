@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A way on the ground, straights and arcs, by distance along it: what vehicles follow, streets are
+// built along and walkers walk on.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+namespace lio::sim {
+
+using Vector2 = Eigen::Vector2d;
+
+struct PathPoint {
+  Vector2 position_m = Vector2::Zero();
+  double heading_rad = 0.0;      // unwrapped along the path, counter-clockwise from x
+  double curvature_per_m = 0.0;  // positive to the left
+
+  Vector2 Forward() const { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+  Vector2 Left() const { return {-std::sin(heading_rad), std::cos(heading_rad)}; }
+};
+
+class Path {
+ public:
+  Path(const Vector2& start_m, double heading_rad);
+
+  // Corners of the given radius at each inner waypoint; a closed path ends where it starts, which
+  // must lie on a straight. Throws std::invalid_argument when corners overlap.
+  static Path Rounded(const std::vector<Vector2>& waypoints_m, double radius_m, bool closed);
+
+  // Both append at the end. An arc of positive angle turns left.
+  void AddStraight(double length_m);
+  void AddArc(double radius_m, double angle_rad);
+
+  double length_m() const { return length_m_; }
+  PathPoint At(double distance_m) const;  // beyond the ends: straight on
+  // The path shifted to the left by a distance smaller than its radii.
+  PathPoint Beside(double distance_m, double left_m) const;
+  // The same way from one distance to another; beside it to the left (to the right if negative, by
+  // less than its radii); backward.
+  Path Cut(double from_m, double to_m) const;
+  Path Shifted(double left_m) const;
+  Path Reversed() const;
+  // Points every `step_m`, both ends included.
+  std::vector<Vector2> Sampled(double step_m) const;
+
+ private:
+  struct Piece {
+    double start_m = 0.0;  // distance along the path where it begins
+    double length_m = 0.0;
+    PathPoint begin;
+  };
+  static PathPoint Along(const Piece& piece, double distance_m);
+  void Add(double length_m, double curvature_per_m);
+
+  std::vector<Piece> pieces_;
+  PathPoint end_;
+  double length_m_ = 0.0;
+};
+
+// Height of the ground at a point.
+using HeightFunction = std::function<double(const Vector2&)>;
+
+}  // namespace lio::sim

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Things that stand, park and move in streets, each a mesh in its own frame: origin on the ground
+// below its middle, x forward, y left, z up, metres.
+#pragma once
+
+#include "lio/sim/mesh.hpp"
+#include "lio/sim/random.hpp"
+
+namespace lio::sim {
+
+enum class VehicleKind { kCar, kVan, kBus, kTruck };
+
+Mesh MakeVehicle(VehicleKind kind, Random& random);
+Vector2 VehicleSize(VehicleKind kind);  // length and width, m
+
+// A person in two parts, so that the legs can swing about the hip at `kHipHeight_m`.
+inline constexpr double kHipHeight_m = 0.86;
+Mesh MakeTorso(Random& random);
+Mesh MakeLeg();                   // origin at the hip, hanging down
+Mesh MakePerson(Random& random);  // standing, in one part
+
+Mesh MakeTree(double height_m, Random& random);  // trunk, boughs, a crown of loose leaves
+Mesh MakeBush(const Vector3& size_m, Random& random);
+Mesh MakeStreetLamp(double height_m, double arm_m);  // arm toward +x
+Mesh MakeSign(double height_m, Random& random);      // faces +x
+Mesh MakeBollard();
+Mesh MakeBin();
+Mesh MakeBench();
+Mesh MakeBusShelter();  // open toward +x
+
+}  // namespace lio::sim

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Random numbers that are a pure function of a key, so that worlds and measurements come out the
+// same on any number of threads and with any standard library. The mixing step is the finaliser of
+// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <numbers>
+
+namespace lio::sim {
+
+constexpr std::uint64_t MixBits(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15ull;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+  return x ^ (x >> 31);
+}
+
+constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
+  std::uint64_t key = 0;
+  for (const std::uint64_t part : parts) key = MixBits(key ^ part);
+  return key;
+}
+
+// Uniform in (0, 1): never 0, so that its logarithm exists.
+constexpr double UnitInterval(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1.0p-53;
+}
+
+// What a key's draws are used for: keeps one purpose's numbers when another's count changes.
+enum class Purpose : std::uint64_t { kWorld, kTraffic, kMotion, kImu, kLidar, kFault, kMount };
+
+// A sequence of draws from one key.
+class Random {
+ public:
+  Random(std::uint64_t seed, Purpose purpose, std::uint64_t stream = 0)
+      : key_(HashKey({seed, static_cast<std::uint64_t>(purpose), stream})) {}
+
+  std::uint64_t Bits() { return MixBits(key_ ^ MixBits(counter_++)); }
+  double Uniform() { return UnitInterval(Bits()); }
+  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  int Integer(int low, int high) {  // both included
+    return low + static_cast<int>(Uniform() * (high - low + 1));
+  }
+  bool Chance(double probability) { return Uniform() < probability; }
+
+  double Gaussian() {  // Box and Muller, one of the pair
+    const double radius = std::sqrt(-2.0 * std::log(Uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * Uniform());
+  }
+
+ private:
+  std::uint64_t key_;
+  std::uint64_t counter_ = 0;
+};
+
+}  // namespace lio::sim

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Runs sensors through a scenario and writes what they saw and what was true:
+//   log.lcm           LIO_IMU and LIO_SCAN, each event at the time it would have been received
+//   truth.tum         pose of imu in world at each IMU instant: t x y z qx qy qz qw
+//   truth_states.csv  velocity, biases and rates at the same instants
+//   config.yaml       the rig, for lio-replay and liod
+// The bytes depend on the options alone, not on the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "lio/sim/imu_simulator.hpp"
+#include "lio/sim/lidar_simulator.hpp"
+#include "lio/sim/scenario.hpp"
+
+namespace lio::sim {
+
+struct RecordOptions {
+  LidarModel lidar;
+  LidarErrors lidar_errors;
+  ImuModel imu;
+  ImuVariant imu_variant = ImuVariant::kSpecificForce;
+  double gravity_mps2 = 9.80665;
+  std::uint64_t seed = 1;
+  int num_threads = 1;
+};
+
+struct RecordStats {
+  std::int64_t num_imu = 0;
+  std::int64_t num_sweeps = 0;
+  std::int64_t num_chunks = 0;
+  std::int64_t num_rays = 0;
+  std::int64_t num_points = 0;
+};
+
+// Creates the folder. `progress` gets the share done, 0..1; may be empty. Throws
+// std::runtime_error when something cannot be written.
+RecordStats Record(const Scenario& scenario, const RecordOptions& options,
+                   const std::filesystem::path& folder,
+                   const std::function<void(double)>& progress);
+
+// Sensor time of a trajectory time: the first sample of a trajectory has a stamp of late 2023.
+Timestamp StampOf(std::int64_t trajectory_ns);
+
+}  // namespace lio::sim

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Builds places along roads: rows of houses, trees, lamps, parked cars; people and cars that move.
+// Nothing is put where something stands already or where a road runs.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lio/sim/building.hpp"
+#include "lio/sim/drive.hpp"
+#include "lio/sim/ground.hpp"
+#include "lio/sim/props.hpp"
+#include "lio/sim/random.hpp"
+#include "lio/sim/world.hpp"
+
+namespace lio::sim {
+
+// A stretch of a path's one side; `left` positive or negative picks the side.
+struct Frontage {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double offset_m = 8.0;  // from the path's middle
+  bool on_left = true;
+};
+
+struct HouseRow {
+  int min_storeys = 3;
+  int max_storeys = 8;
+  double min_width_m = 10.0;
+  double max_width_m = 22.0;
+  double depth_m = 12.0;
+  double gap_chance = 0.12;  // an alley after a house
+  double min_gap_m = 2.0;
+  double max_gap_m = 5.0;
+  double max_setback_m = 0.8;
+  bool has_gable_roofs = false;
+  bool has_plain_rear = true;
+};
+
+class Town {
+ public:
+  Town(World& world, Terrain terrain, RoadNetwork roads, const GroundOptions& ground,
+       std::uint64_t seed);
+
+  Random& random() { return random_; }
+  const Terrain& terrain() const { return terrain_; }
+  double GroundHeight(const Vector2& p_m) const;  // kerbs included
+
+  // Puts `mesh` on the ground; `heading_rad` is where its x axis goes.
+  void Place(const Mesh& mesh, const Vector2& p_m, double heading_rad);
+  // True when a rectangle is free of roads (by `road_margin_m`) and of other things; takes it.
+  bool Reserve(const Vector2& centre_m, double heading_rad, const Vector2& size_m,
+               double road_margin_m);
+
+  void AddHouses(const Path& path, const Frontage& frontage, const HouseRow& row);
+  void AddTrees(const Path& path, const Frontage& frontage, double spacing_m, double height_m);
+  void AddLamps(const Path& path, const Frontage& frontage, double spacing_m);
+  void AddStreetThings(const Path& path, const Frontage& frontage, double spacing_m);
+  // Along the kerb; `share` of the places are taken.
+  void AddParkedCars(const Path& path, const Frontage& frontage, double share);
+  void AddStandingPeople(const Path& path, const Frontage& frontage, int num);
+
+  // Walk to and fro between two points of a path, beside it.
+  void AddWalkers(const Path& path, const Frontage& frontage, int num);
+
+ private:
+  struct Footprint {
+    Vector2 centre;
+    Vector2 axis;
+    Vector2 half;
+  };
+  static bool Overlaps(const Footprint& a, const Footprint& b);
+
+  World& world_;
+  Terrain terrain_;
+  RoadNetwork roads_;
+  GroundOptions ground_;
+  Random random_;
+  std::vector<Footprint> taken_;
+};
+
+// A vehicle that follows a path, at `distance(t)` along it, on the given ground.
+void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
+                     std::function<double(double t_s)> distance, HeightFunction height);
+
+}  // namespace lio::sim

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Analytic motion of a body: pose, velocity, acceleration and angular rate at any time, each the
+// exact derivative of the other.
+//
+// Model: position and yaw, pitch, roll of the body are uniform quintic B-splines in time (C4), to
+// which sinusoids are added (suspension, road roughness, a walker's gait) whose common strength is
+// such a spline too. The body frame lies on the ground below the vehicle or walker: x forward, y
+// left, z up; R_world_body = Rz(yaw) Ry(pitch) Rx(roll), pitch within +-80 deg. World is z up.
+// B-spline curves stay near their knots without passing through them; equal knots mean rest.
+#pragma once
+
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/sim/jet.hpp"
+
+namespace lio::sim {
+
+// A control point. `liveliness` scales the oscillations: 0 at rest, 1 in full motion.
+struct BodyKnot {
+  Vector3 position_m = Vector3::Zero();
+  double yaw_rad = 0.0;  // unwrapped
+  double pitch_rad = 0.0;
+  double roll_rad = 0.0;
+  double liveliness = 0.0;
+};
+
+enum class BodyAxis { kX, kY, kZ, kYaw, kPitch, kRoll };
+
+struct Oscillation {
+  BodyAxis axis = BodyAxis::kZ;  // kX, kY: along world axes
+  double amplitude = 0.0;        // m or rad
+  double frequency_hz = 1.0;
+  double phase_rad = 0.0;
+};
+
+struct MotionPlan {
+  double knot_interval_s = 0.25;
+  std::vector<BodyKnot> knots;  // the first holds at t = 0; at least two
+  std::vector<Oscillation> oscillations;
+  Pose T_body_imu;
+};
+
+// Everything inertial at one instant; a of the IMU's origin, w of imu against world.
+struct Kinematics {
+  Pose T_world_imu;
+  Vector3 v_world_mps = Vector3::Zero();
+  Vector3 a_world_mps2 = Vector3::Zero();
+  Vector3 w_imu_radps = Vector3::Zero();
+};
+
+class Trajectory {
+ public:
+  // Throws std::invalid_argument when the plan has fewer than two knots or no interval.
+  explicit Trajectory(MotionPlan plan);
+
+  // Any t; before the first and after the last knot the body rests there. Safe from any thread.
+  Kinematics At(double t_s) const;
+  // Of the body frame on the ground, which traffic behind and ahead and the carrier's shape follow.
+  Pose BodyPoseAt(double t_s) const;
+
+  double duration_s() const;
+  const Pose& T_body_imu() const { return plan_.T_body_imu; }
+
+ private:
+  struct BodyJets;
+  BodyJets BodyAt(double t_s) const;
+
+  MotionPlan plan_;
+};
+
+}  // namespace lio::sim

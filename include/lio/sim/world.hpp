@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What there is to see: one mesh that stands still, and objects that move.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lio/sim/mesh.hpp"
+
+namespace lio::sim {
+
+struct Mover {
+  std::size_t shape = 0;                          // index into World::shapes
+  std::function<Pose(double t_s)> T_world_mover;  // continuous; safe from any thread
+};
+
+struct World {
+  Mesh fixed;
+  std::vector<Mesh> shapes;
+  std::vector<Mover> movers;
+};
+
+}  // namespace lio::sim

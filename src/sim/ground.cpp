@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lio::sim {
+namespace {
+
+constexpr double kCoarseCell_m = 6.0;
+constexpr double kCoarseDrop_m = 0.25;  // the far mesh lies this much lower, to hide under the fine
+
+double DistanceToLine(const Vector2& p, const std::vector<Vector2>& line) {
+  double best_sq = 1e18;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vector2 d = line[i + 1] - line[i];
+    const double t = std::clamp((p - line[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+    best_sq = std::min(best_sq, (p - line[i] - t * d).squaredNorm());
+  }
+  return std::sqrt(best_sq);
+}
+
+struct Bounds {
+  Vector2 low = Vector2::Constant(1e9);
+  Vector2 high = Vector2::Constant(-1e9);
+};
+
+Bounds BoundsOf(const RoadNetwork& network, double reach_m) {
+  Bounds bounds;
+  for (const Road& road : network.roads()) {
+    for (const Vector2& p : road.line_m) {
+      bounds.low = bounds.low.cwiseMin(p);
+      bounds.high = bounds.high.cwiseMax(p);
+    }
+  }
+  bounds.low.array() -= reach_m;
+  bounds.high.array() += reach_m;
+  return bounds;
+}
+
+// A corner of the lattice.
+struct Corner {
+  Vector2 p;
+  double distance = 0.0;  // signed, to the road's edge
+  double height = 0.0;    // of the terrain
+};
+
+// Writes the cells of the lattice, cut along the kerb.
+class GroundWriter {
+ public:
+  GroundWriter(Mesh& mesh, const GroundOptions& options) : mesh_(mesh), options_(options) {}
+
+  void AddCell(const std::array<Corner, 4>& corners) {
+    std::vector<Corner> road;
+    std::vector<Corner> verge;
+    std::vector<Corner> edge;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Corner& a = corners[i];
+      const Corner& b = corners[(i + 1) % 4];
+      (a.distance < 0.0 ? road : verge).push_back(a);
+      if ((a.distance < 0.0) == (b.distance < 0.0)) continue;
+      const double t = a.distance / (a.distance - b.distance);
+      const Corner cut{a.p + t * (b.p - a.p), 0.0, a.height + t * (b.height - a.height)};
+      road.push_back(cut);
+      verge.push_back(cut);
+      edge.push_back(cut);
+    }
+    AddFan(road, 0.0, options_.road);
+    double middle = 0.0;
+    for (const Corner& c : corners) middle += 0.25 * c.distance;
+    AddFan(verge, options_.kerb_m,
+           middle < options_.pavement_m ? options_.pavement : options_.beyond);
+    for (std::size_t i = 0; i + 1 < edge.size() && options_.kerb_m > 0.0; i += 2) {
+      AddQuad(mesh_, At(edge[i], 0.0), At(edge[i + 1], 0.0), At(edge[i + 1], options_.kerb_m),
+              At(edge[i], options_.kerb_m), Material::kConcrete);
+    }
+  }
+
+ private:
+  static Vector3 At(const Corner& c, double raise) { return {c.p.x(), c.p.y(), c.height + raise}; }
+  void AddFan(const std::vector<Corner>& polygon, double raise, Material material) {
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      AddTriangle(mesh_, At(polygon[0], raise), At(polygon[i], raise), At(polygon[i + 1], raise),
+                  material);
+    }
+  }
+
+  Mesh& mesh_;
+  const GroundOptions& options_;
+};
+
+// Calls `add(corners)` for each cell of a lattice whose corners are within `reach`.
+template <typename Add>
+void ForEachCell(const Terrain& terrain, const RoadNetwork& network, double cell_m, double reach_m,
+                 const Add& add) {
+  const Bounds bounds = BoundsOf(network, reach_m);
+  const auto nx = static_cast<std::size_t>((bounds.high.x() - bounds.low.x()) / cell_m) + 1;
+  const auto ny = static_cast<std::size_t>((bounds.high.y() - bounds.low.y()) / cell_m) + 1;
+  const auto make_row = [&](std::size_t iy) {
+    std::vector<Corner> row(nx + 1);
+    for (std::size_t ix = 0; ix <= nx; ++ix) {
+      Corner& c = row[ix];
+      c.p = bounds.low + cell_m * Vector2(static_cast<double>(ix), static_cast<double>(iy));
+      c.distance = network.SignedDistance(c.p);
+      c.height = c.distance < reach_m ? terrain.Height(c.p) : 0.0;
+    }
+    return row;
+  };
+  std::vector<Corner> below = make_row(0);
+  for (std::size_t iy = 0; iy < ny; ++iy) {
+    std::vector<Corner> above = make_row(iy + 1);
+    for (std::size_t ix = 0; ix < nx; ++ix) {
+      const std::array<Corner, 4> cell = {below[ix], below[ix + 1], above[ix + 1], above[ix]};
+      const bool near = std::all_of(cell.begin(), cell.end(),
+                                    [&](const Corner& c) { return c.distance < reach_m; });
+      if (near) add(cell);
+    }
+    below = std::move(above);
+  }
+}
+
+}  // namespace
+
+Terrain::Terrain(const Shape& shape, Random& random) : shape_(shape) {
+  const auto add = [&](int num, double shortest_m, double longest_m, double amplitude_m) {
+    for (int i = 0; i < num; ++i) {
+      const double length_m = random.Uniform(shortest_m, longest_m);
+      const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
+      const double k = 2.0 * std::numbers::pi / length_m;
+      waves_.push_back({{k * std::cos(angle), k * std::sin(angle)},
+                        amplitude_m * random.Uniform(0.5, 1.0) / std::sqrt(num),
+                        random.Uniform(0.0, 2.0 * std::numbers::pi)});
+    }
+  };
+  add(4, 60.0, 250.0, shape.hill_m);
+  add(5, 5.0, 15.0, shape.bump_m);
+}
+
+double Terrain::Height(const Vector2& p_m) const {
+  double height_m = shape_.slope_ratio.dot(p_m);
+  for (const Wave& wave : waves_) {
+    height_m += wave.amplitude_m * std::sin(wave.wave_vector_per_m.dot(p_m) + wave.phase_rad);
+  }
+  return height_m;
+}
+
+RoadNetwork::RoadNetwork(std::vector<Road> roads, double rounding_m)
+    : roads_(std::move(roads)), rounding_m_(rounding_m) {}
+
+double RoadNetwork::SignedDistance(const Vector2& p_m) const {
+  // Polynomial smooth minimum (Quilez): equal to the minimum where one road is clearly nearest.
+  double result = 1e9;
+  for (const Road& road : roads_) {
+    const double d = DistanceToLine(p_m, road.line_m) - road.half_width_m;
+    const double h = std::max(rounding_m_ - std::abs(result - d), 0.0) / rounding_m_;
+    result = std::min(result, d) - 0.25 * h * h * rounding_m_;
+  }
+  return result;
+}
+
+void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
+               const GroundOptions& options) {
+  GroundWriter writer(mesh, options);
+  ForEachCell(terrain, network, options.cell_m, options.reach_m,
+              [&](const std::array<Corner, 4>& cell) { writer.AddCell(cell); });
+  const auto far = [&](std::array<Corner, 4> cell) {
+    const double inner = options.reach_m - 2.0 * kCoarseCell_m;
+    if (std::all_of(cell.begin(), cell.end(),
+                    [&](const Corner& c) { return c.distance < inner; })) {
+      return;
+    }
+    std::array<Vector3, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      p[i] << cell[i].p, cell[i].height + options.kerb_m - kCoarseDrop_m;
+    }
+    AddQuad(mesh, p[0], p[1], p[2], p[3], options.beyond);
+  };
+  if (options.far_reach_m > options.reach_m) {
+    ForEachCell(terrain, network, kCoarseCell_m, options.far_reach_m, far);
+  }
+}
+
+}  // namespace lio::sim

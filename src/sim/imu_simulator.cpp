@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/imu_simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lio::sim {
+namespace {
+
+constexpr double kStandardGravity_mps2 = 9.80665;  // what "1 g" means on a data sheet
+
+}  // namespace
+
+ImuSimulator::Triad::Triad(const InertialModel& model, double dt_s, Random random)
+    : model_(model), dt_s_(dt_s), random_(random) {
+  turn_on_ = Noise(model.turn_on_bias_std);
+  slow_ = Noise(model.bias_instability);
+  bias_ = turn_on_ + slow_;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      const double std = r == c ? model.scale_std_ratio : model.misalignment_std_rad;
+      coupling_(r, c) += std * random_.Gaussian();
+    }
+  }
+}
+
+Vector3 ImuSimulator::Triad::Noise(double sigma) {
+  const double x = random_.Gaussian();
+  const double y = random_.Gaussian();
+  return sigma * Vector3(x, y, random_.Gaussian());
+}
+
+Vector3 ImuSimulator::Triad::Measure(const Vector3& truth) {
+  bias_ = turn_on_ + walk_ + slow_;
+  Vector3 out = coupling_ * truth + bias_ + Noise(model_.noise_density / std::sqrt(dt_s_));
+  walk_ += Noise(model_.bias_walk_density * std::sqrt(dt_s_));
+  const double decay = std::exp(-dt_s_ / model_.bias_instability_time_s);
+  slow_ = decay * slow_ + Noise(model_.bias_instability * std::sqrt(1.0 - decay * decay));
+  for (double& axis : out) {
+    if (model_.full_scale > 0.0) axis = std::clamp(axis, -model_.full_scale, model_.full_scale);
+    if (model_.step > 0.0) axis = model_.step * std::round(axis / model_.step);
+  }
+  return out;
+}
+
+ImuSimulator::ImuSimulator(const ImuSetup& setup, const Trajectory& trajectory)
+    : setup_(setup),
+      trajectory_(&trajectory),
+      gyro_(setup.model.gyro, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 1)),
+      accel_(setup.model.accel, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 2)) {}
+
+SimulatedImu ImuSimulator::Sample(std::int64_t t_ns) {
+  SimulatedImu out;
+  out.truth = trajectory_->At(static_cast<double>(t_ns) * 1e-9);
+  const Vector3 g_world(0.0, 0.0, -setup_.gravity_mps2);
+  const Quaternion R_imu_world = out.truth.T_world_imu.rotation.conjugate();
+  const Vector3 f_imu = R_imu_world * (out.truth.a_world_mps2 - g_world);
+  out.sample.stamp = {t_ns};
+  out.sample.w_imu_radps = gyro_.Measure(out.truth.w_imu_radps);
+  out.sample.f_imu_mps2 = accel_.Measure(f_imu);
+  out.gyro_bias_radps = gyro_.bias();
+  out.accel_bias_mps2 = accel_.bias();
+  if (setup_.variant == ImuVariant::kGravityRemoved) {
+    out.sample.f_imu_mps2 += R_imu_world * g_world;
+  } else if (setup_.variant == ImuVariant::kInG) {
+    out.sample.f_imu_mps2 /= kStandardGravity_mps2;
+  }
+  return out;
+}
+
+double NormalGravity(double latitude_rad, double altitude_m) {
+  const double s = std::sin(latitude_rad) * std::sin(latitude_rad);
+  const double sea_level =
+      9.7803253359 * (1.0 + 0.00193185265241 * s) / std::sqrt(1.0 - 0.00669437999013 * s);
+  return sea_level - 3.086e-6 * altitude_m;
+}
+
+}  // namespace lio::sim

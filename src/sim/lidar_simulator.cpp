@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/lidar_simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "lio/sim/random.hpp"
+
+namespace lio::sim {
+namespace {
+
+constexpr std::size_t kTileColumns = 8;  // neighbours in azimuth see much the same: fast packets
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kLobe_rad = 0.07;         // half width of a polished surface's lobe
+constexpr float kMergedEchoes_m = 0.6f;    // two echoes nearer than this come back as one
+constexpr float kEdge_m = 0.12f;           // a step in range that is an edge and not a slope
+constexpr float kInBetweenReach_m = 3.0f;  // up to this gap a straddled echo may lie in between
+constexpr double kInBetweenChance = 0.1;
+
+// Two numbers from one word.
+struct Pair {
+  double a;
+  double b;
+};
+Pair Halves(std::uint64_t bits) {
+  return {(static_cast<double>(bits >> 32) + 0.5) * 0x1.0p-32,
+          (static_cast<double>(bits & 0xFFFFFFFFull) + 0.5) * 0x1.0p-32};
+}
+
+float GaussianFrom(std::uint64_t bits) {
+  const Pair u = Halves(bits);
+  return std::sqrt(-2.0f * std::log(static_cast<float>(u.a))) *
+         std::cos(static_cast<float>(kTurn * u.b));
+}
+
+// Light that comes back from a surface at 1 m.
+double Backscatter(const MaterialTraits& traits, double cos_incidence) {
+  double strength = traits.reflectivity * std::sqrt(cos_incidence);
+  if (traits.specular > 0.0 && cos_incidence > 0.97) {
+    const double off_sq = 2.0 * (1.0 - cos_incidence) / (kLobe_rad * kLobe_rad);
+    strength += 2.0 * traits.specular * std::exp(-off_sq);
+  }
+  return strength;
+}
+
+std::uint16_t IntensityOf(double backscatter) {
+  // Velodyne's scale: matt surfaces 0..100 in per cent, what sends light back 101..255.
+  const double value =
+      backscatter <= 1.0 ? 100.0 * backscatter : 100.0 + 60.0 * (backscatter - 1.0);
+  return static_cast<std::uint16_t>(std::clamp(value, 0.0, 255.0));
+}
+
+const Dust* DustAt(const std::vector<Dust>& clouds, double t_s) {
+  for (const Dust& dust : clouds) {
+    if (t_s >= dust.begin_s && t_s < dust.end_s) return &dust;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+struct LidarSimulator::Columns {
+  std::int64_t first = 0;  // counted from sweep 0
+  std::int64_t num = 0;
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+// Column-major, one entry a ray.
+struct LidarSimulator::Echoes {
+  std::vector<Hit> hits;
+  std::vector<double> headings_rad;  // one a column
+};
+
+LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory)
+    : setup_(std::move(setup)), scene_(&scene), trajectory_(&trajectory) {
+  const LidarModel& model = setup_.model;
+  for (const Beam& beam : model.beams) {
+    const double azimuth = beam.azimuth_offset_rad - kTurn * model.rotation_hz * beam.fire_time_s;
+    column_directions_.emplace_back(std::cos(beam.elevation_rad) * std::cos(azimuth),
+                                    std::cos(beam.elevation_rad) * std::sin(azimuth),
+                                    std::sin(beam.elevation_rad));
+  }
+  firing_order_.resize(model.beams.size());
+  std::iota(firing_order_.begin(), firing_order_.end(), std::size_t{0});
+  std::stable_sort(firing_order_.begin(), firing_order_.end(), [&](std::size_t a, std::size_t b) {
+    return model.beams[a].fire_time_s < model.beams[b].fire_time_s;
+  });
+  weakest_echo_ = 0.1 / (model.range_at_10_percent_m * model.range_at_10_percent_m);
+}
+
+double LidarSimulator::ColumnTime(std::int64_t column) const {
+  return setup_.begin_s + static_cast<double>(column) * setup_.model.column_period_s;
+}
+
+double LidarSimulator::HeadingAt(double t_s) const {
+  const double turns = (t_s - setup_.begin_s) * setup_.model.rotation_hz;
+  return setup_.model.cut_azimuth_rad - kTurn * (turns - std::floor(turns));
+}
+
+LidarSimulator::Columns LidarSimulator::ColumnsOf(std::int64_t index) const {
+  const double per_turn = 1.0 / (setup_.model.rotation_hz * setup_.model.column_period_s);
+  const auto first_of = [&](std::int64_t turn) {  // the margin keeps exact divisors exact
+    return static_cast<std::int64_t>(std::ceil(static_cast<double>(turn) * per_turn - 1e-6));
+  };
+  Columns columns;
+  columns.first = first_of(index);
+  columns.num = first_of(index + 1) - columns.first;
+  columns.begin_s = ColumnTime(columns.first);
+  columns.end_s = ColumnTime(columns.first + columns.num);
+  return columns;
+}
+
+double LidarSimulator::SweepEnd_s(std::int64_t index) const {
+  const Columns columns = ColumnsOf(index);
+  return ColumnTime(columns.first + columns.num - 1) +
+         setup_.model.beams[firing_order_.back()].fire_time_s;
+}
+
+void LidarSimulator::CastTile(const Scene::Interval& interval, const Columns& columns,
+                              std::int64_t first, Echoes& echoes) const {
+  const std::size_t num_beams = setup_.model.beams.size();
+  const auto num =
+      static_cast<std::size_t>(std::min<std::int64_t>(kTileColumns, columns.num - first));
+  std::vector<Ray> rays(num * num_beams);
+  for (std::size_t c = 0; c < num; ++c) {
+    const std::size_t in_sweep = static_cast<std::size_t>(first) + c;
+    const double t_s = ColumnTime(columns.first + static_cast<std::int64_t>(in_sweep));
+    const double heading = HeadingAt(t_s);
+    echoes.headings_rad[in_sweep] = heading;
+    const Kinematics imu = trajectory_->At(t_s);
+    const Pose lidar = imu.T_world_imu * setup_.T_imu_lidar;
+    const Matrix3 R_world_lidar = lidar.rotation.toRotationMatrix();
+    const Vector3 w_world = imu.T_world_imu.rotation * imu.w_imu_radps;
+    const Vector3 lever = lidar.translation - imu.T_world_imu.translation;
+    const Vector3 v_world = imu.v_world_mps + w_world.cross(lever);
+    const Matrix3 R_world_column =
+        R_world_lidar * Eigen::AngleAxisd(heading, Vector3::UnitZ()).toRotationMatrix();
+    for (std::size_t b = 0; b < num_beams; ++b) {
+      // Within a column the motion is taken as linear: off by less than 1e-8 m and rad.
+      const double dt = setup_.model.beams[b].fire_time_s;
+      const Vector3 direction = R_world_column * column_directions_[b];
+      Ray& ray = rays[b * num + c];
+      ray.origin_m = (lidar.translation + dt * v_world).cast<float>();
+      ray.direction = (direction + dt * w_world.cross(direction)).cast<float>();
+      ray.time_ratio = static_cast<float>(
+          std::min(1.0, (t_s + dt - columns.begin_s) / (columns.end_s - columns.begin_s)));
+    }
+  }
+  std::vector<Hit> hits(rays.size());
+  interval.Cast(rays, static_cast<float>(setup_.model.max_range_m), hits);
+  for (std::size_t b = 0; b < num_beams; ++b) {
+    for (std::size_t c = 0; c < num; ++c) {
+      echoes.hits[(static_cast<std::size_t>(first) + c) * num_beams + b] = hits[b * num + c];
+    }
+  }
+}
+
+SimulatedSweep LidarSimulator::Sweep(std::int64_t index) const {
+  const Columns columns = ColumnsOf(index);
+  const std::size_t num_beams = setup_.model.beams.size();
+  const Scene::Interval interval = scene_->During(columns.begin_s, columns.end_s);
+  Echoes echoes;
+  echoes.hits.resize(static_cast<std::size_t>(columns.num) * num_beams);
+  echoes.headings_rad.resize(static_cast<std::size_t>(columns.num));
+  for (std::int64_t first = 0; first < columns.num; first += kTileColumns) {
+    CastTile(interval, columns, first, echoes);
+  }
+  SimulatedSweep sweep;
+  sweep.begin_ns = static_cast<std::int64_t>(std::llround(columns.begin_s * 1e9));
+  sweep.num_rays = static_cast<std::int64_t>(echoes.hits.size());
+  sweep.points.reserve(echoes.hits.size());
+  sweep.objects.reserve(echoes.hits.size());
+  for (std::int64_t column = 0; column < columns.num; ++column) {
+    for (const std::size_t beam : firing_order_) AddPoint(columns, echoes, column, beam, sweep);
+  }
+  return sweep;
+}
+
+float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index,
+                                     std::uint64_t bits) const {
+  const LidarModel& model = setup_.model;
+  const Hit& hit = echoes.hits[index];
+  const Pair u = Halves(bits);
+  // Only one side can be straddled; the beam's half width decides how often.
+  const bool next = u.a < 0.5;
+  const std::size_t stride = model.beams.size();
+  if (next ? index + stride >= echoes.hits.size() : index < stride) return hit.range_m;
+  const Hit& other = echoes.hits[next ? index + stride : index - stride];
+  if (!std::isfinite(other.range_m)) return hit.range_m;
+  const double spacing = kTurn * model.rotation_hz * model.column_period_s;
+  const double depth = 0.5 * model.beam_width_horizontal_rad / spacing;  // of the beam's reach
+  const double edge_at = next ? 2.0 * u.a : 2.0 * (u.a - 0.5);           // 0: here, 1: the other
+  const float gap = other.range_m - hit.range_m;
+  const float slope = hit.range_m * static_cast<float>(spacing) / std::max(0.1f, hit.cos_incidence);
+  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return hit.range_m;
+  const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
+  if (std::abs(gap) < kMergedEchoes_m ||
+      (std::abs(gap) < kInBetweenReach_m && u.b < kInBetweenChance)) {
+    return hit.range_m + share * gap;
+  }
+  return gap < 0.0f && share > 0.3f ? other.range_m : hit.range_m;
+}
+
+void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column,
+                              std::size_t beam, SimulatedSweep& sweep) const {
+  const LidarModel& model = setup_.model;
+  const LidarErrors& errors = setup_.errors;
+  const auto in_sweep = static_cast<std::size_t>(column);
+  const std::size_t index = in_sweep * model.beams.size() + beam;
+  Hit hit = echoes.hits[index];
+  const std::uint64_t key = HashKey({setup_.seed, static_cast<std::uint64_t>(Purpose::kLidar),
+                                     static_cast<std::uint64_t>(columns.first + column), beam});
+  const double t_s = ColumnTime(columns.first + column) + model.beams[beam].fire_time_s;
+  const Pair chance = Halves(MixBits(key + 1));
+  double range_m = hit.range_m;
+  double backscatter = 0.0;
+  double std_scale = errors.noise_scale;
+  if (hit.object != Hit::kNothing) {
+    backscatter = Backscatter(TraitsOf(hit.material), hit.cos_incidence);
+    const double weakness = weakest_echo_ * range_m * range_m / backscatter;
+    const double weakness_sq = weakness * weakness;
+    const bool seen = !errors.has_weak_echoes || chance.a * (1.0 + weakness_sq * weakness_sq) < 1.0;
+    if (!seen || chance.b < errors.dropout_ratio) hit.object = Hit::kNothing;
+    if (errors.has_mixed_pixels) range_m = StraddledRange(echoes, index, MixBits(key + 2));
+    const double slant = std::min(1.0 / std::max(0.05f, hit.cos_incidence) - 1.0, 6.0);
+    std_scale *= std::sqrt(1.0 + 0.15 * slant * slant + 0.5 * std::min(weakness, 2.0));
+  }
+  if (const Dust* dust = DustAt(errors.dust, t_s)) {
+    const double first_m =
+        model.min_range_m - std::log(Halves(MixBits(key + 3)).a) / dust->echoes_per_m;
+    if (first_m < std::min(range_m, 25.0)) {
+      range_m = first_m;
+      backscatter = 0.03;
+      hit.object = Hit::kFixed;
+    }
+  }
+  if (hit.object == Hit::kNothing) return;
+  range_m += std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
+  range_m = model.range_step_m * std::round(range_m / model.range_step_m);
+  if (range_m < model.min_range_m || range_m > model.max_range_m) return;
+  const double heading = echoes.headings_rad[in_sweep];
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  const Vector3& d = column_directions_[beam];
+  LidarPoint point;
+  point.x_m = static_cast<float>(range_m * (c * d.x() - s * d.y()));
+  point.y_m = static_cast<float>(range_m * (s * d.x() + c * d.y()));
+  point.z_m = static_cast<float>(range_m * d.z());
+  point.t_offset_ns = static_cast<std::uint32_t>(
+      std::max<std::int64_t>(0, std::llround(t_s * 1e9) - sweep.begin_ns));
+  point.intensity = IntensityOf(backscatter * (0.95 + 0.1 * Halves(MixBits(key + 5)).a));
+  point.ring = static_cast<std::uint16_t>(beam);
+  sweep.points.push_back(point);
+  sweep.objects.push_back(hit.object);
+}
+
+}  // namespace lio::sim

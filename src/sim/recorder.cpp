@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/recorder.hpp"
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "lio/io/event_log.hpp"
+#include "lio/io/lcm_codec.hpp"
+#include "lio/io/trajectory_file.hpp"
+#include "lio/sim/messages.hpp"
+#include "rig_file.hpp"
+
+namespace lio::sim {
+namespace {
+
+constexpr Duration kEpoch{1'700'000'000'000'000'000};
+constexpr Duration kImuDelay{300'000};        // from an IMU sample to its receipt
+constexpr Duration kChunkDelay{500'000};      // from a chunk's last point to its receipt
+constexpr Duration kDisorder{2'000'000'000};  // messages are held this long to be put in order
+
+std::ofstream OpenText(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+  return file;
+}
+
+void CloseText(std::ofstream& file, const std::filesystem::path& path) {
+  file.close();
+  if (!file) throw std::runtime_error("cannot write all of " + path.string());
+}
+
+// truth.tum and truth_states.csv.
+class TruthWriter {
+ public:
+  explicit TruthWriter(const std::filesystem::path& folder)
+      : tum_path_(folder / "truth.tum"),
+        states_path_(folder / "truth_states.csv"),
+        tum_(OpenText(tum_path_)),
+        states_(OpenText(states_path_)) {
+    states_.precision(12);
+    states_ << "t_s,vx_world_mps,vy_world_mps,vz_world_mps,"
+               "gyro_bias_x_radps,gyro_bias_y_radps,gyro_bias_z_radps,"
+               "accel_bias_x_mps2,accel_bias_y_mps2,accel_bias_z_mps2,"
+               "wx_imu_radps,wy_imu_radps,wz_imu_radps,"
+               "ax_world_mps2,ay_world_mps2,az_world_mps2\n";
+  }
+
+  void Write(const SimulatedImu& imu) {
+    const Timestamp stamp = StampOf(imu.sample.stamp.ns);
+    tum_ << TumRow({stamp, imu.truth.T_world_imu}) << '\n';
+    states_ << StampText(stamp);
+    for (const Vector3& v : {imu.truth.v_world_mps, imu.gyro_bias_radps, imu.accel_bias_mps2,
+                             imu.truth.w_imu_radps, imu.truth.a_world_mps2}) {
+      states_ << ',' << v.x() << ',' << v.y() << ',' << v.z();
+    }
+    states_ << '\n';
+  }
+
+  void Close() {
+    CloseText(tum_, tum_path_);
+    CloseText(states_, states_path_);
+  }
+
+ private:
+  std::filesystem::path tum_path_;
+  std::filesystem::path states_path_;
+  std::ofstream tum_;
+  std::ofstream states_;
+};
+
+// Parts of at most kMaxChunkPoints, each stamped with its own first point.
+std::vector<ScanChunk> SplitSweep(const SimulatedSweep& sweep, std::int64_t index) {
+  const std::size_t num = sweep.points.size();
+  const std::size_t size = kMaxChunkPoints;
+  const std::size_t num_chunks = std::max<std::size_t>(1, (num + size - 1) / size);
+  std::vector<ScanChunk> chunks(num_chunks);
+  for (std::size_t i = 0; i < num_chunks; ++i) {
+    ScanChunk& chunk = chunks[i];
+    chunk.scan_seq = static_cast<std::int32_t>(index);
+    chunk.chunk_index = static_cast<std::int16_t>(i);
+    chunk.chunk_count = static_cast<std::int16_t>(num_chunks);
+    const auto first = sweep.points.begin() + static_cast<std::ptrdiff_t>(i * size);
+    const auto last =
+        sweep.points.begin() + static_cast<std::ptrdiff_t>(std::min(num, (i + 1) * size));
+    chunk.points.assign(first, last);
+    const std::uint32_t offset_ns = chunk.points.empty() ? 0 : chunk.points.front().t_offset_ns;
+    for (LidarPoint& point : chunk.points) point.t_offset_ns -= offset_ns;
+    chunk.stamp = StampOf(sweep.begin_ns + offset_ns);
+  }
+  return chunks;
+}
+
+class Recording {
+ public:
+  Recording(const Scenario& scenario, const RecordOptions& options,
+            const std::filesystem::path& folder)
+      : options_(options),
+        end_s_(scenario.begin_s + scenario.duration_s),
+        begin_s_(scenario.begin_s),
+        imu_({options.imu, options.imu_variant, options.gravity_mps2, options.seed},
+             *scenario.trajectory),
+        log_(folder / "log.lcm"),
+        truth_(folder) {}
+
+  // Sweeps must come in order.
+  void AddSweep(const SimulatedSweep& sweep, std::int64_t index) {
+    stats_.num_sweeps += 1;
+    stats_.num_rays += sweep.num_rays;
+    stats_.num_points += static_cast<std::int64_t>(sweep.points.size());
+    for (ScanChunk& chunk : SplitSweep(sweep, index)) {
+      const std::uint32_t last_ns = chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns;
+      const Timestamp arrival = chunk.stamp + Duration{last_ns} + kChunkDelay;
+      AddImuUntil(arrival - kEpoch);
+      queue_.Push({arrival, std::move(chunk)});
+      stats_.num_chunks += 1;
+      WriteUntil(arrival - kDisorder);
+    }
+  }
+
+  RecordStats Finish() {
+    AddImuUntil(StampOf(std::llround(end_s_ * 1e9)) - kEpoch);
+    WriteUntil({std::numeric_limits<std::int64_t>::max()});
+    log_.Close();
+    truth_.Close();
+    return stats_;
+  }
+
+ private:
+  // The IMU samples up to a trajectory time; their instants are whole microseconds, as on the wire.
+  void AddImuUntil(Timestamp limit) {
+    for (;; ++stats_.num_imu) {
+      const double t_s = begin_s_ + static_cast<double>(stats_.num_imu) / options_.imu.rate_hz;
+      const std::int64_t t_ns = 1000 * std::llround(t_s * 1e6);
+      if (t_ns > limit.ns || t_s > end_s_ + 1e-9) return;
+      SimulatedImu imu = imu_.Sample(t_ns);
+      truth_.Write(imu);
+      imu.sample.stamp = StampOf(t_ns);
+      const auto seq = static_cast<std::int32_t>(stats_.num_imu);
+      queue_.Push({imu.sample.stamp + kImuDelay, ImuMessage{imu.sample, seq}});
+    }
+  }
+
+  void WriteUntil(Timestamp limit) {
+    while (const std::optional<Message> message = queue_.PopBefore(limit)) {
+      const std::int64_t utime = message->arrival.Microseconds();
+      if (const auto* imu = std::get_if<ImuMessage>(&message->body)) {
+        log_.Write(utime, "LIO_IMU", EncodeImu(imu->sample, imu->seq));
+      } else {
+        log_.Write(utime, "LIO_SCAN", EncodeChunk(std::get<ScanChunk>(message->body)));
+      }
+    }
+  }
+
+  const RecordOptions& options_;
+  double end_s_;
+  double begin_s_;
+  ImuSimulator imu_;
+  EventLogWriter log_;
+  TruthWriter truth_;
+  ArrivalQueue queue_;
+  RecordStats stats_;
+};
+
+struct NumberedSweep {
+  std::int64_t index = 0;
+  SimulatedSweep sweep;
+};
+
+// Casts sweeps on all threads and hands them over in order.
+void CastSweeps(const LidarSimulator& lidar, double end_s, int num_threads,
+                const std::function<void(NumberedSweep)>& take) {
+  std::int64_t next = 0;
+  const auto number = [&](tbb::flow_control& control) {
+    if (lidar.SweepEnd_s(next) > end_s) {
+      control.stop();
+      return next;
+    }
+    return next++;
+  };
+  const auto cast = [&](std::int64_t index) { return NumberedSweep{index, lidar.Sweep(index)}; };
+  tbb::task_arena arena(num_threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        static_cast<std::size_t>(2 * num_threads),
+        tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order, number) &
+            tbb::make_filter<std::int64_t, NumberedSweep>(tbb::filter_mode::parallel, cast) &
+            tbb::make_filter<NumberedSweep, void>(tbb::filter_mode::serial_in_order, take));
+  });
+}
+
+}  // namespace
+
+Timestamp StampOf(std::int64_t trajectory_ns) {
+  return Timestamp{trajectory_ns} + kEpoch;
+}
+
+RecordStats Record(const Scenario& scenario, const RecordOptions& options,
+                   const std::filesystem::path& folder,
+                   const std::function<void(double)>& progress) {
+  std::filesystem::create_directories(folder);
+  WriteRigFile(folder / "config.yaml", scenario, options);
+  const Scene scene(scenario.world);
+  const LidarSimulator lidar(
+      {options.lidar, scenario.T_imu_lidar, options.lidar_errors, options.seed, scenario.begin_s},
+      scene, *scenario.trajectory);
+  Recording recording(scenario, options, folder);
+  const double end_s = scenario.begin_s + scenario.duration_s;
+  CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {
+    recording.AddSweep(numbered.sweep, numbered.index);
+    const double done_s = static_cast<double>(numbered.sweep.begin_ns) * 1e-9 - scenario.begin_s;
+    if (progress) progress(done_s / scenario.duration_s);
+  });
+  return recording.Finish();
+}
+
+}  // namespace lio::sim

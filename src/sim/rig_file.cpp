@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "rig_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace lio::sim {
+namespace {
+
+constexpr double kLeastDensity = 1e-6;  // a filter cannot use the ideal unit's zero
+
+// Random walk with the same growth as walk and Gauss-Markov process have over short times.
+double WalkDensity(const InertialModel& model) {
+  const double slow = model.bias_instability * std::sqrt(2.0 / model.bias_instability_time_s);
+  return std::max(kLeastDensity, std::hypot(model.bias_walk_density, slow));
+}
+
+double BiasStd(const InertialModel& model) {
+  return std::max(1e-5, std::hypot(model.turn_on_bias_std, model.bias_instability));
+}
+
+void WriteVector(std::ofstream& file, const char* key, const Vector3& v) {
+  file << key << ": [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
+}
+
+}  // namespace
+
+void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
+                  const RecordOptions& options) {
+  std::ofstream file(path);
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+  file.precision(9);
+  const Pose& T = scenario.T_imu_lidar;
+  file << "# Rig of lio-sim's scenario '" << scenario.name << "', seed " << options.seed << ": "
+       << options.lidar.name << ", " << options.imu.name << ".\n"
+       << "rig:\n  T_imu_lidar:  # p_imu = T_imu_lidar * p_lidar\n";
+  WriteVector(file, "    translation_m", T.translation);
+  file << "    rotation_wxyz: [" << T.rotation.w() << ", " << T.rotation.x() << ", "
+       << T.rotation.y() << ", " << T.rotation.z() << "]\n"
+       << "  lidar:\n    model: " << options.lidar.name
+       << "\n    min_range_m: " << scenario.min_range_m
+       << "\n    max_range_m: " << options.lidar.max_range_m << "\n";
+  if (scenario.own_vehicle_box) {
+    file << "    own_vehicle_box:\n";
+    WriteVector(file, "      min_m", scenario.own_vehicle_box->min_m);
+    WriteVector(file, "      max_m", scenario.own_vehicle_box->max_m);
+  }
+  const InertialModel& gyro = options.imu.gyro;
+  const InertialModel& accel = options.imu.accel;
+  file << "  imu:\n"
+       << "    gyro_noise_density: " << std::max(kLeastDensity, gyro.noise_density) << "\n"
+       << "    accel_noise_density: " << std::max(kLeastDensity, accel.noise_density) << "\n"
+       << "    gyro_bias_walk_density: " << WalkDensity(gyro) << "\n"
+       << "    accel_bias_walk_density: " << WalkDensity(accel) << "\n"
+       << "    gyro_bias_std_radps: " << BiasStd(gyro) << "\n"
+       << "    accel_bias_std_mps2: " << BiasStd(accel) << "\n"
+       << "    gravity: auto\n"
+       << "  gravity_mps2: " << options.gravity_mps2 << "\n";
+  file.close();
+  if (!file) throw std::runtime_error("cannot write all of " + path.string());
+}
+
+}  // namespace lio::sim

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/scene.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace lio::sim {
+namespace {
+
+constexpr int kLanes = 8;
+
+struct DeviceDeleter {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
+using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
+
+ScenePtr MakeMeshScene(RTCDevice device, const Mesh& mesh) {
+  ScenePtr scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  if (!mesh.triangles.empty()) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(Vector3f), mesh.vertices_m.size());
+    std::copy(mesh.vertices_m.begin(), mesh.vertices_m.end(), static_cast<Vector3f*>(vertices));
+    using Triangle = std::array<std::uint32_t, 3>;
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              sizeof(Triangle), mesh.triangles.size());
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<Triangle*>(triangles));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene.get());
+  return scene;
+}
+
+// Column-major 3x4, as Embree takes transforms.
+std::array<float, 12> ToColumns(const Pose& pose) {
+  const Matrix3 rotation = pose.rotation.toRotationMatrix();
+  std::array<float, 12> columns{};
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      columns[static_cast<std::size_t>(3 * c + r)] = static_cast<float>(rotation(r, c));
+    }
+  }
+  for (int r = 0; r < 3; ++r) {
+    columns[static_cast<std::size_t>(9 + r)] = static_cast<float>(pose.translation[r]);
+  }
+  return columns;
+}
+
+}  // namespace
+
+struct Scene::Impl {
+  DevicePtr device;
+  ScenePtr fixed;
+  std::vector<Material> fixed_materials;
+  std::vector<ScenePtr> shapes;
+  std::vector<std::vector<Material>> shape_materials;
+  std::vector<Mover> movers;
+};
+
+struct Scene::Interval::Impl {
+  const Scene::Impl* world = nullptr;
+  ScenePtr movers;                // null when nothing moves
+  std::vector<Matrix3> to_mover;  // rotation world to mover at the interval's middle
+};
+
+// Embree builds with one thread of its own: the tree, and with it ties, do not depend on the
+// machine.
+Scene::Scene(const World& world) : impl_(std::make_unique<Impl>()) {
+  impl_->device.reset(rtcNewDevice("threads=1"));
+  if (!impl_->device) {
+    throw std::runtime_error("Embree does not start, error " +
+                             std::to_string(rtcGetDeviceError(nullptr)));
+  }
+  impl_->fixed = MakeMeshScene(impl_->device.get(), world.fixed);
+  impl_->fixed_materials = world.fixed.materials;
+  for (const Mesh& shape : world.shapes) {
+    impl_->shapes.push_back(MakeMeshScene(impl_->device.get(), shape));
+    impl_->shape_materials.push_back(shape.materials);
+  }
+  impl_->movers = world.movers;
+}
+
+Scene::~Scene() = default;
+
+Scene::Interval Scene::During(double begin_s, double end_s) const {
+  auto interval = std::make_unique<Interval::Impl>();
+  interval->world = impl_.get();
+  if (impl_->movers.empty()) return Interval(std::move(interval));
+  const auto num_steps =
+      std::clamp(static_cast<unsigned>(std::ceil((end_s - begin_s) / kMoverStep_s)) + 1u, 2u, 129u);
+  interval->movers.reset(rtcNewScene(impl_->device.get()));
+  rtcSetSceneFlags(interval->movers.get(), RTC_SCENE_FLAG_ROBUST);
+  for (const Mover& mover : impl_->movers) {
+    RTCGeometry instance = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, impl_->shapes[mover.shape].get());
+    rtcSetGeometryTimeStepCount(instance, num_steps);
+    for (unsigned i = 0; i < num_steps; ++i) {
+      const double t_s = begin_s + (end_s - begin_s) * i / (num_steps - 1);
+      const std::array<float, 12> columns = ToColumns(mover.T_world_mover(t_s));
+      rtcSetGeometryTransform(instance, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    }
+    rtcCommitGeometry(instance);
+    rtcAttachGeometry(interval->movers.get(), instance);
+    rtcReleaseGeometry(instance);
+    const Pose middle = mover.T_world_mover(0.5 * (begin_s + end_s));
+    interval->to_mover.push_back(middle.rotation.toRotationMatrix().transpose());
+  }
+  rtcCommitScene(interval->movers.get());
+  return Interval(std::move(interval));
+}
+
+Scene::Interval::Interval(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Scene::Interval::~Interval() = default;
+Scene::Interval::Interval(Interval&&) noexcept = default;
+
+void Scene::Interval::Cast(std::span<const Ray> rays, float max_range_m,
+                           std::span<Hit> hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) RTCRayHit8 packet;
+  alignas(32) std::array<int, kLanes> valid;
+  for (std::size_t first = 0; first < rays.size(); first += kLanes) {
+    const std::size_t num = std::min<std::size_t>(kLanes, rays.size() - first);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const Ray& ray = rays[first + std::min(i, num - 1)];
+      valid[i] = i < num ? -1 : 0;
+      packet.ray.org_x[i] = ray.origin_m.x();
+      packet.ray.org_y[i] = ray.origin_m.y();
+      packet.ray.org_z[i] = ray.origin_m.z();
+      packet.ray.dir_x[i] = ray.direction.x();
+      packet.ray.dir_y[i] = ray.direction.y();
+      packet.ray.dir_z[i] = ray.direction.z();
+      packet.ray.tnear[i] = 0.0f;
+      packet.ray.tfar[i] = max_range_m;
+      packet.ray.time[i] = ray.time_ratio;
+      packet.ray.mask[i] = ~0u;
+      packet.ray.flags[i] = 0;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid.data(), impl_->world->fixed.get(), &context, &packet);
+    if (impl_->movers) rtcIntersect8(valid.data(), impl_->movers.get(), &context, &packet);
+    for (std::size_t i = 0; i < num; ++i) {
+      Hit hit;
+      if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+        const Vector3f normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+        Vector3f direction = rays[first + i].direction;
+        const unsigned mover = packet.hit.instID[0][i];
+        const unsigned triangle = packet.hit.primID[i];
+        hit.range_m = packet.ray.tfar[i];
+        if (mover == RTC_INVALID_GEOMETRY_ID) {
+          hit.object = Hit::kFixed;
+          hit.material = impl_->world->fixed_materials[triangle];
+        } else {
+          hit.object = static_cast<int>(mover);
+          hit.material = impl_->world->shape_materials[impl_->world->movers[mover].shape][triangle];
+          direction = (impl_->to_mover[mover] * direction.cast<double>()).cast<float>();
+        }
+        hit.cos_incidence = std::abs(normal.dot(direction)) / normal.norm();
+      }
+      hits[first + i] = hit;
+    }
+  }
+}
+
+}  // namespace lio::sim

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// lio-sim: a drive through a synthetic world, as the sensors would have logged it, with the truth.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "lio/io/command_line.hpp"
+#include "lio/sim/data_file.hpp"
+#include "lio/sim/recorder.hpp"
+
+namespace {
+
+using namespace lio;
+
+struct Arguments {
+  std::string scenario;
+  std::optional<double> duration_s;
+  std::uint64_t seed = 1;
+  std::string lidar;
+  std::string imu;
+  std::optional<double> imu_rate_hz;
+  sim::ImuVariant imu_variant = sim::ImuVariant::kSpecificForce;
+  double latitude_deg = 22.3;  // Hong Kong
+  double altitude_m = 0.0;
+  bool starts_moving = false;
+  bool lists = false;
+  int num_threads = 1;
+  std::string folder;
+};
+
+std::string ScenarioTable() {
+  std::string table = "Scenarios:\n";
+  for (const sim::ScenarioEntry& entry : sim::AllScenarios()) {
+    table += "  " + entry.name +
+             std::string(10 - std::min<std::size_t>(9, entry.name.size()), ' ') + entry.summary +
+             "\n";
+  }
+  return table;
+}
+
+void AddArguments(CLI::App& app, Arguments& arguments) {
+  const std::map<std::string, sim::ImuVariant> variants = {
+      {"normal", sim::ImuVariant::kSpecificForce},
+      {"gravity-removed", sim::ImuVariant::kGravityRemoved},
+      {"in-g", sim::ImuVariant::kInG}};
+  app.add_flag("--list", arguments.lists, "print the scenarios' names, one a line");
+  app.add_option("--scenario", arguments.scenario, "which place and drive");
+  app.add_option("--out", arguments.folder, "folder to write into; made if it is not there");
+  app.add_option("--duration", arguments.duration_s, "length of the log [s]");
+  app.add_option("--seed", arguments.seed, "another seed is another world and other noise")
+      ->capture_default_str();
+  app.add_option("--lidar", arguments.lidar,
+                 "hdl32e, vlp16, hdl64e, os1_64 or a file of that form");
+  app.add_option("--imu", arguments.imu,
+                 "xsens_mti10, consumer_mems, ideal or a file of that form");
+  app.add_option("--imu-rate", arguments.imu_rate_hz, "samples a second [Hz]")
+      ->check(CLI::Range(100.0, 1000.0));
+  app.add_option("--imu-variant", arguments.imu_variant,
+                 "what the accelerometer gives: normal, gravity-removed, in-g")
+      ->transform(CLI::CheckedTransformer(variants));
+  app.add_option("--latitude", arguments.latitude_deg, "of the place, for its gravity [deg]")
+      ->capture_default_str()
+      ->check(CLI::Range(-90.0, 90.0));
+  app.add_option("--altitude", arguments.altitude_m, "of the place, for its gravity [m]")
+      ->capture_default_str();
+  app.add_flag("--moving-start", arguments.starts_moving, "begin the log in motion, without rest");
+  app.add_option("--threads", arguments.num_threads, "changes the speed only, never a byte")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  app.footer(ScenarioTable() + R"(
+Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
+(velocity, biases, rates) and config.yaml, which lio-replay and liod take as it is.
+
+Examples:
+  lio-sim --scenario street --out out/street
+  lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
+  lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
+)");
+}
+
+sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& scenario) {
+  sim::RecordOptions options;
+  options.lidar =
+      sim::LoadLidarModel(arguments.lidar.empty() ? scenario.lidar_model : arguments.lidar);
+  options.imu = sim::LoadImuModel(arguments.imu.empty() ? scenario.imu_model : arguments.imu);
+  if (arguments.imu_rate_hz) options.imu.rate_hz = *arguments.imu_rate_hz;
+  options.imu_variant = arguments.imu_variant;
+  options.gravity_mps2 =
+      sim::NormalGravity(arguments.latitude_deg * std::numbers::pi / 180.0, arguments.altitude_m);
+  options.seed = arguments.seed;
+  options.num_threads = arguments.num_threads;
+  return options;
+}
+
+void ShowProgress(double share) {
+  std::fprintf(stderr, "\r%3.0f %%", 100.0 * share);
+  std::fflush(stderr);
+}
+
+int Run(const Arguments& arguments) {
+  using Clock = std::chrono::steady_clock;
+  const sim::Scenario scenario = sim::MakeScenario(
+      arguments.scenario, {arguments.seed, arguments.duration_s, arguments.starts_moving});
+  const sim::RecordOptions options = MakeOptions(arguments, scenario);
+  const auto start = Clock::now();
+  std::function<void(double)> progress;
+  if (isatty(STDERR_FILENO) != 0) progress = ShowProgress;
+  const sim::RecordStats stats = sim::Record(scenario, options, arguments.folder, progress);
+  if (progress) std::fputs("\r     \r", stderr);
+  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  std::printf("%s: %.1f s, %lld sweeps of %s, %.1f M rays, %.1f M points, %lld IMU samples\n",
+              scenario.name.c_str(), scenario.duration_s, static_cast<long long>(stats.num_sweeps),
+              options.lidar.name.c_str(), 1e-6 * static_cast<double>(stats.num_rays),
+              1e-6 * static_cast<double>(stats.num_points), static_cast<long long>(stats.num_imu));
+  std::printf("%.1f s on %d thread%s: %.2f M rays/s\n", wall_s, options.num_threads,
+              options.num_threads == 1 ? "" : "s",
+              1e-6 * static_cast<double>(stats.num_rays) / wall_s);
+  return kExitDone;
+}
+
+int Fail(const std::string& message, int code) {
+  std::cerr << "lio-sim: " << message << "\n";
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Simulates a lidar and an IMU on a drive through a synthetic world.", "lio-sim"};
+  Arguments arguments;
+  AddArguments(app, arguments);
+  if (const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *code;
+  if (arguments.lists) {
+    for (const sim::ScenarioEntry& entry : sim::AllScenarios()) std::cout << entry.name << "\n";
+    return kExitDone;
+  }
+  if (arguments.scenario.empty())
+    return Fail("--scenario is required; --list names them", kExitUsage);
+  if (arguments.folder.empty())
+    return Fail("--out is required: the folder to write into", kExitUsage);
+  try {
+    return Run(arguments);
+  } catch (const std::invalid_argument& error) {
+    return Fail(error.what(), kExitUsage);
+  } catch (const std::exception& error) {
+    return Fail(error.what(), kExitConfiguration);
+  }
+}
