@@ -4,36 +4,26 @@
 
 #include <algorithm>
 
+#include "lio/filter/inertial_increment.hpp"
+
 namespace lio {
 namespace {
 
-// What a step needs of its two samples and states, computed once.
+// What a step needs of its samples and states, computed once.
 struct Step {
-  double dt_s = 0.0;
-  Matrix3 R0, R1;             // imu to world before and after
-  Matrix3 dR_T;               // (R0^T R1)^T
-  Vector3 f0, f1;             // bias-corrected specific force at both ends, imu
-  Matrix3 right_jacobian_dt;  // d rotation after / d (-gyro bias)
+  InertialIncrement increment;
+  IncrementByBias by_bias;
+  Matrix3 R0, R1;  // imu to world before and after
+  Matrix3 dR_T;    // (R0^T R1)^T
 };
-
-Vector3 RotationVector(const NavState& state, const ImuSample& from, const ImuSample& to,
-                       double dt_s) {
-  const Vector3 w0 = from.w_imu_radps - state.gyro_bias;
-  const Vector3 w1 = to.w_imu_radps - state.gyro_bias;
-  return 0.5 * dt_s * (w0 + w1) + dt_s * dt_s / 12.0 * w0.cross(w1);
-}
 
 Step MakeStep(const NavState& before, const NavState& after, const ImuSample& from,
               const ImuSample& to) {
   Step step;
-  step.dt_s = SecondsBetween(from.stamp, to.stamp);
+  step.increment = MakeIncrement(from, to, before.gyro_bias, before.accel_bias, step.by_bias);
   step.R0 = before.T_world_imu.rotation.toRotationMatrix();
   step.R1 = after.T_world_imu.rotation.toRotationMatrix();
   step.dR_T = step.R1.transpose() * step.R0;
-  step.f0 = from.f_imu_mps2 - before.accel_bias;
-  step.f1 = to.f_imu_mps2 - before.accel_bias;
-  step.right_jacobian_dt =
-      step.dt_s * RightJacobianSo3(RotationVector(before, from, to, step.dt_s));
   return step;
 }
 
@@ -48,38 +38,31 @@ struct Blocks {
 };
 
 Blocks MakeBlocks(const Step& s) {
-  const double dt = s.dt_s;
-  // d (R f) / d rotation error at each end, and through the end's dependence on the gyro bias.
-  const Matrix3 force0 = -s.R0 * Hat(s.f0);
-  const Matrix3 force1 = -s.R1 * Hat(s.f1);
-  const Matrix3 force1_start = force1 * s.dR_T;
-  const Matrix3 force1_gyro = -force1 * s.right_jacobian_dt;
   Blocks b;
-  b.v_rot = 0.5 * dt * (force0 + force1_start);
-  b.v_gyro = 0.5 * dt * force1_gyro;
-  b.v_accel = -0.5 * dt * (s.R0 + s.R1);
-  b.p_vel = dt;
-  b.p_rot = dt * dt / 6.0 * (2.0 * force0 + force1_start);
-  b.p_gyro = dt * dt / 6.0 * force1_gyro;
-  b.p_accel = -dt * dt / 6.0 * (2.0 * s.R0 + s.R1);
+  b.v_rot = -s.R0 * Hat(s.increment.velocity);
+  b.v_gyro = s.R0 * s.by_bias.velocity_by_gyro;
+  b.v_accel = s.R0 * s.by_bias.velocity_by_accel;
+  b.p_vel = s.increment.dt_s;
+  b.p_rot = -s.R0 * Hat(s.increment.position);
+  b.p_gyro = s.R0 * s.by_bias.position_by_gyro;
+  b.p_accel = s.R0 * s.by_bias.position_by_accel;
   b.rot_rot = s.dR_T;
-  b.rot_gyro = -s.right_jacobian_dt;
+  b.rot_gyro = s.by_bias.turn_by_gyro;
   return b;
 }
 
 // The map pose takes the same increment D = T0^-1 T1, whose own error is that of T1 less that of T0
 // carried through D.
 void AddMapBlocks(const NavState& before, const NavState& after, const Step& s, Blocks& b) {
-  const Matrix3 R1_T = s.R1.transpose();
   const Vector3 d_world = after.T_world_imu.translation - before.T_world_imu.translation;
   const Vector3 d = s.R0.transpose() * d_world;  // translation of D
   // Ad(D^-1) = [dR^T, -dR^T Hat(d); 0, dR^T] for D = (dR, d).
   b.m_m = s.dR_T;
   b.m_mrot = -s.dR_T * Hat(d);
-  b.m_rot = R1_T * b.p_rot - b.m_mrot;
-  b.m_vel = b.p_vel * R1_T;
-  b.m_gyro = R1_T * b.p_gyro;
-  b.m_accel = R1_T * b.p_accel;
+  b.m_rot = s.dR_T * Hat(d - s.increment.position);
+  b.m_vel = b.p_vel * s.R1.transpose();
+  b.m_gyro = s.dR_T * s.by_bias.position_by_gyro;
+  b.m_accel = s.dR_T * s.by_bias.position_by_accel;
 }
 
 using Rows = Eigen::Matrix<double, 3, kStateDim>;
@@ -118,7 +101,7 @@ ErrorMatrix MultiplyTransition(const Blocks& b, const ErrorMatrix& P) {
 }
 
 void AddNoise(const Step& s, const ProcessNoise& noise, ErrorMatrix& P) {
-  const double dt = s.dt_s;
+  const double dt = s.increment.dt_s;
   const double gyro = noise.gyro_density * noise.gyro_density * dt;
   const double vel = noise.accel_density * noise.accel_density * dt;
   const double pos_vel = 0.5 * dt * vel;
@@ -154,17 +137,15 @@ Blocks MakeAllBlocks(const NavState& before, const NavState& after, const Step& 
 
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world) {
-  const double dt = SecondsBetween(from.stamp, to.stamp);
-  const Quaternion turn = ExpSo3(RotationVector(state, from, to, dt));
+  const InertialIncrement increment = MakeIncrement(from, to, state.gyro_bias, state.accel_bias);
+  const double dt = increment.dt_s;
   const Quaternion R0 = state.T_world_imu.rotation;
+  const Vector3 shift = dt * state.v_world_imu + 0.5 * dt * dt * g_world + R0 * increment.position;
   NavState next = state;
-  next.T_world_imu.rotation = (R0 * turn).normalized();
-  const Vector3 a0 = R0 * (from.f_imu_mps2 - state.accel_bias) + g_world;
-  const Vector3 a1 = next.T_world_imu.rotation * (to.f_imu_mps2 - state.accel_bias) + g_world;
-  const Vector3 shift = dt * state.v_world_imu + dt * dt / 6.0 * (2.0 * a0 + a1);
-  next.v_world_imu += 0.5 * dt * (a0 + a1);
+  next.T_world_imu.rotation = (R0 * increment.turn).normalized();
   next.T_world_imu.translation += shift;
-  next.T_map_imu = state.T_map_imu * Pose{turn, R0.conjugate() * shift};
+  next.v_world_imu += dt * g_world + R0 * increment.velocity;
+  next.T_map_imu = state.T_map_imu * Pose{increment.turn, R0.conjugate() * shift};
   return next;
 }
 

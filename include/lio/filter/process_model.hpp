@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 // One inertial step: the nominal state and its covariance from one sample to the next.
 //
-// Between samples rate and specific force run linearly. Rotation: mean rate plus the coning term
-// dt^2/12 (w0 x w1); velocity and position: the accelerations at both ends in world, linear between
-// (second order: halving dt quarters the error). Noise: continuous densities over dt, white
-// acceleration giving the position-velocity cross terms dt^3/3, dt^2/2. Sources: Sola,
-// arXiv 1711.02508, sections 4 and 5; Forster et al., TRO 2017; for the map pose docs/filter.md.
+// Integration: inertial_increment.hpp. Noise: continuous densities over dt, white acceleration
+// giving the position-velocity cross terms dt^3/3, dt^2/2. Sources: Sola, arXiv 1711.02508,
+// sections 4 and 5; Forster et al., TRO 2017; for the map pose docs/filter.md.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
