@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The whole pipeline over a log: no clock, no drops.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <ctime>
+
+#include "lio/io/command_line.hpp"
+#include "lio/io/log_input.hpp"
+#include "lio/io/map_cloud.hpp"
+#include "lio/io/progress_bar.hpp"
+#include "lio/io/run_writer.hpp"
+#include "lio/pipeline/match_side.hpp"
+
+namespace lio {
+namespace {
+
+struct ReplayArguments {
+  OptionsArguments options;
+  std::string log;
+  std::string out;
+  std::string channel_prefix = kDefaultChannelPrefix;
+  int num_threads = 1;
+  bool writes_map = false;
+  double start_s = 0.0;
+  double duration_s = std::numeric_limits<double>::infinity();
+};
+
+constexpr const char* kDescription =
+    "Runs LiDAR-inertial odometry over an LCM log, as fast as the machine goes.\n\n"
+    "Writes into DIR: trajectory.tum (imu in world, a row a scan), covariance.csv,\n"
+    "trajectory_imu_rate.tum, registration.csv, stats.json, options.yaml, and map.pcd with --map.\n"
+    "The same log and options give the same files byte for byte, but for times of computing.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  lio-replay --config config/ulhk.yaml drive.lcm --out out/drive\n"
+    "  lio-replay --config config/ulhk.yaml --set pipeline.use_imu=false drive.lcm --out "
+    "out/lidar\n"
+    "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n\n"
+    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log.";
+
+std::int64_t ThreadCpuNs() {
+  std::timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+void AddArguments(CLI::App& app, ReplayArguments& arguments) {
+  app.footer(kExamples);
+  app.add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
+      ->type_name("IN.lcm")
+      ->required();
+  app.add_option("--out", arguments.out, "Folder for the results; made where needed")
+      ->type_name("DIR")
+      ->required();
+  app.add_option("--threads", arguments.num_threads,
+                 "With 2 or more the log is read and decoded ahead on a thread of its own")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_flag("--map", arguments.writes_map, "Write map.pcd, one point each 0.2 m");
+  app.add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--duration", arguments.duration_s, "Replay S seconds and no more")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
+      ->type_name("NAME")
+      ->capture_default_str();
+  AddOptionsArguments(app, arguments.options);
+}
+
+// Feeds the estimator and carries its outputs to the files.
+class Replay {
+ public:
+  Replay(const Options& options, bool writes_map, RunWriter& writer)
+      : writer_(writer),
+        odometry_(options, ThreadCpuNs),
+        match_side_(options, ThreadCpuNs),
+        writes_map_(writes_map) {}
+
+  void Run(LogInput& input) {
+    const auto begin = std::chrono::steady_clock::now();
+    ProgressBar bar("lio-replay", input.size_bytes());
+    while (std::optional<InputItem> item = input.Next()) {
+      bar.Update(item->position_bytes);
+      Add(std::move(*item));
+    }
+    odometry_.Flush();
+    Match();
+    Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+
+  const Counters& counters() const { return odometry_.counters(); }
+
+ private:
+  void Add(InputItem item) {
+    // The inertial samples of a scan count as its work; chunks carry it on.
+    decode_ns_ += item.decode_ns;
+    if (const auto* sample = std::get_if<ImuSample>(&item.data)) {
+      odometry_.AddImu(*sample);
+    } else {
+      odometry_.AddChunk(std::get<ScanChunk>(std::move(item.data)), decode_ns_);
+      decode_ns_ = 0;
+    }
+    Match();
+  }
+
+  void Match() {
+    while (const std::optional<MatchJob> job = odometry_.NextJob()) {
+      if (job->clear_map) map_.Clear();
+      const InsertTask insert = odometry_.FinishJob(match_side_.Run(*job));
+      match_side_.Insert(insert);
+      if (writes_map_ && insert.T_map_imu) map_.Add(insert.points_imu, *insert.T_map_imu);
+    }
+    for (const Output& output : odometry_.TakeOutputs()) {
+      writer_.Write(output);
+      if (const auto* notice = std::get_if<Notice>(&output)) {
+        fmt::print(stderr, "lio-replay: {:.3f}: {}\n", static_cast<double>(notice->stamp.ns) * 1e-9,
+                   notice->text);
+      }
+    }
+  }
+
+  void Finish(const LogInput& input, double wall_s) {
+    if (writes_map_) writer_.WriteMap(map_.points_map());
+    RunStats stats;
+    stats.counters = odometry_.counters();
+    stats.input = input.counters();
+    stats.num_skipped_bytes = input.num_skipped_bytes();
+    stats.log_duration_s = input.duration_s();
+    stats.wall_s = wall_s;
+    writer_.Finish(stats);
+  }
+
+  RunWriter& writer_;
+  Odometry odometry_;
+  MatchSide match_side_;
+  MapCloud map_;
+  bool writes_map_;
+  std::int64_t decode_ns_ = 0;
+};
+
+// What was wrong with the log, in one line; empty when nothing was.
+std::string Complaint(const LogInput& input, const Counters& counters,
+                      const ReplayArguments& arguments) {
+  if (counters.num_chunks == 0) {
+    return fmt::format(
+        "{} has no scans on {}SCAN: nothing to estimate; see what it holds with "
+        "'lio-log info'",
+        arguments.log, arguments.channel_prefix);
+  }
+  std::string text;
+  if (input.num_skipped_bytes() > 0) {
+    text = fmt::format("skipped {} damaged bytes", input.num_skipped_bytes());
+  }
+  if (const std::int64_t refused = input.counters().TotalRefused(); refused > 0) {
+    text += fmt::format("{}refused {} undecodable messages", text.empty() ? "" : " and ", refused);
+  }
+  return text.empty() ? text : fmt::format("{}: {}; the rest was replayed", arguments.log, text);
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app(kDescription, "lio-replay");
+  ReplayArguments arguments;
+  AddArguments(app, arguments);
+  Options options;
+  if (const auto code =
+          ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
+    return *code;
+  }
+  LogInputOptions input_options;
+  input_options.channels = Channels(arguments.channel_prefix);
+  input_options.start_s = arguments.start_s;
+  input_options.duration_s = arguments.duration_s;
+  input_options.clock = ThreadCpuNs;
+  input_options.reads_ahead = arguments.num_threads > 1;
+  LogInput input(arguments.log, input_options);
+  std::optional<RunWriter> writer;
+  try {
+    writer.emplace(arguments.out, options);
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
+    return kExitUsage;
+  }
+  Replay replay(options, arguments.writes_map, *writer);
+  replay.Run(input);
+  const std::string complaint = Complaint(input, replay.counters(), arguments);
+  if (complaint.empty()) return kExitDone;
+  fmt::print(stderr, "lio-replay: {}\n", complaint);
+  return kExitUnusableInput;
+}
+
+}  // namespace
+}  // namespace lio
+
+int main(int argc, char** argv) {
+  try {
+    return lio::Main(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "lio-replay: {}\n", error.what());
+    return lio::kExitUnusableInput;
+  }
+}
