@@ -43,20 +43,9 @@ Voxel VoxelOf(const LidarPoint& point, float inverse_voxel) {
 
 ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
     : options_(options),
-      rig_(rig),
+      filter_(rig),
       voxel_m_(static_cast<float>(options.voxel_m)),
       slots_(kInitialSlots) {}
-
-bool ScanReducer::IsWanted(const LidarPoint& point) const {
-  const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
-  const auto near = static_cast<float>(rig_.min_range_m);
-  const auto far = static_cast<float>(rig_.max_range_m);
-  if (range_sq < near * near || range_sq > far * far) return false;
-  if (!rig_.own_vehicle_box) return true;
-  const Vector3 p(point.x_m, point.y_m, point.z_m);
-  const OwnVehicleBox& box = *rig_.own_vehicle_box;
-  return !((p.array() >= box.min_m.array()).all() && (p.array() <= box.max_m.array()).all());
-}
 
 std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
   if (++epoch_ == 0) {  // wrapped: forget every slot
@@ -69,11 +58,11 @@ std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
   num_nonfinite = 0;
   for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
     const LidarPoint& point = sweep.points[i];
-    if (!std::isfinite(point.x_m + point.y_m + point.z_m)) {
+    if (!IsFinite(point)) {
       ++num_nonfinite;
       continue;
     }
-    if (!IsWanted(point)) continue;
+    if (!filter_.IsWanted(point)) continue;
     const Voxel voxel = VoxelOf(point, inverse_voxel);
     std::size_t at = HashVoxel(voxel.key) & mask;
     while (slots_[at].epoch == epoch_ && slots_[at].key != voxel.key) at = (at + 1) & mask;

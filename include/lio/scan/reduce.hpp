@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/sweep.hpp"
 #include "lio/sensor/rig.hpp"
@@ -43,13 +44,12 @@ class ScanReducer {
   };
   static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
 
-  bool IsWanted(const LidarPoint& point) const;
   // Gives the number of voxels hit, or kTableFull.
   std::size_t FillSlots(const Sweep& sweep, int& num_nonfinite);
   void AdaptVoxel(std::size_t num_kept);
 
   ReduceOptions options_;
-  LidarRig rig_;
+  PointFilter filter_;
   float voxel_m_;
   std::uint32_t epoch_ = 0;
   std::vector<Slot> slots_;  // open addressing, a power of two; slots of older epochs are free

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Which returns are of any use: neither too near nor too far, and not the vehicle itself.
+#pragma once
+
+#include <cmath>
+
+#include "lio/base/rotation.hpp"
+#include "lio/sensor/rig.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+
+namespace lio {
+
+inline bool IsFinite(const LidarPoint& point) {
+  return std::isfinite(point.x_m + point.y_m + point.z_m);
+}
+
+class PointFilter {
+ public:
+  explicit PointFilter(const LidarRig& rig)
+      : min_sq_(static_cast<float>(rig.min_range_m) * static_cast<float>(rig.min_range_m)),
+        max_sq_(static_cast<float>(rig.max_range_m) * static_cast<float>(rig.max_range_m)),
+        box_(rig.own_vehicle_box) {}
+
+  // `point` is finite.
+  bool IsWanted(const LidarPoint& point) const {
+    const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
+    if (range_sq < min_sq_ || range_sq > max_sq_) return false;
+    if (!box_) return true;
+    const Vector3 p(point.x_m, point.y_m, point.z_m);
+    return !((p.array() >= box_->min_m.array()).all() && (p.array() <= box_->max_m.array()).all());
+  }
+
+ private:
+  float min_sq_;
+  float max_sq_;
+  std::optional<OwnVehicleBox> box_;
+};
+
+}  // namespace lio

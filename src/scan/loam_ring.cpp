@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "scan/loam_ring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kShadowPoints =
+    6;  // of the far side, at the border of a shadow (LOAM's code)
+constexpr std::size_t kSlopeHalfWindow = 2;  // steps each side from which a slope is judged
+// A slope is one only when no single step makes most of it: that would be a jump.
+constexpr float kMaxStepShare = 0.6f;
+
+float Radians(double degrees) {
+  return static_cast<float>(degrees * std::numbers::pi / 180.0);
+}
+
+}  // namespace
+
+LoamRing::LoamRing(const LoamFeatureOptions& options)
+    : options_(options),
+      max_chord_(2.f * std::sin(0.5f * Radians(options.max_occlusion_gap_deg))),
+      tan_min_incidence_(std::tan(Radians(options.min_incidence_deg))) {}
+
+void LoamRing::Load(std::span<const LidarPoint> points, std::span<const std::uint32_t> ring) {
+  const std::size_t n = ring.size();
+  position_.resize(n);
+  direction_.resize(n);
+  range_m_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const LidarPoint& point = points[ring[i]];
+    position_[i] = {point.x_m, point.y_m, point.z_m};
+    range_m_[i] = position_[i].norm();
+    direction_[i] = position_[i] / std::max(range_m_[i], 1e-6f);
+  }
+  label_.assign(n, Label::kPlain);
+  is_taken_.assign(n, 0);
+}
+
+void LoamRing::Process(std::span<const LidarPoint> points, std::span<const std::uint32_t> ring) {
+  Load(points, ring);
+  if (size() <= 2 * kHalfWindow) return;
+  MarkGrazed();
+  MarkOccluded();
+  ComputeCurvature();
+  const std::size_t num_inside = size() - 2 * kHalfWindow;
+  const auto num_sectors = static_cast<std::size_t>(options_.num_sectors);
+  for (std::size_t s = 0; s < num_sectors; ++s) {
+    const std::size_t begin = kHalfWindow + num_inside * s / num_sectors;
+    const std::size_t end = kHalfWindow + num_inside * (s + 1) / num_sectors;
+    PickEdges(begin, end);
+    PickFlats(begin, end);
+  }
+}
+
+// The angle between beam and surface, seen along the ring: range * turned angle against the change
+// of range, over four steps.
+void LoamRing::MarkGrazed() {
+  constexpr std::size_t k = kSlopeHalfWindow;
+  for (std::size_t i = k; i + k < size(); ++i) {
+    const float rise = std::abs(range_m_[i + k] - range_m_[i - k]);
+    const float chord = Chord(i - k, i + k);
+    if (chord > max_chord_ || range_m_[i] * chord > tan_min_incidence_ * rise) continue;
+    float max_step = 0.f;
+    for (std::size_t j = i - k; j < i + k; ++j) {
+      max_step = std::max(max_step, std::abs(range_m_[j + 1] - range_m_[j]));
+    }
+    if (max_step > kMaxStepShare * rise) continue;
+    label_[i] = Label::kGrazed;
+    is_taken_[i] = 1;
+  }
+}
+
+// A jump of range between neighbouring beams that is more than the slope around it.
+void LoamRing::MarkOccluded() {
+  const auto min_jump = static_cast<float>(options_.min_occlusion_m);
+  for (std::size_t i = 1; i + 2 < size(); ++i) {
+    const float step = range_m_[i + 1] - range_m_[i];
+    const float sign = step < 0.f ? -1.f : 1.f;
+    const float slope = std::min(sign * (range_m_[i] - range_m_[i - 1]),
+                                 sign * (range_m_[i + 2] - range_m_[i + 1]));
+    if (std::abs(step) - std::max(slope, 0.f) < min_jump) continue;
+    if (Chord(i, i + 1) > max_chord_) continue;
+    const bool far_is_behind = step < 0.f;  // the point before the jump is the far one
+    const float min_far_range = std::min(range_m_[i], range_m_[i + 1]) + min_jump;
+    for (std::size_t k = 0; k < kShadowPoints; ++k) {
+      if (far_is_behind ? k > i : i + 1 + k >= size()) break;
+      const std::size_t j = far_is_behind ? i - k : i + 1 + k;
+      if (range_m_[j] < min_far_range) break;
+      if (label_[j] == Label::kPlain) label_[j] = Label::kOccluded;
+      is_taken_[j] = 1;
+    }
+  }
+}
+
+void LoamRing::ComputeCurvature() {
+  curvature_m2_.assign(size(), 0.f);
+  Eigen::Vector3f window = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < 2 * kHalfWindow; ++i) window += position_[i];
+  for (std::size_t i = kHalfWindow; i + kHalfWindow < size(); ++i) {
+    // Summed anew for each point: a running sum would gather rounding along the ring.
+    window.setZero();
+    for (std::size_t j = i - kHalfWindow; j <= i + kHalfWindow; ++j) {
+      window += position_[j] - position_[i];
+    }
+    curvature_m2_[i] = window.squaredNorm();
+  }
+}
+
+void LoamRing::SuppressNeighbours(std::size_t i) {
+  const auto break_sq = static_cast<float>(options_.break_m2);
+  is_taken_[i] = 1;
+  for (std::size_t j = i + 1; j <= i + kHalfWindow && j < size(); ++j) {
+    if ((position_[j] - position_[j - 1]).squaredNorm() > break_sq) break;
+    is_taken_[j] = 1;
+  }
+  for (std::size_t j = i; j-- > 0 && i - j <= kHalfWindow;) {
+    if ((position_[j] - position_[j + 1]).squaredNorm() > break_sq) break;
+    is_taken_[j] = 1;
+  }
+}
+
+// Sharpest first; equal ones by place, so that the result does not depend on the heap.
+void LoamRing::PickEdges(std::size_t begin, std::size_t end) {
+  const auto threshold = static_cast<float>(options_.curvature_m2);
+  const auto is_duller = [&](std::uint32_t a, std::uint32_t b) {
+    return curvature_m2_[a] != curvature_m2_[b] ? curvature_m2_[a] < curvature_m2_[b] : a > b;
+  };
+  heap_.clear();
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!is_taken_[i] && curvature_m2_[i] > threshold) {
+      heap_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  std::make_heap(heap_.begin(), heap_.end(), is_duller);
+  int num_picked = 0;
+  while (!heap_.empty() && num_picked < options_.num_less_sharp) {
+    std::pop_heap(heap_.begin(), heap_.end(), is_duller);
+    const std::uint32_t i = heap_.back();
+    heap_.pop_back();
+    if (is_taken_[i]) continue;
+    label_[i] = num_picked < options_.num_sharp ? Label::kSharp : Label::kLessSharp;
+    ++num_picked;
+    SuppressNeighbours(i);
+  }
+}
+
+void LoamRing::PickFlats(std::size_t begin, std::size_t end) {
+  const auto threshold = static_cast<float>(options_.curvature_m2);
+  const auto is_sharper = [&](std::uint32_t a, std::uint32_t b) {
+    return curvature_m2_[a] != curvature_m2_[b] ? curvature_m2_[a] > curvature_m2_[b] : a > b;
+  };
+  heap_.clear();
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!is_taken_[i] && curvature_m2_[i] < threshold) {
+      heap_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  std::make_heap(heap_.begin(), heap_.end(), is_sharper);
+  int num_picked = 0;
+  while (!heap_.empty() && num_picked < options_.num_flat) {
+    std::pop_heap(heap_.begin(), heap_.end(), is_sharper);
+    const std::uint32_t i = heap_.back();
+    heap_.pop_back();
+    if (is_taken_[i]) continue;
+    label_[i] = Label::kFlat;
+    ++num_picked;
+    SuppressNeighbours(i);
+  }
+}
+
+}  // namespace lio

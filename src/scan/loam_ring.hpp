@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// One ring of a sweep on its way to features: curvature, reliability and picking, as scratch that
+// is used again for ring after ring.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lio/base/rotation.hpp"
+#include "lio/scan/loam_feature_options.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+
+namespace lio {
+
+class LoamRing {
+ public:
+  static constexpr int kHalfWindow = 5;  // neighbours each side
+
+  explicit LoamRing(const LoamFeatureOptions& options);
+
+  // What became of a point.
+  enum class Label : std::uint8_t { kPlain, kSharp, kLessSharp, kFlat, kOccluded, kGrazed };
+
+  // `ring`: indices into `points`, in the order they were measured.
+  void Process(std::span<const LidarPoint> points, std::span<const std::uint32_t> ring);
+
+  std::size_t size() const { return position_.size(); }
+  Label label(std::size_t i) const { return label_[i]; }
+  // The parts of the ring that have features: all but five points at each end.
+  bool IsInside(std::size_t i) const { return i >= kHalfWindow && i + kHalfWindow < size(); }
+
+ private:
+  void Load(std::span<const LidarPoint> points, std::span<const std::uint32_t> ring);
+  void MarkGrazed();
+  void MarkOccluded();
+  void ComputeCurvature();
+  void PickEdges(std::size_t begin, std::size_t end);
+  void PickFlats(std::size_t begin, std::size_t end);
+  void SuppressNeighbours(std::size_t i);
+  float Chord(std::size_t i, std::size_t j) const { return (direction_[i] - direction_[j]).norm(); }
+
+  LoamFeatureOptions options_;
+  float max_chord_;  // of neighbouring beams that may shadow each other
+  float tan_min_incidence_;
+  std::vector<Eigen::Vector3f> position_;   // lidar frame, m
+  std::vector<Eigen::Vector3f> direction_;  // unit
+  std::vector<float> range_m_;
+  std::vector<float> curvature_m2_;
+  std::vector<Label> label_;
+  std::vector<std::uint8_t> is_taken_;  // picked, next to a pick, or unreliable
+  std::vector<std::uint32_t> heap_;     // candidates of a sector
+};
+
+}  // namespace lio
