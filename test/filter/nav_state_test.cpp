@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/nav_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/random_state.hpp"
+
+namespace lio {
+namespace {
+
+TEST(NavState, BoxMinusInvertsBoxPlus) {
+  std::mt19937_64 random(1);
+  for (const double size : {0.0, 1e-8, 1e-3, 0.3}) {
+    const NavState state = test::RandomState(random);
+    const ErrorVector error = size * test::RandomVector<kStateDim>(random);
+    EXPECT_LT((BoxMinus(BoxPlus(state, error), state) - error).norm(), 1e-12) << size;
+  }
+}
+
+TEST(NavState, BoxPlusInvertsBoxMinus) {
+  std::mt19937_64 random(2);
+  const NavState a = test::RandomState(random);
+  const NavState b = test::RandomState(random);
+  const ErrorVector left_over = BoxMinus(BoxPlus(b, BoxMinus(a, b)), a);
+  EXPECT_LT(left_over.norm(), 1e-11);
+}
+
+TEST(NavState, RotationErrorsActOnTheRight) {
+  NavState state;
+  state.T_world_imu.rotation = ExpSo3(Vector3(0, 0, M_PI / 2));
+  ErrorVector error = ErrorVector::Zero();
+  error.segment<3>(kRot) = Vector3(0.1, 0, 0);  // about the body's x axis, which is world's y
+  const Vector3 turned_z = BoxPlus(state, error).T_world_imu.rotation * Vector3::UnitZ();
+  EXPECT_NEAR(turned_z.x(), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(turned_z.y(), 0.0, 1e-12);
+}
+
+TEST(NavState, PositionErrorsAreInWorldAndMapPoseErrorsInTheBody) {
+  NavState state;
+  state.T_world_imu.rotation = state.T_map_imu.rotation = ExpSo3(Vector3(0, 0, M_PI / 2));
+  ErrorVector error = ErrorVector::Zero();
+  error[kPos] = 1.0;
+  error[kMapPose] = 1.0;
+  const NavState moved = BoxPlus(state, error);
+  EXPECT_LT((moved.T_world_imu.translation - Vector3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((moved.T_map_imu.translation - Vector3::UnitY()).norm(), 1e-12);
+}
+
+TEST(NavState, PoseCovIsTheBlockOfPositionAndRotation) {
+  Estimate estimate;
+  for (int i = 0; i < kStateDim; ++i) estimate.cov(i, i) = i + 1;
+  Vector6 expected;
+  expected << 1, 2, 3, 4, 5, 6;
+  EXPECT_EQ(Vector6(PoseCov(estimate).diagonal()), expected);
+}
+
+}  // namespace
+}  // namespace lio
