@@ -12,6 +12,8 @@ find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(BZip2 REQUIRED)
+find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED) # Debian's liblz4-dev has no CMake files
+find_library(LZ4_LIBRARY lz4 REQUIRED)
 include(FindLcm)
 include(FindPclIo)
 if(LIO_BUILD_TESTS)

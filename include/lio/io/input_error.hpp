@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Why a conversion cannot be done, as exceptions that carry one line for the user. Damage inside an
+// otherwise sound input is not one of them: that is counted, and the work goes on.
+#pragma once
+
+#include <stdexcept>
+
+namespace lio {
+
+// The command line asks for something that cannot be (an ambiguous topic): exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The input is missing, of an unknown kind or unusable: exit code 5.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace lio
