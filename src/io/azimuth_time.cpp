@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/azimuth_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "azimuth_order.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/point_time.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kDegree = std::numbers::pi / 180.0;
+// A point may lie this far behind the sweep's front: beams of one firing differ in azimuth.
+constexpr double kBackwardSlack = 30.0 * kDegree;
+// How the front follows the points: slowly, so that strays do not carry it away.
+constexpr double kFrontGain = 0.02;
+constexpr double kMaxFrontStep = 1.0 * kDegree;
+// First and last point are believed when near the median of their neighbours.
+constexpr std::size_t kNumNeighbours = 64;
+constexpr double kNearNeighbours = 2.0 * kDegree;
+constexpr double kMinHz = 1.0;
+constexpr double kMaxHz = 100.0;
+
+double HeadAzimuth(const SpinModel& model, const CloudPoints& points,
+                   std::span<const std::uint16_t> rings, std::size_t i) {
+  const double azimuth = std::atan2(points.y_m[i], points.x_m[i]);
+  const bool has_offset = !rings.empty() && rings[i] < model.ring_offset_rad.size();
+  return has_offset ? azimuth - model.ring_offset_rad[rings[i]] : azimuth;
+}
+
+// Median of the wrapped differences to `value`, or 0 when `value` itself is near it.
+double StrayCorrection(std::vector<double> differences) {
+  const double median = Median(std::move(differences));
+  return std::abs(median) > kNearNeighbours ? median : 0.0;
+}
+
+// The front of one ring, or of all rings together: follows the angles seen so far.
+class Front {
+ public:
+  explicit Front(double at_rad) : at_rad_(at_rad) {}
+  // The angle equal to `angle` up to whole turns that is next to the front.
+  double Unwrap(double angle) {
+    const double ahead = PositiveTurn(angle - at_rad_ + kBackwardSlack) - kBackwardSlack;
+    const double unwrapped = at_rad_ + ahead;
+    at_rad_ += std::clamp(kFrontGain * ahead, -kMaxFrontStep, kMaxFrontStep);
+    return unwrapped;
+  }
+
+ private:
+  double at_rad_;
+};
+
+UnwrappedSweep UnwrapFirings(const SpinModel& model, const CloudPoints& points,
+                             std::span<const std::uint16_t> rings) {
+  UnwrappedSweep sweep;
+  const std::size_t n = points.size();
+  std::vector<double> azimuth(n);
+  for (std::size_t i = 0; i < n; ++i) azimuth[i] = HeadAzimuth(model, points, rings, i);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(n, kNumNeighbours); ++i) {
+    differences.push_back(WrappedAngle(azimuth[i] - azimuth[0]));
+  }
+  sweep.first_azimuth_rad = azimuth[0] + StrayCorrection(std::move(differences));
+  Front front(0.0);
+  sweep.turned_rad.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    sweep.turned_rad[i] = front.Unwrap(model.direction * (azimuth[i] - sweep.first_azimuth_rad));
+  }
+  differences.clear();
+  for (std::size_t i = n - std::min(n, kNumNeighbours); i < n; ++i) {
+    differences.push_back(sweep.turned_rad[i] - sweep.turned_rad.back());
+  }
+  sweep.last_turned_rad = sweep.turned_rad.back() + StrayCorrection(std::move(differences));
+  return sweep;
+}
+
+UnwrappedSweep UnwrapRings(const SpinModel& model, const CloudPoints& points,
+                           std::span<const std::uint16_t> rings) {
+  const std::size_t n = points.size();
+  const std::size_t num_rings = std::size_t{*std::max_element(rings.begin(), rings.end())} + 1;
+  std::vector<std::optional<double>> first(num_rings);  // azimuth of each ring's first point
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!first[rings[i]]) first[rings[i]] = HeadAzimuth(model, points, rings, i);
+  }
+  // Rings start together, but returns may be missing: the median start, less surprises.
+  std::vector<double> differences;
+  const double any = HeadAzimuth(model, points, rings, 0);
+  for (const auto& azimuth : first) {
+    if (azimuth) differences.push_back(WrappedAngle(*azimuth - any));
+  }
+  UnwrappedSweep sweep;
+  sweep.first_azimuth_rad = any + Median(std::move(differences));
+  std::vector<Front> fronts(num_rings, Front(0.0));
+  std::vector<double> last(num_rings, 0.0);
+  sweep.turned_rad.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double azimuth = HeadAzimuth(model, points, rings, i);
+    sweep.turned_rad[i] =
+        fronts[rings[i]].Unwrap(model.direction * (azimuth - sweep.first_azimuth_rad));
+    last[rings[i]] = sweep.turned_rad[i];
+  }
+  std::erase(last, 0.0);
+  sweep.last_turned_rad = Median(std::move(last));
+  return sweep;
+}
+
+UnwrappedSweep UnwrapUnordered(const SpinModel& model, const CloudPoints& points,
+                               std::span<const std::uint16_t> rings) {
+  UnwrappedSweep sweep;
+  sweep.first_azimuth_rad = std::numbers::pi;
+  sweep.turned_rad.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double azimuth = HeadAzimuth(model, points, rings, i);
+    sweep.turned_rad[i] = PositiveTurn(model.direction * (azimuth - sweep.first_azimuth_rad));
+  }
+  sweep.last_turned_rad = kTurn;
+  return sweep;
+}
+
+std::string_view Describe(PointOrder order) {
+  switch (order) {
+    case PointOrder::kFiring:
+      return "points as fired";
+    case PointOrder::kByRing:
+      return "points ring by ring";
+    case PointOrder::kNone:
+      return "points in no order, cut behind the sensor";
+  }
+  return "";
+}
+
+}  // namespace
+
+UnwrappedSweep UnwrapAzimuth(const SpinModel& model, const CloudPoints& points,
+                             std::span<const std::uint16_t> rings) {
+  if (points.size() == 0) return {};
+  if (model.order == PointOrder::kFiring) return UnwrapFirings(model, points, rings);
+  if (model.order == PointOrder::kByRing && !rings.empty()) {
+    return UnwrapRings(model, points, rings);
+  }
+  return UnwrapUnordered(model, points, rings);
+}
+
+double TurnBetween(double first_azimuth_rad, double next_first_azimuth_rad, double covered_rad,
+                   double direction) {
+  const double turned = direction * (next_first_azimuth_rad - first_azimuth_rad);
+  return covered_rad + WrappedAngle(turned - covered_rad);
+}
+
+void SpinRate::Add(Timestamp stamp, const UnwrappedSweep& sweep, double direction) {
+  if (last_stamp_) {
+    const double turned =
+        TurnBetween(last_azimuth_rad_, sweep.first_azimuth_rad, last_turned_rad_, direction);
+    const double seconds = SecondsBetween(*last_stamp_, stamp);
+    constexpr double kMaxDeviation = 0.2;
+    if (seconds > 0.0 && std::abs(turned / seconds / radps_ - 1.0) < kMaxDeviation) {
+      constexpr double kForget = 0.98;  // about five seconds at 10 Hz
+      turned_rad_ = kForget * turned_rad_ + turned;
+      seconds_ = kForget * seconds_ + seconds;
+      radps_ = turned_rad_ / seconds_;
+    }
+  }
+  last_stamp_ = stamp;
+  last_azimuth_rad_ = sweep.first_azimuth_rad;
+  last_turned_rad_ = sweep.last_turned_rad;
+}
+
+void SpinObserver::Add(const CloudPoints& points, std::span<const std::uint16_t> rings,
+                       Timestamp stamp) {
+  constexpr std::size_t kMinPoints = 500;
+  if (points.size() < kMinPoints) return;
+  const OrderVote vote = JudgeOrder(points, rings);
+  Seen seen{.stamp = stamp, .order = vote.order, .direction = vote.direction};
+  seen.coverage_ratio = CoverageOfCircle(points);
+  SpinModel model;
+  model.order = seen.order;
+  model.direction = seen.direction;
+  if (seen.order != PointOrder::kNone) {
+    const UnwrappedSweep sweep = UnwrapAzimuth(model, points, rings);
+    seen.first_azimuth_rad = sweep.first_azimuth_rad;
+    seen.covered_rad = sweep.last_turned_rad;
+    if (seen.order == PointOrder::kFiring && !rings.empty()) {
+      AddOffsets(rings, seen, sweep);
+    }
+  }
+  seen_.push_back(seen);
+}
+
+// In the order of firing, a ring's azimuth minus that of its neighbours in time, of all rings, is
+// the ring's offset.
+void SpinObserver::AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
+                              const UnwrappedSweep& sweep) {
+  const std::size_t n = rings.size();
+  std::vector<double> sum(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) sum[i + 1] = sum[i] + sweep.turned_rad[i];
+  constexpr std::size_t kHalfWindow = 128;
+  for (std::size_t i = kHalfWindow; i + kHalfWindow < n; ++i) {
+    const double around =
+        (sum[i + kHalfWindow + 1] - sum[i - kHalfWindow]) / (2.0 * kHalfWindow + 1.0);
+    const double offset = seen.direction * (sweep.turned_rad[i] - around);
+    if (std::abs(offset) > kBackwardSlack) continue;  // next to a gap in the returns
+    if (rings[i] >= offset_sum_rad_.size()) {
+      offset_sum_rad_.resize(rings[i] + std::size_t{1});
+      offset_count_.resize(rings[i] + std::size_t{1});
+    }
+    offset_sum_rad_[rings[i]] += offset;
+    ++offset_count_[rings[i]];
+  }
+}
+
+SpinModel SpinObserver::Decide(const std::optional<BeamTable>& table) const {
+  SpinModel model;
+  std::array<int, 3> orders{};
+  double direction_votes = 0.0;
+  double coverage_ratio = 0.0;
+  for (const Seen& seen : seen_) {
+    ++orders[static_cast<std::size_t>(seen.order)];
+    direction_votes += seen.direction;
+    coverage_ratio += seen.coverage_ratio / static_cast<double>(seen_.size());
+  }
+  const auto most = std::max_element(orders.begin(), orders.end());
+  model.order = seen_.empty() ? PointOrder::kNone : static_cast<PointOrder>(most - orders.begin());
+  constexpr double kAllRound = 0.8;
+  if (model.order == PointOrder::kNone && coverage_ratio < kAllRound) {
+    throw InputError(
+        "the clouds have no point time, and it cannot be rebuilt: the points are in no order and "
+        "cover only " +
+        fmt::format("{:.2g}", 100.0 * coverage_ratio) + " % of the circle");
+  }
+  const bool detected = model.order != PointOrder::kNone && direction_votes != 0.0;
+  model.direction =
+      detected ? (direction_votes > 0.0 ? 1.0 : -1.0) : (!table || table->clockwise ? -1.0 : 1.0);
+  model.ring_offset_rad = RingOffsets();
+  if (model.order != PointOrder::kFiring && table) {
+    model.ring_offset_rad = table->azimuth_offset_rad;
+  }
+  std::string how;
+  model.rate_radps = Rate(model.direction, model.order, table ? table->rotation_hz : 10.0, how);
+  model.description = std::string(Describe(model.order)) + ", turning " +
+                      (model.direction < 0 ? "clockwise" : "counter-clockwise") +
+                      (detected ? ""
+                       : table  ? " (as the model)"
+                                : " (assumed)") +
+                      " at " + fmt::format("{:.4f}", model.rate_radps / kTurn) + " Hz" + how;
+  return model;
+}
+
+// Empty when they are no more than the turn between two firings: then beams have no offsets.
+std::vector<double> SpinObserver::RingOffsets() const {
+  std::vector<double> offsets;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < offset_sum_rad_.size(); ++i) {
+    const auto count = static_cast<double>(std::max<std::int64_t>(1, offset_count_[i]));
+    offsets.push_back(offset_sum_rad_[i] / count);
+    largest = std::max(largest, std::abs(offsets.back()));
+  }
+  constexpr double kClear = 0.6 * kDegree;
+  return largest > kClear ? offsets : std::vector<double>();
+}
+
+double SpinObserver::Rate(double direction, PointOrder order, double fallback_hz,
+                          std::string& how) const {
+  std::vector<double> turned;
+  std::vector<double> seconds;
+  std::vector<double> rates;
+  for (std::size_t k = 1; k < seen_.size(); ++k) {
+    const double dt = SecondsBetween(seen_[k - 1].stamp, seen_[k].stamp);
+    const bool in_order = seen_[k].order == order && seen_[k - 1].order == order;
+    if (dt <= 0.0 || !in_order) continue;
+    const double turn =
+        order == PointOrder::kNone
+            ? kTurn
+            : TurnBetween(seen_[k - 1].first_azimuth_rad, seen_[k].first_azimuth_rad,
+                          seen_[k - 1].covered_rad, direction);
+    turned.push_back(turn);
+    seconds.push_back(dt);
+    rates.push_back(turn / dt);
+  }
+  const double typical = Median(rates);
+  if (!(typical > kMinHz * kTurn) || typical > kMaxHz * kTurn) {
+    how = " (assumed: the stamps tell no rate)";
+    return fallback_hz * kTurn;
+  }
+  double sum_turned = 0.0;
+  double sum_seconds = 0.0;
+  for (std::size_t k = 0; k < rates.size(); ++k) {
+    constexpr double kMaxDeviation = 0.2;  // more: a sweep was lost
+    if (std::abs(rates[k] / typical - 1.0) > kMaxDeviation) continue;
+    sum_turned += turned[k];
+    sum_seconds += seconds[k];
+  }
+  return sum_turned / sum_seconds;
+}
+
+std::vector<std::int64_t> AzimuthInstants(const UnwrappedSweep& sweep, double rate_radps,
+                                          Timestamp stamp, bool stamp_is_end) {
+  const double zero = stamp_is_end ? sweep.last_turned_rad : 0.0;
+  std::vector<std::int64_t> instants(sweep.turned_rad.size());
+  std::transform(sweep.turned_rad.begin(), sweep.turned_rad.end(), instants.begin(),
+                 [&](double turned) {
+                   const double seconds = (turned - zero) / rate_radps;
+                   return (stamp + Duration::FromSeconds(seconds)).ns;
+                 });
+  return instants;
+}
+
+}  // namespace lio
