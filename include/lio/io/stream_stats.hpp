@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What a converter can say of a sensor's stream in bounded memory: rate, span, gaps, delays, and
+// for an IMU what its accelerometer measures.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/base/time.hpp"
+#include "lio/sensor/imu_sample.hpp"
+
+namespace lio {
+
+class StreamStats {
+ public:
+  void Add(Timestamp stamp, Timestamp received);
+
+  std::int64_t num() const { return num_; }
+  std::optional<Timestamp> first_stamp() const { return first_; }
+  std::optional<Timestamp> last_stamp() const { return last_; }
+  double rate_hz() const;         // one over the typical period; 0 for less than two samples
+  double span_s() const;          // last stamp minus first
+  std::int64_t num_gaps() const;  // periods over three times the typical one
+  double longest_gap_s() const { return longest_s_; }
+  std::int64_t num_backwards() const { return num_backwards_; }  // stamps not above the last one
+  double mean_delay_s() const;                                   // receive time minus stamp
+
+ private:
+  double TypicalPeriod() const;  // median of the first periods
+
+  std::int64_t num_ = 0;
+  std::optional<Timestamp> first_;
+  std::optional<Timestamp> last_;
+  std::vector<double> first_periods_s_;  // at most kNumFirst
+  std::int64_t num_gaps_after_ = 0;      // among the periods that are not kept
+  double longest_s_ = 0.0;
+  std::int64_t num_backwards_ = 0;
+  double delay_sum_s_ = 0.0;
+  std::optional<double> typical_s_;  // once kNumFirst periods are in
+};
+
+// Judges an accelerometer from its quietest second.
+class AccelerometerStats {
+ public:
+  void Add(const ImuSample& sample);
+
+  double mean_mps2() const;        // mean length of all readings
+  double quiet_mean_mps2() const;  // of those in the quietest second
+  double largest_rate_radps() const { return largest_rate_; }
+  std::int64_t num_nonfinite() const { return num_nonfinite_; }
+  // "specific force in m/s^2, gravity present", or what else it looks like and what to do.
+  std::string Suggestion() const;
+
+ private:
+  struct Window {
+    std::int64_t num = 0;
+    double sum = 0.0;
+    double sum_sq = 0.0;
+  };
+  void CloseWindow();
+
+  Window all_;
+  Window window_;
+  std::optional<Timestamp> window_begin_;
+  double quiet_mean_ = 0.0;
+  double quiet_variance_ = -1.0;  // negative: no second is complete
+  double largest_rate_ = 0.0;
+  std::int64_t num_nonfinite_ = 0;
+};
+
+}  // namespace lio

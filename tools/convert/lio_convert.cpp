@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Recorded drives to LCM logs: the command line; the work is done in lio_io.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "lio/io/command_line.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/kitti_odometry.hpp"
+#include "lio/io/kitti_raw.hpp"
+#include "lio/io/progress_bar.hpp"
+#include "lio/io/rosbag_convert.hpp"
+
+namespace {
+
+constexpr const char* kAbout =
+    "Convert recorded drives to LCM logs that lio-replay, lcm-logplayer and liod read:\n"
+    "channels LIO_IMU (lio.imu_t) and LIO_SCAN (lio.scan_t, chunks of one datagram each).\n\n"
+    "Examples:\n"
+    "  lio-convert rosbag drive.bag drive.lcm --truth drive.tum\n"
+    "  lio-convert rosbag ros2_folder drive.lcm --lidar-topic /velodyne_points\n"
+    "  lio-convert kitti-raw 2011_09_26/2011_09_26_drive_0005_sync drive.lcm \\\n"
+    "      --truth drive.tum --rig rig.yaml --imu-rate 100\n"
+    "  lio-convert kitti-odometry sequences/05 05.lcm --truth 05.tum \\\n"
+    "      --vertical-correction 0.205\n\n"
+    "A summary goes to stdout: what was found, detected and lost. Exit codes: 0 done,\n"
+    "2 usage (an ambiguous topic too), 5 damaged, missing or unusable input; a damaged\n"
+    "recording is converted as far as it goes.";
+
+constexpr const char* kAboutRosbag =
+    "A ROS 1 bag (file) or ROS 2 bag (folder with metadata.yaml, or one .db3) with\n"
+    "sensor_msgs/PointCloud2 and sensor_msgs/Imu. Topics are found by type; unit and\n"
+    "meaning of time stamps are detected from the data and printed.";
+
+constexpr const char* kAboutRaw =
+    "A KITTI raw drive, synchronised or extract release. Point time comes from azimuth,\n"
+    "the truth's position from integrated velocity, the rig from the day's calibration.";
+
+constexpr const char* kAboutOdometry =
+    "A KITTI odometry sequence: velodyne/, times.txt, calib.txt. Poses (default\n"
+    "../../poses/NN.txt) are turned from the camera's frame into the lidar's.";
+
+// A bar while `convert` runs, then its summary; the exit code tells whether something was lost.
+template <typename Options, typename Convert>
+int Run(Options& options, Convert&& convert) {
+  const auto report = [&] {
+    constexpr std::int64_t kSteps = 1000;
+    lio::ProgressBar bar("convert", kSteps);
+    options.progress = [&bar](double share) {
+      bar.Update(static_cast<std::int64_t>(share * static_cast<double>(kSteps)));
+    };
+    return convert(options);
+  }();
+  std::cout << FormatReport(report, options);
+  if (!report.IsDamaged()) return lio::kExitDone;
+  std::cerr << "lio-convert: the input is damaged: what is sound was converted, see the summary\n";
+  return lio::kExitUnusableInput;
+}
+
+CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
+  using lio::StampMeaning;
+  using lio::TimeUnit;
+  CLI::App* command = app.add_subcommand("rosbag", kAboutRosbag);
+  command->add_option("IN", options.input, "The bag")->required();
+  command->add_option("OUT.lcm", options.output, "The log to write")->required();
+  command->add_option("--lidar-topic", options.lidar_topic, "PointCloud2 topic");
+  command->add_option("--imu-topic", options.imu_topic, "Imu topic");
+  auto* truth = command->add_option("--truth", options.truth_file, "Write the truth, as TUM file");
+  command
+      ->add_option("--truth-topic", options.truth_topic, "Odometry, PoseStamped or INSPVAX topic")
+      ->needs(truth);
+  command->add_option("--lidar", options.lidar_model,
+                      "Model (hdl32e, vlp16, hdl64e, os1_64): gives rings and direction where the "
+                      "clouds do not");
+  const std::map<std::string, std::optional<TimeUnit>> units = {{"auto", std::nullopt},
+                                                                {"s", TimeUnit::kSeconds},
+                                                                {"ms", TimeUnit::kMilliseconds},
+                                                                {"us", TimeUnit::kMicroseconds},
+                                                                {"ns", TimeUnit::kNanoseconds}};
+  const std::map<std::string, std::optional<StampMeaning>> stamps = {
+      {"auto", std::nullopt},
+      {"start", StampMeaning::kSweepStart},
+      {"end", StampMeaning::kSweepEnd}};
+  command
+      ->add_option_function<std::string>(
+          "--point-time",
+          [units, &options](const std::string& name) { options.point_time.unit = units.at(name); },
+          "Unit of the point times: auto, s, ms, us, ns")
+      ->check(CLI::IsMember(units));
+  command
+      ->add_option_function<std::string>(
+          "--stamp",
+          [stamps, &options](const std::string& name) {
+            options.point_time.stamp = stamps.at(name);
+          },
+          "What a cloud's stamp is of its sweep: auto, start, end")
+      ->check(CLI::IsMember(stamps));
+  command->add_option("--start", options.start_s, "Seconds after the bag's first message")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--duration", options.duration_s, "Seconds to convert")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--whole-scans", options.whole_scans, "One message a sweep, not chunks");
+  return command;
+}
+
+CLI::App* AddKittiRaw(CLI::App& app, lio::KittiRawOptions& options) {
+  CLI::App* command = app.add_subcommand("kitti-raw", kAboutRaw);
+  command->add_option("DRIVE_DIR", options.drive, "The drive's folder")->required();
+  command->add_option("OUT.lcm", options.output, "The log to write")->required();
+  command->add_option("--truth", options.truth_file, "Write the IMU's poses, as TUM file");
+  command->add_option("--rig", options.rig_file, "Write the rig's configuration, as YAML file");
+  command->add_option("--imu-rate", options.imu_rate_hz, "Interpolate the IMU to this rate [Hz]")
+      ->check(CLI::Range(1.0, 10000.0));
+  return command;
+}
+
+CLI::App* AddKittiOdometry(CLI::App& app, lio::KittiOdometryOptions& options) {
+  CLI::App* command = app.add_subcommand("kitti-odometry", kAboutOdometry);
+  command->add_option("SEQUENCE_DIR", options.sequence, "The sequence's folder")->required();
+  command->add_option("OUT.lcm", options.output, "The log to write")->required();
+  auto* truth =
+      command->add_option("--truth", options.truth_file, "Write the lidar's poses, as TUM file");
+  command->add_option("--poses", options.poses_file, "Camera poses, a KITTI pose file")
+      ->needs(truth);
+  command
+      ->add_option("--vertical-correction", options.vertical_correction_deg,
+                   "Raise every point's elevation [deg]; 0.205 suits KITTI's scanner")
+      ->check(CLI::Range(-5.0, 5.0));
+  return command;
+}
+
+int Convert(int argc, char** argv) {
+  CLI::App app(kAbout, "lio-convert");
+  app.require_subcommand(1);
+  lio::RosbagOptions rosbag;
+  lio::KittiRawOptions raw;
+  lio::KittiOdometryOptions odometry;
+  const CLI::App* rosbag_command = AddRosbag(app, rosbag);
+  const CLI::App* raw_command = AddKittiRaw(app, raw);
+  AddKittiOdometry(app, odometry);
+  if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
+    return *exit_code;
+  }
+  if (rosbag_command->parsed()) return Run(rosbag, lio::ConvertRosbag);
+  if (raw_command->parsed()) return Run(raw, lio::ConvertKittiRaw);
+  return Run(odometry, lio::ConvertKittiOdometry);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Convert(argc, argv);
+  } catch (const lio::UsageError& error) {
+    std::cerr << "lio-convert: " << error.what() << "\n";
+    return lio::kExitUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "lio-convert: " << error.what() << "\n";
+    return lio::kExitUnusableInput;
+  }
+}
