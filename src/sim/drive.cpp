@@ -113,7 +113,8 @@ std::vector<BodyKnot> FollowDrive(const Path& path, const Drive& drive,
     const double b = response.half_wheelbase_m;
     const double w = response.half_track_m;
     const auto at = [&](double forward_m, double left_m) {
-      return height(point.position_m + forward_m * point.Forward() + left_m * point.Left());
+      return height(point.position_m + forward_m * point.Forward() + left_m * point.Left(),
+                    distance_m + forward_m);
     };
     BodyKnot knot;
     knot.position_m << point.position_m, at(0.0, 0.0);

@@ -131,6 +131,14 @@ Path Path::Reversed() const {
   return path;
 }
 
+Path Path::Repeated(int times) const {
+  Path path = Cut(0.0, 0.0);
+  for (int i = 0; i < times; ++i) {
+    for (const Piece& piece : pieces_) path.Add(piece.length_m, piece.begin.curvature_per_m);
+  }
+  return path;
+}
+
 std::vector<Vector2> Path::Sampled(double step_m) const {
   const int num_steps = std::max(1, static_cast<int>(std::ceil(length_m_ / step_m)));
   std::vector<Vector2> points;

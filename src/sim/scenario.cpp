@@ -9,14 +9,19 @@
 namespace lio::sim {
 namespace {
 
+constexpr double kLongest_s = 3600.0;
+
 struct Maker {
   ScenarioEntry entry;
-  Scenario (*make)(const ScenarioOptions& options, double duration_s);
+  Scenario (*make)(const ScenarioOptions& options);
 };
 
 const std::vector<Maker>& Makers() {
   static const std::vector<Maker> makers = {
-      {{"street", "a street canyon with shops, traffic, parked cars and people", 60.0}, MakeStreet},
+      {{"street", "a street canyon with shops, traffic, parked cars and people"}, MakeStreet},
+      {{"loop", "once around a city block, back to where it began (690 m)"}, MakeLoop},
+      {{"tunnel", "through a straight tunnel with plain walls"}, MakeTunnel},
+      {{"parked", "parked at a crossing among traffic"}, MakeParked},
   };
   return makers;
 }
@@ -37,11 +42,11 @@ Scenario MakeScenario(const std::string& name, const ScenarioOptions& options) {
   for (const Maker& maker : Makers()) {
     known += " " + maker.entry.name;
     if (maker.entry.name != name) continue;
-    const double duration_s = options.duration_s.value_or(maker.entry.duration_s);
-    if (!(duration_s > 0.0)) throw std::invalid_argument("the duration must be positive");
-    Scenario scenario = maker.make(options, duration_s);
+    if (options.duration_s && !(*options.duration_s > 0.0 && *options.duration_s <= kLongest_s)) {
+      throw std::invalid_argument("the duration must be above 0 and at most 3600 s");
+    }
+    Scenario scenario = maker.make(options);
     scenario.name = name;
-    scenario.duration_s = duration_s;
     return scenario;
   }
   throw std::invalid_argument("no scenario '" + name + "'; there are:" + known);

@@ -77,6 +77,10 @@ void MountOnPerson(Scenario& scenario, MotionPlan plan) {
   scenario.ceiling_m = 2.4;
 }
 
+HeightFunction HeightOf(const Terrain& terrain) {
+  return [terrain](const Vector2& p_m, double) { return terrain.Height(p_m); };
+}
+
 void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_mps) {
   scenario.begin_s = 0.0;
   if (!options.starts_moving) return;

@@ -21,6 +21,13 @@ void MountOnPerson(Scenario& scenario, MotionPlan plan);
 // Begins the log at rest or, if asked, when the body has reached `moving_mps`.
 void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_mps);
 
-Scenario MakeStreet(const ScenarioOptions& options, double duration_s);
+// Ground as HeightFunction.
+HeightFunction HeightOf(const Terrain& terrain);
+
+// Each fills in everything but the name.
+Scenario MakeStreet(const ScenarioOptions& options);
+Scenario MakeLoop(const ScenarioOptions& options);
+Scenario MakeParked(const ScenarioOptions& options);
+Scenario MakeTunnel(const ScenarioOptions& options);
 
 }  // namespace lio::sim

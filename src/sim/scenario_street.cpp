@@ -94,8 +94,10 @@ void AddTraffic(World& world, const Path& ego, const Path& oncoming,
 
 }  // namespace
 
-Scenario MakeStreet(const ScenarioOptions& options, double duration_s) {
+Scenario MakeStreet(const ScenarioOptions& options) {
   Scenario scenario;
+  const double duration_s = options.duration_s.value_or(60.0);
+  scenario.duration_s = duration_s;
   Random random(options.seed, Purpose::kWorld, 1);
   const double planned_s = duration_s + kAfterEnd_s + 20.0;
   const Path road = StreetPath(kSpeed_mps * planned_s, random);
@@ -114,7 +116,7 @@ Scenario MakeStreet(const ScenarioOptions& options, double duration_s) {
   const double light_m = 2.0 * kSideStreet_m - kBefore_m - 9.0;  // before the second side street
   const auto drive =
       std::make_shared<Drive>(ego, limits, std::vector<Stop>{{light_m, 4.0}}, kStartRest_s);
-  const HeightFunction height = [terrain](const Vector2& p) { return terrain.Height(p); };
+  const HeightFunction height = HeightOf(terrain);
   MotionPlan plan;
   plan.knot_interval_s = kCarKnot_s;
   plan.knots = FollowDrive(ego, *drive, height, {}, kCarKnot_s, planned_s);

@@ -223,9 +223,11 @@ void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
   world.movers.push_back(
       {world.shapes.size() - 1, [path = std::move(path), distance = std::move(distance),
                                  height = std::move(height), half_base_m](double t_s) {
-         const PathPoint p = path.At(distance(t_s));
-         const double front = height(p.position_m + half_base_m * p.Forward());
-         const double rear = height(p.position_m - half_base_m * p.Forward());
+         const double along_m = distance(t_s);
+         const PathPoint p = path.At(along_m);
+         const Vector2 reach = half_base_m * p.Forward();
+         const double front = height(p.position_m + reach, along_m + half_base_m);
+         const double rear = height(p.position_m - reach, along_m - half_base_m);
          Pose pose =
              UprightPose({p.position_m.x(), p.position_m.y(), 0.5 * (front + rear)}, p.heading_rad);
          const double pitch = -std::atan2(front - rear, 2.0 * half_base_m);

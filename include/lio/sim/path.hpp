@@ -42,6 +42,7 @@ class Path {
   Path Cut(double from_m, double to_m) const;
   Path Shifted(double left_m) const;
   Path Reversed() const;
+  Path Repeated(int times) const;
   // Points every `step_m`, both ends included.
   std::vector<Vector2> Sampled(double step_m) const;
 
@@ -59,7 +60,8 @@ class Path {
   double length_m_ = 0.0;
 };
 
-// Height of the ground at a point.
-using HeightFunction = std::function<double(const Vector2&)>;
+// Height of the ground at a point; `along_m` is the distance along the path that is followed, which
+// tells the storeys of a building apart.
+using HeightFunction = std::function<double(const Vector2& p_m, double along_m)>;
 
 }  // namespace lio::sim

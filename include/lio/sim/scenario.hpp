@@ -38,7 +38,6 @@ struct Scenario {
 struct ScenarioEntry {
   std::string name;
   std::string summary;
-  double duration_s;  // by default
 };
 const std::vector<ScenarioEntry>& AllScenarios();
 
