@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -70,14 +71,23 @@ class StderrCapture {
   int memory_;
 };
 
+std::string WhatToDo(const std::string& url) {
+  if (url.starts_with("tcpq:")) return "start its server: java -cp lcm.jar lcm.lcm.TCPService PORT";
+  return "if this machine has no multicast route: sudo ip link set lo up && "
+         "sudo ip route add 224.0.0.0/4 dev lo";
+}
+
 lcm_t* Open(const std::string& url) {
   StderrCapture capture;
   lcm_t* lcm = lcm_create(url.c_str());
+  // Asking for the descriptor makes udpm open its receive socket now, not with the first
+  // subscription, so that FindUdpSocket finds it; and tells whether tcpq has a connection.
+  const bool is_usable = lcm != nullptr && lcm_get_fileno(lcm) >= 0;
   const std::string words = capture.Finish();
-  if (lcm == nullptr) {
+  if (!is_usable) {
+    if (lcm != nullptr) lcm_destroy(lcm);
     throw TransportError("LCM cannot open " + url + " (" + words.substr(0, words.find('\n')) +
-                         "); if this machine has no multicast route: sudo ip link set lo up && "
-                         "sudo ip route add 224.0.0.0/4 dev lo");
+                         "); " + WhatToDo(url));
   }
   std::fputs(words.c_str(), stderr);
   return lcm;
@@ -115,6 +125,7 @@ class LcmBus final : public Bus {
   }
 
   bool Publish(const std::string& channel, ByteView data) override {
+    const std::lock_guard lock(publish_mutex_);
     return lcm_publish(lcm_, channel.c_str(), data.data(), static_cast<unsigned>(data.size())) == 0;
   }
 
@@ -145,6 +156,7 @@ class LcmBus final : public Bus {
   }
 
   lcm_t* lcm_;
+  std::mutex publish_mutex_;  // liblcm's tcpq provider does not lock
   std::vector<std::unique_ptr<Subscriber>> subscribers_;
   std::atomic<std::int64_t> num_oversized_ = 0;
   std::atomic<std::int64_t> num_handler_faults_ = 0;

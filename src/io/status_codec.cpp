@@ -54,6 +54,7 @@ void CopyLosses(const StatusReport& from, status_t& to) {
   to.publish_failed = from.num_publish_failed;
   to.outputs_dropped = from.num_outputs_dropped;
   to.commands_refused = from.num_commands_refused;
+  to.handler_faults = from.num_handler_faults;
 }
 
 void CopyLatencies(const StatusReport& from, status_t& to) {

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <ctime>
 
 #include "lio/io/command_line.hpp"
+#include "lio/io/cpu_clock.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/progress_bar.hpp"
@@ -41,12 +41,6 @@ constexpr const char* kExamples =
     "out/lidar\n"
     "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n\n"
     "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log.";
-
-std::int64_t ThreadCpuNs() {
-  std::timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.footer(kExamples);

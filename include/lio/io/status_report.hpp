@@ -32,6 +32,7 @@ struct StatusReport {
   std::int64_t num_publish_failed = 0;
   std::int64_t num_outputs_dropped = 0;
   std::int64_t num_commands_refused = 0;
+  std::int64_t num_handler_faults = 0;
   std::int32_t receive_buffer_bytes = 0;  // 0: unknown
   LatencySummary queue;                   // arrival of a scan's last datagram to start of its match
   LatencySummary compute;                 // from there to its odometry

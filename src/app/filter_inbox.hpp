@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What waits for the filter thread: decoded messages in the order they arrived, and the outcome of
+// the match that is under way.
+//
+// Bounded. Beyond kMaxPoints the chunks of the oldest scan are dropped, all of them; beyond kMaxImu
+// the newest sample is refused. Both are counted. Outcomes are taken first: there is never more
+// than one, and scans wait for it.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <variant>
+
+#include "lio/pipeline/match_side.hpp"
+
+namespace lio {
+
+template <typename Data>
+struct Arrival {
+  Data data;
+  std::int64_t recv_utime = 0;  // host's clock, us since the epoch: for latency only
+  std::int64_t decode_ns = 0;
+};
+
+using InboxItem = std::variant<Arrival<ImuSample>, Arrival<ScanChunk>, MatchOutcome>;
+
+class FilterInbox {
+ public:
+  static constexpr std::size_t kMaxImu = 1 << 16;           // a minute at 1 kHz
+  static constexpr std::size_t kMaxPoints = 4 * (1 << 20);  // 80 MB, some seconds of any lidar
+
+  struct Losses {
+    std::int64_t num_imu = 0;
+    std::int64_t num_chunks = 0;
+  };
+
+  explicit FilterInbox(std::size_t max_imu = kMaxImu, std::size_t max_points = kMaxPoints)
+      : max_imu_(max_imu), max_points_(max_points) {}
+
+  void Put(Arrival<ImuSample> sample);
+  void Put(Arrival<ScanChunk> chunk);
+  void Put(MatchOutcome outcome);
+  // No message will come any more; outcomes may.
+  void Close();
+
+  // Waits for the next item; null once closed and empty.
+  std::unique_ptr<InboxItem> Take();
+  // Waits for the outcome and leaves messages where they are.
+  MatchOutcome TakeOutcome();
+
+  Losses losses() const;
+
+ private:
+  void DropOldestScan();
+
+  const std::size_t max_imu_;
+  const std::size_t max_points_;
+  mutable std::mutex mutex_;  // guards everything below
+  std::condition_variable filled_;
+  std::deque<std::unique_ptr<InboxItem>> messages_;  // no outcomes among them
+  std::optional<MatchOutcome> outcome_;
+  std::size_t num_imu_ = 0;
+  std::size_t num_points_ = 0;
+  bool is_closed_ = false;
+  Losses losses_;
+};
+
+}  // namespace lio

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// liod: LiDAR-inertial odometry from LCM to LCM, until it is told to end.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+
+#include "app/daemon_arguments.hpp"
+#include "app/live_runner.hpp"
+#include "lio/io/command_line.hpp"
+#include "lio/io/socket_buffer.hpp"
+
+namespace lio {
+namespace {
+
+// Blocked in every thread, for threads inherit it: only WaitForEnd takes these signals.
+sigset_t BlockSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // a broken tcpq connection is told by its calls
+  return signals;
+}
+
+void WaitForEnd(const sigset_t& signals, const LiveRunner& runner) {
+  const timespec interval{.tv_sec = 0, .tv_nsec = 100'000'000};
+  while (sigtimedwait(&signals, nullptr, &interval) < 0 && !runner.has_ended()) {
+  }
+}
+
+void RaiseBuffer(const std::string& url, LiveOptions& live) {
+  const int port = UdpPort(url);
+  if (port == 0) return;
+  live.socket = FindUdpSocket(port);
+  if (!live.socket) return;
+  live.receive_buffer_bytes = RaiseReceiveBuffer(*live.socket, kWantedReceiveBytes);
+  if (live.receive_buffer_bytes >= kEnoughReceiveBytes) return;
+  spdlog::warn("the kernel's receive buffer is {} kB: scans will be lost; allow more with\n{}",
+               live.receive_buffer_bytes / 1024, ReceiveBufferAdvice());
+}
+
+int Run(const DaemonArguments& arguments, const Options& options) {
+  const sigset_t signals = BlockSignals();
+  const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
+  LiveOptions live = arguments.Live();
+  live.version = LIO_VERSION;
+  RaiseBuffer(arguments.lcm_url, live);
+  LiveRunner runner(*bus, options, live);
+  spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
+  WaitForEnd(signals, runner);
+  const bool is_lost = runner.has_ended() && !arguments.lcm_url.starts_with("file:");
+  runner.Stop();
+  if (!is_lost) return kExitDone;
+  spdlog::error("the connection to {} broke: start its server, then liod", arguments.lcm_url);
+  return kExitNoTransport;
+}
+
+}  // namespace
+}  // namespace lio
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("liod"));
+  spdlog::set_pattern("%n: %v");
+  lio::DaemonArguments arguments;
+  lio::Options options;
+  CLI::App app("", "liod");
+  arguments.AddTo(app);
+  if (const auto code =
+          lio::ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
+    return *code;
+  }
+  try {
+    return lio::Run(arguments, options);
+  } catch (const lio::TransportError& error) {
+    spdlog::error("{}", error.what());
+    return lio::kExitNoTransport;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return lio::kExitUsage;
+  }
+}

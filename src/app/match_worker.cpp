@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/match_worker.hpp"
+
+#include <utility>
+
+namespace lio {
+
+MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
+                         std::function<void(MatchOutcome)> deliver)
+    : match_side_(options, clock),
+      collects_map_(collects_map),
+      deliver_(std::move(deliver)),
+      thread_([this] { Run(); }) {}
+
+MatchWorker::~MatchWorker() {
+  Finish();
+}
+
+void MatchWorker::Finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = true;
+    told_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void MatchWorker::Tell(MatchJob job) {
+  const std::lock_guard lock(mutex_);
+  work_.emplace_back(std::move(job));
+  told_.notify_one();
+}
+
+void MatchWorker::Tell(InsertTask insert) {
+  const std::lock_guard lock(mutex_);
+  work_.emplace_back(std::move(insert));
+  told_.notify_one();
+}
+
+void MatchWorker::Run() {
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    told_.wait(lock, [this] { return !work_.empty() || is_finishing_; });
+    if (work_.empty()) return;
+    const Work work = std::move(work_.front());
+    work_.pop_front();
+    lock.unlock();
+    std::visit([this](const auto& task) { Do(task); }, work);
+  }
+}
+
+void MatchWorker::Do(const MatchJob& job) {
+  if (job.clear_map) map_cloud_.Clear();
+  deliver_(match_side_.Run(job));
+}
+
+void MatchWorker::Do(const InsertTask& insert) {
+  match_side_.Insert(insert);
+  if (collects_map_ && insert.T_map_imu) map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
+  map_bytes_ = match_side_.matcher().map_size().memory_bytes;
+}
+
+}  // namespace lio

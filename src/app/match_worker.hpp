@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The match thread: runs one job at a time and grows the map, in the order it is told.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+#include "lio/io/map_cloud.hpp"
+#include "lio/pipeline/match_side.hpp"
+
+namespace lio {
+
+class MatchWorker {
+ public:
+  // `deliver` is called on the match thread with each job's outcome.
+  MatchWorker(const Options& options, ClockNs clock, bool collects_map,
+              std::function<void(MatchOutcome)> deliver);
+  ~MatchWorker();  // finishes what was told, then ends
+  MatchWorker(const MatchWorker&) = delete;
+  MatchWorker& operator=(const MatchWorker&) = delete;
+
+  // By the estimator's protocol at most one job and the insertion before it are waiting.
+  void Tell(MatchJob job);
+  void Tell(InsertTask insert);
+  void Finish();  // as the destructor
+
+  std::size_t map_bytes() const { return map_bytes_; }
+  // Points of map.pcd; only after Finish.
+  const MapCloud& map_cloud() const { return map_cloud_; }
+
+ private:
+  using Work = std::variant<MatchJob, InsertTask>;
+
+  void Run();
+  void Do(const MatchJob& job);
+  void Do(const InsertTask& insert);
+
+  MatchSide match_side_;
+  MapCloud map_cloud_;
+  bool collects_map_;
+  std::function<void(MatchOutcome)> deliver_;
+  std::atomic<std::size_t> map_bytes_ = 0;
+
+  std::mutex mutex_;  // guards work_ and is_finishing_
+  std::condition_variable told_;
+  std::deque<Work> work_;
+  bool is_finishing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace lio

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/output_worker.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace lio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kStatusInterval(1);
+// Between the chunks of a full cloud: a burst of them overruns receivers with stock buffers.
+constexpr std::chrono::milliseconds kChunkPause(1);
+
+}  // namespace
+
+OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
+                           std::string version, std::function<StatusReport()> compose)
+    : publisher_(publisher),
+      writer_(writer),
+      T_imu_lidar_(T_imu_lidar),
+      version_(std::move(version)),
+      compose_(std::move(compose)),
+      thread_([this] { Run(); }) {}
+
+OutputWorker::~OutputWorker() {
+  Finish();
+}
+
+void OutputWorker::Finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = true;
+    put_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void OutputWorker::PutRow(Output row) {
+  if (writer_ == nullptr) return;
+  const std::lock_guard lock(mutex_);
+  if (tasks_.rows.size() >= kMaxRows) {
+    ++num_rows_dropped_;
+    return;
+  }
+  tasks_.rows.push_back(std::move(row));
+  put_.notify_one();
+}
+
+void OutputWorker::Put(RegisteredCloud cloud) {
+  const std::lock_guard lock(mutex_);
+  tasks_.cloud = std::move(cloud);
+  put_.notify_one();
+}
+
+void OutputWorker::Put(FullCloudTask cloud) {
+  const std::lock_guard lock(mutex_);
+  tasks_.full_cloud = std::move(cloud);
+  put_.notify_one();
+}
+
+void OutputWorker::AnnounceStatus() {
+  const std::lock_guard lock(mutex_);
+  tasks_.status = true;
+  put_.notify_one();
+}
+
+void OutputWorker::Run() {
+  auto next_status = Clock::now();
+  for (bool is_last = false; !is_last;) {
+    Tasks tasks;
+    {
+      std::unique_lock lock(mutex_);
+      put_.wait_until(lock, next_status, [this] { return !tasks_.empty() || is_finishing_; });
+      tasks = std::exchange(tasks_, {});
+      is_last = is_finishing_;
+    }
+    tasks.status = tasks.status || is_last || Clock::now() >= next_status;
+    if (tasks.status) next_status = Clock::now() + kStatusInterval;
+    Do(tasks);
+  }
+}
+
+void OutputWorker::Do(const Tasks& tasks) {
+  for (const Output& row : tasks.rows) writer_->Write(row);
+  if (tasks.cloud) publisher_.Publish(*tasks.cloud);
+  if (tasks.full_cloud) PublishFull(*tasks.full_cloud);
+  if (tasks.status) publisher_.Publish(compose_(), version_);
+}
+
+void OutputWorker::PublishFull(const FullCloudTask& task) {
+  for (const ScanChunk& chunk : RegisterFullCloud(task, T_imu_lidar_)) {
+    publisher_.PublishFull(chunk);
+    std::this_thread::sleep_for(kChunkPause);
+  }
+}
+
+}  // namespace lio

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The output thread: files, clouds and the status, everything that may wait for a disk or a socket
+// while the filter must not. Rows are kept in order, at most kMaxRows; beyond, the newest are
+// dropped and counted. Of clouds only the newest waits.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/full_cloud.hpp"
+#include "app/publisher.hpp"
+#include "lio/io/run_writer.hpp"
+
+namespace lio {
+
+class OutputWorker {
+ public:
+  static constexpr std::size_t kMaxRows = 20'000;  // 20 MB, some ten seconds of 1 kHz
+
+  // Borrowed: `publisher`, and `writer`, which is null without files. `compose` gives the status.
+  OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
+               std::string version, std::function<StatusReport()> compose);
+  ~OutputWorker();  // as Finish
+  OutputWorker(const OutputWorker&) = delete;
+  OutputWorker& operator=(const OutputWorker&) = delete;
+
+  void PutRow(Output row);
+  void Put(RegisteredCloud cloud);
+  void Put(FullCloudTask cloud);
+  void AnnounceStatus();  // now, not at the next second
+  // Writes and sends what is there, and a last status; then ends.
+  void Finish();
+
+  std::int64_t num_rows_dropped() const { return num_rows_dropped_; }
+
+ private:
+  struct Tasks {
+    std::deque<Output> rows;
+    std::optional<RegisteredCloud> cloud;
+    std::optional<FullCloudTask> full_cloud;
+    bool status = false;
+
+    bool empty() const { return rows.empty() && !cloud && !full_cloud && !status; }
+  };
+
+  void Run();
+  void Do(const Tasks& tasks);
+  void PublishFull(const FullCloudTask& task);
+
+  Publisher& publisher_;
+  RunWriter* writer_;
+  Pose T_imu_lidar_;
+  std::string version_;
+  std::function<StatusReport()> compose_;
+  std::atomic<std::int64_t> num_rows_dropped_ = 0;
+
+  std::mutex mutex_;  // guards tasks_ and is_finishing_
+  std::condition_variable put_;
+  Tasks tasks_;
+  bool is_finishing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace lio

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/publisher.hpp"
+
+namespace lio {
+
+void Publisher::Send(const std::string& channel, const Bytes& bytes) {
+  if (!bus_.Publish(channel, bytes)) ++num_failed_;
+}
+
+void Publisher::Publish(const Output& output) {
+  if (const auto* nav = std::get_if<NavOutput>(&output)) {
+    const bool is_imu_rate = nav->source == OdometrySource::kImuPropagated;
+    Send(is_imu_rate ? channels_.odometry_imu_rate : channels_.odometry, EncodeOdometry(*nav));
+  } else if (const auto* scan = std::get_if<ScanOutput>(&output)) {
+    if (scan->filter) {
+      Send(channels_.odometry, EncodeOdometry(scan->filter->nav));
+      Send(channels_.state, EncodeFilterState(*scan->filter));
+    }
+    Send(channels_.registration, EncodeRegistration(scan->scan));
+  }
+}
+
+void Publisher::Publish(const StatusReport& status, const std::string& version) {
+  Send(channels_.status, EncodeStatus(status, version));
+}
+
+void Publisher::Publish(const RegisteredCloud& cloud) {
+  Send(channels_.cloud, EncodeCloud(cloud));
+}
+
+void Publisher::PublishFull(const ScanChunk& chunk) {
+  Send(channels_.cloud_full, EncodeChunk(chunk));
+}
+
+}  // namespace lio

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/receiver.hpp"
+
+#include <chrono>
+
+namespace lio {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kImuCapacity = 4096;   // some seconds at 1 kHz
+constexpr int kScanCapacity = 1024;  // chunks: forty sweeps; LCM's own 30 would lose two thirds
+constexpr int kCommandCapacity = 16;
+constexpr milliseconds kPollInterval(50);  // how soon Stop is noticed
+constexpr milliseconds kQuiet(20);         // without a message for this long, all have arrived
+constexpr milliseconds kMaxDrain(200);
+
+}  // namespace
+
+Receiver::Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
+                   StatusBoard& board, std::function<void(const Command&)> obey)
+    : bus_(bus), clock_(clock), inbox_(inbox), board_(board), obey_(std::move(obey)) {
+  bus.Subscribe(channels.imu, kImuCapacity,
+                [this](ByteView data, std::int64_t utime) { OnImu(data, utime); });
+  bus.Subscribe(channels.scan, kScanCapacity,
+                [this](ByteView data, std::int64_t utime) { OnScan(data, utime); });
+  bus.Subscribe(channels.command, kCommandCapacity,
+                [this](ByteView data, std::int64_t) { OnCommand(data); });
+}
+
+void Receiver::Run() {
+  while (!is_stopping_ && !has_ended_) {
+    if (bus_.Receive(kPollInterval) == ReceiveResult::kClosed) has_ended_ = true;
+    ReportCounters();
+  }
+  if (!has_ended_) Drain();
+}
+
+void Receiver::Drain() {
+  const auto deadline = std::chrono::steady_clock::now() + kMaxDrain;
+  while (bus_.Receive(kQuiet) == ReceiveResult::kMessage &&
+         std::chrono::steady_clock::now() < deadline) {
+  }
+  ReportCounters();
+}
+
+void Receiver::ReportCounters() {
+  for (const std::int64_t seen = bus_.num_oversized(); num_oversized_ < seen; ++num_oversized_) {
+    decoder_.Refuse(DecodeStatus::kTooLarge);
+  }
+  board_.SetInput(decoder_.counters());
+}
+
+void Receiver::OnImu(ByteView data, std::int64_t recv_utime) {
+  const std::int64_t begin = clock_();
+  Arrival<ImuSample> arrival{{}, recv_utime, 0};
+  if (!decoder_.Imu(data, arrival.data)) return;
+  arrival.decode_ns = clock_() - begin;
+  inbox_.Put(std::move(arrival));
+}
+
+void Receiver::OnScan(ByteView data, std::int64_t recv_utime) {
+  const std::int64_t begin = clock_();
+  Arrival<ScanChunk> arrival{{}, recv_utime, 0};
+  if (!decoder_.Chunk(data, arrival.data)) return;
+  arrival.decode_ns = clock_() - begin;
+  inbox_.Put(std::move(arrival));
+}
+
+void Receiver::OnCommand(ByteView data) {
+  Command command;
+  if (DecodeCommand(data, command) == DecodeStatus::kOk) {
+    obey_(command);
+  } else {
+    board_.CountRefusedCommand();
+  }
+}
+
+}  // namespace lio

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/status_board.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+namespace lio {
+namespace {
+
+std::int64_t CpuMicroseconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto us = [](const timeval& t) { return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_usec; };
+  return us(usage.ru_utime) + us(usage.ru_stime);
+}
+
+float ResidentMb() {
+  std::int64_t total_pages = 0;
+  std::int64_t resident_pages = 0;
+  std::ifstream("/proc/self/statm") >> total_pages >> resident_pages;
+  return static_cast<float>(resident_pages * ::sysconf(_SC_PAGESIZE)) * 1e-6F;
+}
+
+LatencySummary Summarise(std::vector<float>& values_ms) {
+  if (values_ms.empty()) return {};
+  std::sort(values_ms.begin(), values_ms.end());
+  const auto at = [&](double share) {
+    return values_ms[static_cast<std::size_t>(share * static_cast<double>(values_ms.size() - 1) +
+                                              0.5)];
+  };
+  return {at(0.5), at(0.99), values_ms.back()};
+}
+
+}  // namespace
+
+std::int64_t HostUtime() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+StatusBoard::StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes)
+    : last_utime_(HostUtime()), last_cpu_us_(CpuMicroseconds()) {
+  report_.start_utime = last_utime_;
+  report_.config_hash = config_hash;
+  report_.receive_buffer_bytes = receive_buffer_bytes;
+}
+
+void StatusBoard::SetEstimator(const Counters& counters, TrackingStatus state,
+                               Timestamp newest_stamp) {
+  const std::lock_guard lock(mutex_);
+  report_.counters = counters;
+  report_.state = state;
+  report_.newest_stamp = newest_stamp;
+}
+
+void StatusBoard::SetInput(const InputCounters& counters) {
+  const std::lock_guard lock(mutex_);
+  report_.input = counters;
+}
+
+void StatusBoard::SetNote(std::string note) {
+  const std::lock_guard lock(mutex_);
+  report_.note = std::move(note);
+}
+
+void StatusBoard::CountRefusedCommand() {
+  const std::lock_guard lock(mutex_);
+  ++report_.num_commands_refused;
+}
+
+void StatusBoard::AddLatency(double queue_ms, double compute_ms) {
+  const std::lock_guard lock(mutex_);
+  latencies_.queue_ms.push_back(static_cast<float>(queue_ms));
+  latencies_.compute_ms.push_back(static_cast<float>(compute_ms));
+  latencies_.total_ms.push_back(static_cast<float>(queue_ms + compute_ms));
+}
+
+InputCounters StatusBoard::input() const {
+  const std::lock_guard lock(mutex_);
+  return report_.input;
+}
+
+StatusReport StatusBoard::Compose() {
+  const std::lock_guard lock(mutex_);
+  report_.utime = HostUtime();
+  const std::int64_t cpu_us = CpuMicroseconds();
+  const std::int64_t elapsed_us = std::max<std::int64_t>(report_.utime - last_utime_, 1);
+  report_.cpu_load_cores =
+      static_cast<float>(cpu_us - last_cpu_us_) / static_cast<float>(elapsed_us);
+  report_.rss_mb = ResidentMb();
+  last_utime_ = report_.utime;
+  last_cpu_us_ = cpu_us;
+  report_.queue = Summarise(latencies_.queue_ms);
+  report_.compute = Summarise(latencies_.compute_ms);
+  report_.latency = Summarise(latencies_.total_ms);
+  latencies_ = {};
+  StatusReport report = report_;
+  ++report_.seq;
+  return report;
+}
+
+}  // namespace lio
