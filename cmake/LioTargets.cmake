@@ -37,12 +37,17 @@ function(lio_library name)
   target_link_libraries(${name} PRIVATE lio_warnings)
 endfunction()
 
-# lio_program(NAME SOURCE... LIBS LIBRARY...): one thin program.
+# Everything a user runs; tools/setup.sh builds this and leaves the tests alone.
+add_custom_target(lio_programs)
+
+# lio_program(NAME SOURCE... LIBS LIBRARY...): one thin program, installed with the others.
 function(lio_program name)
   cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_compile_definitions(${name} PRIVATE LIO_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS})
+  add_dependencies(lio_programs ${name})
+  install(TARGETS ${name} RUNTIME)
 endfunction()
 
 # lio_test(NAME MODULE... LIBS LIBRARY...): one test program of every test/<MODULE>/*_test.cpp.

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# The checks of form: clang-format, file length, licence tags, and clang-tidy over src/ (the checks
+# and why others are off: .clang-tidy). Needs what tools/setup.sh --tests installs and builds.
+#   tools/lint.sh          all of it
+#   tools/lint.sh --fast   without clang-tidy
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+failed=0
+complain() {
+  echo "lint: $*" >&2
+  failed=1
+}
+
+mapfile -t sources < <(find include src test tools -name '*.hpp' -o -name '*.cpp' | sort)
+mapfile -t scripts < <(find tools test .ci -name '*.sh' -o -name '*.py' -o -path .ci/run | sort)
+
+clang-format --dry-run --Werror "${sources[@]}" || complain "run clang-format -i on the files above"
+for file in "${sources[@]}"; do
+  lines=$(wc -l <"$file")
+  ((lines <= 500)) || complain "$file has $lines lines; split it (500 is the wall, 300 the budget)"
+done
+while read -r file; do
+  complain "$file lacks the two SPDX lines"
+done < <(grep -L 'SPDX-License-Identifier: MIT' "${sources[@]}" "${scripts[@]}")
+
+[[ ${1:-} == --fast ]] || /usr/bin/python3 tools/lint/tidy.py || failed=1
+((failed == 0)) && echo "lint: ${#sources[@]} files in form"
+exit $failed
