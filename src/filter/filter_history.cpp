@@ -26,6 +26,7 @@ FilterHistory::FilterHistory(const HistoryOptions& options, const Estimate& star
     : options_(options), start_stamp_(start.stamp) {
   Node node;
   node.stamp = start.stamp;
+  node.imu_stamp = start.stamp;
   node.sample = sample;
   node.sample.stamp = start.stamp;
   node.posterior = start;
@@ -40,7 +41,10 @@ std::size_t FilterHistory::FirstAfter(Timestamp stamp) const {
 
 std::optional<EventOutcome> FilterHistory::Refuse(Timestamp stamp, Kind kind) const {
   if (stamp < start_stamp_) return EventOutcome::kBeforeStart;
-  if (stamp < nodes_.front().stamp) return EventOutcome::kTooOld;
+  const Node& front = nodes_.front();  // may be a pose whose sample is forgotten already
+  if (stamp < front.stamp || (stamp == front.stamp && kind < front.kind)) {
+    return EventOutcome::kTooOld;
+  }
   for (std::size_t at = FirstAfter(stamp); at > 0 && nodes_[at - 1].stamp == stamp; --at) {
     if (nodes_[at - 1].kind == kind) return EventOutcome::kDuplicate;
   }
@@ -57,11 +61,20 @@ ImuSample FilterHistory::SampleAt(Timestamp stamp, std::size_t at) const {
   return held;
 }
 
-void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to) const {
+bool FilterHistory::IsInGap(Timestamp stamp, std::size_t at) const {
+  const auto is_measured = [](const Node& node) { return node.kind == Kind::kImu; };
+  const auto next =
+      std::find_if(nodes_.begin() + static_cast<std::ptrdiff_t>(at), nodes_.end(), is_measured);
+  const Timestamp until = next == nodes_.end() ? stamp : next->stamp;
+  return SecondsBetween(nodes_[at - 1].imu_stamp, until) > options_.gap_s;
+}
+
+void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to,
+                           bool is_in_gap) const {
   const double dt = SecondsBetween(from.stamp, to.stamp);
   if (dt <= 0) return;
   ProcessNoise noise = options_.noise;
-  if (dt > options_.gap_s) {  // an error that lasts for dt: its density grows with dt
+  if (is_in_gap) {  // an error that lasts for dt: its density grows with dt
     noise.accel_density =
         std::hypot(noise.accel_density, options_.gap_accel_std_mps2 * std::sqrt(dt));
     noise.gyro_density =
@@ -72,9 +85,11 @@ void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuS
 
 void FilterHistory::Step(std::size_t at) {
   Node& node = nodes_[at];
-  if (node.kind != Kind::kImu) node.sample = SampleAt(node.stamp, at);
+  const bool is_measured = node.kind == Kind::kImu;
+  if (!is_measured) node.sample = SampleAt(node.stamp, at);
+  node.imu_stamp = is_measured ? node.stamp : nodes_[at - 1].imu_stamp;
   node.posterior = nodes_[at - 1].posterior;
-  StepTo(node.posterior, nodes_[at - 1].sample, node.sample);
+  StepTo(node.posterior, nodes_[at - 1].sample, node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
   if (node.kind == Kind::kRebase) RebaseMapPose(node.posterior);
   if (node.kind != Kind::kPose) return;
@@ -140,7 +155,7 @@ Estimate FilterHistory::At(Timestamp stamp) const {
   const std::size_t after = FirstAfter(stamp);
   if (after == 0) return nodes_.front().posterior;
   Estimate estimate = nodes_[after - 1].posterior;
-  StepTo(estimate, nodes_[after - 1].sample, SampleAt(stamp, after));
+  StepTo(estimate, nodes_[after - 1].sample, SampleAt(stamp, after), IsInGap(stamp, after));
   estimate.stamp = stamp;
   return estimate;
 }

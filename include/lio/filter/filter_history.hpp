@@ -62,6 +62,7 @@ class FilterHistory {
   enum class Kind { kImu, kPose, kRebase };
   struct Node {
     Timestamp stamp;
+    Timestamp imu_stamp;  // of the last measured sample up to here
     Kind kind = Kind::kImu;
     ImuSample sample;  // measured, or interpolated at the stamp of a pose or rebase
     PoseEvent pose;
@@ -73,7 +74,9 @@ class FilterHistory {
   std::size_t Insert(Node node);  // replays; returns where it is
   void Replay(std::size_t from);
   void Step(std::size_t at);
-  void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to) const;
+  void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to, bool is_in_gap) const;
+  // Is `stamp`, just before the node of index `at`, in a gap between measured samples?
+  bool IsInGap(Timestamp stamp, std::size_t at) const;
   // The sample at `stamp` from the node before index `at` and the first measured one from it on.
   ImuSample SampleAt(Timestamp stamp, std::size_t at) const;
   std::size_t FirstAfter(Timestamp stamp) const;
