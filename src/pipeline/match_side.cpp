@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/pipeline/match_side.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "lio/registration/ndt_matcher.hpp"
@@ -10,24 +11,35 @@
 namespace lio {
 namespace {
 
-// The motion during the sweep, bent so that it ends where the scan was found: the correction grows
-// linearly from nothing at the sweep's start.
-StampedPoses Bend(const StampedPoses& T_any_imu, const Pose& guess, const Pose& found) {
-  const Vector6 correction = LogSe3(guess.Inverse() * found);
-  const Timestamp start = T_any_imu.front().stamp;
-  const double span_s = SecondsBetween(start, T_any_imu.back().stamp);
-  StampedPoses bent = T_any_imu;
+// The motion during the sweep, bent so that its middle is where the scan was found: a constant
+// velocity, wrong since the last scan that was found, has grown the error from nothing.
+StampedPoses Bend(const MatchJob& job, const Pose& found) {
+  const Vector6 correction = LogSe3(job.T_map_imu_guess.Inverse() * found);
+  StampedPoses bent = job.T_any_imu;
   for (StampedPose& pose : bent) {
-    const double share = span_s > 0 ? SecondsBetween(start, pose.stamp) / span_s : 1.0;
-    pose.pose = pose.pose * ExpSe3(share * correction);
+    const double after_middle_s = SecondsBetween(job.sweep->middle(), pose.stamp);
+    pose.pose = pose.pose * ExpSe3((1.0 + after_middle_s / job.since_last_fix_s) * correction);
   }
   return bent;
+}
+
+// Every n-th point, so that about `wanted` are left. Points come by time: spread over the whole
+// turn.
+std::vector<Eigen::Vector3f> Thin(const std::vector<Eigen::Vector3f>& points, int wanted) {
+  const double step = std::max(1.0, static_cast<double>(points.size()) / wanted);
+  std::vector<Eigen::Vector3f> thinned;
+  thinned.reserve(static_cast<std::size_t>(wanted) + 1);
+  for (double at = 0.0; at < static_cast<double>(points.size()); at += step) {
+    thinned.push_back(points[static_cast<std::size_t>(at)]);
+  }
+  return thinned;
 }
 
 }  // namespace
 
 MatchSide::MatchSide(const Options& options, ClockNs clock)
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
+      match_points_(options.reduce.match_points),
       clock_(clock),
       reducer_(options.reduce, options.rig.lidar),
       matcher_(std::make_unique<NdtMatcher>(options.ndt)) {}
@@ -44,25 +56,27 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
 
   std::int64_t begin = Now();
   const ReducedScan reduced = reducer_.Reduce(sweep);
-  outcome.num_used = static_cast<int>(reduced.points.size());
+  outcome.num_used = std::min(static_cast<int>(reduced.points.size()), match_points_);
   outcome.num_nonfinite = reduced.num_nonfinite;
   time(Stage::kReduce, begin);
 
   begin = Now();
-  outcome.points_imu = Deskew(reduced.points, sweep.start, sweep.end, job.T_any_imu, T_imu_lidar_);
+  const SweepTimes sweep_times{sweep.start, sweep.end, sweep.middle()};
+  outcome.points_imu = Deskew(reduced.points, sweep_times, job.T_any_imu, T_imu_lidar_);
   time(Stage::kDeskew, begin);
 
   begin = Now();
-  outcome.match = matcher_->Match({outcome.points_imu, job.T_map_imu_guess, job.guess_cov});
+  std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
+  outcome.match = matcher_->Match({to_match, job.T_map_imu_guess, job.guess_cov});
   time(Stage::kMatch, begin);
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
     outcome.points_imu =
-        Deskew(reduced.points, sweep.start, sweep.end,
-               Bend(job.T_any_imu, job.T_map_imu_guess, outcome.match.T_map_imu), T_imu_lidar_);
+        Deskew(reduced.points, sweep_times, Bend(job, outcome.match.T_map_imu), T_imu_lidar_);
     time(Stage::kDeskew, begin);
     begin = Now();
-    outcome.match = matcher_->Match({outcome.points_imu, outcome.match.T_map_imu, Matrix6::Zero()});
+    to_match = Thin(outcome.points_imu, match_points_);
+    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero()});
     time(Stage::kMatch, begin);
   }
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;

@@ -57,6 +57,7 @@ class Odometry::Impl {
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
   void TryStart(Timestamp stamp);
   bool HasMoved() const;
+  void CarryBack(StartState& start, Timestamp stamp) const;
   void StartFrom(const StartState& start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
   ImuSample SampleAt(Timestamp stamp) const;
@@ -65,10 +66,14 @@ class Odometry::Impl {
   FilterHistory& history() { return scout_ ? scout_->history() : *history_; }
   MatchJob MakeJob(const SweepPtr& sweep, bool clear_map);
   void FinishRunning(MatchOutcome& outcome, InsertTask& insert);
-  bool Fuse(const MatchOutcome& outcome, ScanReport& report);
+  Matrix6 DeskewCov(const Sweep& sweep);
+  bool Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report);
   FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
   NavOutput MakeNav(const Estimate& estimate) const;
   void EmitImuRate();
+  bool IsKeyframe(const Pose& T_map_imu);
+  std::optional<Pose> last_key_;
+  int num_at_key_ = 0;
   void UpdateStatus(const MatchOutcome& outcome, bool fused);
 
   Options options_;
@@ -98,7 +103,8 @@ class Odometry::Impl {
   std::int64_t last_seq_ = -1;  // the last scan that was fused
   int num_gated_in_a_row_ = 0;
   int num_unmatched_in_a_row_ = 0;
-  std::optional<Timestamp> last_fused_;
+  std::optional<Timestamp> last_fused_;  // end of the last sweep that was fused
+  std::optional<Timestamp> last_found_;  // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published_;
   std::int64_t filter_ns_ = 0;  // CPU time of the filter since the last job
 };

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -22,7 +23,7 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
   const bool is_first = phase_ == Phase::kScouting ? scouted_.empty() : is_first_scan_;
   const bool needs_scout = phase_ == Phase::kScouting || !use_imu_;
   if (needs_scout) {
-    if (is_first) scout_.emplace(in_flight_->end, options_.filter.history_s, nis_limit_);
+    if (is_first) scout_.emplace(in_flight_->middle(), options_.filter.history_s, nis_limit_);
     scout_->AdvanceTo(in_flight_->end);
   }
   MatchJob job = MakeJob(in_flight_, is_first);
@@ -32,7 +33,7 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
 }
 
 MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
-  const Estimate predicted = history().At(sweep->end);
+  const Estimate predicted = history().At(sweep->middle());
   MatchJob job;
   job.sweep = sweep;
   job.T_any_imu = history().Trajectory(sweep->start, sweep->end);
@@ -40,6 +41,9 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
   job.refine_deskew = scout_.has_value();
+  if (last_found_) {
+    job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+  }
   return job;
 }
 
@@ -61,16 +65,34 @@ InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
   return insert;
 }
 
-bool Odometry::Impl::Fuse(const MatchOutcome& outcome, ScanReport& report) {
+// What the motion within the sweep leaves of errors in the deskewed scan, counted from its middle.
+// Rotation: white gyro noise integrated to both sides has variance density^2 T / 12 in the mean;
+// translation: an error dv of the velocity shifts points by dv t, T^2 / 12 in the mean square.
+Matrix6 Odometry::Impl::DeskewCov(const Sweep& sweep) {
+  const double span_s = SecondsBetween(sweep.start, sweep.end);
+  Matrix6 cov = Matrix6::Zero();
+  const Estimate estimate = history().At(sweep.middle());
+  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  cov.topLeftCorner<3, 3>() =
+      span_s * span_s / 12.0 * R.transpose() * estimate.cov.block<3, 3>(kVel, kVel) * R;
+  const double density = use_imu_ ? options_.rig.imu.gyro_noise_density : 0.0;
+  cov.bottomRightCorner<3, 3>() =
+      density * density * span_s / 12.0 * Matrix3::Identity() +
+      span_s * span_s / 12.0 * estimate.cov.block<3, 3>(kGyroBias, kGyroBias);
+  return cov;
+}
+
+bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report) {
   const FilterOptions& filter = options_.filter;
   PoseEvent event;
   event.measurement.T_map_imu = outcome.match.T_map_imu;
-  event.measurement.cov = filter.registration_cov_scale * outcome.match.cov;
-  event.measurement.new_content_share = outcome.match.new_content_share;
+  event.measurement.cov =
+      filter.registration_cov_scale * outcome.match.cov + DeskewCov(*outcome.sweep);
+  event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
   event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
   event.force = num_gated_in_a_row_ >= filter.max_gated_in_a_row;
   UpdateResult update;
-  const EventOutcome fused = history().AddPose(outcome.sweep->end, event, &update);
+  const EventOutcome fused = history().AddPose(outcome.sweep->middle(), event, &update);
   report.nis = update.nis;
   if (fused == EventOutcome::kApplied) {
     num_gated_in_a_row_ = 0;
@@ -87,9 +109,9 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, ScanReport& report) {
 
 void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   const std::int64_t begin = Now();
-  const Timestamp end = outcome.sweep->end;
+  const Timestamp middle = outcome.sweep->middle();
   ScanReport report;
-  report.stamp = end;
+  report.stamp = outcome.sweep->end;
   report.scan_seq = outcome.sweep->scan_seq;
   report.num_raw = static_cast<int>(outcome.sweep->points.size());
   report.num_used = outcome.num_used;
@@ -101,17 +123,20 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   report.weak_mask = outcome.match.weak_mask;
 
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  if (outcome.match.IsUsable()) report.fused = Fuse(outcome, report);
+  const bool is_keyframe = IsKeyframe(outcome.match.T_map_imu);
+  if (outcome.match.IsUsable()) report.fused = Fuse(outcome, is_keyframe, report);
   num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
   // Where the map has nothing to match against, it is grown from where the filter stands.
   const bool leaves_map = outcome.match.status == MatchStatus::kTooFewPoints ||
                           num_unmatched_in_a_row_ > kMaxUnmatchedInARow;
-  if (starts_map || leaves_map) history().AddRebase(end);
-  const Estimate estimate = history().At(end);
-  if (report.fused || starts_map || leaves_map) insert.T_map_imu = estimate.state.T_map_imu;
+  if (starts_map || leaves_map) history().AddRebase(middle);
+  const Estimate estimate = history().At(middle);
+  const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);
+  if (grows_map) insert.T_map_imu = estimate.state.T_map_imu;
   if (report.fused || starts_map) {
-    last_fused_ = end;
+    last_fused_ = outcome.sweep->end;
+    last_found_ = middle;
     last_seq_ = outcome.sweep->scan_seq;
   }
   is_first_scan_ = false;
@@ -124,7 +149,22 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     report.stage_ns[static_cast<std::size_t>(Stage::kTotal)] +=
         report.stage_ns[static_cast<std::size_t>(i)];
   }
-  outputs_.emplace_back(ScanOutput{MakeFilterReport(estimate, report), report});
+  const Estimate at_end = history().At(outcome.sweep->end);
+  outputs_.emplace_back(ScanOutput{MakeFilterReport(at_end, report), report});
+}
+
+bool Odometry::Impl::IsKeyframe(const Pose& T_map_imu) {
+  static const double kd = getenv("KD") ? atof(getenv("KD")) : 0.2;
+  static const int kn = getenv("KN") ? atoi(getenv("KN")) : 3;
+  if (last_key_) {
+    const Pose motion = last_key_->Inverse() * T_map_imu;
+    const bool moved = motion.translation.norm() > kd || LogSo3(motion.rotation).norm() > 0.03;
+    if (moved) num_at_key_ = 0;
+    if (!moved && ++num_at_key_ > kn) return false;
+    if (!moved) return true;
+  }
+  last_key_ = T_map_imu;
+  return true;
 }
 
 void Odometry::Impl::UpdateStatus(const MatchOutcome& outcome, bool fused) {

@@ -33,20 +33,21 @@ ImuSample Odometry::Impl::SampleAt(Timestamp stamp) const {
 }
 
 void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {
-  const Timestamp end = outcome.sweep->end;
+  const Timestamp middle = outcome.sweep->middle();
   PoseEvent event;
   event.measurement.T_map_imu = outcome.match.T_map_imu;
   event.measurement.cov = outcome.match.cov;
   event.force = true;
   if (outcome.match.IsUsable()) {
-    history().AddPose(end, event);
+    history().AddPose(middle, event);
   } else {
-    history().AddRebase(end);
+    history().AddRebase(middle);
   }
-  const Pose T_map_imu = history().At(end).state.T_map_imu;
+  const Pose T_map_imu = history().At(middle).state.T_map_imu;
   insert.T_map_imu = T_map_imu;
-  scouted_.push_back({end, T_map_imu});
-  TryStart(end);
+  scouted_.push_back({middle, T_map_imu});
+  last_found_ = middle;
+  TryStart(outcome.sweep->end);
 }
 
 bool Odometry::Impl::HasMoved() const {
@@ -64,14 +65,17 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
   if (HasMoved()) {
     // The scout begins with unknown velocity, so its first step is its worst: leave it out.
     const std::vector<ImuSample> all = SamplesBetween(imu_.front().stamp, stamp);
-    StartFrom(StartMoving(all, scouted_, options_.rig), 0);
+    StartState start = StartMoving(all, scouted_, options_.rig);
+    CarryBack(start, ready_.front()->start);
+    StartFrom(start, 0);
     return;
   }
   const ImuStatistics statistics = Summarise(samples);
   const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
                        statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
   if (is_calm || span_s >= kMaxRestWait_s) {
-    StartFrom(StartAtRest(samples, stamp, options_.rig), scouted_.size() - 1);
+    StartFrom(StartAtRest(samples, ready_[scouted_.size() - 1]->start, options_.rig),
+              scouted_.size() - 1);
     return;
   }
   if (SecondsBetween(last_wait_notice_, stamp) < kWaitNoticeEvery_s) return;
@@ -82,6 +86,21 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
                 statistics.gyro_std_radps, options_.start.max_gyro_std_radps,
                 statistics.accel_std_mps2, options_.start.max_accel_std_mps2);
   Say(stamp, Notice::Severity::kInfo, text);
+}
+
+// The state at an earlier instant, by integrating backwards; the covariance is taken as it is, for
+// a sweep's half.
+void Odometry::Impl::CarryBack(StartState& start, Timestamp stamp) const {
+  Estimate& estimate = start.estimate;
+  std::vector<ImuSample> samples = SamplesBetween(stamp, estimate.stamp);
+  samples.insert(samples.begin(), SampleAt(stamp));
+  ImuSample from = SampleAt(estimate.stamp);
+  for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
+    estimate.state = PropagateState(estimate.state, from, *sample, start.g_world);
+    from = *sample;
+  }
+  estimate.state.T_map_imu = estimate.state.T_world_imu;
+  estimate.stamp = stamp;
 }
 
 void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep) {

@@ -12,9 +12,11 @@ constexpr int kMinMatched = 50;
 constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
 constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
 constexpr float kMaxLever = 4.f;       // cap of a^2/l, where a patch is extrapolated
+constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene of outliers
 constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, each iteration
 constexpr double kMinReach_m = 0.01;   // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
+constexpr double kMaxLastStep = 5e-3;   // m, rad
 constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
@@ -43,10 +45,12 @@ double InitialReach(const Matrix6& guess_cov) {
 }  // namespace
 
 struct NdtMatcher::System {
-  Matrix6 information = Matrix6::Zero();
-  Matrix6 feigned = Matrix6::Zero();  // information that the normals' noise alone would show
+  Matrix6 information = Matrix6::Zero();  // with the weights held
+  Matrix6 feigned = Matrix6::Zero();      // information that the normals' noise alone would show
   Vector6 gradient = Vector6::Zero();
   double weight_sum = 0.0;
+  double curvature_sum = 0.0;    // of the robust cost along the normals, and the same ...
+  double information_sum = 0.0;  // ... with the weights held
   double residual_sq_sum = 0.0;
   int num_matched = 0;
 };
@@ -119,6 +123,9 @@ NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points
         feigned * (tangent1 * tangent1.transpose() + tangent2 * tangent2.transpose());
     const Vector6f gradient = (weight * distance) * row;
     system.information += information.cast<double>();
+    // d(w d)/dd: less than w, for the kernel gives way.
+    system.curvature_sum += weight * (1.f - 4.f * kernel * distance_sq / kKernelWidthSq);
+    system.information_sum += weight;
     system.feigned += noise.cast<double>();
     system.gradient += gradient.cast<double>();
     system.weight_sum += kernel * kernel;
@@ -165,7 +172,15 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     score_cov += score * score.transpose();
   }
   const auto num_cells = static_cast<double>(scores.cells.size());
-  score_cov *= num_cells / std::max(1.0, num_cells - 6.0);
+  // The sandwich wants the robust cost's own curvature, which is less than the information.
+  const double curvature =
+      std::clamp(system.curvature_sum / system.information_sum, kMinCurvature, 1.0);
+  score_cov *= num_cells / std::max(1.0, num_cells - 6.0) / (curvature * curvature);
+  // The residual step at hand costs nothing, and the iteration stopped at a finite one.
+  const Vector6 last_step = StepInHeldDirections(split, system.gradient);
+  if (last_step.norm() < kMaxLastStep) {
+    result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
+  }
   result.information = system.information;
   result.eigenvalues = split.eigenvalues;
   result.weak_mask = split.weak_mask;

@@ -32,25 +32,25 @@ Transform ToTransform(const Pose& pose) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> Deskew(const std::vector<ScanPoint>& points_lidar, Timestamp start,
-                                    Timestamp end, const StampedPoses& T_any_imu,
+std::vector<Eigen::Vector3f> Deskew(const std::vector<ScanPoint>& points_lidar,
+                                    const SweepTimes& times, const StampedPoses& T_any_imu,
                                     const Pose& T_imu_lidar) {
   if (T_any_imu.empty()) throw std::invalid_argument("Deskew: no poses to deskew with");
-  const double span_s = std::max(SecondsBetween(start, end), kGridStep_s);
+  const double span_s = std::max(SecondsBetween(times.start, times.end), kGridStep_s);
   const auto num_steps = static_cast<std::size_t>(std::ceil(span_s / kGridStep_s));
   const double step_s = span_s / static_cast<double>(num_steps);
 
   std::size_t from = T_any_imu.size() - 1;
-  while (from > 0 && T_any_imu[from].stamp > end) --from;
-  const Pose T_end_any = PoseAt(T_any_imu, end, from).Inverse();
-  std::vector<Transform> grid(num_steps + 1);  // T_imu_end_lidar at each instant
+  while (from > 0 && T_any_imu[from].stamp > times.reference) --from;
+  const Pose T_reference_any = PoseAt(T_any_imu, times.reference, from).Inverse();
+  std::vector<Transform> grid(num_steps + 1);  // T_reference_lidar at each instant
   from = 0;
   for (std::size_t i = 0; i <= num_steps; ++i) {
-    const Timestamp stamp = start + Duration::FromSeconds(step_s * static_cast<double>(i));
-    grid[i] = ToTransform(T_end_any * PoseAt(T_any_imu, stamp, from) * T_imu_lidar);
+    const Timestamp stamp = times.start + Duration::FromSeconds(step_s * static_cast<double>(i));
+    grid[i] = ToTransform(T_reference_any * PoseAt(T_any_imu, stamp, from) * T_imu_lidar);
   }
 
-  std::vector<Eigen::Vector3f> points_imu_end(points_lidar.size());
+  std::vector<Eigen::Vector3f> points_imu(points_lidar.size());
   const auto steps_per_ns = static_cast<float>(1e-9 / step_s);
   for (std::size_t i = 0; i < points_lidar.size(); ++i) {
     const ScanPoint& point = points_lidar[i];
@@ -58,9 +58,9 @@ std::vector<Eigen::Vector3f> Deskew(const std::vector<ScanPoint>& points_lidar, 
     const std::size_t cell = std::min(static_cast<std::size_t>(at), num_steps - 1);
     const float fraction = std::min(at - static_cast<float>(cell), 1.0f);
     const Transform blend = (1.0f - fraction) * grid[cell] + fraction * grid[cell + 1];
-    points_imu_end[i] = blend.leftCols<3>() * point.position + blend.col(3);
+    points_imu[i] = blend.leftCols<3>() * point.position + blend.col(3);
   }
-  return points_imu_end;
+  return points_imu;
 }
 
 }  // namespace lio

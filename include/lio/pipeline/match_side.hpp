@@ -20,11 +20,12 @@ namespace lio {
 struct MatchJob {
   std::shared_ptr<const Sweep> sweep;
   StampedPoses T_any_imu;  // covers the sweep
-  Pose T_map_imu_guess;    // at the sweep's end
+  Pose T_map_imu_guess;    // at the sweep's middle
   Matrix6 guess_cov = Matrix6::Zero();
-  bool clear_map = false;      // forget everything first: the estimator starts anew
-  bool refine_deskew = false;  // match, deskew again along what was found, match again
-  std::int64_t filter_ns = 0;  // CPU time the filter spent since the job before
+  bool clear_map = false;         // forget everything first: the estimator starts anew
+  bool refine_deskew = false;     // match, deskew again along what was found, match again
+  double since_last_fix_s = 0.1;  // how long the guess has run free at the sweep's middle
+  std::int64_t filter_ns = 0;     // CPU time the filter spent since the job before
 };
 
 struct MatchOutcome {
@@ -32,7 +33,7 @@ struct MatchOutcome {
   MatchResult match;
   int num_used = 0;
   int num_nonfinite = 0;
-  std::vector<Eigen::Vector3f> points_imu;  // deskewed, at the sweep's end
+  std::vector<Eigen::Vector3f> points_imu;  // deskewed, at the sweep's middle
   StageTimes stage_ns{};                    // insert: of the scan before
 };
 
@@ -55,6 +56,7 @@ class MatchSide {
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
 
   Pose T_imu_lidar_;
+  int match_points_;
   ClockNs clock_;
   ScanReducer reducer_;
   std::unique_ptr<ScanMatcher> matcher_;

@@ -117,7 +117,9 @@ void VisitFields(Visitor& visit, MaybeConst<ReduceOptions> auto& o) {
   visit("voxel_m", o.voxel_m, "edge of the thinning grid for the first scan [m]", Range{0.01, 10});
   visit("min_voxel_m", o.min_voxel_m, "the edge then adapts, from this [m]", Range{0.01, 10});
   visit("max_voxel_m", o.max_voxel_m, "to this [m]", Range{0.01, 10});
-  visit("target_points", o.target_points, "the edge adapts to leave about this many points",
+  visit("target_points", o.target_points, "to leave about this many points, for the map",
+        Range{100, 1000000});
+  visit("match_points", o.match_points, "about this many of them are matched; more is slower",
         Range{100, 1000000});
 }
 

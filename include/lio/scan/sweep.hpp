@@ -12,11 +12,16 @@ namespace lio {
 
 struct Sweep {
   Timestamp start;  // instant of t_offset_ns = 0: the first point's stamp
-  Timestamp end;    // the last point's stamp; the instant that poses of this sweep are for
+  Timestamp end;    // the last point's stamp
   std::int32_t scan_seq = 0;
   int num_missing_chunks = 0;
   std::int64_t decode_ns = 0;      // CPU time its messages took to decode
   std::vector<LidarPoint> points;  // in the order of the chunks, offsets from `start`
+
+  // The instant that matching measures the pose for. Errors of the motion within the sweep count
+  // from here, half a sweep to either side; counted from the end their variance would be four times
+  // as large, and go with the filter's process noise (docs/filter.md).
+  Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
 };
 
 }  // namespace lio
