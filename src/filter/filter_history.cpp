@@ -8,10 +8,18 @@
 namespace lio {
 namespace {
 
-// Beyond the gate by force: the filter was surer of itself than it had reason to be.
-void InflateToInnovation(Estimate& estimate, double nis) {
-  constexpr double kExpectedNis = 6.0;
-  if (nis > kExpectedNis) estimate.cov *= nis / kExpectedNis;
+// Beyond the gate by force: the body has moved in a way that the filter did not see, by about the
+// residual. Both poses take the unseen motion, so what is known of tilt and biases stays.
+void AllowUnseenMotion(Estimate& estimate, const Pose& T_map_imu_measured) {
+  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * T_map_imu_measured);
+  const Matrix6 unseen = residual.cwiseAbs2().asDiagonal();
+  Matrix6 to_world = Matrix6::Identity();  // of the right error to the world pose's chart
+  to_world.topLeftCorner<3, 3>() = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  ErrorMatrix& P = estimate.cov;
+  P.topLeftCorner<6, 6>() += to_world * unseen * to_world.transpose();
+  P.topRightCorner<6, 6>() += to_world * unseen;
+  P.bottomLeftCorner<6, 6>() += unseen * to_world.transpose();
+  P.bottomRightCorner<6, 6>() += unseen;
 }
 
 void RebaseMapPose(Estimate& estimate) {
@@ -96,7 +104,7 @@ void FilterHistory::Step(std::size_t at) {
 
   node.update = FusePose(node.posterior, node.pose.measurement, options_.nis_limit);
   if (!node.update.fused && node.pose.force) {
-    InflateToInnovation(node.posterior, node.update.nis);
+    AllowUnseenMotion(node.posterior, node.pose.measurement.T_map_imu);
     node.update.fused =
         FusePose(node.posterior, node.pose.measurement, std::numeric_limits<double>::infinity())
             .fused;

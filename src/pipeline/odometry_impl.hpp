@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "lio/filter/filter_history.hpp"
+#include "lio/filter/steady_world.hpp"
 #include "lio/imu/imu_intake.hpp"
 #include "lio/imu/start_state.hpp"
+#include "lio/pipeline/keyframe_policy.hpp"
 #include "lio/pipeline/match_side.hpp"
 #include "lio/pipeline/motion_scout.hpp"
 #include "lio/pipeline/odometry.hpp"
@@ -71,9 +73,6 @@ class Odometry::Impl {
   FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
   NavOutput MakeNav(const Estimate& estimate) const;
   void EmitImuRate();
-  bool IsKeyframe(const Pose& T_map_imu);
-  std::optional<Pose> last_key_;
-  int num_at_key_ = 0;
   void UpdateStatus(const MatchOutcome& outcome, bool fused);
 
   Options options_;
@@ -97,7 +96,9 @@ class Odometry::Impl {
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU
   Vector3 g_world_ = Vector3::Zero();
+  SteadyWorld world_;
 
+  KeyframePolicy keyframes_;
   SweepPtr in_flight_;          // the sweep whose job is out
   bool is_first_scan_ = true;   // of the running phase
   std::int64_t last_seq_ = -1;  // the last scan that was fused

@@ -123,7 +123,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   report.weak_mask = outcome.match.weak_mask;
 
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  const bool is_keyframe = IsKeyframe(outcome.match.T_map_imu);
+  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
   if (outcome.match.IsUsable()) report.fused = Fuse(outcome, is_keyframe, report);
   num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
@@ -133,7 +133,10 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   if (starts_map || leaves_map) history().AddRebase(middle);
   const Estimate estimate = history().At(middle);
   const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);
-  if (grows_map) insert.T_map_imu = estimate.state.T_map_imu;
+  if (grows_map) {
+    insert.T_map_imu = estimate.state.T_map_imu;
+    keyframes_.Accept(estimate.state.T_map_imu);
+  }
   if (report.fused || starts_map) {
     last_fused_ = outcome.sweep->end;
     last_found_ = middle;
@@ -149,22 +152,9 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     report.stage_ns[static_cast<std::size_t>(Stage::kTotal)] +=
         report.stage_ns[static_cast<std::size_t>(i)];
   }
+  world_.Update(estimate);
   const Estimate at_end = history().At(outcome.sweep->end);
   outputs_.emplace_back(ScanOutput{MakeFilterReport(at_end, report), report});
-}
-
-bool Odometry::Impl::IsKeyframe(const Pose& T_map_imu) {
-  static const double kd = getenv("KD") ? atof(getenv("KD")) : 0.2;
-  static const int kn = getenv("KN") ? atoi(getenv("KN")) : 3;
-  if (last_key_) {
-    const Pose motion = last_key_->Inverse() * T_map_imu;
-    const bool moved = motion.translation.norm() > kd || LogSo3(motion.rotation).norm() > 0.03;
-    if (moved) num_at_key_ = 0;
-    if (!moved && ++num_at_key_ > kn) return false;
-    if (!moved) return true;
-  }
-  last_key_ = T_map_imu;
-  return true;
 }
 
 void Odometry::Impl::UpdateStatus(const MatchOutcome& outcome, bool fused) {
@@ -187,10 +177,11 @@ NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
   nav.stamp = estimate.stamp;
   nav.scan_seq = last_seq_;
   nav.status = status_;
-  nav.T_world_imu = estimate.state.T_world_imu;
-  nav.pose_cov = PoseCov(estimate);
-  nav.v_world_imu_mps = estimate.state.v_world_imu;
-  nav.velocity_cov = estimate.cov.block<3, 3>(kVel, kVel);
+  const SteadyWorld::Published published = world_.Publish(estimate);
+  nav.T_world_imu = published.T_world_imu;
+  nav.pose_cov = published.pose_cov;
+  nav.v_world_imu_mps = published.v_world_imu;
+  nav.velocity_cov = published.velocity_cov;
   nav.w_imu_radps = -estimate.state.gyro_bias;
   if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(estimate.stamp).w_imu_radps;
   nav.T_map_imu = estimate.state.T_map_imu;

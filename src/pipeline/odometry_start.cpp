@@ -108,12 +108,14 @@ void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep)
   scout_.reset();
   scouted_.clear();
   g_world_ = start.g_world;
+  world_ = SteadyWorld(!options_.filter.steady_world);
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
   for (const ImuSample& sample : imu_) {
     if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);
   }
   phase_ = Phase::kRunning;
   is_first_scan_ = true;
+  keyframes_.Reset();
   last_fused_ = start.estimate.stamp;
   status_ = TrackingStatus::kOk;
   Say(start.estimate.stamp, Notice::Severity::kInfo, start.how);

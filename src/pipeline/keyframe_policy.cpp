@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/keyframe_policy.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kDistance_m = 0.2;
+constexpr double kAngle_rad = 0.03;
+constexpr int kMaxScansHere = 4;  // enough that cells have the points to count
+
+}  // namespace
+
+bool KeyframePolicy::HasMoved(const Pose& T_map_imu) const {
+  const Pose motion = last_->Inverse() * T_map_imu;
+  return motion.translation.norm() > kDistance_m || LogSo3(motion.rotation).norm() > kAngle_rad;
+}
+
+bool KeyframePolicy::IsKeyframe(const Pose& T_map_imu) const {
+  return !last_ || num_here_ < kMaxScansHere || HasMoved(T_map_imu);
+}
+
+void KeyframePolicy::Accept(const Pose& T_map_imu) {
+  if (last_ && !HasMoved(T_map_imu)) {
+    ++num_here_;
+    return;
+  }
+  last_ = T_map_imu;
+  num_here_ = 1;
+}
+
+}  // namespace lio
