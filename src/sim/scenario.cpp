@@ -20,7 +20,12 @@ const std::vector<Maker>& Makers() {
   static const std::vector<Maker> makers = {
       {{"street", "a street canyon with shops, traffic, parked cars and people"}, MakeStreet},
       {{"loop", "once around a city block, back to where it began (690 m)"}, MakeLoop},
+      {{"suburb", "a winding road between detached houses and gardens"}, MakeSuburb},
       {{"tunnel", "through a straight tunnel with plain walls"}, MakeTunnel},
+      {{"motorway", "a motorway at 28 m/s among cars and trucks"}, MakeMotorway},
+      {{"garage", "up the ramps of a multi-storey car park"}, MakeGarage},
+      {{"campus", "on foot around a campus, sensor in hand"}, MakeCampus},
+      {{"hall", "a sports hall, sensor in hand, turned at up to 300 deg/s"}, MakeHall},
       {{"parked", "parked at a crossing among traffic"}, MakeParked},
   };
   return makers;

@@ -42,6 +42,7 @@ void AddSide(Town& town, const Road& road, int character) {
   const Vector2 along = road.line_m[1] - road.line_m[0];
   Path path(road.line_m[0], std::atan2(along.y(), along.x()));
   path.AddStraight(along.norm());
+  town.AddLaneMarks(path, {0.0, path.length_m(), 0.0, true}, 3.0, 4.5);
   HouseRow row;
   row.min_storeys = character == 1 ? 2 : 3;
   row.max_storeys = character == 0 ? 9 : 6;

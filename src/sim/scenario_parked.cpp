@@ -67,6 +67,7 @@ Scenario MakeParked(const ScenarioOptions& options) {
   Town town(scenario.world, terrain, RoadNetwork(roads), {}, options.seed);
   const Path ego = along.Shifted(-kHalfRoad_m - kParkedAt_m).Cut(kReach_m, 2.0 * kReach_m);
   town.Reserve(ego.At(0.0).position_m, 0.0, {7.0, 2.4}, -1e9);  // our own place at the kerb
+  town.AddLaneMarks(along, {0.0, along.length_m(), 0.0, true}, 3.0, 4.5);
   AddStreet(town, along);
   AddStreet(town, across);
 

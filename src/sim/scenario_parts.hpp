@@ -28,6 +28,11 @@ HeightFunction HeightOf(const Terrain& terrain);
 Scenario MakeStreet(const ScenarioOptions& options);
 Scenario MakeLoop(const ScenarioOptions& options);
 Scenario MakeParked(const ScenarioOptions& options);
+Scenario MakeSuburb(const ScenarioOptions& options);
 Scenario MakeTunnel(const ScenarioOptions& options);
+Scenario MakeMotorway(const ScenarioOptions& options);
+Scenario MakeGarage(const ScenarioOptions& options);
+Scenario MakeCampus(const ScenarioOptions& options);
+Scenario MakeHall(const ScenarioOptions& options);
 
 }  // namespace lio::sim

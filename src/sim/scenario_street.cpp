@@ -39,6 +39,7 @@ std::vector<Road> StreetRoads(const Path& path) {
 }
 
 void AddSides(Town& town, const Path& path) {
+  town.AddLaneMarks(path, {0.0, path.length_m(), 0.0, true}, 3.0, 4.5);
   for (const bool left : {true, false}) {
     const auto frontage = [&](double offset_m) {
       return Frontage{4.0, path.length_m(), kHalfRoad_m + offset_m, left};

@@ -171,6 +171,55 @@ void Town::AddParkedCars(const Path& path, const Frontage& f, double share) {
   }
 }
 
+void Town::AddHedges(const Path& path, const Frontage& f, double share) {
+  constexpr double kPiece_m = 2.0;
+  for (double along_m = f.from_m; along_m < f.to_m; along_m += kPiece_m) {
+    const Mesh hedge = MakeBush({kPiece_m, 0.7, random_.Uniform(0.9, 1.5)}, random_);
+    const PathPoint point = OnFrontage(path, f, along_m);
+    if (!random_.Chance(share)) continue;
+    if (Reserve(point.position_m, point.heading_rad, {0.95 * kPiece_m, 0.6}, 0.2)) {
+      Place(hedge, point.position_m, point.heading_rad);
+    }
+  }
+}
+
+void Town::AddBarrier(const Path& path, const Frontage& f, double post_m, double low_m,
+                      double high_m, Material material) {
+  for (double along_m = f.from_m; along_m < f.to_m; along_m += post_m) {
+    const auto foot = [&](double at_m) {
+      const Vector2 p = OnFrontage(path, f, at_m).position_m;
+      return Vector3(p.x(), p.y(), GroundHeight(p));
+    };
+    const Vector3 begin = foot(along_m);
+    const Vector3 end = foot(std::min(along_m + post_m, f.to_m));
+    const double heading = std::atan2(end.y() - begin.y(), end.x() - begin.x());
+    AddBox(world_.fixed, UprightPose(begin - Vector3(0, 0, 0.2), heading),
+           {0.12, 0.12, high_m + 0.2}, Material::kMetal);
+    const Vector3 out = 0.05 * Vector3(-std::sin(heading), std::cos(heading), 0.0);
+    for (const double side : {-1.0, 1.0}) {
+      AddQuad(world_.fixed, begin + side * out + Vector3(0, 0, low_m),
+              end + side * out + Vector3(0, 0, low_m), end + side * out + Vector3(0, 0, high_m),
+              begin + side * out + Vector3(0, 0, high_m), material);
+    }
+  }
+}
+
+void Town::AddLaneMarks(const Path& path, const Frontage& f, double dash_m, double gap_m) {
+  constexpr double kAbove_m = 0.012;  // over the coarser triangles of the road
+  constexpr double kHalf_m = 0.07;
+  constexpr double kPiece_m = 3.0;  // follows the ground
+  const double period_m = gap_m > 0.0 ? dash_m + gap_m : kPiece_m;
+  const double length_m = gap_m > 0.0 ? dash_m : kPiece_m;
+  for (double along_m = f.from_m; along_m + length_m < f.to_m; along_m += period_m) {
+    const auto at = [&](double at_m, double extra_m) {
+      const Vector2 p = OnFrontage(path, f, at_m, extra_m).position_m;
+      return Vector3(p.x(), p.y(), terrain_.Height(p) + kAbove_m);
+    };
+    AddQuad(world_.fixed, at(along_m, -kHalf_m), at(along_m + length_m, -kHalf_m),
+            at(along_m + length_m, kHalf_m), at(along_m, kHalf_m), Material::kMarking);
+  }
+}
+
 void Town::AddStandingPeople(const Path& path, const Frontage& f, int num) {
   for (int i = 0; i < num; ++i) {
     const Mesh person = MakePerson(random_);
@@ -201,18 +250,24 @@ void Town::AddWalkers(const Path& path, const Frontage& f, int num) {
       return UprightPose({p.position_m.x(), p.position_m.y(), z},
                          p.heading_rad + (back ? kPi : 0.0));
     };
-    world_.shapes.push_back(MakeTorso(random_));
-    world_.movers.push_back({world_.shapes.size() - 1, body});
-    world_.shapes.push_back(MakeLeg());
-    for (const double side : {-1.0, 1.0}) {
-      const auto leg = [=](double t_s) {
-        const double swing = 0.45 * side * std::sin(2.0 * kPi * (speed_mps / 1.5) * t_s + phase_m);
-        const Pose T_body_leg{Quaternion(Eigen::AngleAxisd(swing, Vector3::UnitY())),
-                              {0.0, 0.1 * side, kHipHeight_m}};
-        return body(t_s) * T_body_leg;
-      };
-      world_.movers.push_back({world_.shapes.size() - 1, leg});
-    }
+    AddWalker(world_, random_, speed_mps, body);
+  }
+}
+
+void AddWalker(World& world, Random& random, double speed_mps,
+               const std::function<Pose(double t_s)>& body) {
+  world.shapes.push_back(MakeTorso(random));
+  world.movers.push_back({world.shapes.size() - 1, body});
+  world.shapes.push_back(MakeLeg());
+  const double phase = random.Uniform(0.0, 2.0 * kPi);
+  for (const double side : {-1.0, 1.0}) {
+    const auto leg = [=](double t_s) {
+      const double swing = 0.45 * side * std::sin(2.0 * kPi * (speed_mps / 1.5) * t_s + phase);
+      const Pose T_body_leg{Quaternion(Eigen::AngleAxisd(swing, Vector3::UnitY())),
+                            {0.0, 0.1 * side, kHipHeight_m}};
+      return body(t_s) * T_body_leg;
+    };
+    world.movers.push_back({world.shapes.size() - 1, leg});
   }
 }
 

@@ -59,6 +59,11 @@ class Town {
   void AddStreetThings(const Path& path, const Frontage& frontage, double spacing_m);
   // Along the kerb; `share` of the places are taken.
   void AddParkedCars(const Path& path, const Frontage& frontage, double share);
+  void AddHedges(const Path& path, const Frontage& frontage, double share);
+  void AddBarrier(const Path& path, const Frontage& frontage, double post_m, double low_m,
+                  double high_m, Material material);
+  // Painted lines; `gap_m` 0 is a line without breaks.
+  void AddLaneMarks(const Path& path, const Frontage& frontage, double dash_m, double gap_m);
   void AddStandingPeople(const Path& path, const Frontage& frontage, int num);
 
   // Walk to and fro between two points of a path, beside it.
@@ -79,6 +84,10 @@ class Town {
   Random random_;
   std::vector<Footprint> taken_;
 };
+
+// A person who walks where `body` says: torso and two swinging legs.
+void AddWalker(World& world, Random& random, double speed_mps,
+               const std::function<Pose(double t_s)>& body);
 
 // A vehicle that follows a path, at `distance(t)` along it, on the given ground.
 void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
