@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Trajectories with known answers.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "lio/io/trajectory_file.hpp"
+
+namespace lio::test {
+
+inline constexpr std::int64_t kPeriod_ns = 100'000'000;  // 10 Hz
+
+// Poses 0.1 s apart from stamp 1000 s on.
+inline Trajectory MakeTrajectory(int count, const std::function<Pose(int)>& pose_of) {
+  Trajectory trajectory;
+  for (int i = 0; i < count; ++i) {
+    trajectory.poses.push_back({Timestamp{1'000'000'000'000 + i * kPeriod_ns}, pose_of(i)});
+  }
+  return trajectory;
+}
+
+// Forward by `step_m` a row along x, looking ahead.
+inline Trajectory Straight(int count, double step_m) {
+  return MakeTrajectory(count, [&](int i) {
+    return Pose{Quaternion::Identity(), {step_m * i, 0, 0}};
+  });
+}
+
+// A climbing curve that fills space, with the body looking along its heading.
+inline Pose HelixPose(int i) {
+  const double angle = 0.02 * i;
+  return {ExpSo3({0, 0, angle + M_PI / 2}), {20 * std::cos(angle), 20 * std::sin(angle), 0.01 * i}};
+}
+inline Trajectory Helix(int count) {
+  return MakeTrajectory(count, HelixPose);
+}
+
+// Every pose passed through a function.
+inline Trajectory Map(Trajectory trajectory, const std::function<Pose(const Pose&)>& change) {
+  for (StampedPose& row : trajectory.poses) row.pose = change(row.pose);
+  return trajectory;
+}
+
+inline Trajectory AsKitti(Trajectory trajectory) {
+  trajectory.format = TrajectoryFormat::kKitti;
+  for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
+    trajectory.poses[i].stamp = Timestamp{static_cast<std::int64_t>(i)};
+  }
+  return trajectory;
+}
+
+inline constexpr double kDeg = M_PI / 180;
+
+}  // namespace lio::test
