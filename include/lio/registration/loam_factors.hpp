@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// LOAM's terms as Ceres cost functions over one pose block (pose_manifold.hpp), residuals in
+// metres. T maps the scan's points into the target's frame; with sweep ratio s < 1 a point is moved
+// by only that part of it, Slerp(I, q, s) p + s t: the pose is then the motion during a sweep, s
+// the point's share of the sweep's time.
+//   edge          r = (p - a) x (p - b) / |a - b|  (3)   distance from the line through a and b
+//   plane         r = n . (p - a)  (1)                   by three of its points, or n . p + d
+//   point         r = p - a  (3)
+// Three components for the edge, not their norm: on the line the norm has no derivative. A line
+// shorter than 1 cm, and three points that span no plane, are refused with a null pointer.
+// The analytic ones (s = 1) are what matching uses; the automatic ones serve the scan-to-scan mode
+// with s and check the analytic ones.
+// Source: Zhang and Singh, "LOAM", RSS 2014, eqs. (2) and (3).
+#pragma once
+
+#include <ceres/cost_function.h>
+
+#include <memory>
+
+#include "lio/base/pose.hpp"
+
+namespace lio {
+
+using CostPtr = std::unique_ptr<ceres::CostFunction>;
+
+inline constexpr double kMinLineLength_m = 0.01;
+
+CostPtr MakeAutoEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s = 1.0);
+CostPtr MakeAutoPlaneByPoints(const Vector3& point, const Vector3& a, const Vector3& b,
+                              const Vector3& c, double s = 1.0);
+// The plane n . p + offset = 0, |n| = 1.
+CostPtr MakeAutoPlane(const Vector3& point, const Vector3& normal, double offset, double s = 1.0);
+CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s = 1.0);
+
+CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b);
+CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset);
+
+}  // namespace lio
