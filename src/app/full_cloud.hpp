@@ -13,7 +13,7 @@ namespace lio {
 struct FullCloudTask {
   std::shared_ptr<const Sweep> sweep;
   StampedPoses T_any_imu;  // covers the sweep, as in MatchJob
-  Pose T_map_imu;          // at the sweep's end, as fused
+  Pose T_map_imu;          // at the sweep's middle, as matched
 };
 
 // Chunks of at most kMaxChunkPoints, in the order of the sweep. Stamp and offsets stay the points'

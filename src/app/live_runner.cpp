@@ -116,7 +116,9 @@ void LiveRunner::Handle(Arrival<ScanChunk>& arrival) {
 
 void LiveRunner::Handle(MatchOutcome& outcome) {
   has_job_out_ = false;
+  T_map_points_ = outcome.match.T_map_imu;
   InsertTask insert = odometry_.FinishJob(std::move(outcome));
+  if (insert.T_map_imu) T_map_points_ = *insert.T_map_imu;
   points_imu_ = insert.points_imu;
   match_worker_.Tell(std::move(insert));
   ++num_matches_done_;
@@ -166,13 +168,13 @@ void LiveRunner::Emit(const ScanOutput& output) {
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
   if (full_cloud_.sweep && full_cloud_.sweep->scan_seq == scan_seq) {
-    full_cloud_.T_map_imu = nav.T_map_imu;
+    full_cloud_.T_map_imu = T_map_points_;
     output_worker_.Put(std::exchange(full_cloud_, {}));
   }
   if (last_cloud_ && std::abs(SecondsBetween(*last_cloud_, nav.stamp)) < kCloudInterval_s) return;
   last_cloud_ = nav.stamp;
   output_worker_.Put(RegisteredCloud{
-      nav.stamp, scan_seq, Decimate(points_imu_, nav.T_map_imu, Publisher::kMaxCloudPoints)});
+      nav.stamp, scan_seq, Decimate(points_imu_, T_map_points_, Publisher::kMaxCloudPoints)});
 }
 
 void LiveRunner::Emit(const Notice& notice) {

@@ -94,7 +94,8 @@ class LiveRunner {
   std::int64_t last_utime_ = 0;
   std::optional<Timestamp> last_cloud_;
   FullCloudTask full_cloud_;                 // of the job that is out
-  std::vector<Eigen::Vector3f> points_imu_;  // of the scan that was just fused, when a cloud is due
+  std::vector<Eigen::Vector3f> points_imu_;  // of the scan that was just fused, for LIO_CLOUD
+  Pose T_map_points_;                        // where they are in the map
   std::array<ScanTiming, 64> timings_;       // of the last scans, by sequence
   TrackingStatus announced_ = TrackingStatus::kInit;
   std::string last_notice_;
