@@ -101,10 +101,10 @@ std::vector<Event> RandomEvents() {
     const bool is_lost = *rc::gen::inRange(0, 10) == 9;
     if (!is_lost) events.push_back({Kind::kImu, i * kImuStep_s, {}});
   }
-  const int num_poses = *rc::gen::inRange(1, 12);
-  for (int i = 0; i < num_poses; ++i) {
-    const double t_s = 1e-3 * *rc::gen::inRange(1, 1501);
-    std::mt19937_64 random(static_cast<unsigned>(i));
+  const auto pose_stamps_ms = *rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1501));
+  for (const int stamp_ms : pose_stamps_ms) {
+    const double t_s = 1e-3 * stamp_ms;
+    std::mt19937_64 random(static_cast<unsigned>(stamp_ms));
     const double size = *rc::gen::inRange(0, 8) == 0 ? 2.0 : 0.01;
     PoseEvent event = PoseAt(t_s, size * test::RandomVector<6>(random));
     event.force = *rc::gen::arbitrary<bool>();
