@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint32_t kMaxOffsetNs = 500'000'000;  // no lidar turns slower than twice a second
 constexpr Duration kMaxSweepSpan{500'000'000};
 constexpr std::size_t kMaxOpenSweeps = 2;
+constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
 
 std::uint32_t LastOffset(const ScanChunk& chunk) {
   std::uint32_t last = 0;
@@ -25,25 +26,27 @@ bool IsUsable(const ScanChunk& chunk) {
 
 }  // namespace
 
+// The same number far away in time is another sweep, after a restart of the sender.
+bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
+  return scan_seq == chunk.scan_seq && sensor_id == chunk.sensor_id &&
+         chunk.stamp - first < kMaxSweepSpan && last - chunk.stamp < kMaxSweepSpan;
+}
+
 ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   for (Partial& partial : open_) {
-    if (partial.scan_seq != chunk.scan_seq || partial.sensor_id != chunk.sensor_id) continue;
-    const bool near =
-        chunk.stamp - partial.first < kMaxSweepSpan && partial.last - chunk.stamp < kMaxSweepSpan;
-    if (!near) continue;  // the same number again after a restart of the sender
+    if (!partial.name.Names(chunk)) continue;
     return static_cast<int>(partial.chunks.size()) == chunk.chunk_count ? &partial : nullptr;
   }
-  const bool is_late = last_end_ && chunk.stamp < *last_end_ && last_seq_ == chunk.scan_seq;
+  const bool is_late = std::any_of(closed_names_.begin(), closed_names_.end(),
+                                   [&](const SweepName& name) { return name.Names(chunk); });
   if (is_late) return nullptr;
   if (open_.size() == kMaxOpenSweeps) CloseOldest();
   Partial partial;
-  partial.scan_seq = chunk.scan_seq;
-  partial.sensor_id = chunk.sensor_id;
-  partial.first = partial.last = chunk.stamp;
+  partial.name = {chunk.scan_seq, chunk.sensor_id, chunk.stamp, chunk.stamp};
   partial.chunks.resize(static_cast<std::size_t>(chunk.chunk_count));
   for (ScanChunk& slot : partial.chunks) slot.chunk_count = 0;
   const auto after = std::find_if(open_.begin(), open_.end(),
-                                  [&](const Partial& p) { return chunk.stamp < p.first; });
+                                  [&](const Partial& p) { return chunk.stamp < p.name.first; });
   return &*open_.insert(after, std::move(partial));
 }
 
@@ -64,8 +67,8 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
     return;
   }
   const Timestamp last = chunk.stamp + Duration{LastOffset(chunk)};
-  partial->first = std::min(partial->first, chunk.stamp);
-  partial->last = std::max(partial->last, last);
+  partial->name.first = std::min(partial->name.first, chunk.stamp);
+  partial->name.last = std::max(partial->name.last, last);
   partial->decode_ns += decode_ns;
   slot = std::move(chunk);
   ++partial->num_received;
@@ -76,7 +79,7 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
 }
 
 void ScanAssembler::CloseUpTo(Timestamp stamp) {
-  while (!open_.empty() && open_.front().last < stamp) CloseOldest();
+  while (!open_.empty() && open_.front().name.last < stamp) CloseOldest();
 }
 
 void ScanAssembler::CloseAll() {
@@ -87,9 +90,9 @@ void ScanAssembler::CloseOldest() {
   Partial partial = std::move(open_.front());
   open_.pop_front();
   Sweep sweep;
-  sweep.start = partial.first;
-  sweep.end = partial.last;
-  sweep.scan_seq = partial.scan_seq;
+  sweep.start = partial.name.first;
+  sweep.end = partial.name.last;
+  sweep.scan_seq = partial.name.scan_seq;
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
   counters_->num_chunks_missing += sweep.num_missing_chunks;
@@ -107,8 +110,8 @@ void ScanAssembler::CloseOldest() {
       }
     }
   }
-  last_end_ = sweep.end;
-  last_seq_ = sweep.scan_seq;
+  closed_names_.push_back(partial.name);
+  if (closed_names_.size() > kMaxClosedNames) closed_names_.pop_front();
   closed_.push_back(std::move(sweep));
 }
 

@@ -29,11 +29,16 @@ class ScanAssembler {
   std::optional<Sweep> Take();
 
  private:
-  struct Partial {
+  struct SweepName {
     std::int32_t scan_seq = 0;
     std::int8_t sensor_id = 0;
     Timestamp first;  // stamps of the earliest and latest point so far
     Timestamp last;
+
+    bool Names(const ScanChunk& chunk) const;
+  };
+  struct Partial {
+    SweepName name;
     std::vector<ScanChunk> chunks;  // by index; empty points and count 0: not here yet
     int num_received = 0;
     std::int64_t decode_ns = 0;
@@ -45,8 +50,7 @@ class ScanAssembler {
   Counters* counters_;
   std::deque<Partial> open_;  // at most two, oldest first
   std::deque<Sweep> closed_;
-  std::optional<Timestamp> last_end_;     // of the newest closed sweep
-  std::optional<std::int32_t> last_seq_;  // of the newest closed sweep
+  std::deque<SweepName> closed_names_;  // of the last sweeps, to know their stragglers by
 };
 
 }  // namespace lio
