@@ -24,6 +24,11 @@ std::int32_t Floor(double x) {
   return static_cast<std::int32_t>(std::floor(x));
 }
 
+// Can a voxel be there? False also for what is not a number.
+bool IsInRange(const Vector3& scaled) {
+  return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
+}
+
 }  // namespace
 
 GaussianMap::GaussianMap(const NdtOptions& options)
@@ -52,6 +57,7 @@ std::size_t GaussianMap::SlotOf(VoxelKey key) const {
 
 GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
   const Vector3 scaled = inverse_voxel_ * point_map;
+  if (!IsInRange(scaled)) return {kNoCell, Eigen::Vector3f::Zero()};
   const std::int32_t x = Floor(scaled.x());
   const std::int32_t y = Floor(scaled.y());
   const std::int32_t z = Floor(scaled.z());
@@ -190,7 +196,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& cen
   touched_cells_.clear();
   for (const Vector3& point : points_map) {
     const Vector3 scaled = inverse_voxel_ * point;
-    if (!(scaled.cwiseAbs().maxCoeff() < kVoxelCoordinateLimit - 1)) continue;
+    if (!IsInRange(scaled)) continue;
     const std::int32_t x = Floor(scaled.x());
     const std::int32_t y = Floor(scaled.y());
     const std::int32_t z = Floor(scaled.z());
@@ -213,6 +219,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& cen
 }
 
 void GaussianMap::DropFarCells(const Vector3& centre_map) {
+  if (sums_.empty()) return;
   const std::size_t num_to_visit = sums_.size() / kFarCellsWalk + 1;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::size_t i = 0; i < num_to_visit; ++i) {
