@@ -199,7 +199,8 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   double reach = InitialReach(input.guess_cov);
   result.status = MatchStatus::kMaxIterations;
-  for (result.iterations = 1; result.iterations <= options_.max_iterations; ++result.iterations) {
+  while (result.iterations < options_.max_iterations) {
+    ++result.iterations;
     if (reach < kMinReach_m) reach = 0.0;
     Associate(input.points_imu, T_grid_imu);
     const System system =

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/ndt_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <limits>
+#include <random>
+
+#include "support/random_state.hpp"
+#include "support/scene.hpp"
+
+namespace lio {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+
+// Along a straight road: 1 m between two scans, level.
+Pose OnRoad(double x_m, double y_m = 5.0) {
+  Pose pose;
+  pose.translation = Vector3(x_m, y_m, 0.0);
+  pose.rotation = ExpSo3(Vector3(0, 0, 0.01 * x_m));
+  return pose;
+}
+
+// A world, a lidar in it, and a matcher with a map of what it saw.
+class NdtMatcherIn {
+ public:
+  explicit NdtMatcherIn(const test::Scene& scene) : scene_(scene) {}
+
+  Points See(const Pose& T_world_imu) { return CastStill(scene_, lidar_, T_world_imu, random_); }
+  void InsertFrom(const Pose& T_world_imu) { matcher_.Insert(See(T_world_imu), T_world_imu); }
+  void InsertRoad(double from_m, double to_m) {
+    for (double x = from_m; x <= to_m; x += 1.0) InsertFrom(OnRoad(x));
+  }
+  MatchResult MatchFrom(const Pose& T_world_imu, const Vector6& guess_error, double guess_std) {
+    return Match(See(T_world_imu), T_world_imu * ExpSe3(guess_error), guess_std);
+  }
+  MatchResult Match(const Points& points, const Pose& guess, double guess_std) {
+    Matrix6 cov = Matrix6::Zero();
+    cov.topLeftCorner<3, 3>() = guess_std * guess_std * Matrix3::Identity();
+    cov.bottomRightCorner<3, 3>() = 0.0025 * guess_std * guess_std * Matrix3::Identity();
+    return matcher_.Match({points, guess, cov});
+  }
+
+  NdtMatcher& matcher() { return matcher_; }
+  std::mt19937_64& random() { return random_; }
+
+ private:
+  test::Scene scene_;
+  test::Lidar lidar_ = test::TestLidar();
+  std::mt19937_64 random_{11};
+  NdtMatcher matcher_{NdtOptions{}};
+};
+
+Vector6 ErrorOf(const MatchResult& result, const Pose& truth) {
+  return LogSe3(truth.Inverse() * result.T_map_imu);
+}
+
+// Of 1 sigma as big as given: translation, and a twentieth of it as rotation [rad].
+Vector6 DrawGuessError(std::mt19937_64& random, double std) {
+  Vector6 error = std * test::RandomVector<6>(random);
+  error.tail<3>() *= 0.05;
+  return error;
+}
+
+TEST(NdtMatcher, RecoversKnownOffsetsOnAStreet) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 20.0);
+  const Pose truth = OnRoad(12.4);
+  for (int i = 0; i < 10; ++i) {
+    const Vector6 guess_error = DrawGuessError(street.random(), 0.2);
+    const MatchResult result = street.MatchFrom(truth, guess_error, 0.2);
+    ASSERT_EQ(result.status, MatchStatus::kConverged) << guess_error.transpose();
+    const Vector6 error = ErrorOf(result, truth);
+    EXPECT_LT(error.head<3>().norm(), 0.01) << guess_error.transpose();
+    EXPECT_LT(error.tail<3>().norm(), 1e-3) << guess_error.transpose();
+    EXPECT_EQ(result.weak_mask, 0u);
+    EXPECT_LT(result.residual_rms_m, 0.05);
+    EXPECT_GT(result.num_matched, 2000);
+  }
+}
+
+TEST(NdtMatcher, CovarianceTellsTheErrorItMakes) {
+  constexpr int kRuns = 40;
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 25.0);
+  double nees = 0;
+  for (int i = 0; i < kRuns; ++i) {
+    const Pose truth = OnRoad(2.0 + 0.5 * i);
+    const MatchResult result = street.MatchFrom(truth, Vector6::Zero(), 0.02);
+    ASSERT_TRUE(result.IsUsable());
+    const Vector6 error = ErrorOf(result, truth);
+    nees += error.dot(result.cov.ldlt().solve(error)) / (6.0 * kRuns);
+  }
+  // The map is one draw that all runs share, so this is no chi-square: right to a factor of two.
+  EXPECT_GT(nees, 0.5);
+  EXPECT_LT(nees, 2.0);
+}
+
+TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
+  NdtMatcherIn corridor(test::Corridor());
+  for (double x = 0.0; x <= 10.0; x += 1.0) corridor.InsertFrom({ExpSo3({0, 0, 0.3}), {x, 0, 0}});
+  const Pose truth{ExpSo3({0, 0, 0.3}), {5.4, 0.3, 0.0}};
+  Vector6 guess_error = Vector6::Zero();
+  guess_error.head<3>() = truth.rotation.conjugate() * Vector3(0.2, 0.05, 0.02);
+  const MatchResult result = corridor.MatchFrom(truth, guess_error, 0.2);
+  ASSERT_EQ(result.status, MatchStatus::kDegenerate);
+  EXPECT_TRUE(result.IsUsable());
+  EXPECT_EQ(result.weak_mask, 1u);
+  const Matrix3 R = truth.rotation.toRotationMatrix();
+  const Matrix3 cov_world = R * result.cov.topLeftCorner<3, 3>() * R.transpose();
+  EXPECT_GT(cov_world(0, 0), 50.0 * 50.0);
+  const Matrix3 known = cov_world.inverse();  // given the two others: the weak one leans a little
+  EXPECT_GT(known(1, 1), 1 / (0.02 * 0.02));
+  EXPECT_GT(known(2, 2), 1 / (0.02 * 0.02));
+  const Matrix3 held_world = R * result.held_cov.topLeftCorner<3, 3>() * R.transpose();
+  EXPECT_LT(held_world(0, 0), 0.02 * 0.02);
+  // Held directions are found, the weak one is left where the guess was.
+  const Vector3 error = result.T_map_imu.translation - truth.translation;
+  EXPECT_NEAR(error.x(), 0.2, 0.02);
+  EXPECT_NEAR(error.y(), 0.0, 0.01);
+  EXPECT_NEAR(error.z(), 0.0, 0.01);
+}
+
+TEST(NdtMatcher, EmptyMapGivesTheGuessAndSaysSo) {
+  NdtMatcherIn street(test::Street());
+  const MatchResult result = street.MatchFrom(OnRoad(0.0), Vector6::Zero(), 0.1);
+  EXPECT_EQ(result.status, MatchStatus::kEmptyMap);
+  EXPECT_FALSE(result.IsUsable());
+  EXPECT_EQ(LogSe3(OnRoad(0.0).Inverse() * result.T_map_imu).norm(), 0.0);
+}
+
+TEST(NdtMatcher, ClearedMapIsEmpty) {
+  NdtMatcherIn street(test::Street());
+  street.InsertFrom(OnRoad(0.0));
+  EXPECT_GT(street.matcher().map_size().num_cells, 100u);
+  street.matcher().Clear();
+  EXPECT_EQ(street.matcher().map_size().num_cells, 0u);
+  EXPECT_EQ(street.MatchFrom(OnRoad(0.0), Vector6::Zero(), 0.1).status, MatchStatus::kEmptyMap);
+}
+
+TEST(NdtMatcher, TooFewPointsAreRefused) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 5.0);
+  for (const std::size_t num_points : {0u, 1u, 30u}) {
+    Points points = street.See(OnRoad(3.0));
+    points.resize(num_points);
+    const MatchResult result = street.Match(points, OnRoad(3.0), 0.1);
+    EXPECT_EQ(result.status, MatchStatus::kTooFewPoints) << num_points;
+    EXPECT_FALSE(result.IsUsable());
+  }
+}
+
+TEST(NdtMatcher, ScanFarFromTheMapIsRefused) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 5.0);
+  Pose far = OnRoad(3.0);
+  far.translation += Vector3(0.0, 0.0, 500.0);
+  EXPECT_EQ(street.Match(street.See(OnRoad(3.0)), far, 0.1).status, MatchStatus::kTooFewPoints);
+  far.translation = Vector3(1e9, -1e12, 1e300);
+  EXPECT_FALSE(street.Match(street.See(OnRoad(3.0)), far, 0.1).IsUsable());
+}
+
+TEST(NdtMatcher, NonFiniteGuessIsRefused) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 5.0);
+  Pose broken = OnRoad(3.0);
+  broken.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(street.Match(street.See(OnRoad(3.0)), broken, 0.1).IsUsable());
+}
+
+TEST(NdtMatcher, SameInputGivesTheSameBits) {
+  const auto run = [] {
+    NdtMatcherIn street(test::Street());
+    street.InsertRoad(0.0, 8.0);
+    return street.MatchFrom(OnRoad(5.5), 0.1 * Vector6::Unit(0), 0.1);
+  };
+  const MatchResult a = run();
+  const MatchResult b = run();
+  EXPECT_EQ(a.T_map_imu.translation, b.T_map_imu.translation);
+  EXPECT_EQ(a.T_map_imu.rotation.coeffs(), b.T_map_imu.rotation.coeffs());
+  EXPECT_EQ(a.cov, b.cov);
+  EXPECT_EQ(a.information, b.information);
+  EXPECT_EQ(a.iterations, b.iterations);
+}
+
+TEST(NdtMatcher, MatchingTwiceInARowGivesTheSameBits) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 8.0);
+  const Points points = street.See(OnRoad(5.5));
+  const MatchResult a = street.Match(points, OnRoad(5.4), 0.1);
+  street.Match(street.See(OnRoad(2.0)), OnRoad(2.1), 0.1);  // scratch memory is left behind
+  const MatchResult b = street.Match(points, OnRoad(5.4), 0.1);
+  EXPECT_EQ(a.T_map_imu.translation, b.T_map_imu.translation);
+  EXPECT_EQ(a.cov, b.cov);
+}
+
+TEST(NdtMatcher, IterationsStayWithinTheLimit) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 8.0);
+  NdtOptions options;
+  options.max_iterations = 2;  // too few for the reach to shrink
+  NdtMatcher hurried(options);
+  for (double x = 0.0; x <= 8.0; x += 1.0) hurried.Insert(street.See(OnRoad(x)), OnRoad(x));
+  const Points points = street.See(OnRoad(5.5));
+  const MatchResult result = hurried.Match({points, OnRoad(5.2), Matrix6::Identity()});
+  EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
+  EXPECT_EQ(result.iterations, 2);
+  EXPECT_FALSE(result.IsUsable());
+}
+
+TEST(NdtMatcher, NewContentShareFallsAsTheMapFills) {
+  NdtMatcherIn street(test::Street());
+  street.InsertFrom(OnRoad(0.0));
+  double last_share = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const double share = street.MatchFrom(OnRoad(0.3), Vector6::Zero(), 0.05).new_content_share;
+    EXPECT_GT(share, 0.0);
+    EXPECT_LT(share, last_share);
+    last_share = share;
+    for (int k = 0; k < 4; ++k) street.InsertFrom(OnRoad(0.1 * k));
+  }
+  EXPECT_LT(last_share, 0.2);
+}
+
+// A floor on a voxel face is split between two cells by its noise; the turned grid has no such
+// face for level floors and upright walls.
+TEST(NdtMatcher, GroundOnAVoxelFaceIsMatchedAsWell) {
+  for (const double ground_z_m : {-1.0, -1.5}) {
+    std::vector<test::Box> boxes;
+    for (const double y : {-6.0, 7.0}) boxes.push_back({{0, y, 0}, {40, 0.5, 5}});
+    for (const double x : {-12.0, 9.0}) boxes.push_back({{x, 3, 0}, {0.5, 2, 5}});
+    NdtMatcherIn room(test::Scene(ground_z_m, boxes));
+    const auto at = [](double x) { return Pose{Quaternion::Identity(), Vector3(x, 0, 0)}; };
+    for (double x = 0.0; x <= 3.0; x += 0.5) room.InsertFrom(at(x));
+    double worst_m = 0;
+    for (int i = 0; i < 5; ++i) {
+      const MatchResult result = room.MatchFrom(at(1.7), Vector6::Zero(), 0.05);
+      ASSERT_TRUE(result.IsUsable());
+      worst_m = std::max(worst_m, std::abs(result.T_map_imu.translation.z()));
+    }
+    EXPECT_LT(worst_m, 2e-3) << "ground at " << ground_z_m;
+  }
+}
+
+// --- ring lock: scans from one place show the same rings; a map of them must not hold the vehicle
+// back when it drives off.
+
+TEST(NdtMatcher, MapOfAParkedSensorDoesNotHoldTheVehicleBack) {
+  NdtMatcherIn street(test::Street());
+  for (int scan = 0; scan < 50; ++scan) street.InsertFrom(OnRoad(0.0));
+  for (const double x_m : {0.1, 0.3, 0.8, 1.5}) {
+    const Pose truth = OnRoad(x_m);
+    const MatchResult result = street.MatchFrom(truth, Vector6::Zero(), 0.1);
+    ASSERT_TRUE(result.IsUsable()) << x_m;
+    EXPECT_LT(ErrorOf(result, truth).head<3>().norm(), 0.03) << "at " << x_m << " m";
+  }
+}
+
+TEST(NdtMatcher, ParkedMapKeepsUpWithTheVehicleDrivingOff) {
+  NdtMatcherIn street(test::Street());
+  for (int scan = 0; scan < 50; ++scan) street.InsertFrom(OnRoad(0.0));
+  Pose estimate = OnRoad(0.0);
+  for (double x_m = 0.1; x_m < 4.0; x_m += 0.2) {
+    const Pose truth = OnRoad(x_m);
+    const Pose guess = estimate * ExpSe3(0.2 * Vector6::Unit(0));
+    const MatchResult result = street.Match(street.See(truth), guess, 0.1);
+    ASSERT_TRUE(result.IsUsable()) << x_m;
+    estimate = result.T_map_imu;
+    street.matcher().Insert(street.See(truth), estimate);
+    ASSERT_LT((estimate.translation - truth.translation).norm(), 0.03) << "at " << x_m << " m";
+  }
+}
+
+}  // namespace
+}  // namespace lio
