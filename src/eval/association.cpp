@@ -23,32 +23,6 @@ constexpr double kMinAutomaticGap_s = 0.25;
 // Two estimates farther apart than this many periods have lost something between them.
 constexpr double kMissingPeriods = 1.5;
 
-double MedianPeriod(const StampedPoses& poses) {
-  std::vector<double> periods;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    periods.push_back(SecondsBetween(poses[i - 1].stamp, poses[i].stamp));
-  }
-  return Median(std::move(periods));
-}
-
-enum class LookUp { kFound, kOutside, kInGap };
-
-LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s, Pose& pose) {
-  const auto is_before = [](const StampedPose& p, Timestamp t) { return p.stamp < t; };
-  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp, is_before);
-  if (after == poses.end()) return LookUp::kOutside;
-  if (after->stamp == stamp) {
-    pose = after->pose;
-    return LookUp::kFound;
-  }
-  if (after == poses.begin()) return LookUp::kOutside;
-  const StampedPose& before = *(after - 1);
-  const double gap_s = SecondsBetween(before.stamp, after->stamp);
-  if (gap_s > max_gap_s) return LookUp::kInGap;
-  pose = Interpolate(before.pose, after->pose, SecondsBetween(before.stamp, stamp) / gap_s);
-  return LookUp::kFound;
-}
-
 void CountCoverage(const StampedPoses& truth, const StampedPoses& estimate, Association& result) {
   const double period_s = result.estimate_period_s;
   double covered_s = 0;
@@ -87,7 +61,7 @@ Association AssociateByTime(const StampedPoses& truth, const StampedPoses& estim
   const StampedPoses& interpolated = is_truth_sparser ? estimate : truth;
   const double period_s = is_truth_sparser ? result.estimate_period_s : result.truth_period_s;
   result.is_max_gap_automatic = !max_gap_s.has_value();
-  result.max_gap_s = max_gap_s.value_or(std::max(kMaxGapPeriods * period_s, kMinAutomaticGap_s));
+  result.max_gap_s = max_gap_s.value_or(AutomaticMaxGap(period_s));
   for (const StampedPose& sample : sampled) {
     Pose pose;
     const LookUp found = InterpolateAt(interpolated, sample.stamp, result.max_gap_s, pose);
@@ -134,6 +108,34 @@ Association AssociateByIndex(const Trajectory& truth, const Trajectory& estimate
 }
 
 }  // namespace
+
+double MedianPeriod(const StampedPoses& poses) {
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    periods.push_back(SecondsBetween(poses[i - 1].stamp, poses[i].stamp));
+  }
+  return Median(std::move(periods));
+}
+
+LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s, Pose& pose) {
+  const auto is_before = [](const StampedPose& p, Timestamp t) { return p.stamp < t; };
+  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp, is_before);
+  if (after == poses.end()) return LookUp::kOutside;
+  if (after->stamp == stamp) {
+    pose = after->pose;
+    return LookUp::kFound;
+  }
+  if (after == poses.begin()) return LookUp::kOutside;
+  const StampedPose& before = *(after - 1);
+  const double gap_s = SecondsBetween(before.stamp, after->stamp);
+  if (gap_s > max_gap_s) return LookUp::kInGap;
+  pose = Interpolate(before.pose, after->pose, SecondsBetween(before.stamp, stamp) / gap_s);
+  return LookUp::kFound;
+}
+
+double AutomaticMaxGap(double period_s) {
+  return std::max(kMaxGapPeriods * period_s, kMinAutomaticGap_s);
+}
 
 Association Associate(const Trajectory& truth, const Trajectory& estimate,
                       std::optional<double> max_gap_s) {

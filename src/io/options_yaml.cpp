@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/options_yaml.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <map>
 
+#include "lio/io/beam_table.hpp"
 #include "lio/io/nearest_name.hpp"
 #include "lio/pipeline/options_fields.hpp"
 #include "yaml_values.hpp"
@@ -194,9 +196,27 @@ void Loader::SettleOptionalGroups() {
   }
 }
 
+// The core cannot look for files: that there is a beam table is checked here.
+std::vector<OptionFault> CheckLidarModel(const Options& options) {
+  const std::string& model = options.rig.lidar.model;
+  if (model == "generic") return {};
+  try {
+    LoadBeamTable(model);
+    return {};
+  } catch (const std::runtime_error& error) {
+    return {{"rig.lidar.model", error.what()}};
+  }
+}
+
 LoadResult Loader::Finish() {
   SettleOptionalGroups();
-  for (const OptionFault& fault : Validate(result_.options)) {
+  std::vector<OptionFault> faults = Validate(result_.options);
+  const auto is_of_model = [](const OptionFault& f) { return f.key == "rig.lidar.model"; };
+  if (std::none_of(faults.begin(), faults.end(), is_of_model)) {
+    const std::vector<OptionFault> more = CheckLidarModel(result_.options);
+    faults.insert(faults.end(), more.begin(), more.end());
+  }
+  for (const OptionFault& fault : faults) {
     const auto where = given_.find(fault.key);
     Fault(where == given_.end() ? "configuration" : where->second,
           fault.key + ": " + fault.message);

@@ -142,6 +142,17 @@ TEST_F(OptionsYaml, RotationIsNormalisedOrRefused) {
   EXPECT_THAT(far.faults[0], HasSubstr("rotation_wxyz: has norm 0.98994949"));
 }
 
+TEST_F(OptionsYaml, LidarModelsNeedABeamTable) {
+  for (const std::string model : {"hdl32e", "vlp16", "hdl64e", "os1_64", "generic"}) {
+    EXPECT_THAT(Load(kRig, {"rig.lidar.model=" + model}).faults, IsEmpty()) << model;
+  }
+  for (const std::string model : {"hdl32", "../lidars/hdl32e", "HDL32E"}) {
+    EXPECT_THAT(Load(kRig, {"rig.lidar.model=" + model}).faults,
+                ElementsAre(HasSubstr("rig.lidar.model: ")))
+        << model;
+  }
+}
+
 TEST_F(OptionsYaml, HalfAGroupIsRefused) {
   const LoadResult result = Load("rig:\n  T_imu_lidar:\n    translation_m: [0, 0, 1]\n");
   EXPECT_THAT(result.faults, ElementsAre(At(2) + "rig.T_imu_lidar.rotation_wxyz: is missing; the "

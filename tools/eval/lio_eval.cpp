@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-eval TRUTH ESTIMATE: how far a trajectory is from the truth.
+// lio-eval TRUTH ESTIMATE: how far a trajectory is from the truth; and lio-eval consistency.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
+#include <string_view>
 
+#include "eval_program.hpp"
 #include "lio/eval/evaluation.hpp"
 #include "lio/eval/report.hpp"
 #include "lio/io/command_line.hpp"
@@ -12,8 +13,6 @@
 
 namespace lio {
 namespace {
-
-constexpr char kName[] = "lio-eval";
 
 constexpr char kFooter[] = R"(
 Files are TUM (t x y z qx qy qz qw) or KITTI (12 numbers a row); the format is found by itself.
@@ -23,7 +22,7 @@ Examples:
   lio-eval truth.tum out/trajectory.tum
   lio-eval truth.tum out/trajectory.tum --json out/eval.json --plot out/eval.png --map out/map.pcd
   lio-eval poses/05.txt mine.txt --align none
-  lio-eval consistency truth.tum runs/seed_*      (see lio-eval consistency --help))";
+  lio-eval consistency --help                     is the covariance honest?)";
 
 struct Arguments {
   std::string truth;
@@ -66,25 +65,13 @@ EvaluationOptions ToOptions(const Arguments& arguments) {
   return {mode, arguments.max_gap_s};
 }
 
-int Fail(int exit_code, const std::string& message) {
-  std::cerr << kName << ": " << message << "\n";
-  return exit_code;
-}
-
-int WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
-  std::ofstream stream(file, std::ios::trunc);
-  stream << json.dump(2) << "\n";
-  stream.close();
-  return stream ? kExitDone : Fail(kExitUsage, file + ": cannot be written");
-}
-
 int Draw(const Arguments& arguments, const Evaluation& evaluation, const ReportedFiles& files) {
   if (arguments.plot.empty() && arguments.plots.empty()) return kExitDone;
   std::vector<std::string> words;
   if (!arguments.plot.empty()) words.insert(words.end(), {"--overview", arguments.plot});
   if (!arguments.plots.empty()) words.insert(words.end(), {"--folder", arguments.plots});
   if (!arguments.map.empty()) words.insert(words.end(), {"--map", arguments.map});
-  return RunPlot(kName, "plot_trajectory.py", PictureData(evaluation, files), words);
+  return RunPlot(kProgram, "plot_trajectory.py", PictureData(evaluation, files), words);
 }
 
 int Run(const Arguments& arguments) {
@@ -111,7 +98,10 @@ int Run(const Arguments& arguments) {
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  CLI::App app("How far an estimated trajectory is from the truth.", lio::kName);
+  if (argc > 1 && std::string_view(argv[1]) == "consistency") {
+    return lio::ConsistencyMain(argc - 1, argv + 1);
+  }
+  CLI::App app("How far an estimated trajectory is from the truth.", lio::kProgram);
   lio::Arguments arguments;
   lio::Describe(app, arguments);
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) return *exit_code;

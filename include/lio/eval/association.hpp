@@ -43,4 +43,13 @@ struct Association {
 Association Associate(const Trajectory& truth, const Trajectory& estimate,
                       std::optional<double> max_gap_s = std::nullopt);
 
+// The pose of `poses` at `stamp`, interpolated across gaps of at most `max_gap_s`.
+enum class LookUp { kFound, kOutside, kInGap };
+LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s, Pose& pose);
+
+// Median time between neighbours, s; 0 for fewer than two.
+double MedianPeriod(const StampedPoses& poses);
+// The widest gap that is interpolated across when nobody says otherwise, s.
+double AutomaticMaxGap(double period_s);
+
 }  // namespace lio

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Consistency as text and as JSON; the JSON's keys are a contract: docs/evaluation.md.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lio/eval/consistency.hpp"
+
+namespace lio {
+
+std::string ConsistencyText(const Consistency& consistency);
+nlohmann::ordered_json ConsistencyJson(const Consistency& consistency);
+
+// What tools/plot/plot_consistency.py draws: the JSON above with the series over time.
+nlohmann::ordered_json ConsistencyPictureData(const Consistency& consistency);
+
+}  // namespace lio

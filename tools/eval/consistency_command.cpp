@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "eval_program.hpp"
+#include "lio/eval/consistency_report.hpp"
+#include "lio/io/command_line.hpp"
+#include "plot_runner.hpp"
+
+namespace lio {
+namespace {
+
+constexpr char kFooter[] = R"(
+Each ESTIMATE_DIR is what lio-replay or liod wrote with --out: trajectory.tum, covariance.csv and,
+for the innovations, registration.csv. What each figure means: docs/evaluation.md.
+
+Examples:
+  lio-eval consistency truth.tum runs/seed_*           one truth for all runs
+  lio-eval consistency truth.tum runs/seed_* --json out/nees.json --plot out/nees.png
+                                                       each run's own, if its folder holds truth.tum)";
+
+struct Arguments {
+  std::string truth;
+  std::vector<std::string> dirs;
+  std::string json;
+  std::string plot;
+};
+
+int Run(const Arguments& arguments) {
+  try {
+    std::vector<RunErrors> runs;
+    for (const std::string& dir : arguments.dirs) {
+      runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth)));
+    }
+    const Consistency consistency = JudgeConsistency(runs);
+    std::cout << ConsistencyText(consistency) << std::flush;
+    if (!arguments.json.empty()) {
+      const int exit_code = WriteJson(arguments.json, ConsistencyJson(consistency));
+      if (exit_code != kExitDone) return exit_code;
+    }
+    if (arguments.plot.empty()) return kExitDone;
+    return RunPlot(kProgram, "plot_consistency.py", ConsistencyPictureData(consistency),
+                   {arguments.plot});
+  } catch (const std::runtime_error& e) {
+    return Fail(kExitUnusableInput, e.what());
+  }
+}
+
+}  // namespace
+
+int ConsistencyMain(int argc, const char* const* argv) {
+  CLI::App app("Is the covariance honest: NEES and NIS of runs against their chi-square bands.",
+               "lio-eval consistency");
+  Arguments arguments;
+  app.add_option(
+         "TRUTH", arguments.truth,
+         "True trajectory (TUM): the file of this name in each ESTIMATE_DIR, else this file")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("ESTIMATE_DIR", arguments.dirs, "Folders of runs")->required()->type_name("");
+  app.add_option("--json", arguments.json, "Write the figures there")->type_name("FILE");
+  app.add_option("--plot", arguments.plot, "Draw NEES and NIS over time with their bands")
+      ->type_name("FILE.png");
+  app.footer(kFooter);
+  if (const auto exit_code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *exit_code;
+  return Run(arguments);
+}
+
+}  // namespace lio
