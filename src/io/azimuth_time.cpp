@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "azimuth_order.hpp"
 #include "lio/io/input_error.hpp"
@@ -20,12 +22,17 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180.0;
 // A point may lie this far behind the sweep's front: beams of one firing differ in azimuth.
 constexpr double kBackwardSlack = 30.0 * kDegree;
+constexpr double kOffsetBin = 2.0 * kBackwardSlack / SpinObserver::kNumOffsetBins;
 // How the front follows the points: slowly, so that strays do not carry it away.
 constexpr double kFrontGain = 0.02;
 constexpr double kMaxFrontStep = 1.0 * kDegree;
 // First and last point are believed when near the median of their neighbours.
-constexpr std::size_t kNumNeighbours = 64;
+constexpr std::size_t kMaxNeighbours = 64;
 constexpr double kNearNeighbours = 2.0 * kDegree;
+std::size_t NumNeighbours(std::size_t num_points) {
+  return std::min(std::clamp<std::size_t>(num_points / 400, 5, kMaxNeighbours), num_points);
+}
+
 constexpr double kMinHz = 1.0;
 constexpr double kMaxHz = 100.0;
 
@@ -58,6 +65,26 @@ class Front {
   double at_rad_;
 };
 
+// Each angle less the mean of those around it that are no strays; NaN at both ends.
+std::vector<double> DifferencesToMean(const std::vector<double>& angles,
+                                      const std::vector<bool>& is_stray) {
+  const std::size_t n = angles.size();
+  std::vector<double> sum(n + 1, 0.0);
+  std::vector<double> count(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i + 1] = sum[i] + (is_stray[i] ? 0.0 : angles[i]);
+    count[i + 1] = count[i] + (is_stray[i] ? 0.0 : 1.0);
+  }
+  constexpr std::size_t kHalfWindow = 128;
+  std::vector<double> differences(n, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = kHalfWindow; i + kHalfWindow < n; ++i) {
+    const std::size_t begin = i - kHalfWindow;
+    const std::size_t end = i + kHalfWindow + 1;
+    differences[i] = angles[i] - (sum[end] - sum[begin]) / (count[end] - count[begin]);
+  }
+  return differences;
+}
+
 UnwrappedSweep UnwrapFirings(const SpinModel& model, const CloudPoints& points,
                              std::span<const std::uint16_t> rings) {
   UnwrappedSweep sweep;
@@ -65,7 +92,7 @@ UnwrappedSweep UnwrapFirings(const SpinModel& model, const CloudPoints& points,
   std::vector<double> azimuth(n);
   for (std::size_t i = 0; i < n; ++i) azimuth[i] = HeadAzimuth(model, points, rings, i);
   std::vector<double> differences;
-  for (std::size_t i = 0; i < std::min(n, kNumNeighbours); ++i) {
+  for (std::size_t i = 0; i < NumNeighbours(n); ++i) {
     differences.push_back(WrappedAngle(azimuth[i] - azimuth[0]));
   }
   sweep.first_azimuth_rad = azimuth[0] + StrayCorrection(std::move(differences));
@@ -75,7 +102,7 @@ UnwrappedSweep UnwrapFirings(const SpinModel& model, const CloudPoints& points,
     sweep.turned_rad[i] = front.Unwrap(model.direction * (azimuth[i] - sweep.first_azimuth_rad));
   }
   differences.clear();
-  for (std::size_t i = n - std::min(n, kNumNeighbours); i < n; ++i) {
+  for (std::size_t i = n - NumNeighbours(n); i < n; ++i) {
     differences.push_back(sweep.turned_rad[i] - sweep.turned_rad.back());
   }
   sweep.last_turned_rad = sweep.turned_rad.back() + StrayCorrection(std::move(differences));
@@ -198,21 +225,19 @@ void SpinObserver::Add(const CloudPoints& points, std::span<const std::uint16_t>
 // the ring's offset.
 void SpinObserver::AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
                               const UnwrappedSweep& sweep) {
-  const std::size_t n = rings.size();
-  std::vector<double> sum(n + 1, 0.0);
-  for (std::size_t i = 0; i < n; ++i) sum[i + 1] = sum[i] + sweep.turned_rad[i];
-  constexpr std::size_t kHalfWindow = 128;
-  for (std::size_t i = kHalfWindow; i + kHalfWindow < n; ++i) {
-    const double around =
-        (sum[i + kHalfWindow + 1] - sum[i - kHalfWindow]) / (2.0 * kHalfWindow + 1.0);
-    const double offset = seen.direction * (sweep.turned_rad[i] - around);
-    if (std::abs(offset) > kBackwardSlack) continue;  // next to a gap in the returns
-    if (rings[i] >= offset_sum_rad_.size()) {
-      offset_sum_rad_.resize(rings[i] + std::size_t{1});
-      offset_count_.resize(rings[i] + std::size_t{1});
-    }
-    offset_sum_rad_[rings[i]] += offset;
-    ++offset_count_[rings[i]];
+  // Twice: strays are known by the first means, and left out of the second ones.
+  std::vector<bool> is_stray(rings.size(), false);
+  std::vector<double> difference = DifferencesToMean(sweep.turned_rad, is_stray);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    is_stray[i] = std::abs(difference[i]) > kBackwardSlack;
+  }
+  difference = DifferencesToMean(sweep.turned_rad, is_stray);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double offset = seen.direction * difference[i];
+    const double bin = std::floor((offset + kBackwardSlack) / kOffsetBin);
+    if (!(bin >= 0.0 && bin < kNumOffsetBins)) continue;  // no mean here, or next to a gap
+    if (rings[i] >= offsets_.size()) offsets_.resize(rings[i] + std::size_t{1});
+    ++offsets_[rings[i]][static_cast<std::size_t>(bin)];
   }
 }
 
@@ -257,9 +282,13 @@ SpinModel SpinObserver::Decide(const std::optional<BeamTable>& table) const {
 std::vector<double> SpinObserver::RingOffsets() const {
   std::vector<double> offsets;
   double largest = 0.0;
-  for (std::size_t i = 0; i < offset_sum_rad_.size(); ++i) {
-    const auto count = static_cast<double>(std::max<std::int64_t>(1, offset_count_[i]));
-    offsets.push_back(offset_sum_rad_[i] / count);
+  for (const auto& histogram : offsets_) {
+    const std::int64_t half = (std::accumulate(histogram.begin(), histogram.end(), 0) + 1) / 2;
+    std::int64_t sum = 0;
+    std::size_t median = 0;
+    while (half > 0 && (sum += histogram[median]) < half) ++median;
+    const double bins = half > 0 ? static_cast<double>(median) + 0.5 : 0.5 * kNumOffsetBins;
+    offsets.push_back(bins * kOffsetBin - kBackwardSlack);
     largest = std::max(largest, std::abs(offsets.back()));
   }
   constexpr double kClear = 0.6 * kDegree;

@@ -5,9 +5,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
 
 #include "lio/io/bag_reader.hpp"
+#include "lio/io/byte_order.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/ros_messages.hpp"
 
@@ -48,6 +51,17 @@ bool HasTimestampIndex(sqlite3* database) {
                      -1, &raw, nullptr);
   const Statement row(raw);
   return raw != nullptr && sqlite3_step(raw) == SQLITE_ROW;
+}
+
+// The file is shorter than its SQLite header says.
+bool IsCut(const fs::path& path) {
+  std::array<std::uint8_t, 32> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(header.data()), header.size());
+  constexpr std::uint32_t kLargestPage = 65'536;  // stored as 1
+  const std::uint32_t stored = LoadAs<std::uint16_t>(header.data() + 16, true);
+  const std::uint64_t page_bytes = stored == 1 ? kLargestPage : stored;
+  return fs::file_size(path) < page_bytes * LoadAs<std::uint32_t>(header.data() + 28, true);
 }
 
 // Throws InputError for what this reader does not do.
@@ -163,6 +177,8 @@ Database Rosbag2Reader::Open(const fs::path& path) {
     return {};
   }
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxMessageBytes2);
+  // Lets SQLite read a file that is shorter than its header says, as far as it goes.
+  sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
   return database;
 }
 
@@ -217,8 +233,10 @@ bool Rosbag2Reader::OpenNextFile() {
     }
     topic_of_id_.clear();
     ReadTopics(database_.get(), topic_of_id_);
+    // A cut file may lack pages of the index that it needs early: its table goes further.
+    const bool in_time_order = HasTimestampIndex(database_.get()) && !IsCut(path);
     const std::string query = std::string("SELECT topic_id, timestamp, data FROM messages") +
-                              (HasTimestampIndex(database_.get()) ? " ORDER BY timestamp, id" : "");
+                              (in_time_order ? " ORDER BY timestamp, id" : "");
     sqlite3_stmt* raw = nullptr;
     const int status = sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &raw, nullptr);
     rows_.reset(raw);

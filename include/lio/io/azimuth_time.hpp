@@ -7,6 +7,7 @@
 // ring's azimuth offset are measured on the recording.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -69,6 +70,8 @@ double TurnBetween(double first_azimuth_rad, double next_first_azimuth_rad, doub
 // Looks at the first clouds of a recording.
 class SpinObserver {
  public:
+  static constexpr int kNumOffsetBins = 1200;
+
   void Add(const CloudPoints& points, std::span<const std::uint16_t> rings, Timestamp stamp);
   // `table`: the model the user named, if any; it gives direction and offsets where the data does
   // not. Throws InputError when the points neither are in order nor go all round.
@@ -90,8 +93,8 @@ class SpinObserver {
   double Rate(double direction, PointOrder order, double fallback_hz, std::string& how) const;
 
   std::vector<Seen> seen_;
-  std::vector<double> offset_sum_rad_;  // by ring
-  std::vector<std::int64_t> offset_count_;
+  // By ring, how often which offset: medians do not mind the edges of gaps in the returns.
+  std::vector<std::array<std::int32_t, kNumOffsetBins>> offsets_;
 };
 
 // Instants of the points [ns]: the stamp is that of the first point, or of the last one.

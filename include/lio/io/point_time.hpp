@@ -39,8 +39,8 @@ struct CloudObservation {
 
 // What the user has laid down.
 struct PointTimeWishes {
-  std::optional<TimeUnit> unit;
-  std::optional<StampMeaning> stamp;
+  std::optional<TimeUnit> unit = std::nullopt;
+  std::optional<StampMeaning> stamp = std::nullopt;
 };
 
 struct StampJudgement {

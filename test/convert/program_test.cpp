@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// lio-convert as a user meets it: exit codes, one-line messages, help.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/run_program.hpp"
+#include "support/spinning_lidar.hpp"
+
+namespace lio {
+namespace {
+
+using test::ProgramResult;
+using testing::HasSubstr;
+
+constexpr Timestamp kBegin{1'500'000'000'000'000'000};
+
+class ConvertProgram : public testing::Test {
+ protected:
+  ProgramResult Run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LIO_CONVERT_PROGRAM);
+    return test::RunProgram(arguments);
+  }
+  // One line on stderr that begins with the program's name.
+  static void ExpectOneLine(const ProgramResult& result, int exit_code) {
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(result.err.starts_with("lio-convert: ")) << result.err;
+  }
+  std::string Path(const std::string& name) const { return (dir_.path() / name).string(); }
+
+  // A bag of `num` clouds on each of the topics and an IMU.
+  std::string WriteBag(const std::vector<std::string>& cloud_topics, int num = 12) {
+    test::Bag1Writer writer(dir_.path() / "drive.bag");
+    const test::SpinningLidar lidar;
+    for (int k = 0; k < num; ++k) {
+      const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+      const Timestamp received = stamp + Duration::FromSeconds(CloudSeconds(lidar) + 0.005);
+      writer.Write("/imu", "sensor_msgs/Imu", received,
+                   test::ImuMessage({stamp, {0, 0, 0}, {0, 0, 9.81}}));
+      for (const std::string& topic : cloud_topics) {
+        writer.Write(topic, "sensor_msgs/PointCloud2", received,
+                     test::CloudMessage(test::VelodyneCloud(stamp, test::SeePoints(lidar, k))));
+      }
+    }
+    writer.Close();
+    return Path("drive.bag");
+  }
+
+  test::TempDir dir_;
+};
+
+TEST_F(ConvertProgram, HelpTeachesWithExamples) {
+  const ProgramResult help = Run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr("lio-convert rosbag drive.bag drive.lcm"));
+  EXPECT_EQ(Run({"rosbag", "--help"}).exit_code, 0);
+  EXPECT_EQ(Run({"kitti-raw", "--help"}).exit_code, 0);
+  EXPECT_EQ(Run({"kitti-odometry", "--help"}).exit_code, 0);
+}
+
+TEST_F(ConvertProgram, VersionIsPrinted) {
+  const ProgramResult version = Run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, HasSubstr("lio-convert 0."));
+}
+
+TEST_F(ConvertProgram, ConvertsAndSummarises) {
+  const ProgramResult result = Run({"rosbag", WriteBag({"/points"}), Path("out.lcm")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("/points: 12 sweeps"));
+  EXPECT_THAT(result.out, HasSubstr("/imu: 12 samples"));
+  EXPECT_THAT(result.out, HasSubstr("field 'time' in s from the stamp"));
+  EXPECT_THAT(result.out, HasSubstr("stamp        sweep start"));
+  EXPECT_THAT(result.out, HasSubstr("gravity present"));
+}
+
+TEST_F(ConvertProgram, TakesOptionsBeforeAndAfterPositionals) {
+  const std::string bag = WriteBag({"/points"});
+  EXPECT_EQ(Run({"rosbag", "--whole-scans", bag, Path("a.lcm")}).exit_code, 0);
+  EXPECT_EQ(Run({"rosbag", bag, Path("b.lcm"), "--whole-scans"}).exit_code, 0);
+  EXPECT_EQ(test::ReadText(dir_.path() / "a.lcm"), test::ReadText(dir_.path() / "b.lcm"));
+}
+
+TEST_F(ConvertProgram, WrongUsageIs2) {
+  ExpectOneLine(Run({}), 2);
+  ExpectOneLine(Run({"frobnicate"}), 2);
+  ExpectOneLine(Run({"rosbag"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--stamp", "middle"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--point-time", "h"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--start", "-1"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--duration", "0"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--truth-topic", "/t"}), 2);
+  ExpectOneLine(Run({"kitti-raw", "dir", "out.lcm", "--imu-rate", "-5"}), 2);
+  ExpectOneLine(Run({"kitti-odometry", "dir", "out.lcm", "--vertical-correction", "x"}), 2);
+}
+
+TEST_F(ConvertProgram, AnAmbiguousTopicIs2AndListsThem) {
+  const std::string bag = WriteBag({"/left", "/right"});
+  const ProgramResult result = Run({"rosbag", bag, Path("out.lcm")});
+  ExpectOneLine(result, 2);
+  EXPECT_THAT(result.err, HasSubstr("--lidar-topic"));
+  EXPECT_THAT(result.err, HasSubstr("/left"));
+  EXPECT_THAT(result.err, HasSubstr("/right"));
+  EXPECT_EQ(Run({"rosbag", bag, Path("out.lcm"), "--lidar-topic", "/left"}).exit_code, 0);
+}
+
+TEST_F(ConvertProgram, AWrongTopicOrModelIs2) {
+  const std::string bag = WriteBag({"/points"});
+  ExpectOneLine(Run({"rosbag", bag, Path("o.lcm"), "--lidar-topic", "/nope"}), 2);
+  ExpectOneLine(Run({"rosbag", bag, Path("o.lcm"), "--lidar-topic", "/imu"}), 2);
+  const ProgramResult model = Run({"rosbag", bag, Path("o.lcm"), "--lidar", "hdl33"});
+  ExpectOneLine(model, 2);
+  EXPECT_THAT(model.err, HasSubstr("hdl32e"));
+}
+
+TEST_F(ConvertProgram, MissingOrUnusableInputIs5) {
+  ExpectOneLine(Run({"rosbag", Path("no.bag"), Path("o.lcm")}), 5);
+  ExpectOneLine(Run({"rosbag", dir_.Write("text.bag", "hello").string(), Path("o.lcm")}), 5);
+  ExpectOneLine(Run({"kitti-raw", Path("no"), Path("o.lcm")}), 5);
+  ExpectOneLine(Run({"kitti-raw", dir_.path().string(), Path("o.lcm")}), 5);
+  ExpectOneLine(Run({"kitti-odometry", Path("no"), Path("o.lcm")}), 5);
+  const std::string bag = WriteBag({});
+  const ProgramResult no_lidar = Run({"rosbag", bag, Path("o.lcm")});
+  ExpectOneLine(no_lidar, 5);
+  EXPECT_THAT(no_lidar.err, HasSubstr("no sensor_msgs/PointCloud2"));
+  EXPECT_THAT(no_lidar.err, HasSubstr("/imu (sensor_msgs/Imu)"));
+}
+
+TEST_F(ConvertProgram, AWrongUnitIsRefused) {
+  const std::string bag = WriteBag({"/points"});
+  const ProgramResult result = Run({"rosbag", bag, Path("o.lcm"), "--point-time", "us"});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.err, HasSubstr("5 to 500 ms"));
+}
+
+TEST_F(ConvertProgram, LivoxMessagesAreRefusedByName) {
+  test::Bag1Writer writer(dir_.path() / "livox.bag");
+  writer.Write("/livox/lidar", "livox_ros_driver/CustomMsg", kBegin, {1, 2, 3});
+  writer.Close();
+  const ProgramResult result = Run({"rosbag", Path("livox.bag"), Path("o.lcm")});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.err, HasSubstr("livox_ros_driver/CustomMsg"));
+}
+
+TEST_F(ConvertProgram, ACutBagIsConvertedUpToTheCutAndIs5) {
+  const std::string bytes = test::ReadText(WriteBag({"/points"}, 20));
+  dir_.Write("cut.bag", bytes.substr(0, bytes.size() / 2));
+  const ProgramResult result = Run({"rosbag", Path("cut.bag"), Path("o.lcm")});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.out, HasSubstr("bytes lost"));
+  EXPECT_THAT(result.out, HasSubstr("converted up to"));
+  EXPECT_GT(std::filesystem::file_size(dir_.path() / "o.lcm"), 100'000u);
+}
+
+TEST_F(ConvertProgram, AnOutputThatCannotBeWrittenIsOneLine) {
+  const ProgramResult result = Run({"rosbag", WriteBag({"/points"}), Path("no/such/folder/o.lcm")});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+}  // namespace
+}  // namespace lio
