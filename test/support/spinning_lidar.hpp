@@ -18,10 +18,10 @@ struct SpinningLidar {
   int num_columns = 360;          // of one cloud
   double columns_per_turn = 356;  // fewer than num_columns: a cloud overlaps itself
   double turn_s = 0.1;
-  double first_azimuth_deg = -37.0;  // of the first cloud
-  double direction = -1.0;           // clockwise
-  double firing_s = 2e-6;            // from one beam to the next
-  std::vector<double> offset_deg = {};    // of each ring's azimuth; empty: none
+  double first_azimuth_deg = -37.0;     // of the first cloud
+  double direction = -1.0;              // clockwise
+  double firing_s = 2e-6;               // from one beam to the next
+  std::vector<double> offset_deg = {};  // of each ring's azimuth; empty: none
 
   double lowest_deg = -15.0;
   double spacing_deg = 2.0;

@@ -25,8 +25,8 @@ inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
          (static_cast<std::uint64_t>(z + kVoxelCoordinateLimit) & kMask);
 }
 
-// Fibonacci hashing. The product's high bits depend on all three coordinates, so they are brought to
-// the low end, which tables take.
+// Fibonacci hashing. The product's high bits depend on all three coordinates, so they are brought
+// to the low end, which tables take.
 inline std::uint64_t HashVoxel(VoxelKey key) {
   return __builtin_bswap64(key * 0x9E3779B97F4A7C15ull);
 }
