@@ -11,6 +11,7 @@ from plot_style import ListedColormap, np, plt
 
 # Without the darkest third, which would vanish on the dark ground of the map picture.
 HEIGHTS = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.3, 1, 256)))
+CELLS = 1000
 
 
 def bounds(paths, margin):
@@ -23,17 +24,25 @@ def bounds(paths, margin):
 
 
 def draw_cloud(axes, points, low, high, colour_by_height):
-    inside = ((points[:, :2] > low) & (points[:, :2] < high)).all(axis=1)
-    points = points[inside]
+    """The points as a picture of CELLS cells along its longer side, in each the highest point.
+
+    A scatter of a million points takes ten seconds, this takes a tenth of one.
+    """
+    points = points[((points[:, :2] > low) & (points[:, :2] < high)).all(axis=1)]
     if not len(points):
         return None
-    points = points[np.argsort(points[:, 2], kind="stable")]
+    points = points[np.argsort(points[:, 2], kind="stable")]  # the last to fill a cell stays
+    cell = max(high - low) / CELLS
+    column, row = ((points[:, :2] - low) / cell).astype(int).T
+    heights = np.full((int(row.max()) + 1, int(column.max()) + 1), np.nan)
+    heights[row, column] = points[:, 2]
     z_low, z_high = np.percentile(points[:, 2], [2, 98])
-    size = float(np.clip(6e4 / len(points), 0.03, 1.5))
-    colours = {"c": points[:, 2], "cmap": HEIGHTS, "vmin": z_low,
-               "vmax": max(z_high, z_low + 0.1)} if colour_by_height else {"c": "#b9bec7"}
-    return axes.scatter(points[:, 0], points[:, 1], s=size, linewidths=0, rasterized=True,
-                        zorder=1, **colours)
+    colours = {"cmap": HEIGHTS, "vmin": z_low, "vmax": max(z_high, z_low + 0.1)}
+    if not colour_by_height:
+        colours = {"cmap": ListedColormap(["#d3d7de"])}
+    top = low + cell * np.array(heights.shape[::-1])
+    return axes.imshow(heights, origin="lower", extent=(low[0], top[0], low[1], top[1]),
+                       interpolation="nearest", zorder=1, **colours)
 
 
 def plan_axes(data):
