@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# The whole path with one command: see usage.
+set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/demo.sh [OPTIONS] [INPUT]
+Sets up (tools/setup.sh), makes or converts the input, plays it with lcm-logplayer over UDP
+multicast to liod, scores the result with lio-eval, and leaves in out/demo/: path.png, error.png,
+map.png, trajectory.tum, eval.json and what else liod writes.
+INPUT is a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive folder, a KITTI odometry sequence folder,
+an LCM log, or a folder that lio-sim wrote. Without it a drive around a block is simulated.
+  --config FILE    configuration of liod; may be given again (default: by kind of input)
+  --set KEY=VALUE  override one key; may be given again
+  --truth FILE     true trajectory (default: from the input, or beside it)
+  --speed S        times real time to play at (1; 3 for the simulated drive)
+  --out DIR        folder of the results (out/demo)
+USAGE
+}
+
+fail_usage() {
+  echo "tools/demo.sh: $1; see tools/demo.sh --help" >&2
+  exit 2
+}
+
+input="" given_truth="" speed="" out=out/demo given_configs=() settings=()
+while (($#)); do
+  case $1 in
+    -h | --help) usage && exit 0 ;;
+    --config | --set | --truth | --speed | --out)
+      (($# > 1)) || fail_usage "$1 needs a value"
+      case $1 in
+        --config) given_configs+=("$(realpath -ms "$2")") ;;
+        --set) settings+=(--set "$2") ;;
+        --truth) given_truth=$(realpath -ms "$2") ;;
+        --speed) speed=$2 ;;
+        --out) out=$(realpath -ms "$2") ;;
+      esac
+      shift
+      ;;
+    -*) fail_usage "unknown option $1" ;;
+    *)
+      [[ -z $input ]] || fail_usage "one INPUT only"
+      input=$(realpath -ms "$1")
+      ;;
+  esac
+  shift
+done
+if [[ -n $input && ! -e $input ]]; then
+  echo "tools/demo.sh: $input is not there" >&2
+  exit 5
+fi
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+tools/setup.sh
+log="" truth="" configs=()
+source tools/demo/input.sh
+if [[ -n $input ]]; then
+  find_input "$input"
+else
+  make_input
+  speed=${speed:-3}
+  # Faster than real time a stalled moment is worth more scans; a demo may be late, but not lossy.
+  settings+=(--set pipeline.max_queued_scans=100)
+fi
+speed=${speed:-1}
+truth=${given_truth:-$truth}
+if ((${#given_configs[@]})); then configs=("${given_configs[@]}"); fi
+
+words=()
+for config in "${configs[@]}"; do words+=(--config "$config"); done
+rm -rf "$out" && mkdir -p "$out"
+echo "demo: lcm-logplayer plays $log to liod at speed $speed"
+tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}"
+
+if [[ ! -s $out/trajectory.tum ]]; then
+  echo "tools/demo.sh: liod gave no trajectory; its words:" >&2
+  cat "$out/liod.log" >&2
+  exit 1
+fi
+if [[ -n $truth ]]; then
+  build/bin/lio-eval "$truth" "$out/trajectory.tum" --json "$out/eval.json" --plots "$out" \
+    --map "$out/map.pcd" >"$out/eval.txt"
+else
+  echo "demo: no truth is known for this input: path and map only"
+  /usr/bin/python3 tools/plot/plot_run.py "$out"
+fi
+/usr/bin/python3 tools/demo/table.py "$out"
+echo "demo: results are in $out/"

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# Plays an LCM log with lcm-logplayer over real UDP multicast to liod, in a network namespace of its
+# own where that is allowed (other LCM programs of this machine then hear nothing), else on the
+# machine's multicast route.
+#   tools/demo/play.sh LOG.lcm OUT_DIR SPEED LIOD_ARGUMENT...
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+export LCM_DEFAULT_URL=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
+
+if [[ ${LIO_IN_NAMESPACE:-} != yes ]]; then
+  for flags in $( ((EUID == 0)) && echo -n) -rn; do
+    if unshare "$flags" true 2>/dev/null; then
+      LIO_IN_NAMESPACE=yes exec unshare "$flags" "${BASH_SOURCE[0]}" "$@"
+    fi
+  done
+  if ! ip route get 239.255.76.67 >/dev/null 2>&1; then
+    echo "play: no multicast route and no right to make a network namespace; as root run:" \
+      "ip route add 224.0.0.0/4 dev lo" >&2
+    exit 4
+  fi
+else
+  ip link set lo up multicast on
+  ip route add 224.0.0.0/4 dev lo
+fi
+
+log=$1 out=$2 speed=$3
+shift 3
+mkdir -p "$out"
+# liod's words go to a file first: it says there when it listens, and what it found odd.
+"$root/build/bin/liod" "$@" --out "$out" --map 2>"$out/liod.log" &
+liod=$!
+trap 'kill "$liod" 2>/dev/null || true' EXIT
+until grep -q listening "$out/liod.log"; do
+  if ! kill -0 "$liod" 2>/dev/null; then
+    trap - EXIT
+    code=0
+    wait "$liod" || code=$?
+    cat "$out/liod.log" >&2
+    exit "$code"
+  fi
+  sleep 0.05
+done
+
+lcm-logplayer --speed="$speed" "$log" >/dev/null
+sleep 0.5 # the last sweep is matched; nothing else comes
+trap - EXIT
+kill -TERM "$liod"
+wait "$liod"
