@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# How fast is the whole pipeline? Replays a simulated HDL-32E drive of full resolution several times
+# and prints the medians over the runs: milliseconds a sweep by stage, real-time factor, memory.
+#   tools/bench/speed.sh [RUNS [THREADS]]        (3 runs, 1 thread)
+# Needs tools/setup.sh. The drive is kept in out/inputs/speed/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+runs=${1:-3} threads=${2:-1}
+drive=out/inputs/speed
+if [[ ! -f $drive/complete ]]; then
+  build/bin/lio-sim --scenario street --lidar hdl32e --duration 40 --threads "$(nproc)" --out $drive
+  touch $drive/complete
+fi
+rm -rf out/bench && mkdir -p out/bench
+for run in $(seq "$runs"); do
+  build/bin/lio-replay --config $drive/config.yaml $drive/log.lcm --out "out/bench/$run" \
+    --threads "$threads" 2>"out/bench/$run.log"
+done
+grep -m1 'model name' /proc/cpuinfo | sed 's/.*: /machine: /'
+/usr/bin/python3 tools/bench/speed_table.py out/bench/*/
