@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""What the integration tests share: where programs and data are, running programs, unpacked data.
+
+The tests are unittest files run by ctest; LIO_BUILD names the build folder. Real data comes from
+LIO_DATA, else ../shared/data beside the source tree; without it a test is skipped, saying so.
+Whatever is made stays under the build folder and is made once.
+"""
+import contextlib
+import fcntl
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("LIO_BUILD", SOURCE / "build")).resolve()
+WORK = BUILD / "integration"
+RIGS = SOURCE / "test/integration/rigs"
+TIMEOUT_S = 240
+
+
+def run(program, *words, **kwargs):
+    """Runs one of our programs; the result has returncode, stdout and stderr as text."""
+    command = [str(BUILD / "bin" / program), *map(str, words)]
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=TIMEOUT_S, check=False, **kwargs)
+
+
+def run_well(program, *words):
+    done = run(program, *words)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, done.args))} ended with {done.returncode}:\n"
+                             f"{done.stderr}")
+    return done.stdout
+
+
+@contextlib.contextmanager
+def locked(name):
+    """Tests run side by side; what they share is made by the first."""
+    WORK.mkdir(parents=True, exist_ok=True)
+    with open(WORK / f"{name}.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def made_once(folder, make):
+    """The folder WORK/folder, filled by make(folder) unless an earlier call completed it."""
+    path = WORK / folder
+    with locked(folder):
+        if not (path / "complete").exists():
+            path.mkdir(exist_ok=True)
+            make(path)
+            (path / "complete").touch()
+    return path
+
+
+def data_file(name):
+    folder = pathlib.Path(os.environ.get("LIO_DATA", SOURCE.parent / "shared/data"))
+    path = folder / name
+    if not path.exists():
+        raise unittest.SkipTest(f"{path} is not there; set LIO_DATA to the folder that has it")
+    return path
+
+
+def unpacked_bag(name):
+    archive = data_file(f"{name}.bag.xz")
+
+    def unpack(folder):
+        with open(folder / f"{name}.bag", "wb") as bag:
+            subprocess.run(["xz", "-dc", archive], stdout=bag, check=True)
+    return made_once(name, unpack) / f"{name}.bag"
+
+
+def kitti_drive():
+    archive = data_file("kitti_raw_0005_first80.tar.xz")
+    folder = made_once("kitti", lambda path: subprocess.run(
+        ["tar", "-xf", archive, "-C", path], check=True))
+    return next(folder.glob("kitti_raw/*/*_sync"))
+
+
+def simulated(scenario="street", *words):
+    """A folder of lio-sim."""
+    name = "-".join(["sim", scenario, *(word.strip("-") for word in words)])
+    return made_once(name, lambda path: run_well("lio-sim", "--scenario", scenario, *words,
+                                                 "--out", path))
+
+
+def replay(log, out, *words):
+    """lio-replay into WORK/out; gives the folder."""
+    run_well("lio-replay", *words, log, "--out", WORK / out)
+    return WORK / out
+
+
+def stats(folder):
+    return json.loads((folder / "stats.json").read_text())
+
+
+def evaluate(truth, folder):
+    """lio-eval's figures for the trajectory in a results folder."""
+    run_well("lio-eval", truth, folder / "trajectory.tum", "--json", folder / "eval.json")
+    return json.loads((folder / "eval.json").read_text())
+
+
+def main():
+    """Ends with 77, which ctest takes for skipped, when every test was skipped."""
+    program = unittest.main(exit=False, verbosity=2, argv=sys.argv[:1])
+    result = program.result
+    if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:
+        sys.exit(77)
+    sys.exit(0 if result.wasSuccessful() else 1)

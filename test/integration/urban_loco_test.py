@@ -1,0 +1,36 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""Bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
+import unittest
+
+import support
+
+
+class UrbanLoco(unittest.TestCase):
+    def check(self, name, ape_bound_m):
+        bag = support.unpacked_bag(name)
+        log = bag.with_suffix(".lcm")
+        support.run_well("lio-convert", "rosbag", bag, log)
+        folder = support.replay(log, f"{name}-run", "--config",
+                                support.SOURCE / "config/default.yaml", "--config",
+                                support.RIGS / f"{name}.yaml")
+        figures = support.evaluate(support.data_file(f"{name}.gt.tum"), folder)
+        shown = (figures["ape"]["position_m"]["rmse"], figures["tilt_deg"]["max"])
+        print("APE %.4f m, tilt at most %.3f deg" % shown)
+        self.assertLessEqual(shown[0], ape_bound_m)
+        self.assertLessEqual(shown[1], 0.5)
+        # A static start takes at most 1.5 s; every scan after it has a row.
+        num_scans = support.stats(folder)["num_scans"]
+        self.assertGreaterEqual(figures["association"]["num_estimate"], num_scans - 16)
+        self.assertEqual(support.stats(folder)["num_scans_dropped"], 0)
+
+    def test_bag_with_point_time_tracks_to_three_centimetres(self):
+        self.check("ulhk_sample", 0.03)
+
+    def test_bag_without_point_time_tracks_to_six_centimetres(self):
+        self.check("ulhk_sample_notime", 0.06)
+
+
+if __name__ == "__main__":
+    support.main()
