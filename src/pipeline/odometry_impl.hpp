@@ -58,7 +58,7 @@ class Odometry::Impl {
   // --- odometry_start.cpp
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
   void TryStart(Timestamp stamp);
-  bool HasMoved() const;
+  bool HasMoved(const ImuStatistics& statistics) const;
   void CarryBack(StartState& start, Timestamp stamp) const;
   void StartFrom(const StartState& start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;

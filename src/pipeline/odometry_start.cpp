@@ -8,7 +8,12 @@
 namespace lio {
 namespace {
 
-constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over a second
+constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over a second ...
+// ... but where the inertial data is as calm as at rest, traffic and bare ground may deceive it by
+// more, and a vehicle that moves without shaking at all is fast.
+constexpr double kMovedDistanceCalm_m = 0.5;
+constexpr double kCalmGyroStd_radps = 0.005;
+constexpr double kCalmAccelStd_mps2 = 0.05;
 constexpr double kMovedAngle_rad = 0.01;
 constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
 constexpr double kWaitNoticeEvery_s = 1.0;
@@ -50,10 +55,14 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
   TryStart(outcome.sweep->end);
 }
 
-bool Odometry::Impl::HasMoved() const {
+bool Odometry::Impl::HasMoved(const ImuStatistics& statistics) const {
   const Pose motion = scouted_.front().pose.Inverse() * scouted_.back().pose;
-  return motion.translation.norm() > kMovedDistance_m ||
-         LogSo3(motion.rotation).norm() > kMovedAngle_rad;
+  const double distance_m = motion.translation.norm();
+  if (statistics.gyro_std_radps < kCalmGyroStd_radps &&
+      statistics.accel_std_mps2 < kCalmAccelStd_mps2) {
+    return distance_m > kMovedDistanceCalm_m;
+  }
+  return distance_m > kMovedDistance_m || LogSo3(motion.rotation).norm() > kMovedAngle_rad;
 }
 
 void Odometry::Impl::TryStart(Timestamp stamp) {
@@ -62,7 +71,8 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
   if (span_s < options_.start.rest_s || scouted_.size() < 3) return;
   const std::vector<ImuSample> samples = SamplesBetween(first, stamp);
   if (samples.size() < 3) return;
-  if (HasMoved()) {
+  const ImuStatistics statistics = Summarise(samples);
+  if (HasMoved(statistics)) {
     // The scout begins with unknown velocity, so its first step is its worst: leave it out.
     const std::vector<ImuSample> all = SamplesBetween(imu_.front().stamp, stamp);
     StartState start = StartMoving(all, scouted_, options_.rig);
@@ -70,7 +80,6 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
     StartFrom(start, 0);
     return;
   }
-  const ImuStatistics statistics = Summarise(samples);
   const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
                        statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
   if (is_calm || span_s >= kMaxRestWait_s) {

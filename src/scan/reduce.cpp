@@ -21,6 +21,22 @@ bool Precedes(const LidarPoint& a, const LidarPoint& b) {
   return a.z_m < b.z_m;
 }
 
+// Sweeps with more returns are sampled down to about this many, which leaves several to choose from
+// in each voxel of the thinning grid.
+constexpr std::size_t kMaxSampled = 32000;
+
+// A number in 0..65535 that depends on nothing but when and by which beam the point was measured.
+std::uint32_t Sample(const LidarPoint& point) {
+  const std::uint32_t mixed = (point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u)) * 0x85EBCA6Bu;
+  return (mixed ^ (mixed >> 15)) * 0xC2B2AE35u >> 16;
+}
+
+// Points whose sample is below this are used.
+std::uint32_t SampleShare(std::size_t num_points) {
+  if (num_points <= kMaxSampled) return 1u << 16;
+  return static_cast<std::uint32_t>((kMaxSampled << 16) / num_points);
+}
+
 struct Voxel {
   VoxelKey key;
   float distance_sq;  // of the point from the voxel's centre, in voxels
@@ -56,13 +72,14 @@ std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
   const std::size_t mask = slots_.size() - 1;
   std::size_t num_kept = 0;
   num_nonfinite = 0;
+  const std::uint32_t share = SampleShare(sweep.points.size());
   for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
     const LidarPoint& point = sweep.points[i];
     if (!IsFinite(point)) {
       ++num_nonfinite;
       continue;
     }
-    if (!filter_.IsWanted(point)) continue;
+    if (Sample(point) >= share || !filter_.IsWanted(point)) continue;
     const Voxel voxel = VoxelOf(point, inverse_voxel);
     std::size_t at = HashVoxel(voxel.key) & mask;
     while (slots_[at].epoch == epoch_ && slots_[at].key != voxel.key) at = (at + 1) & mask;
@@ -80,6 +97,23 @@ std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
   return num_kept;
 }
 
+// By time, then ring: a key beside the index keeps the sort from chasing points all over the sweep.
+std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep,
+                                                           std::size_t num_kept) const {
+  std::vector<Chosen> chosen;
+  chosen.reserve(num_kept);
+  for (const Slot& slot : slots_) {
+    if (slot.epoch != epoch_) continue;
+    const LidarPoint& point = sweep.points[slot.index];
+    const std::uint64_t key = (std::uint64_t{point.t_offset_ns} << 16) | point.ring;
+    chosen.push_back({key, slot.index});
+  }
+  std::sort(chosen.begin(), chosen.end(), [&](const Chosen& a, const Chosen& b) {
+    return a.key != b.key ? a.key < b.key : Precedes(sweep.points[a.index], sweep.points[b.index]);
+  });
+  return chosen;
+}
+
 ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   ReducedScan result;
   result.num_raw = static_cast<int>(sweep.points.size());
@@ -89,17 +123,8 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
     slots_.assign(slots_.size() * 4, Slot{});
     num_kept = FillSlots(sweep, result.num_nonfinite);
   }
-  std::vector<std::uint32_t> chosen;
-  chosen.reserve(num_kept);
-  for (const Slot& slot : slots_) {
-    if (slot.epoch == epoch_) chosen.push_back(slot.index);
-  }
-  std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return Precedes(sweep.points[a], sweep.points[b]);
-  });
-  result.points.reserve(chosen.size());
-  for (const std::uint32_t i : chosen) {
-    const LidarPoint& point = sweep.points[i];
+  for (const Chosen& chosen : SortedChoice(sweep, num_kept)) {
+    const LidarPoint& point = sweep.points[chosen.index];
     result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
   }
   AdaptVoxel(num_kept);

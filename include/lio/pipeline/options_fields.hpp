@@ -152,7 +152,7 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
   visit("gate_probability", o.gate_probability,
         "a pose farther off than this quantile is not fused", Range{0.5, 0.999999999});
   visit("max_gated_in_a_row", o.max_gated_in_a_row,
-        "then the covariance is inflated, and later the filter restarted", Range{1, 1000});
+        "then it is fused all the same, as a motion that was not seen", Range{1, 1000});
   visit("registration_cov_scale", o.registration_cov_scale,
         "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
   visit("steady_world", o.steady_world,

@@ -42,10 +42,15 @@ class ScanReducer {
     std::uint32_t index = 0;  // of the chosen point in the sweep
     float distance_sq = 0.f;  // of it from the voxel's centre, in voxels
   };
+  struct Chosen {
+    std::uint64_t key = 0;  // time, then ring
+    std::uint32_t index = 0;
+  };
   static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
 
   // Gives the number of voxels hit, or kTableFull.
   std::size_t FillSlots(const Sweep& sweep, int& num_nonfinite);
+  std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept) const;
   void AdaptVoxel(std::size_t num_kept);
 
   ReduceOptions options_;
