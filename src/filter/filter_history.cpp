@@ -9,17 +9,18 @@ namespace lio {
 namespace {
 
 // Beyond the gate by force: the body has moved in a way that the filter did not see, by about the
-// residual. Both poses take the unseen motion, so what is known of tilt and biases stays.
+// residual, and has kept the speed of it. Both poses and the velocity take the unseen motion; what
+// is known of tilt and biases stays.
 void AllowUnseenMotion(Estimate& estimate, const Pose& T_map_imu_measured) {
+  constexpr double kDuration_s = 0.2;  // a scan or two
   const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * T_map_imu_measured);
-  const Matrix6 unseen = residual.cwiseAbs2().asDiagonal();
-  Matrix6 to_world = Matrix6::Identity();  // of the right error to the world pose's chart
-  to_world.topLeftCorner<3, 3>() = estimate.state.T_world_imu.rotation.toRotationMatrix();
-  ErrorMatrix& P = estimate.cov;
-  P.topLeftCorner<6, 6>() += to_world * unseen * to_world.transpose();
-  P.topRightCorner<6, 6>() += to_world * unseen;
-  P.bottomLeftCorner<6, 6>() += unseen * to_world.transpose();
-  P.bottomRightCorner<6, 6>() += unseen;
+  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
+  effect.block<3, 3>(kPos, 0) = R;
+  effect.block<3, 3>(kVel, 0) = R / kDuration_s;
+  effect.block<3, 3>(kRot, 3) = Matrix3::Identity();
+  effect.block<6, 6>(kMapPose, 0) = Matrix6::Identity();
+  estimate.cov += effect * residual.cwiseAbs2().asDiagonal() * effect.transpose();
 }
 
 void RebaseMapPose(Estimate& estimate) {

@@ -26,7 +26,8 @@ void SteadyWorld::Update(const Estimate& estimate) {
   const Pose& T_filter_imu = estimate.state.T_world_imu;
   const Pose T_filter_map = T_filter_imu * estimate.state.T_map_imu.Inverse();
   const double tilt_std = TiltStd(estimate);
-  if (!T_world_map_ || follow_ || tilt_std > kUnknownTiltStd_rad) {
+  if (mode_ == Mode::kFromMotion && tilt_std < kUnknownTiltStd_rad) mode_ = Mode::kFromRest;
+  if (!T_world_map_ || mode_ != Mode::kFromRest) {
     T_world_map_ = T_filter_map;
     return;
   }

@@ -234,6 +234,7 @@ StartState StartMoving(std::span<const ImuSample> samples, const StampedPoses& T
   estimate.state.gyro_bias = gyro_bias.cwiseMax(-3 * rig.imu.gyro_bias_std_radps)
                                  .cwiseMin(3 * rig.imu.gyro_bias_std_radps);
   AnchorMap(estimate);
+  start.in_motion = true;
   start.how = Describe("in motion", estimate, has_gravity);
   return start;
 }

@@ -30,7 +30,8 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
       clock_(clock),
       nis_limit_(ChiSquareQuantile6(options.filter.gate_probability)),
       use_imu_(options.pipeline.use_imu),
-      world_(!options.filter.steady_world) {
+      world_(options.filter.steady_world ? SteadyWorld::Mode::kFromMotion
+                                         : SteadyWorld::Mode::kFollow) {
   const std::vector<OptionFault> faults = Validate(options);
   if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
   if (!use_imu_) phase_ = Phase::kRunning;

@@ -117,7 +117,9 @@ void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep)
   scout_.reset();
   scouted_.clear();
   g_world_ = start.g_world;
-  world_ = SteadyWorld(!options_.filter.steady_world);
+  const auto steady =
+      start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;
+  world_ = SteadyWorld(options_.filter.steady_world ? steady : SteadyWorld::Mode::kFollow);
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
   for (const ImuSample& sample : imu_) {
     if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);

@@ -21,8 +21,10 @@ class SteadyWorld {
  public:
   static constexpr double kTolerance_rad = 0.0045;  // a quarter of a degree
 
-  // `follow`: publish the filter's own world at all times instead.
-  explicit SteadyWorld(bool follow) : follow_(follow) {}
+  // kFromRest: level as well as it will be for long. kFromMotion: follows the filter until the tilt
+  // is known. kFollow: the filter's own world at all times.
+  enum class Mode { kFromRest, kFromMotion, kFollow };
+  explicit SteadyWorld(Mode mode) : mode_(mode) {}
 
   // After each fused scan.
   void Update(const Estimate& estimate);
@@ -36,7 +38,7 @@ class SteadyWorld {
   Published Publish(const Estimate& estimate) const;
 
  private:
-  bool follow_;
+  Mode mode_;
   bool is_turning_ = false;
   std::optional<Pose> T_world_map_;
 };
