@@ -180,16 +180,30 @@ TEST(Reduce, EmptySweepGivesNoPointsAndKeepsTheEdge) {
 // More voxels than the table begins with: it grows, and gives what a fresh one gives.
 TEST(Reduce, AnyNumberOfVoxelsFits) {
   std::vector<LidarPoint> points;
-  for (int x = 0; x < 300; ++x) {
-    for (int y = 0; y < 300; ++y) {
+  for (int x = 0; x < 170; ++x) {
+    for (int y = 0; y < 170; ++y) {
       points.push_back(PointAt(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.5f,
-                               static_cast<std::uint32_t>(x * 300 + y)));
+                               static_cast<std::uint32_t>(x * 170 + y)));
     }
   }
   ScanReducer reducer(FixedEdge(1.0), AnyRange());
   const ReducedScan scan = reducer.Reduce(SweepOf(points));
-  EXPECT_EQ(scan.points.size(), 90000u);
+  EXPECT_EQ(scan.points.size(), 28900u);
   EXPECT_TRUE(IsSame(reducer.Reduce(SweepOf(points)), scan));
+}
+
+// Sweeps far larger than needed are sampled down first, by when and by which beam alone.
+TEST(Reduce, HugeSweepsAreSampledWhateverTheirOrder) {
+  std::vector<LidarPoint> points;
+  for (std::uint32_t i = 0; i < 90000; ++i) {
+    points.push_back(PointAt(static_cast<float>(i % 300) + 0.5f, static_cast<float>(i / 300) + 0.5f,
+                             0.5f, 1000 * i));
+  }
+  const ReducedScan scan = ScanReducer(FixedEdge(1.0), AnyRange()).Reduce(SweepOf(points));
+  EXPECT_GT(scan.points.size(), 28000u);
+  EXPECT_LT(scan.points.size(), 36000u);
+  std::reverse(points.begin(), points.end());
+  EXPECT_TRUE(IsSame(ScanReducer(FixedEdge(1.0), AnyRange()).Reduce(SweepOf(points)), scan));
 }
 
 }  // namespace

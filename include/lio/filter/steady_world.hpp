@@ -6,9 +6,9 @@
 // mind while tilt and accelerometer bias are told apart: by tenths of a degree, which at a hundred
 // metres from the origin are decimetres of height. A path that is bent after the fact is of little
 // use, so poses are published as T_world_map * T_map_imu with a T_world_map that stays put: it
-// follows the filter only while the tilt is still unknown, or when it is off by more than
-// kTolerance_rad and surely so; then it turns slowly about the vehicle. The covariance says what
-// that costs.
+// follows the filter only while a start in motion still finds its level, or when it is off by more
+// than kTolerance_rad and surely so; then it turns slowly about the vehicle. The covariance says
+// what that costs.
 #pragma once
 
 #include <optional>
