@@ -7,7 +7,7 @@ import json
 import pathlib
 import sys
 
-HEADER = ("| scenario | path m | APE se3 cm | drift % | end gap cm | z drift cm | tilt deg "
+HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | z drift cm | tilt deg "
           "| step mm | scans | not fused | weak | ms a scan | MB |")
 
 
