@@ -11,7 +11,7 @@ namespace lio::sim {
 namespace {
 
 constexpr double kCoarseCell_m = 6.0;
-constexpr double kCoarseDrop_m = 0.25;  // the far mesh lies this much lower, to hide under the fine
+constexpr double kCoarseDrop_m = 0.06;  // the far mesh lies this much lower, to hide under the fine
 
 double DistanceToLine(const Vector2& p, const std::vector<Vector2>& line) {
   double best_sq = 1e18;

@@ -92,10 +92,10 @@ Mesh MakeTree(double height_m, Random& random) {
     const Vector3 tip = fork + Vector3(0.7 * width * std::cos(angle), 0.7 * width * std::sin(angle),
                                        crown * random.Uniform(0.5, 1.2));
     AddBar(mesh, fork, tip, 0.6 * radius, 0.15 * radius, 5, Material::kBark);
-    AddLeaves(mesh, tip, {0.6 * width, 0.6 * width, 0.55 * crown}, 60, 0.32, random);
+    AddLeaves(mesh, tip, {0.65 * width, 0.65 * width, 0.55 * crown}, 90, 0.36, random);
   }
   const Vector3 centre = fork + Vector3(0, 0, 0.95 * crown);
-  AddLeaves(mesh, centre, {width, width, crown}, 240, 0.36, random);
+  AddLeaves(mesh, centre, {width, width, crown}, 420, 0.42, random);
   return mesh;
 }
 

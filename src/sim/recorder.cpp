@@ -106,6 +106,7 @@ class Recording {
         begin_s_(scenario.begin_s),
         imu_({options.imu, options.imu_variant, options.gravity_mps2, options.seed},
              *scenario.trajectory),
+        faults_(options.faults, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
         log_(folder / "log.lcm"),
         truth_(folder) {}
 
@@ -118,7 +119,7 @@ class Recording {
       const std::uint32_t last_ns = chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns;
       const Timestamp arrival = chunk.stamp + Duration{last_ns} + kChunkDelay;
       AddImuUntil(arrival - kEpoch);
-      queue_.Push({arrival, std::move(chunk)});
+      Send({arrival, std::move(chunk)});
       stats_.num_chunks += 1;
       WriteUntil(arrival - kDisorder);
     }
@@ -143,8 +144,12 @@ class Recording {
       truth_.Write(imu);
       imu.sample.stamp = StampOf(t_ns);
       const auto seq = static_cast<std::int32_t>(stats_.num_imu);
-      queue_.Push({imu.sample.stamp + kImuDelay, ImuMessage{imu.sample, seq}});
+      Send({imu.sample.stamp + kImuDelay, ImuMessage{imu.sample, seq}});
     }
+  }
+
+  void Send(Message message) {
+    for (Message& sent : faults_.Apply(std::move(message))) queue_.Push(std::move(sent));
   }
 
   void WriteUntil(Timestamp limit) {
@@ -162,6 +167,7 @@ class Recording {
   double end_s_;
   double begin_s_;
   ImuSimulator imu_;
+  FaultInjector faults_;
   EventLogWriter log_;
   TruthWriter truth_;
   ArrivalQueue queue_;
@@ -207,9 +213,12 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
   std::filesystem::create_directories(folder);
   WriteRigFile(folder / "config.yaml", scenario, options);
   const Scene scene(scenario.world);
+  LidarErrors errors = options.lidar_errors;
+  const std::vector<Dust> dust = DustOf(options.faults, scenario.begin_s);
+  errors.dust.insert(errors.dust.end(), dust.begin(), dust.end());
   const LidarSimulator lidar(
-      {options.lidar, scenario.T_imu_lidar, options.lidar_errors, options.seed, scenario.begin_s},
-      scene, *scenario.trajectory);
+      {options.lidar, scenario.T_imu_lidar, errors, options.seed, scenario.begin_s}, scene,
+      *scenario.trajectory);
   Recording recording(scenario, options, folder);
   const double end_s = scenario.begin_s + scenario.duration_s;
   CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {

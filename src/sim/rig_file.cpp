@@ -33,7 +33,7 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
   std::ofstream file(path);
   if (!file) throw std::runtime_error("cannot write " + path.string());
   file.precision(9);
-  const Pose& T = scenario.T_imu_lidar;
+  const Pose T = ClaimedExtrinsic(options.faults, scenario.T_imu_lidar);
   file << "# Rig of lio-sim's scenario '" << scenario.name << "', seed " << options.seed << ": "
        << options.lidar.name << ", " << options.imu.name << ".\n"
        << "rig:\n  T_imu_lidar:  # p_imu = T_imu_lidar * p_lidar\n";

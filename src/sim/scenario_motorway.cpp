@@ -171,7 +171,7 @@ Scenario MakeMotorway(const ScenarioOptions& options) {
   GroundOptions ground;
   ground.cell_m = 2.0;
   ground.reach_m = 30.0;
-  ground.far_reach_m = 90.0;
+  ground.far_reach_m = 200.0;
   ground.kerb_m = 0.0;
   ground.pavement_m = 0.0;
   Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(20.0), kHalfRoad_m}}), ground,
@@ -191,6 +191,7 @@ Scenario MakeMotorway(const ScenarioOptions& options) {
   plan.oscillations = CarOscillations(options.seed);
   AddTraffic(scenario.world, road, drive, planned_s, height, random);
   MountOnCar(scenario, std::move(plan));
+  scenario.view_width_m = 230.0;
   SetBegin(scenario, options, 20.0);
   return scenario;
 }

@@ -50,6 +50,13 @@ void AddSides(Town& town, const Path& path) {
     town.AddTrees(path, frontage(0.9), 17.0, 7.0);
     town.AddStreetThings(path, frontage(0.7), 16.0);
     town.AddHouses(path, frontage(3.6), row);
+    HouseRow rear;
+    rear.max_storeys = 6;
+    rear.gap_chance = 0.6;
+    rear.max_gap_m = 14.0;
+    rear.max_setback_m = 4.0;
+    town.AddHouses(path, frontage(31.0), rear);
+    town.AddTrees(path, frontage(23.0), 11.0, 8.0);
     town.AddParkedCars(path, frontage(-1.05), 0.55);
     town.AddStandingPeople(path, frontage(1.8), 20);
     const int num_walkers = static_cast<int>(path.length_m() / 35.0);
@@ -124,6 +131,7 @@ Scenario MakeStreet(const ScenarioOptions& options) {
   plan.oscillations = CarOscillations(options.seed);
   AddTraffic(scenario.world, ego, oncoming, drive, planned_s, height, random);
   MountOnCar(scenario, std::move(plan));
+  scenario.view_width_m = 210.0;
   SetBegin(scenario, options, 6.0);
   return scenario;
 }

@@ -88,6 +88,7 @@ Scenario MakeSuburb(const ScenarioOptions& options) {
   GroundOptions ground;
   ground.pavement_m = 2.0;
   ground.kerb_m = 0.09;
+  ground.far_reach_m = 200.0;
   Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(4.0), kHalfRoad_m}}), ground,
             options.seed);
   AddGardens(town, road);
@@ -110,6 +111,7 @@ Scenario MakeSuburb(const ScenarioOptions& options) {
         oncoming, [s = oncoming.length_m() - back_m](double t_s) { return s + 9.0 * t_s; }, height);
   }
   MountOnCar(scenario, std::move(plan));
+  scenario.view_width_m = 200.0;
   SetBegin(scenario, options, 6.0);
   return scenario;
 }

@@ -155,7 +155,10 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
       scenario.world, VehicleKind::kVan, random, ego,
       [drive](double t_s) { return 22.0 + drive->DistanceAt(t_s + 1.0); }, height);
   MountOnCar(scenario, std::move(plan));
-  scenario.ceiling_m = 5.0;
+  scenario.ceiling_m = 3.6;
+  scenario.view_width_m = 150.0;
+  scenario.view_share = 0.16;
+  scenario.ceiling_slope_ratio = {kSlope_ratio, 0.0};
   SetBegin(scenario, options, 6.0);
   return scenario;
 }

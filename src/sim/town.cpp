@@ -163,8 +163,9 @@ void Town::AddParkedCars(const Path& path, const Frontage& f, double share) {
         OnFrontage(path, f, along_m + 0.5 * place_m, random_.Uniform(-0.12, 0.12));
     const double heading = point.heading_rad + (f.on_left ? kPi : 0.0) + 0.02 * random_.Gaussian();
     along_m += place_m;
-    // Parked on the road, so only other things count.
-    if (taken && roads_.SignedDistance(point.position_m) < -0.6 &&
+    // Parked on the road by the kerb and not in a crossing.
+    const double edge_m = roads_.SignedDistance(point.position_m);
+    if (taken && edge_m < -0.6 && edge_m > -1.7 &&
         Reserve(point.position_m, heading, VehicleSize(kind), -1e9)) {
       Place(car, point.position_m, heading);
     }

@@ -12,7 +12,11 @@ Pose At(double x, double y, double z) {
 }
 
 Material Paint(Random& random) {
-  return random.Chance(0.65) ? Material::kCarPaint : Material::kCarPaintDark;
+  constexpr std::array<Material, 8> kPaints = {Material::kCarPaint,     Material::kCarPaint,
+                                               Material::kCarPaintGrey, Material::kCarPaintGrey,
+                                               Material::kCarPaintDark, Material::kCarPaintDark,
+                                               Material::kCarPaintRed,  Material::kCarPaintBlue};
+  return kPaints[static_cast<std::size_t>(random.Integer(0, 7))];
 }
 
 void AddWheels(Mesh& mesh, double front_x, double rear_x, double half_width, double radius) {

@@ -13,6 +13,7 @@
 
 #include "lio/io/command_line.hpp"
 #include "lio/sim/data_file.hpp"
+#include "lio/sim/picture.hpp"
 #include "lio/sim/recorder.hpp"
 
 namespace {
@@ -29,10 +30,12 @@ struct Arguments {
   sim::ImuVariant imu_variant = sim::ImuVariant::kSpecificForce;
   double latitude_deg = 22.3;  // Hong Kong
   double altitude_m = 0.0;
+  std::vector<std::string> faults;
   bool starts_moving = false;
   bool lists = false;
   int num_threads = 1;
   std::string folder;
+  std::string picture;
 };
 
 std::string ScenarioTable() {
@@ -53,6 +56,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_flag("--list", arguments.lists, "print the scenarios' names, one a line");
   app.add_option("--scenario", arguments.scenario, "which place and drive");
   app.add_option("--out", arguments.folder, "folder to write into; made if it is not there");
+  app.add_option("--picture", arguments.picture,
+                 "draw the place from above with the way into this PPM file; alone or with --out");
   app.add_option("--duration", arguments.duration_s, "length of the log [s]");
   app.add_option("--seed", arguments.seed, "another seed is another world and other noise")
       ->capture_default_str();
@@ -71,16 +76,23 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--altitude", arguments.altitude_m, "of the place, for its gravity [m]")
       ->capture_default_str();
   app.add_flag("--moving-start", arguments.starts_moving, "begin the log in motion, without rest");
+  app.add_option("--fault", arguments.faults,
+                 "something that goes wrong, as KIND:KEY=VALUE,...; may be given again; see below")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--threads", arguments.num_threads, "changes the speed only, never a byte")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  app.footer(ScenarioTable() + R"(
+  app.footer(ScenarioTable() +
+             "\nFaults with their defaults; start and duration are seconds of the log:\n" +
+             sim::DescribeFaults() + R"(
 Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
 (velocity, biases, rates) and config.yaml, which lio-replay and liod take as it is.
 
 Examples:
   lio-sim --scenario street --out out/street
   lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
+  lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
   lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
 )");
 }
@@ -94,6 +106,9 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   options.imu_variant = arguments.imu_variant;
   options.gravity_mps2 =
       sim::NormalGravity(arguments.latitude_deg * std::numbers::pi / 180.0, arguments.altitude_m);
+  for (const std::string& fault : arguments.faults) {
+    options.faults.push_back(sim::ParseFault(fault));
+  }
   options.seed = arguments.seed;
   options.num_threads = arguments.num_threads;
   return options;
@@ -104,17 +119,8 @@ void ShowProgress(double share) {
   std::fflush(stderr);
 }
 
-int Run(const Arguments& arguments) {
-  using Clock = std::chrono::steady_clock;
-  const sim::Scenario scenario = sim::MakeScenario(
-      arguments.scenario, {arguments.seed, arguments.duration_s, arguments.starts_moving});
-  const sim::RecordOptions options = MakeOptions(arguments, scenario);
-  const auto start = Clock::now();
-  std::function<void(double)> progress;
-  if (isatty(STDERR_FILENO) != 0) progress = ShowProgress;
-  const sim::RecordStats stats = sim::Record(scenario, options, arguments.folder, progress);
-  if (progress) std::fputs("\r     \r", stderr);
-  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options,
+                const sim::RecordStats& stats, double wall_s) {
   std::printf("%s: %.1f s, %lld sweeps of %s, %.1f M rays, %.1f M points, %lld IMU samples\n",
               scenario.name.c_str(), scenario.duration_s, static_cast<long long>(stats.num_sweeps),
               options.lidar.name.c_str(), 1e-6 * static_cast<double>(stats.num_rays),
@@ -122,12 +128,47 @@ int Run(const Arguments& arguments) {
   std::printf("%.1f s on %d thread%s: %.2f M rays/s\n", wall_s, options.num_threads,
               options.num_threads == 1 ? "" : "s",
               1e-6 * static_cast<double>(stats.num_rays) / wall_s);
-  return kExitDone;
 }
 
 int Fail(const std::string& message, int code) {
   std::cerr << "lio-sim: " << message << "\n";
   return code;
+}
+
+// Throws when the files cannot be written.
+void Write(const Arguments& arguments, const sim::Scenario& scenario,
+           const sim::RecordOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  if (!arguments.picture.empty()) {
+    sim::WritePpm(sim::DrawFromAbove(scenario, {}, arguments.num_threads), arguments.picture);
+  }
+  if (arguments.folder.empty()) return;
+  const auto start = Clock::now();
+  std::function<void(double)> progress;
+  if (isatty(STDERR_FILENO) != 0) progress = ShowProgress;
+  const sim::RecordStats stats = sim::Record(scenario, options, arguments.folder, progress);
+  if (progress) std::fputs("\r     \r", stderr);
+  PrintStats(scenario, options, stats, std::chrono::duration<double>(Clock::now() - start).count());
+}
+
+int Run(const Arguments& arguments) {
+  std::optional<sim::Scenario> scenario;
+  sim::RecordOptions options;
+  try {
+    scenario = sim::MakeScenario(arguments.scenario,
+                                 {arguments.seed, arguments.duration_s, arguments.starts_moving});
+    options = MakeOptions(arguments, *scenario);
+  } catch (const std::invalid_argument& error) {
+    return Fail(error.what(), kExitUsage);
+  } catch (const std::runtime_error& error) {
+    return Fail(error.what(), kExitConfiguration);
+  }
+  try {
+    Write(arguments, *scenario, options);
+  } catch (const std::exception& error) {
+    return Fail(error.what(), kExitUnusableInput);
+  }
+  return kExitDone;
 }
 
 }  // namespace
@@ -143,13 +184,7 @@ int main(int argc, char** argv) {
   }
   if (arguments.scenario.empty())
     return Fail("--scenario is required; --list names them", kExitUsage);
-  if (arguments.folder.empty())
+  if (arguments.folder.empty() && arguments.picture.empty())
     return Fail("--out is required: the folder to write into", kExitUsage);
-  try {
-    return Run(arguments);
-  } catch (const std::invalid_argument& error) {
-    return Fail(error.what(), kExitUsage);
-  } catch (const std::exception& error) {
-    return Fail(error.what(), kExitConfiguration);
-  }
+  return Run(arguments);
 }

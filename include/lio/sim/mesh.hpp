@@ -28,6 +28,9 @@ enum class Material : std::uint8_t {
   kDarkMetal,
   kCarPaint,
   kCarPaintDark,
+  kCarPaintRed,
+  kCarPaintBlue,
+  kCarPaintGrey,
   kRubber,
   kFoliage,
   kBark,
@@ -41,7 +44,7 @@ enum class Material : std::uint8_t {
   kRoofTile,
   kCourt,
 };
-inline constexpr int kNumMaterials = 23;
+inline constexpr int kNumMaterials = 26;
 
 struct MaterialTraits {
   std::string_view name;

@@ -13,6 +13,7 @@
 #include <functional>
 #include <vector>
 
+#include "lio/sim/fault.hpp"
 #include "lio/sim/imu_simulator.hpp"
 #include "lio/sim/lidar_simulator.hpp"
 #include "lio/sim/scenario.hpp"
@@ -25,6 +26,7 @@ struct RecordOptions {
   ImuModel imu;
   ImuVariant imu_variant = ImuVariant::kSpecificForce;
   double gravity_mps2 = 9.80665;
+  std::vector<Fault> faults;
   std::uint64_t seed = 1;
   int num_threads = 1;
 };

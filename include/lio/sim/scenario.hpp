@@ -32,7 +32,12 @@ struct Scenario {
   double min_range_m = 1.5;                      // for the rig
   std::string lidar_model = "hdl32e";            // when the user names none
   std::string imu_model = "xsens_mti10";
-  double ceiling_m = 1e9;  // pictures from above leave out what is higher above the path
+  // Pictures from above leave out what is this much higher than the way, or lies above a plane of
+  // this slope there.
+  double ceiling_m = 1e9;
+  double view_width_m = 300.0;  // a longer way is shown in part, around where the body is at
+  double view_share = 0.35;     // this share of the log
+  Vector2 ceiling_slope_ratio = Vector2::Zero();
 };
 
 struct ScenarioEntry {

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What goes wrong between a sensor and its log. A fault is written "kind:key=value,key=value", e.g.
+// "imu_gap:start=10,duration=0.6"; times are seconds from the log's begin. What is hit is drawn
+// from the seed, so that the same faults hit the same messages on any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/sim/lidar_simulator.hpp"
+#include "lio/sim/messages.hpp"
+
+namespace lio::sim {
+
+enum class FaultKind {
+  kImuGap,
+  kLidarGap,
+  kDrop,
+  kDuplicate,
+  kReorder,
+  kChunkLoss,
+  kStampJump,
+  kClockOffset,
+  kNan,
+  kGyroSaturation,
+  kEmptyScan,
+  kSparseScan,
+  kDust,
+  kWrongExtrinsic,
+};
+
+enum class FaultChannel { kImu, kLidar, kBoth };
+
+struct Fault {
+  FaultKind kind = FaultKind::kImuGap;
+  FaultChannel channel = FaultChannel::kBoth;
+  std::map<std::string, double> values;  // every key the kind has
+
+  double Get(const std::string& key) const { return values.at(key); }
+};
+
+// Throws std::invalid_argument that says what is wrong and what there is.
+Fault ParseFault(const std::string& text);
+
+// The kinds with their keys and defaults, for --help.
+std::string DescribeFaults();
+
+// Applies the faults that concern messages.
+class FaultInjector {
+ public:
+  // `begin`: stamp of the log's begin.
+  FaultInjector(std::vector<Fault> faults, std::uint64_t seed, Timestamp begin);
+
+  // What becomes of a message: nothing, itself or several.
+  std::vector<Message> Apply(Message message) const;
+
+ private:
+  void ApplyOne(const Fault& fault, std::uint64_t fault_key, std::vector<Message>& messages) const;
+  bool InWindow(const Fault& fault, const Message& message) const;
+
+  std::vector<Fault> faults_;
+  std::uint64_t seed_;
+  Timestamp begin_;
+};
+
+// Faults that are not of single messages. `begin_s`: trajectory time of the log's begin.
+std::vector<Dust> DustOf(const std::vector<Fault>& faults, double begin_s);
+// The extrinsic that the configuration claims.
+Pose ClaimedExtrinsic(const std::vector<Fault>& faults, const Pose& T_imu_lidar);
+
+}  // namespace lio::sim

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The written form of faults.
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "lio/sim/fault.hpp"
+
+namespace lio::sim {
+namespace {
+
+struct KindText {
+  FaultKind kind;
+  std::string_view name;
+  std::string_view meaning;
+  bool has_channel;
+  FaultChannel channel;  // by default
+  std::vector<std::pair<std::string, double>> keys;
+};
+
+const std::vector<KindText>& Kinds() {
+  using K = FaultKind;
+  using C = FaultChannel;
+  static const std::vector<KindText> kinds = {
+      {K::kImuGap, "imu_gap", "no IMU samples", false, C::kImu, {{"start", 10}, {"duration", 0.6}}},
+      {K::kLidarGap, "lidar_gap", "no scans", false, C::kLidar, {{"start", 10}, {"duration", 0.6}}},
+      {K::kDrop,
+       "drop",
+       "messages lost, of a scan all its chunks",
+       true,
+       C::kBoth,
+       {{"ratio", 0.05}, {"start", 0}, {"duration", 1e9}}},
+      {K::kDuplicate,
+       "duplicate",
+       "messages that come twice",
+       true,
+       C::kBoth,
+       {{"ratio", 0.05}, {"delay", 0.004}, {"start", 0}, {"duration", 1e9}}},
+      {K::kReorder,
+       "reorder",
+       "messages that come late, after newer ones",
+       true,
+       C::kBoth,
+       {{"ratio", 0.05}, {"delay", 0.03}, {"start", 0}, {"duration", 1e9}}},
+      {K::kChunkLoss,
+       "chunk_loss",
+       "single chunks of scans lost",
+       false,
+       C::kLidar,
+       {{"ratio", 0.05}, {"start", 0}, {"duration", 1e9}}},
+      {K::kStampJump,
+       "stamp_jump",
+       "stamps off by offset [s], forward or back",
+       true,
+       C::kBoth,
+       {{"offset", 1.5}, {"start", 10}, {"duration", 0.5}}},
+      {K::kClockOffset,
+       "clock_offset",
+       "a clock wrong by offset [s] throughout",
+       true,
+       C::kLidar,
+       {{"offset", 0.02}}},
+      {K::kNan,
+       "nan",
+       "not-a-number in samples, or in this share of a scan's points",
+       true,
+       C::kBoth,
+       {{"ratio", 0.02}, {"start", 0}, {"duration", 1e9}}},
+      {K::kGyroSaturation,
+       "gyro_saturation",
+       "rates clipped at limit [rad/s]",
+       false,
+       C::kImu,
+       {{"limit", 0.2}, {"start", 10}, {"duration", 5}}},
+      {K::kEmptyScan,
+       "empty_scan",
+       "scans without a point",
+       false,
+       C::kLidar,
+       {{"ratio", 1}, {"start", 10}, {"duration", 0.5}}},
+      {K::kSparseScan,
+       "sparse_scan",
+       "scans of a few points",
+       false,
+       C::kLidar,
+       {{"points", 20}, {"start", 10}, {"duration", 0.5}}},
+      {K::kDust,
+       "dust",
+       "echoes from dust, so many per metre of ray",
+       false,
+       C::kLidar,
+       {{"density", 0.05}, {"start", 10}, {"duration", 5}}},
+      {K::kWrongExtrinsic,
+       "wrong_extrinsic",
+       "config.yaml claims the lidar turned and moved",
+       false,
+       C::kLidar,
+       {{"yaw_deg", 3}, {"pitch_deg", 0}, {"roll_deg", 0}, {"x", 0}, {"y", 0}, {"z", 0}}},
+  };
+  return kinds;
+}
+
+std::string_view NameOf(FaultChannel channel) {
+  constexpr std::array<std::string_view, 3> kNames = {"imu", "lidar", "both"};
+  return kNames[static_cast<std::size_t>(channel)];
+}
+
+FaultChannel ParseChannel(const std::string& text) {
+  for (const FaultChannel c : {FaultChannel::kImu, FaultChannel::kLidar, FaultChannel::kBoth}) {
+    if (text == NameOf(c)) return c;
+  }
+  throw std::invalid_argument("fault channel '" + text + "' is none of imu, lidar, both");
+}
+
+const KindText& FindKind(const std::string& name) {
+  std::string known;
+  for (const KindText& kind : Kinds()) {
+    if (kind.name == name) return kind;
+    known.append(1, ' ').append(kind.name);
+  }
+  throw std::invalid_argument("no fault '" + name + "'; there are:" + known);
+}
+
+double ParseNumber(const std::string& key, const std::string& text) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value)) {
+    throw std::invalid_argument("fault key '" + key + "' needs a number, not '" + text + "'");
+  }
+  return value;
+}
+
+void SetKey(Fault& fault, const KindText& kind, const std::string& item) {
+  const std::size_t equals = item.find('=');
+  const std::string key = item.substr(0, equals);
+  if (equals == std::string::npos) {
+    throw std::invalid_argument("fault part '" + item + "' is not of the form key=value");
+  }
+  const std::string text = item.substr(equals + 1);
+  if (key == "channel" && kind.has_channel) {
+    fault.channel = ParseChannel(text);
+    return;
+  }
+  if (!fault.values.contains(key)) {
+    std::string known = kind.has_channel ? " channel" : "";
+    for (const auto& [name, value] : kind.keys) known += " " + name;
+    throw std::invalid_argument("fault '" + std::string(kind.name) + "' has no key '" + key +
+                                "'; it has:" + known);
+  }
+  fault.values[key] = ParseNumber(key, text);
+}
+
+}  // namespace
+
+Fault ParseFault(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const KindText& kind = FindKind(text.substr(0, colon));
+  Fault fault{kind.kind, kind.channel, {kind.keys.begin(), kind.keys.end()}};
+  if (colon == std::string::npos) return fault;
+  std::istringstream items(text.substr(colon + 1));
+  for (std::string item; std::getline(items, item, ',');) SetKey(fault, kind, item);
+  return fault;
+}
+
+std::string DescribeFaults() {
+  std::ostringstream text;
+  for (const KindText& kind : Kinds()) {
+    text << "  " << kind.name << std::string(17 - kind.name.size(), ' ') << kind.meaning << "\n"
+         << std::string(19, ' ');
+    if (kind.has_channel) text << "channel=" << NameOf(kind.channel) << " ";
+    for (const auto& [key, value] : kind.keys) {
+      if (value < 1e8) text << key << "=" << value << " ";
+    }
+    text << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace lio::sim
