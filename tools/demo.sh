@@ -25,7 +25,9 @@ fail_usage() {
   exit 2
 }
 
-input="" given_truth="" speed="" out=out/demo given_configs=() settings=()
+# A demo may be late, but not lossy: a stalled moment of a busy machine drops no scans.
+settings=(--set pipeline.max_queued_scans=100)
+input="" given_truth="" speed="" out=out/demo given_configs=()
 while (($#)); do
   case $1 in
     -h | --help) usage && exit 0 ;;
@@ -62,8 +64,6 @@ if [[ -n $input ]]; then
 else
   make_input
   speed=${speed:-3}
-  # Faster than real time a stalled moment is worth more scans; a demo may be late, but not lossy.
-  settings+=(--set pipeline.max_queued_scans=100)
 fi
 speed=${speed:-1}
 truth=${given_truth:-$truth}

@@ -32,7 +32,7 @@ mkdir -p "$out"
 "$root/build/bin/liod" "$@" --out "$out" --map 2>"$out/liod.log" &
 liod=$!
 trap 'kill "$liod" 2>/dev/null || true' EXIT
-until grep -q listening "$out/liod.log"; do
+until grep -qs listening "$out/liod.log"; do
   if ! kill -0 "$liod" 2>/dev/null; then
     trap - EXIT
     code=0
