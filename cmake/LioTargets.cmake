@@ -50,9 +50,10 @@ function(lio_program name)
   install(TARGETS ${name} RUNTIME)
 endfunction()
 
-# lio_test(NAME MODULE... LIBS LIBRARY...): one test program of every test/<MODULE>/*_test.cpp.
+# lio_test(NAME MODULE... LIBS LIBRARY... PROPERTIES PROPERTY VALUE...): one test program of every
+# test/<MODULE>/*_test.cpp; the properties are those of its tests.
 function(lio_test name)
-  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "LIBS;PROPERTIES" ${ARGN})
   set(sources "")
   foreach(module IN LISTS arg_UNPARSED_ARGUMENTS)
     file(GLOB module_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/test/${module}/*_test.cpp)
@@ -65,5 +66,5 @@ function(lio_test name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/test)
   target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS} GTest::gtest GTest::gmock
     GTest::gtest_main)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 ${arg_PROPERTIES})
 endfunction()

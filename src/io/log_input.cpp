@@ -84,7 +84,9 @@ std::optional<InputItem> LogInput::Impl::Read() {
   while (reader_.Next(event_)) {
     if (!log_utime_) log_utime_ = event_.utime;
     const double since_s = SecondsBetweenUtimes(*log_utime_, event_.utime);
-    if (since_s < options_.start_s || since_s >= options_.start_s + options_.duration_s) continue;
+    // From 0 on, events that the log received before its first one are taken too: a clock was set.
+    if (options_.start_s > 0 && since_s < options_.start_s) continue;
+    if (since_s >= options_.start_s + options_.duration_s) continue;
     const std::int64_t begin_ns = Now();
     if (!Decode(item)) continue;
     item.decode_ns = Now() - begin_ns;

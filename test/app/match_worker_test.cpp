@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/match_worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "lio/io/cpu_clock.hpp"
+
+namespace lio {
+namespace {
+
+MatchJob EmptyJob(std::int32_t scan_seq) {
+  auto sweep = std::make_shared<Sweep>();
+  sweep->scan_seq = scan_seq;
+  sweep->end = Timestamp{100'000'000};
+  MatchJob job;
+  job.T_any_imu = {{sweep->start, {}}, {sweep->end, {}}};
+  job.sweep = std::move(sweep);
+  return job;
+}
+
+InsertTask SomePoints() {
+  return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, Pose::Identity()};
+}
+
+TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {
+  std::vector<std::int32_t> done;
+  MatchWorker worker(Options{}, ThreadCpuNs, true,
+                     [&](const MatchOutcome& outcome) { done.push_back(outcome.sweep->scan_seq); });
+  for (int i = 0; i < 20; ++i) {
+    worker.Tell(SomePoints());
+    worker.Tell(EmptyJob(i));
+  }
+  worker.Finish();
+  ASSERT_EQ(done.size(), 20u);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i);
+  EXPECT_GT(worker.map_bytes(), 0u);
+  EXPECT_EQ(worker.map_cloud().points_map().size(), 2u);
+}
+
+TEST(MatchWorker, TheMapsPointsAreCollectedOnlyWhenAskedFor) {
+  MatchWorker worker(Options{}, ThreadCpuNs, false, [](const MatchOutcome&) {});
+  worker.Tell(SomePoints());
+  worker.Finish();
+  EXPECT_TRUE(worker.map_cloud().points_map().empty());
+}
+
+TEST(MatchWorker, ANewMapForgetsTheOldOnesPoints) {
+  MatchWorker worker(Options{}, ThreadCpuNs, true, [](const MatchOutcome&) {});
+  worker.Tell(SomePoints());
+  MatchJob job = EmptyJob(1);
+  job.clear_map = true;
+  worker.Tell(std::move(job));
+  worker.Finish();
+  EXPECT_TRUE(worker.map_cloud().points_map().empty());
+}
+
+}  // namespace
+}  // namespace lio

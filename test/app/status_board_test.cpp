@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/status_board.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lio {
+namespace {
+
+TEST(StatusBoard, WhatWasPinnedIsReported) {
+  StatusBoard board(77, 1 << 20);
+  Counters counters;
+  counters.num_gated = 3;
+  board.SetEstimator(counters, TrackingStatus::kCoasting, Timestamp{9});
+  InputCounters input;
+  input.num_imu_missing = 4;
+  board.SetInput(input);
+  board.SetNote("waiting");
+  board.CountRefusedCommand();
+  const StatusReport report = board.Compose();
+  EXPECT_EQ(report.config_hash, 77u);
+  EXPECT_EQ(report.receive_buffer_bytes, 1 << 20);
+  EXPECT_EQ(report.counters.num_gated, 3);
+  EXPECT_EQ(report.state, TrackingStatus::kCoasting);
+  EXPECT_EQ(report.newest_stamp, Timestamp{9});
+  EXPECT_EQ(report.input.num_imu_missing, 4);
+  EXPECT_EQ(report.note, "waiting");
+  EXPECT_EQ(report.num_commands_refused, 1);
+  EXPECT_GT(report.rss_mb, 1.0F);
+  EXPECT_GE(report.utime, report.start_utime);
+  EXPECT_EQ(report.seq, 0);
+  EXPECT_EQ(board.Compose().seq, 1);
+}
+
+TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
+  StatusBoard board(0, 0);
+  for (int i = 1; i <= 100; ++i) board.AddLatency(i, 1000.0);
+  const StatusReport report = board.Compose();
+  EXPECT_NEAR(report.queue.p50_ms, 50.5, 0.6);
+  EXPECT_EQ(report.queue.p99_ms, 99.0F);
+  EXPECT_EQ(report.queue.max_ms, 100.0F);
+  EXPECT_EQ(report.compute.p50_ms, 1000.0F);
+  EXPECT_EQ(report.latency.max_ms, 1100.0F);
+  EXPECT_EQ(board.Compose().latency.max_ms, 0.0F);
+}
+
+TEST(StatusBoard, LoadIsCpuTimeSinceTheLastReport) {
+  StatusBoard board(0, 0);
+  const std::int64_t until = HostUtime() + 50'000;
+  while (HostUtime() < until) {
+  }
+  const float load = board.Compose().cpu_load_cores;
+  EXPECT_GT(load, 0.05F);  // other processes may have had most of the core
+  EXPECT_LT(load, 1.5F);
+}
+
+}  // namespace
+}  // namespace lio

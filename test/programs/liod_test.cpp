@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The daemon as a process, on real multicast in a network namespace of its own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_program.hpp"
+
+namespace lio {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kScene = LIO_SCENE_DIR;
+const std::string kBin = LIO_BIN_DIR;
+constexpr const char* kUp = "ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; ";
+
+// Runs a shell script where nobody else's multicast is heard, as root or as anybody.
+test::ProgramResult RunAlone(const std::string& script) {
+  return test::RunProgram({"unshare", "-rn", "sh", "-c", kUp + script});
+}
+
+class LiodTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (RunAlone("true").exit_code != 0) {
+      GTEST_SKIP() << "this machine lets nobody make network namespaces";
+    }
+  }
+  std::string Out(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string File(const std::string& path) const { return test::ReadText(folder_.path() / path); }
+  nlohmann::json Stats(const std::string& out) const {
+    return nlohmann::json::parse(File(out + "/stats.json"));
+  }
+  // Starts liod and waits until it listens; its process id is in $liod.
+  std::string Start(const std::string& arguments) const {
+    return kBin + "/liod --config " + kScene + "/config.yaml " + arguments + " 2>" + Out("said") +
+           " & liod=$!; while ! grep -q listening " + Out("said") + "; do sleep 0.05; done; ";
+  }
+  // Ends it, gives its exit code, and the milliseconds that took in the file `ended`.
+  std::string End() const {
+    return "t0=$(date +%s%3N); kill -TERM $liod; wait $liod; rc=$?; echo $(($(date +%s%3N) - t0)) "
+           ">" +
+           Out("ended") + "; exit $rc";
+  }
+
+  test::TempDir folder_;
+};
+
+TEST_F(LiodTest, FedByLogPlayerItWritesReplaysFiles) {
+  const auto live =
+      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene + "/log.lcm; " + End());
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  EXPECT_LT(std::stoi(File("ended")), 1000);
+  const auto replay = test::RunProgram({kBin + "/lio-replay", "--config", kScene + "/config.yaml",
+                                        kScene + "/log.lcm", "--out", Out("replay")});
+  ASSERT_EQ(replay.exit_code, 0) << replay.err;
+  const auto stats = Stats("live");
+  const int num_lost = stats["num_kernel_dropped"].get<int>() +
+                       stats["num_chunks_missing"].get<int>() +
+                       stats["num_imu_missing"].get<int>() + stats["num_scans_dropped"].get<int>();
+  if (num_lost != 0 || stats["num_imu"] != Stats("replay")["num_imu"]) {
+    GTEST_SKIP() << "this machine is too busy to play a log without loss: " << stats.dump();
+  }
+  for (const char* name : {"trajectory.tum", "covariance.csv", "options.yaml"}) {
+    const std::string text = File("live/" + std::string(name));
+    EXPECT_FALSE(text.empty());
+    EXPECT_TRUE(text == File("replay/" + std::string(name))) << name;
+  }
+}
+
+TEST_F(LiodTest, GarbageIsCountedAndSurvived) {
+  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+                               "/log.lcm & player=$!; sleep 1; " + kBin +
+                               "/lio_attack; wait $player; kill -0 $liod || exit 99; " + End());
+  ASSERT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_LT(std::stoi(File("ended")), 1000);
+  const auto stats = Stats("live");
+  EXPECT_GT(stats["num_messages_truncated"], 0);
+  EXPECT_GE(stats["num_messages_wrong_type"], 40);
+  EXPECT_GE(stats["num_messages_size_mismatch"], 3);
+  EXPECT_GE(stats["num_imu_nonfinite"].get<int>() + stats["num_imu_out_of_range"].get<int>(), 100);
+  EXPECT_GT(stats["num_chunks_bad"], 0);
+  EXPECT_EQ(stats["num_handler_faults"], 0);
+  EXPECT_FALSE(File("live/trajectory.tum").empty());
+}
+
+TEST_F(LiodTest, SignalsEndItAtOnceWithoutInput) {
+  for (const char* signal : {"TERM", "INT"}) {
+    const auto result =
+        RunAlone(Start("--out " + Out("idle")) + "kill -" + signal + " $liod; wait $liod");
+    EXPECT_EQ(result.exit_code, 0) << signal;
+    EXPECT_EQ(Stats("idle")["num_scans"], 0);
+  }
+}
+
+TEST_F(LiodTest, ChannelsFollowThePrefix) {
+  const auto result = RunAlone(Start("--channel-prefix CAR_") + End());
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(File("said"), HasSubstr("CAR_IMU and CAR_SCAN"));
+}
+
+TEST_F(LiodTest, WithoutAMulticastRouteItSaysWhatToTypeAndEndsWithFour) {
+  const auto result =
+      test::RunProgram({"unshare", "-rn", kBin + "/liod", "--config", kScene + "/config.yaml"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("sudo ip route add 224.0.0.0/4 dev lo"));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+TEST_F(LiodTest, WrongArgumentsAndConfigurationsHaveTheirExitCodes) {
+  EXPECT_EQ(test::RunProgram({kBin + "/liod", "--no-such-option"}).exit_code, 2);
+  const auto missing = test::RunProgram({kBin + "/liod", "--config", Out("missing.yaml")});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing.yaml"));
+  const auto unknown = test::RunProgram(
+      {kBin + "/liod", "--config", kScene + "/config.yaml", "--set", "ndt.voxel=1"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("voxel_m"));
+  EXPECT_EQ(test::RunProgram({kBin + "/liod", "--version"}).exit_code, 0);
+}
+
+TEST_F(LiodTest, AFolderThatCannotBeMadeIsAUsageError) {
+  const auto file = folder_.Write("file", "");
+  const auto result =
+      RunAlone(kBin + "/liod --config " + kScene + "/config.yaml --out " + file.string() + "/out");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr(file.string()));
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The estimator over a log, step by step, into files: what everything live is compared with.
+#pragma once
+
+#include <filesystem>
+
+#include "lio/io/cpu_clock.hpp"
+#include "lio/io/log_input.hpp"
+#include "lio/io/run_writer.hpp"
+#include "lio/pipeline/match_side.hpp"
+
+namespace lio::test {
+
+inline Counters ReplayLog(const std::filesystem::path& log, const Options& options,
+                          const std::filesystem::path& out) {
+  LogInput input(log, LogInputOptions());
+  RunWriter writer(out, options);
+  Odometry odometry(options, ThreadCpuNs);
+  MatchSide match_side(options, ThreadCpuNs);
+  const auto match = [&] {
+    while (const auto job = odometry.NextJob()) {
+      match_side.Insert(odometry.FinishJob(match_side.Run(*job)));
+    }
+    for (const Output& output : odometry.TakeOutputs()) writer.Write(output);
+  };
+  while (auto item = input.Next()) {
+    if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
+      odometry.AddImu(*sample);
+    } else {
+      odometry.AddChunk(std::get<ScanChunk>(std::move(item->data)));
+    }
+    match();
+  }
+  odometry.Flush();
+  match();
+  writer.Finish({});
+  return odometry.counters();
+}
+
+}  // namespace lio::test
