@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   const RegisteredCloud cloud{Timestamp{5000}, 3, std::vector<Eigen::Vector3f>(7)};
   EventLogWriter writer(argv[1]);
   writer.Write(1, channels.imu, EncodeImu({.stamp = Timestamp{5000}}, 1));
-  writer.Write(2, channels.scan, EncodeChunk({Timestamp{5000}, 1, 0, 1, 0, std::vector<LidarPoint>(9)}));
+  writer.Write(2, channels.scan,
+               EncodeChunk({Timestamp{5000}, 1, 0, 1, 0, std::vector<LidarPoint>(9)}));
   writer.Write(3, channels.odometry, EncodeOdometry(filter.nav));
   writer.Write(4, channels.state, EncodeFilterState(filter));
   writer.Write(5, channels.registration, EncodeRegistration(scan));
