@@ -9,12 +9,23 @@
 namespace lio {
 namespace {
 
-// What a step needs of its samples and states, computed once.
+// One step as the errors see it. With e the error before, and D = (dR, d) the step's motion seen
+// from the imu frame at its start:
+//   u = -position x e_rot + position_by_gyro e_gyro + position_by_accel e_accel
+//   w = -velocity x e_rot + velocity_by_gyro e_gyro + velocity_by_accel e_accel
+// and after the step
+//   position         e_pos + dt e_vel + R0 u
+//   rotation         dR^T e_rot + turn_by_gyro e_gyro
+//   velocity         e_vel + R0 w
+//   map translation  dR^T (e_mt + d x (e_rot - e_mr) + dt R0^T e_vel + u)
+//   map rotation     dR^T e_mr + turn_by_gyro e_gyro
+// The map pose takes the same increment D = T0^-1 T1 as the world pose, whose own error is that of
+// T1 less that of T0 carried through D.
 struct Step {
   InertialIncrement increment;
   IncrementByBias by_bias;
-  Matrix3 R0, R1;  // imu to world before and after
-  Matrix3 dR_T;    // (R0^T R1)^T
+  Matrix3 R0, dR, R1;  // imu to world before, the turn, imu to world after
+  Vector3 d;
 };
 
 Step MakeStep(const NavState& before, const NavState& after, const ImuSample& from,
@@ -22,115 +33,112 @@ Step MakeStep(const NavState& before, const NavState& after, const ImuSample& fr
   Step step;
   step.increment = MakeIncrement(from, to, before.gyro_bias, before.accel_bias, step.by_bias);
   step.R0 = before.T_world_imu.rotation.toRotationMatrix();
-  step.R1 = after.T_world_imu.rotation.toRotationMatrix();
-  step.dR_T = step.R1.transpose() * step.R0;
+  step.dR = step.increment.turn.toRotationMatrix();
+  step.R1 = step.R0 * step.dR;
+  step.d = step.R0.transpose() * (after.T_world_imu.translation - before.T_world_imu.translation);
   return step;
 }
 
-// The transition's 3x3 blocks that are neither zero nor identity. Rows: position, rotation,
-// velocity, map translation, map rotation.
-struct Blocks {
-  Matrix3 p_rot, p_gyro, p_accel;
-  double p_vel = 0.0;
-  Matrix3 rot_rot, rot_gyro;
-  Matrix3 v_rot, v_gyro, v_accel;
-  Matrix3 m_rot, m_vel, m_gyro, m_accel, m_m, m_mrot;  // map translation
+// Columns of X F^T, three at a time, for the rows from kFrom on: each is the error after the step
+// above, with the columns of X for e and all factors transposed. Columns are contiguous, so this is
+// fast without tricks; the compiler leaves out what is not asked for.
+template <int kFrom>
+class Columns {
+ public:
+  using Three = Eigen::Matrix<double, kStateDim - kFrom, 3>;
+
+  Columns(const Step& step, const ErrorMatrix& X) : s_(step), x_(X) {}
+
+  Three Position() const {
+    Three y = Of(kPos) + s_.increment.dt_s * Of(kVel);
+    y.noalias() += PositionGain().lazyProduct(s_.R0.transpose());
+    return y;
+  }
+  Three Rotation() const { return Turned(kRot); }
+  Three Velocity() const {
+    Three w = Of(kRot).lazyProduct(Hat(s_.increment.velocity));
+    w.noalias() += Of(kGyroBias).lazyProduct(s_.by_bias.velocity_by_gyro.transpose());
+    w.noalias() += Of(kAccelBias).lazyProduct(s_.by_bias.velocity_by_accel.transpose());
+    Three y = Of(kVel);
+    y.noalias() += w.lazyProduct(s_.R0.transpose());
+    return y;
+  }
+  Three MapTranslation() const {
+    Three y = PositionGain() + Of(kMapPose);
+    y.noalias() -= (Of(kRot) - Of(kMapPose + 3)).lazyProduct(Hat(s_.d));
+    y.noalias() += Of(kVel).lazyProduct(s_.increment.dt_s * s_.R0);
+    return y.lazyProduct(s_.dR);
+  }
+  Three MapRotation() const { return Turned(kMapPose + 3); }
+
+ private:
+  auto Of(int column) const { return x_.template block<kStateDim - kFrom, 3>(kFrom, column); }
+  Three PositionGain() const {
+    Three u = Of(kRot).lazyProduct(Hat(s_.increment.position));
+    u.noalias() += Of(kGyroBias).lazyProduct(s_.by_bias.position_by_gyro.transpose());
+    u.noalias() += Of(kAccelBias).lazyProduct(s_.by_bias.position_by_accel.transpose());
+    return u;
+  }
+  Three Turned(int column) const {
+    Three y = Of(column).lazyProduct(s_.dR);
+    y.noalias() += Of(kGyroBias).lazyProduct(s_.by_bias.turn_by_gyro.transpose());
+    return y;
+  }
+
+  const Step& s_;
+  const ErrorMatrix& x_;
 };
 
-Blocks MakeBlocks(const Step& s) {
-  Blocks b;
-  b.v_rot = -s.R0 * Hat(s.increment.velocity);
-  b.v_gyro = s.R0 * s.by_bias.velocity_by_gyro;
-  b.v_accel = s.R0 * s.by_bias.velocity_by_accel;
-  b.p_vel = s.increment.dt_s;
-  b.p_rot = -s.R0 * Hat(s.increment.position);
-  b.p_gyro = s.R0 * s.by_bias.position_by_gyro;
-  b.p_accel = s.R0 * s.by_bias.position_by_accel;
-  b.rot_rot = s.dR_T;
-  b.rot_gyro = s.by_bias.turn_by_gyro;
-  return b;
-}
-
-// The map pose takes the same increment D = T0^-1 T1, whose own error is that of T1 less that of T0
-// carried through D.
-void AddMapBlocks(const NavState& before, const NavState& after, const Step& s, Blocks& b) {
-  const Vector3 d_world = after.T_world_imu.translation - before.T_world_imu.translation;
-  const Vector3 d = s.R0.transpose() * d_world;  // translation of D
-  // Ad(D^-1) = [dR^T, -dR^T Hat(d); 0, dR^T] for D = (dR, d).
-  b.m_m = s.dR_T;
-  b.m_mrot = -s.dR_T * Hat(d);
-  b.m_rot = s.dR_T * Hat(d - s.increment.position);
-  b.m_vel = b.p_vel * s.R1.transpose();
-  b.m_gyro = s.dR_T * s.by_bias.position_by_gyro;
-  b.m_accel = s.dR_T * s.by_bias.position_by_accel;
-}
-
-using Rows = Eigen::Matrix<double, 3, kStateDim>;
-
-// F * P, row block by row block.
-ErrorMatrix MultiplyTransition(const Blocks& b, const ErrorMatrix& P) {
-  const Rows p = P.middleRows<3>(kPos);
-  const Rows rot = P.middleRows<3>(kRot);
-  const Rows vel = P.middleRows<3>(kVel);
-  const Rows gyro = P.middleRows<3>(kGyroBias);
-  const Rows accel = P.middleRows<3>(kAccelBias);
-  const Rows m = P.middleRows<3>(kMapPose);
-  const Rows m_rot = P.middleRows<3>(kMapPose + 3);
+// X F^T.
+ErrorMatrix TimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
+  const Columns<0> columns(step, X);
   ErrorMatrix out;
-  out.middleRows<3>(kPos) = p + b.p_vel * vel;
-  out.middleRows<3>(kPos).noalias() += b.p_rot * rot;
-  out.middleRows<3>(kPos).noalias() += b.p_gyro * gyro;
-  out.middleRows<3>(kPos).noalias() += b.p_accel * accel;
-  out.middleRows<3>(kRot).noalias() = b.rot_rot * rot;
-  out.middleRows<3>(kRot).noalias() += b.rot_gyro * gyro;
-  out.middleRows<3>(kVel) = vel;
-  out.middleRows<3>(kVel).noalias() += b.v_rot * rot;
-  out.middleRows<3>(kVel).noalias() += b.v_gyro * gyro;
-  out.middleRows<3>(kVel).noalias() += b.v_accel * accel;
-  out.middleRows<3>(kGyroBias) = gyro;
-  out.middleRows<3>(kAccelBias) = accel;
-  out.middleRows<3>(kMapPose).noalias() = b.m_m * m;
-  out.middleRows<3>(kMapPose).noalias() += b.m_mrot * m_rot;
-  out.middleRows<3>(kMapPose).noalias() += b.m_rot * rot;
-  out.middleRows<3>(kMapPose).noalias() += b.m_vel * vel;
-  out.middleRows<3>(kMapPose).noalias() += b.m_gyro * gyro;
-  out.middleRows<3>(kMapPose).noalias() += b.m_accel * accel;
-  out.middleRows<3>(kMapPose + 3).noalias() = b.m_m * m_rot;
-  out.middleRows<3>(kMapPose + 3).noalias() += b.rot_gyro * gyro;
+  out.middleCols<3>(kPos) = columns.Position();
+  out.middleCols<3>(kRot) = columns.Rotation();
+  out.middleCols<3>(kVel) = columns.Velocity();
+  out.middleCols<6>(kGyroBias) = X.middleCols<6>(kGyroBias);
+  out.middleCols<3>(kMapPose) = columns.MapTranslation();
+  out.middleCols<3>(kMapPose + 3) = columns.MapRotation();
   return out;
 }
 
+// The lower triangle of X F^T, whose result is known to be symmetric. Above it: anything.
+ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
+  ErrorMatrix out;
+  out.middleCols<3>(kPos) = Columns<kPos>(step, X).Position();
+  out.block<kStateDim - kRot, 3>(kRot, kRot) = Columns<kRot>(step, X).Rotation();
+  out.block<kStateDim - kVel, 3>(kVel, kVel) = Columns<kVel>(step, X).Velocity();
+  constexpr int kRows = kStateDim - kGyroBias;
+  out.block<kRows, 6>(kGyroBias, kGyroBias) = X.block<kRows, 6>(kGyroBias, kGyroBias);
+  constexpr int kMapRotation = kMapPose + 3;
+  out.block<6, 3>(kMapPose, kMapPose) = Columns<kMapPose>(step, X).MapTranslation();
+  out.block<3, 3>(kMapRotation, kMapRotation) = Columns<kMapRotation>(step, X).MapRotation();
+  return out;
+}
+
+// Onto the lower triangle.
 void AddNoise(const Step& s, const ProcessNoise& noise, ErrorMatrix& P) {
   const double dt = s.increment.dt_s;
   const double gyro = noise.gyro_density * noise.gyro_density * dt;
   const double vel = noise.accel_density * noise.accel_density * dt;
   const double pos_vel = 0.5 * dt * vel;
   const double pos = dt * dt / 3.0 * vel;
-  const auto add = [&](int row, int col, const Matrix3& block) {
-    P.block<3, 3>(row, col) += block;
-    if (row != col) P.block<3, 3>(col, row) += block.transpose();
+  P.block<3, 3>(kMapPose, kPos) += pos * s.R1.transpose();
+  P.block<3, 3>(kMapPose, kVel) += pos_vel * s.R1.transpose();
+  const auto add_diagonal = [&P](int row, int col, double value) {
+    for (int i = 0; i < 3; ++i) P(row + i, col + i) += value;
   };
-  const Matrix3 identity = Matrix3::Identity();
-  const Matrix3 R1_T = s.R1.transpose();
-  add(kPos, kPos, pos * identity);
-  add(kPos, kVel, pos_vel * identity);
-  add(kVel, kVel, vel * identity);
-  add(kRot, kRot, gyro * identity);
-  add(kMapPose, kMapPose, pos * identity);
-  add(kMapPose, kPos, pos * R1_T);
-  add(kMapPose, kVel, pos_vel * R1_T);
-  add(kMapPose + 3, kMapPose + 3, gyro * identity);
-  add(kMapPose + 3, kRot, gyro * identity);
-  add(kGyroBias, kGyroBias,
-      noise.gyro_bias_walk_density * noise.gyro_bias_walk_density * dt * identity);
-  add(kAccelBias, kAccelBias,
-      noise.accel_bias_walk_density * noise.accel_bias_walk_density * dt * identity);
-}
-
-Blocks MakeAllBlocks(const NavState& before, const NavState& after, const Step& step) {
-  Blocks blocks = MakeBlocks(step);
-  AddMapBlocks(before, after, step, blocks);
-  return blocks;
+  add_diagonal(kPos, kPos, pos);
+  add_diagonal(kVel, kPos, pos_vel);
+  add_diagonal(kVel, kVel, vel);
+  add_diagonal(kRot, kRot, gyro);
+  add_diagonal(kMapPose, kMapPose, pos);
+  add_diagonal(kMapPose + 3, kMapPose + 3, gyro);
+  add_diagonal(kMapPose + 3, kRot, gyro);
+  add_diagonal(kGyroBias, kGyroBias,
+               noise.gyro_bias_walk_density * noise.gyro_bias_walk_density * dt);
+  add_diagonal(kAccelBias, kAccelBias,
+               noise.accel_bias_walk_density * noise.accel_bias_walk_density * dt);
 }
 
 }  // namespace
@@ -151,8 +159,8 @@ NavState PropagateState(const NavState& state, const ImuSample& from, const ImuS
 
 ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, const ImuSample& from,
                              const ImuSample& to) {
-  return MultiplyTransition(MakeAllBlocks(before, after, MakeStep(before, after, from, to)),
-                            ErrorMatrix::Identity());
+  const Step step = MakeStep(before, after, from, to);
+  return TimesTransitionTransposed(step, ErrorMatrix::Identity()).transpose();
 }
 
 void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
@@ -161,11 +169,10 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
   estimate.state = PropagateState(before, from, to, g_world);
   estimate.stamp = to.stamp;
   const Step step = MakeStep(before, estimate.state, from, to);
-  const Blocks blocks = MakeAllBlocks(before, estimate.state, step);
-  const ErrorMatrix half = MultiplyTransition(blocks, estimate.cov);
-  estimate.cov = MultiplyTransition(blocks, half.transpose());
+  const ErrorMatrix half = TimesTransitionTransposed(step, estimate.cov);  // P F^T
+  estimate.cov = LowerTimesTransitionTransposed(step, half.transpose());   // F P F^T
   AddNoise(step, noise, estimate.cov);
-  estimate.cov = 0.5 * (estimate.cov + estimate.cov.transpose()).eval();
+  estimate.cov.triangularView<Eigen::StrictlyUpper>() = estimate.cov.transpose();
 }
 
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp) {

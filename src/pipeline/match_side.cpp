@@ -67,7 +67,8 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
 
   begin = Now();
   std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
-  outcome.match = matcher_->Match({to_match, job.T_map_imu_guess, job.guess_cov});
+  outcome.match =
+      matcher_->Match({to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew});
   time(Stage::kMatch, begin);
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
@@ -76,7 +77,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
     time(Stage::kDeskew, begin);
     begin = Now();
     to_match = Thin(outcome.points_imu, match_points_);
-    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero()});
+    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true});
     time(Stage::kMatch, begin);
   }
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;

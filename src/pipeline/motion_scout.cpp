@@ -12,44 +12,71 @@ constexpr double kAccelDensity = 1.5;      // m/s^2/sqrt(Hz): 0.5 m/s in a sweep
 constexpr double kTurnAccelDensity = 1.0;  // rad/s^2/sqrt(Hz): 0.3 rad/s in a sweep
 constexpr double kStartVelocityStd_mps = 15.0;
 constexpr double kStartTurnRateStd_radps = 1.0;
+constexpr double kKnownVelocityStd_mps = 2.0;
+constexpr double kKnownTurnRateStd_radps = 0.3;
+constexpr double kGyroDensity = 5.0e-3;  // rad/s/sqrt(Hz): also what scale and time errors do
+constexpr double kGyroBiasStd_radps = 0.02;
 
-HistoryOptions ScoutOptions(double span_s, double nis_limit) {
-  HistoryOptions options;
-  options.noise.accel_density = kAccelDensity;
-  options.noise.gyro_bias_walk_density = kTurnAccelDensity;
-  options.g_world = Vector3::Zero();
-  options.span_s = span_s;
-  options.nis_limit = nis_limit;
-  options.gap_s = 1e9;  // its samples never have a gap
-  return options;
+HistoryOptions MakeHistoryOptions(const ScoutOptions& options) {
+  HistoryOptions history;
+  history.noise.accel_density = kAccelDensity;
+  if (options.first_rate_radps) {
+    history.noise.gyro_density = kGyroDensity;
+  } else {
+    history.noise.gyro_bias_walk_density = kTurnAccelDensity;
+  }
+  history.g_world = Vector3::Zero();
+  history.span_s = options.span_s;
+  history.nis_limit = options.nis_limit;
+  history.gap_s = 1e9;  // its samples never have a gap
+  return history;
 }
 
-Estimate ScoutStart(Timestamp start) {
+Estimate Start(Timestamp start, const ScoutOptions& options) {
   Estimate estimate;
   estimate.stamp = start;
-  const Matrix3 identity = Matrix3::Identity();
-  estimate.cov.block<3, 3>(kVel, kVel) = kStartVelocityStd_mps * kStartVelocityStd_mps * identity;
-  estimate.cov.block<3, 3>(kGyroBias, kGyroBias) =
-      kStartTurnRateStd_radps * kStartTurnRateStd_radps * identity;
+  const bool is_known = options.motion.has_value();
+  double turn_rate_std_radps = is_known ? kKnownTurnRateStd_radps : kStartTurnRateStd_radps;
+  if (options.first_rate_radps) turn_rate_std_radps = kGyroBiasStd_radps;
+  const double velocity_std_mps = is_known ? kKnownVelocityStd_mps : kStartVelocityStd_mps;
+  const auto set = [&](int at, double std) {
+    estimate.cov.block<3, 3>(at, at) = std * std * Matrix3::Identity();
+  };
+  set(kVel, velocity_std_mps);
+  set(kGyroBias, turn_rate_std_radps);
+  if (is_known) {
+    const NavState& motion = *options.motion;
+    estimate.state.v_world_imu = motion.T_world_imu.rotation.conjugate() * motion.v_world_imu;
+    estimate.state.gyro_bias = motion.gyro_bias;
+  }
   return estimate;
 }
 
-ImuSample Nothing(Timestamp stamp) {
+ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
   ImuSample sample;
   sample.stamp = stamp;
+  sample.w_imu_radps = w_imu_radps;
   return sample;
 }
 
 }  // namespace
 
-MotionScout::MotionScout(Timestamp start, double span_s, double nis_limit)
-    : history_(ScoutOptions(span_s, nis_limit), ScoutStart(start), Nothing(start)) {}
+MotionScout::MotionScout(Timestamp start, const ScoutOptions& options)
+    : has_gyro_(options.first_rate_radps.has_value()),
+      last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
+      history_(MakeHistoryOptions(options), Start(start, options), Rate(start, last_rate_)) {}
+
+void MotionScout::AddRate(const ImuSample& sample) {
+  if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
+  last_rate_ = sample.w_imu_radps;
+  history_.AddImu(Rate(sample.stamp, last_rate_));
+}
 
 void MotionScout::AdvanceTo(Timestamp stamp) {
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
     at = std::min(at + kStep, stamp);
-    history_.AddImu(Nothing(at));
+    history_.AddImu(Rate(at, last_rate_));
   }
 }
 

@@ -101,8 +101,8 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   ready_.clear();
   ++counters_.num_restarts;
   if (!history_) {
-    scout_.reset();
-    scouted_.clear();
+    BeginScoutingAnew();
+    scouting_since_.reset();
     Say(first.stamp, Notice::Severity::kWarning, "inertial stamps jumped: the start begins anew");
     return;
   }

@@ -13,6 +13,7 @@
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/steady_world.hpp"
 #include "lio/imu/imu_intake.hpp"
+#include "lio/imu/moving_start.hpp"
 #include "lio/imu/start_state.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "lio/pipeline/match_side.hpp"
@@ -57,9 +58,15 @@ class Odometry::Impl {
 
   // --- odometry_start.cpp
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
+  void BeginScouting(const Sweep& sweep);
+  void BeginScoutingAnew();
+  void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
-  bool HasMoved(const ImuStatistics& statistics) const;
-  void CarryBack(StartState& start, Timestamp stamp) const;
+  void TryStartAtRest(Timestamp begin, Timestamp stamp);
+  void TryStartInMotion(Timestamp stamp);
+  bool HasMovedSince(std::size_t first, bool is_calm) const;
+  bool IsVeryCalm(Timestamp stamp) const;
+  void SayWaiting(Timestamp stamp, const std::string& text);
   void StartFrom(const StartState& start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
   ImuSample SampleAt(Timestamp stamp) const;
@@ -92,7 +99,14 @@ class Odometry::Impl {
 
   Phase phase_ = Phase::kScouting;
   std::optional<MotionScout> scout_;  // while scouting, or for good without an IMU
-  StampedPoses scouted_;              // T_map_imu found while scouting, one a sweep of ready_
+  struct Scouted {
+    ScoutedPose pose;  // T_map_imu
+    bool is_matched = false;
+  };
+  std::vector<Scouted> scouted_;    // one a sweep of ready_
+  std::optional<NavState> glance_;  // the motion that the first scans showed
+  bool scouts_with_gyro_ = true;
+  std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU
   Vector3 g_world_ = Vector3::Zero();

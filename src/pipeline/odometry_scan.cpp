@@ -23,8 +23,8 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
   const bool is_first = phase_ == Phase::kScouting ? scouted_.empty() : is_first_scan_;
   const bool needs_scout = phase_ == Phase::kScouting || !use_imu_;
   if (needs_scout) {
-    if (is_first) scout_.emplace(in_flight_->middle(), options_.filter.history_s, nis_limit_);
-    scout_->AdvanceTo(in_flight_->end);
+    if (is_first) BeginScouting(*in_flight_);
+    AdvanceScout(in_flight_->end);
   }
   MatchJob job = MakeJob(in_flight_, is_first);
   job.filter_ns = filter_ns_ + Now() - begin;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "pipeline/odometry_impl.hpp"
@@ -17,6 +18,26 @@ constexpr double kCalmAccelStd_mps2 = 0.05;
 constexpr double kMovedAngle_rad = 0.01;
 constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
 constexpr double kWaitNoticeEvery_s = 1.0;
+// A start in motion looks back this far at most; the inertial buffer holds more.
+constexpr double kMaxWindow_s = 3.5;
+// Of the first scans nothing is known of the motion, and they are skewed: after this many it is,
+// and they are matched anew.
+constexpr std::size_t kMinGlance = 4;
+constexpr double kGlanceVelocityStd_mps = 1.0;
+// A scan whose place in the map is less sure would blur the map.
+constexpr double kMaxInsertStd_m = 0.3;
+
+// Of three errors that belong together.
+double LargestStd(const Estimate& estimate, int at) {
+  return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
+}
+
+template <class... Args>
+std::string Text(const char* format, Args... args) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
 
 }  // namespace
 
@@ -37,85 +58,140 @@ ImuSample Odometry::Impl::SampleAt(Timestamp stamp) const {
   return InterpolateSample(*std::prev(after), *after, stamp);
 }
 
+void Odometry::Impl::BeginScouting(const Sweep& sweep) {
+  last_found_.reset();
+  ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, glance_};
+  const Timestamp start = glance_ ? sweep.start : sweep.middle();
+  if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(start).w_imu_radps;
+  scout_.emplace(start, scouting);
+}
+
+void Odometry::Impl::AdvanceScout(Timestamp stamp) {
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp <= stamp) scout_->AddRate(sample);
+  }
+  scout_->AdvanceTo(stamp);
+}
+
 void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();
+  const bool is_matched = outcome.match.IsUsable();
   PoseEvent event;
   event.measurement.T_map_imu = outcome.match.T_map_imu;
   event.measurement.cov = outcome.match.cov;
   event.force = true;
-  if (outcome.match.IsUsable()) {
+  if (is_matched) {
     history().AddPose(middle, event);
-  } else {
+  } else if (outcome.match.status == MatchStatus::kEmptyMap) {
     history().AddRebase(middle);
   }
-  const Pose T_map_imu = history().At(middle).state.T_map_imu;
-  insert.T_map_imu = T_map_imu;
-  scouted_.push_back({middle, T_map_imu});
+  const Estimate estimate = history().At(middle);
+  const NavState& state = estimate.state;
+  if (LargestStd(estimate, kMapPose) < kMaxInsertStd_m) insert.T_map_imu = state.T_map_imu;
+  scouted_.push_back(
+      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, outcome.match.cov},
+       is_matched});
   last_found_ = middle;
+  if (!scouting_since_) scouting_since_ = outcome.sweep->start;
+  if (!glance_ && scouted_.size() >= kMinGlance && HasMovedSince(0, false) &&
+      LargestStd(estimate, kVel) < kGlanceVelocityStd_mps) {
+    glance_ = state;
+    scouted_.clear();
+    return;
+  }
   TryStart(outcome.sweep->end);
 }
 
-bool Odometry::Impl::HasMoved(const ImuStatistics& statistics) const {
-  const Pose motion = scouted_.front().pose.Inverse() * scouted_.back().pose;
+void Odometry::Impl::BeginScoutingAnew() {
+  scout_.reset();
+  scouted_.clear();
+  glance_.reset();
+}
+
+bool Odometry::Impl::HasMovedSince(std::size_t first, bool is_calm) const {
+  const Pose motion = scouted_[first].pose.T_any_imu.Inverse() * scouted_.back().pose.T_any_imu;
   const double distance_m = motion.translation.norm();
-  if (statistics.gyro_std_radps < kCalmGyroStd_radps &&
-      statistics.accel_std_mps2 < kCalmAccelStd_mps2) {
-    return distance_m > kMovedDistanceCalm_m;
-  }
+  if (is_calm) return distance_m > kMovedDistanceCalm_m;
   return distance_m > kMovedDistance_m || LogSo3(motion.rotation).norm() > kMovedAngle_rad;
 }
 
-void Odometry::Impl::TryStart(Timestamp stamp) {
-  const Timestamp first = ready_.front()->start;
-  const double span_s = SecondsBetween(first, stamp);
-  if (span_s < options_.start.rest_s || scouted_.size() < 3) return;
-  const std::vector<ImuSample> samples = SamplesBetween(first, stamp);
-  if (samples.size() < 3) return;
-  const ImuStatistics statistics = Summarise(samples);
-  if (HasMoved(statistics)) {
-    // The scout begins with unknown velocity, so its first step is its worst: leave it out.
-    const std::vector<ImuSample> all = SamplesBetween(imu_.front().stamp, stamp);
-    StartState start = StartMoving(all, scouted_, options_.rig);
-    CarryBack(start, ready_.front()->start);
-    StartFrom(start, 0);
-    return;
-  }
-  const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
-                       statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
-  if (is_calm || span_s >= kMaxRestWait_s) {
-    StartFrom(StartAtRest(samples, ready_[scouted_.size() - 1]->start, options_.rig),
-              scouted_.size() - 1);
-    return;
-  }
+bool Odometry::Impl::IsVeryCalm(Timestamp stamp) const {
+  const ImuStatistics statistics =
+      Summarise(SamplesBetween(stamp - Duration::FromSeconds(options_.start.rest_s), stamp));
+  return statistics.num_samples >= 3 && statistics.gyro_std_radps < kCalmGyroStd_radps &&
+         statistics.accel_std_mps2 < kCalmAccelStd_mps2;
+}
+
+void Odometry::Impl::SayWaiting(Timestamp stamp, const std::string& text) {
   if (SecondsBetween(last_wait_notice_, stamp) < kWaitNoticeEvery_s) return;
   last_wait_notice_ = stamp;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "waiting for rest: gyro spread %.4f rad/s (limit %.4f), accel %.3f m/s^2 (%.3f)",
-                statistics.gyro_std_radps, options_.start.max_gyro_std_radps,
-                statistics.accel_std_mps2, options_.start.max_accel_std_mps2);
   Say(stamp, Notice::Severity::kInfo, text);
 }
 
-// The state at an earlier instant, by integrating backwards; the covariance is taken as it is, for
-// a sweep's half.
-void Odometry::Impl::CarryBack(StartState& start, Timestamp stamp) const {
-  Estimate& estimate = start.estimate;
-  std::vector<ImuSample> samples = SamplesBetween(stamp, estimate.stamp);
-  samples.insert(samples.begin(), SampleAt(stamp));
-  ImuSample from = SampleAt(estimate.stamp);
-  for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
-    estimate.state = PropagateState(estimate.state, from, *sample, start.g_world);
-    from = *sample;
+void Odometry::Impl::TryStart(Timestamp stamp) {
+  const bool is_calm = IsVeryCalm(stamp);
+  std::size_t first_at_rest = scouted_.size() - 1;
+  while (first_at_rest > 0 && !HasMovedSince(first_at_rest - 1, is_calm)) --first_at_rest;
+  const Timestamp rest_begin = ready_[first_at_rest]->start;
+  if (SecondsBetween(rest_begin, stamp) >= options_.start.rest_s &&
+      scouted_.size() - first_at_rest >= 3) {
+    TryStartAtRest(rest_begin, stamp);
+  } else if (first_at_rest > 0) {
+    TryStartInMotion(stamp);
   }
-  estimate.state.T_map_imu = estimate.state.T_world_imu;
-  estimate.stamp = stamp;
+}
+
+void Odometry::Impl::TryStartAtRest(Timestamp begin, Timestamp stamp) {
+  const std::vector<ImuSample> samples = SamplesBetween(begin, stamp);
+  if (samples.size() < 3) return;
+  const ImuStatistics statistics = Summarise(samples);
+  const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
+                       statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
+  if (is_calm || SecondsBetween(begin, stamp) >= kMaxRestWait_s) {
+    const std::size_t last = scouted_.size() - 1;
+    StartFrom(StartAtRest(samples, ready_[last]->start, options_.rig), last);
+    return;
+  }
+  SayWaiting(stamp,
+             Text("waiting for rest: gyro spread %.4f rad/s (limit %.4f), accel %.3f m/s^2 (%.3f)",
+                  statistics.gyro_std_radps, options_.start.max_gyro_std_radps,
+                  statistics.accel_std_mps2, options_.start.max_accel_std_mps2));
+}
+
+void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
+  const Timestamp begin = ready_.front()->start;
+  if (SecondsBetween(begin, stamp) < options_.start.moving_window_s) return;
+  const double waited_s = SecondsBetween(*scouting_since_, stamp);
+  if (waited_s < options_.start.wait_for_rest_s) {
+    SayWaiting(stamp, Text("in motion: waiting for rest, %.0f s more",
+                           options_.start.wait_for_rest_s - waited_s));
+    ready_.pop_front();
+    scouted_.erase(scouted_.begin());
+    return;
+  }
+  std::vector<ScoutedPose> poses;
+  for (const Scouted& scouted : scouted_) {
+    if (scouted.is_matched) poses.push_back(scouted.pose);
+  }
+  const std::vector<ImuSample> samples = SamplesBetween(imu_.front().stamp, NewestImu().value());
+  const MovingStart moving = StartMoving(samples, poses, begin, options_.rig,
+                                         GravityPresent(Summarise(samples), options_.rig));
+  if (moving.start) {
+    StartFrom(*moving.start, 0);
+    return;
+  }
+  SayWaiting(stamp, "no start in motion yet: " + moving.why_not);
+  if (SecondsBetween(begin, stamp) < kMaxWindow_s) return;
+  // Perhaps the scout was misled by a gyro in wrong units or axes, or lost its way without one.
+  scouts_with_gyro_ = !scouts_with_gyro_;
+  ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(scouted_.size()));
+  BeginScoutingAnew();
 }
 
 void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep) {
   ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
-  scout_.reset();
-  scouted_.clear();
+  BeginScoutingAnew();
+  scouting_since_.reset();
   g_world_ = start.g_world;
   const auto steady =
       start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;

@@ -17,6 +17,7 @@ constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, eac
 constexpr double kMinReach_m = 0.01;   // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
 constexpr double kMaxLastStep = 5e-3;   // m, rad
+constexpr int kFarOffIterationFactor = 5;
 constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
@@ -199,7 +200,9 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   double reach = InitialReach(input.guess_cov);
   result.status = MatchStatus::kMaxIterations;
-  while (result.iterations < options_.max_iterations) {
+  const int max_iterations =
+      options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1);
+  while (result.iterations < max_iterations) {
     ++result.iterations;
     if (reach < kMinReach_m) reach = 0.0;
     Associate(input.points_imu, T_grid_imu);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's first state, from the first second of data: at rest, or on the move.
-//
-// Both give an estimate with an honest covariance, correlations included: position zero and yaw
-// zero by definition; tilt, velocity and biases as well as the data say.
+// The filter's first state, from a second of rest; moving_start.hpp has the other way. Both give an
+// estimate with an honest covariance, correlations included: position zero and yaw zero by
+// definition; tilt, velocity and biases as well as the data say.
 #pragma once
 
 #include <span>
@@ -12,7 +11,6 @@
 #include "lio/filter/nav_state.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
-#include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {
 
@@ -41,9 +39,11 @@ struct StartState {
 // The vehicle stood still over all of `samples`; the state is for `stamp`.
 StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig);
 
-// The vehicle moved. `T_map_imu`: its poses from scan matching alone, in any fixed frame, at least
-// three; the state is for the first of them. `samples` reach from there to the last pose.
-StartState StartMoving(std::span<const ImuSample> samples, const StampedPoses& T_map_imu,
-                       const Rig& rig);
+// The rotation from imu to world that takes `up_imu` to world's z, without turning about it more
+// than needed, and with the imu's x axis at yaw zero.
+Quaternion LevelledRotation(const Vector3& up_imu);
+
+// For people: "started <how>: imu tilted by ...".
+std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity);
 
 }  // namespace lio

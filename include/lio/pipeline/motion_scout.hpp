@@ -1,28 +1,41 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar-only odometry by a constant-velocity model, built from the filter itself: inertial samples
-// that read nothing, no gravity, wide process noise. The gyro bias then is the negative turn rate.
-// Serves lidar-only operation, and scouts the first second before the inertial filter starts.
+// Lidar odometry by a constant-velocity model, built from the filter itself: inertial samples that
+// read no force, no gravity, wide process noise. Serves lidar-only operation, and scouts the first
+// seconds before the inertial filter starts. The turn rate is either estimated like the velocity,
+// as the negative gyro bias of samples that read nothing, or that of the gyro.
 #pragma once
+
+#include <optional>
 
 #include "lio/filter/filter_history.hpp"
 
 namespace lio {
 
+struct ScoutOptions {
+  double span_s = 3.0;      // of its history
+  double nis_limit = 22.5;  // see FilterHistory
+  // A gyro's rate at the start: the turn rate then comes from AddRate().
+  std::optional<Vector3> first_rate_radps;
+  // Velocity and, without a gyro, turn rate to begin with: an earlier scout's state.
+  std::optional<NavState> motion;
+};
+
 class MotionScout {
  public:
-  // Begins at rest at the origin with wide uncertainty of velocity and turn rate.
-  MotionScout(Timestamp start, double span_s, double nis_limit);
+  // Begins at the origin; without a known motion at rest, but very unsure of that.
+  MotionScout(Timestamp start, const ScoutOptions& options);
 
-  // Fills the time up to `stamp` with samples that read nothing.
+  // A gyro's reading, with a gyro only. Samples not after the newest are left out.
+  void AddRate(const ImuSample& sample);
+  // Fills the time up to `stamp`; with a gyro its last rate holds.
   void AdvanceTo(Timestamp stamp);
   FilterHistory& history() { return history_; }
   const FilterHistory& history() const { return history_; }
 
-  // True motion's turn rate in imu, rad/s.
-  static Vector3 TurnRate(const NavState& state) { return -state.gyro_bias; }
-
  private:
+  bool has_gyro_;
+  Vector3 last_rate_ = Vector3::Zero();  // rad/s; stays zero without a gyro
   FilterHistory history_;
 };
 

@@ -19,6 +19,8 @@ struct StartOptions {
   double rest_s = 1.0;               // a static start uses this much rest; at most 1.5
   double max_gyro_std_radps = 0.02;  // more spread than this is motion
   double max_accel_std_mps2 = 0.3;
+  double moving_window_s = 2.0;  // a start in motion aligns this much of it; 1.5 to 3
+  double wait_for_rest_s = 0.0;  // in motion, rest is awaited this long first
 };
 
 struct PipelineOptions {

@@ -110,6 +110,10 @@ void VisitFields(Visitor& visit, MaybeConst<StartOptions> auto& o) {
         Range{1e-6, 1});
   visit("max_accel_std_mps2", o.max_accel_std_mps2, "more spread than this is motion [m/s^2]",
         Range{1e-6, 10});
+  visit("moving_window_s", o.moving_window_s, "a start in motion aligns this much of it [s]",
+        Range{1.5, 3.0});
+  visit("wait_for_rest_s", o.wait_for_rest_s, "in motion, rest is awaited this long first [s]",
+        Range{0, 3600});
 }
 
 template <class Visitor>
@@ -165,7 +169,7 @@ template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Options> auto& o) {
   visit("rig", o.rig, "what is fixed about the vehicle");
   visit("pipeline", o.pipeline, "what runs");
-  visit("start", o.start, "the static start");
+  visit("start", o.start, "how the filter finds its first state, at rest or in motion");
   visit("reduce", o.reduce, "how a sweep is thinned before it is deskewed and matched");
   visit("ndt", o.ndt, "the normal-distributions map and its matcher");
   visit("filter", o.filter, "the error-state filter");

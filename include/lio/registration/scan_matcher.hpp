@@ -21,6 +21,7 @@ struct MatchInput {
   // Right error of the guess, [translation; rotation]: sets how far correspondences are sought. It
   // is not a prior: it stays out of the cost.
   Matrix6 guess_cov = Matrix6::Zero();
+  bool is_far_off = false;  // the guess may be: take more iterations before giving up
 };
 
 struct MatchResult {

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The least squares behind StartMoving: states of a window from matched poses and inertial samples.
+// All in one frame that does not move, "any", in which gravity's direction is unknown.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lio/imu/moving_start.hpp"
+#include "lio/imu/preintegration.hpp"
+
+namespace lio {
+
+struct WindowState {
+  Quaternion R_any_imu = Quaternion::Identity();
+  Vector3 p_any_imu = Vector3::Zero();  // m
+  Vector3 v_any_imu = Vector3::Zero();  // m/s
+};
+
+struct Alignment {
+  std::vector<WindowState> states;  // one more than poses: the first is where the window begins
+  Biases biases;
+  Vector3 up_any = Vector3::UnitZ();  // unit
+};
+
+struct AlignmentTerms {
+  std::span<const ScoutedPose> poses;
+  std::vector<Preintegration> motions;  // from state i to i + 1
+  double gravity_mps2 = 0.0;            // 0: none in the accelerometer's reading
+  double gyro_bias_std_radps = 0.0;
+  double accel_bias_std_mps2 = 0.0;
+};
+
+// Order of the covariance, of the first state: rotation (right), velocity (any), gyro bias, accel
+// bias, then the change of up_any itself, 3 each.
+inline constexpr int kAlignedRot = 0;
+inline constexpr int kAlignedVel = 3;
+inline constexpr int kAlignedBiases = 6;
+inline constexpr int kAlignedUp = 12;
+using AlignedCov = Eigen::Matrix<double, 15, 15>;
+
+struct AlignmentResult {
+  bool converged = false;
+  Alignment solution;
+  std::vector<double> pose_misfit_sq;  // whitened squared residual of each pose, 6 rows each
+  AlignedCov cov = AlignedCov::Zero();
+};
+
+// From a guess that may be several degrees and metres per second off.
+AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess);
+
+}  // namespace lio
