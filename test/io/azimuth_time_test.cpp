@@ -8,7 +8,6 @@
 #include <random>
 
 #include "lio/io/input_error.hpp"
-#include "lio/io/spin_observer.hpp"
 #include "support/spinning_lidar.hpp"
 
 namespace lio {
