@@ -16,7 +16,7 @@ constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene o
 constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, each iteration
 constexpr double kMinReach_m = 0.01;   // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
-constexpr double kMaxLastStep = 5e-3;   // m, rad
+constexpr double kMaxLastStep = 5e-3;  // m, rad
 constexpr int kFarOffIterationFactor = 5;
 constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
 
