@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -31,8 +32,7 @@ LatencySummary Summarise(std::vector<float>& values_ms) {
   if (values_ms.empty()) return {};
   std::sort(values_ms.begin(), values_ms.end());
   const auto at = [&](double share) {
-    return values_ms[static_cast<std::size_t>(share * static_cast<double>(values_ms.size() - 1) +
-                                              0.5)];
+    return values_ms[std::lround(share * static_cast<double>(values_ms.size() - 1))];
   };
   return {at(0.5), at(0.99), values_ms.back()};
 }
