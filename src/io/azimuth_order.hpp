@@ -11,6 +11,9 @@
 
 namespace lio {
 
+// A point may lie this far behind the sweep's front: beams of one firing differ in azimuth.
+inline constexpr double kBackwardSlack = std::numbers::pi / 6.0;
+
 // Into [-pi, pi).
 inline double WrappedAngle(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;

@@ -7,14 +7,12 @@
 // ring's azimuth offset are measured on the recording.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lio/base/time.hpp"
-#include "lio/io/beam_table.hpp"
 #include "lio/io/pointcloud2_layout.hpp"
 
 namespace lio {
@@ -66,36 +64,6 @@ class SpinRate {
 // nearest to what the sweep itself covers.
 double TurnBetween(double first_azimuth_rad, double next_first_azimuth_rad, double covered_rad,
                    double direction);
-
-// Looks at the first clouds of a recording.
-class SpinObserver {
- public:
-  static constexpr int kNumOffsetBins = 1200;
-
-  void Add(const CloudPoints& points, std::span<const std::uint16_t> rings, Timestamp stamp);
-  // `table`: the model the user named, if any; it gives direction and offsets where the data does
-  // not. Throws InputError when the points neither are in order nor go all round.
-  SpinModel Decide(const std::optional<BeamTable>& table) const;
-
- private:
-  struct Seen {
-    Timestamp stamp;
-    PointOrder order = PointOrder::kNone;
-    double direction = 0.0;  // 0: unknown
-    double first_azimuth_rad = 0.0;
-    double covered_rad = 0.0;
-    double coverage_ratio = 0.0;  // of the circle
-  };
-
-  void AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
-                  const UnwrappedSweep& sweep);
-  std::vector<double> RingOffsets() const;
-  double Rate(double direction, PointOrder order, double fallback_hz, std::string& how) const;
-
-  std::vector<Seen> seen_;
-  // By ring, how often which offset: medians do not mind the edges of gaps in the returns.
-  std::vector<std::array<std::int32_t, kNumOffsetBins>> offsets_;
-};
 
 // Instants of the points [ns]: the stamp is that of the first point, or of the last one.
 std::vector<std::int64_t> AzimuthInstants(const UnwrappedSweep& sweep, double rate_radps,

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// KITTI's OXTS packets (GNSS/INS): an IMU stream and the reference poses of a raw drive.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio {
+
+// One OXTS packet: what is used of its 30 numbers.
+struct OxtsRow {
+  Timestamp stamp;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double yaw_rad = 0.0;  // 0 is east, counter-clockwise
+  Vector3 v_enu_mps = Vector3::Zero();
+  Vector3 f_imu_mps2 = Vector3::Zero();  // x forward, y left, z up
+  Vector3 w_imu_radps = Vector3::Zero();
+};
+
+// Nothing when the text is no row of at least 25 numbers.
+std::optional<OxtsRow> ParseOxts(const std::string& text);
+
+// Poses of the IMU in east-north-up at the rows' stamps, the origin at the first: attitude as
+// measured, position by integrating velocity (trapezoid).
+StampedPoses OxtsPoses(const std::vector<OxtsRow>& rows);
+
+// Samples every 1/rate_hz s from the first row's stamp on, linearly between rows; nullopt: the rows
+// themselves. `rows`: stamps strictly increasing.
+std::vector<ImuSample> OxtsImu(const std::vector<OxtsRow>& rows, std::optional<double> rate_hz);
+
+}  // namespace lio
