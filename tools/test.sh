@@ -21,5 +21,4 @@ if [[ $with_sanitizers == yes ]]; then
   cmake --build build-asan --target lio_fuzz_test --parallel "$jobs"
   build-asan/bin/lio_fuzz_test --gtest_brief=1
 fi
-# The tests of the live daemon share a machine with the others: one that was starved may try again.
-ctest --test-dir build --output-on-failure --parallel "$jobs" --repeat until-pass:3 "$@"
+ctest --test-dir build --output-on-failure --parallel "$jobs" "$@"

@@ -12,14 +12,20 @@
 
 namespace lio::test {
 
-inline Counters ReplayLog(const std::filesystem::path& log, const Options& options,
+struct Replayed {
+  Counters counters;
+  std::int64_t num_matches = 0;  // until the log's end; what is left then is not counted
+};
+
+inline Replayed ReplayLog(const std::filesystem::path& log, const Options& options,
                           const std::filesystem::path& out) {
   LogInput input(log, LogInputOptions());
   RunWriter writer(out, options);
   Odometry odometry(options, ThreadCpuNs);
   MatchSide match_side(options, ThreadCpuNs);
+  std::int64_t num_matches = 0;
   const auto match = [&] {
-    while (const auto job = odometry.NextJob()) {
+    for (; const auto job = odometry.NextJob(); ++num_matches) {
       match_side.Insert(odometry.FinishJob(match_side.Run(*job)));
     }
     for (const Output& output : odometry.TakeOutputs()) writer.Write(output);
@@ -32,10 +38,11 @@ inline Counters ReplayLog(const std::filesystem::path& log, const Options& optio
     }
     match();
   }
+  const std::int64_t num_before_end = num_matches;
   odometry.Flush();
   match();
   writer.Finish({});
-  return odometry.counters();
+  return {odometry.counters(), num_before_end};
 }
 
 }  // namespace lio::test
