@@ -12,7 +12,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kGrid_m = 0.25;    // of the speed profile along the path
+constexpr double kGrid_m = 0.25;    // of the speed profile along the path, at most
 constexpr double kSample_s = 0.02;  // of the distance over time
 
 void CheckLimits(const DriveLimits& limits) {
@@ -21,35 +21,49 @@ void CheckLimits(const DriveLimits& limits) {
   if (!(least > 0.0)) throw std::invalid_argument("Drive: limits must be positive");
 }
 
+// The path in equal cells, so that the last one leaves as much room to brake as any other.
+struct Grid {
+  std::size_t num_points = 0;
+  double cell_m = 0.0;
+
+  explicit Grid(double length_m)
+      : num_points(static_cast<std::size_t>(std::max(1.0, std::ceil(length_m / kGrid_m))) + 1),
+        cell_m(length_m / static_cast<double>(num_points - 1)) {}
+  std::size_t At(double distance_m) const {
+    return std::min(num_points - 1, static_cast<std::size_t>(std::lround(distance_m / cell_m)));
+  }
+};
+
 // Highest speed at each grid point: bends, stops, then what braking and accelerating allow.
 std::vector<double> SpeedProfile(const Path& path, const DriveLimits& limits,
-                                 const std::vector<Stop>& stops) {
-  const auto num = static_cast<std::size_t>(std::ceil(path.length_m() / kGrid_m)) + 1;
+                                 const std::vector<Stop>& stops, const Grid& grid) {
+  const std::size_t num = grid.num_points;
   std::vector<double> speed(num, limits.speed_mps);
   for (std::size_t i = 0; i < num; ++i) {
-    const double curvature = std::abs(path.At(static_cast<double>(i) * kGrid_m).curvature_per_m);
+    const double curvature =
+        std::abs(path.At(static_cast<double>(i) * grid.cell_m).curvature_per_m);
     if (curvature > 0.0) speed[i] = std::min(speed[i], std::sqrt(limits.lateral_mps2 / curvature));
   }
   speed.front() = 0.0;
   speed.back() = 0.0;
   for (const Stop& stop : stops) {
-    speed[std::min(num - 1, static_cast<std::size_t>(stop.distance_m / kGrid_m))] = 0.0;
+    speed[grid.At(stop.distance_m)] = 0.0;
   }
   for (std::size_t i = 1; i < num; ++i) {
-    speed[i] = std::min(speed[i],
-                        std::sqrt(speed[i - 1] * speed[i - 1] + 2.0 * limits.accel_mps2 * kGrid_m));
+    speed[i] = std::min(
+        speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + 2.0 * limits.accel_mps2 * grid.cell_m));
   }
   for (std::size_t i = num - 1; i-- > 0;) {
-    speed[i] = std::min(speed[i],
-                        std::sqrt(speed[i + 1] * speed[i + 1] + 2.0 * limits.brake_mps2 * kGrid_m));
+    speed[i] = std::min(
+        speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + 2.0 * limits.brake_mps2 * grid.cell_m));
   }
   return speed;
 }
 
-double RestAt(const std::vector<Stop>& stops, std::size_t grid_index) {
+double RestAt(const std::vector<Stop>& stops, const Grid& grid, std::size_t grid_index) {
   double rest_s = 0.0;
   for (const Stop& stop : stops) {
-    if (static_cast<std::size_t>(stop.distance_m / kGrid_m) == grid_index) rest_s += stop.rest_s;
+    if (grid.At(stop.distance_m) == grid_index) rest_s += stop.rest_s;
   }
   return rest_s;
 }
@@ -59,7 +73,8 @@ double RestAt(const std::vector<Stop>& stops, std::size_t grid_index) {
 Drive::Drive(const Path& path, const DriveLimits& limits, const std::vector<Stop>& stops,
              double start_rest_s) {
   CheckLimits(limits);
-  const std::vector<double> speed = SpeedProfile(path, limits, stops);
+  const Grid grid(path.length_m());
+  const std::vector<double> speed = SpeedProfile(path, limits, stops, grid);
   double leg_start_s = start_rest_s;  // when grid point i is left
   double next_sample_s = 0.0;
   while (next_sample_s <= leg_start_s) {
@@ -67,13 +82,11 @@ Drive::Drive(const Path& path, const DriveLimits& limits, const std::vector<Stop
     next_sample_s = kSample_s * static_cast<double>(distances_m_.size());
   }
   for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
-    const double from_m = static_cast<double>(i) * kGrid_m;
-    const double length_m = std::min(kGrid_m, path.length_m() - from_m);
-    if (length_m <= 0.0) break;
+    const double from_m = static_cast<double>(i) * grid.cell_m;
     const double mean_mps = 0.5 * (speed[i] + speed[i + 1]);
-    const double leg_s = length_m / mean_mps;
+    const double leg_s = grid.cell_m / mean_mps;
     const double accel_mps2 = (speed[i + 1] - speed[i]) / leg_s;
-    const double rest_s = RestAt(stops, i + 1);
+    const double rest_s = RestAt(stops, grid, i + 1);
     while (next_sample_s <= leg_start_s + leg_s + rest_s) {
       const double dt = std::min(next_sample_s - leg_start_s, leg_s);
       distances_m_.push_back(from_m + speed[i] * dt + 0.5 * accel_mps2 * dt * dt);

@@ -86,6 +86,8 @@ void AddStructure(Mesh& mesh, double z, bool has_ceiling, Random& random) {
   for (double x = 0.4; x < kEast_m; x += 8.0) {
     if (has_ceiling) {
       for (const double y : {-3.4, 3.6, 14.4, 21.4}) {
+        const double from_turn_m = std::hypot(x - kStraight_m, y - kRadius_m) - kRadius_m;
+        if (x > kStraight_m && std::abs(from_turn_m) < kHalfRamp_m) continue;
         AddBox(mesh, At(x, y, z), {0.5, 0.5, clear}, Material::kConcrete);
         if (random.Chance(0.3)) {
           AddBox(mesh, At(x, y + (y < 9.0 ? -0.3 : 0.3), z + 1.4), {0.4, 0.06, 0.5},

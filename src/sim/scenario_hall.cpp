@@ -128,7 +128,8 @@ std::vector<BodyKnot> SwingKnots(double duration_s, Random& random) {
     rate += std::clamp(target - rate, -kQuickest * kKnot_s, kQuickest * kKnot_s);
     yaw += rate * kKnot_s;
     BodyKnot knot;
-    const double strength = std::clamp((t_s - kRest_s) / 2.0, 0.0, 1.0);
+    const double begun = std::clamp((t_s - kRest_s) / 4.0, 0.0, 1.0);
+    const double strength = begun * begun * (3.0 - 2.0 * begun);
     const double w = 2.0 * kPi * t_s;
     knot.yaw_rad = yaw;
     knot.pitch_rad = strength * (0.30 * std::sin(0.31 * w + a) + 0.12 * std::sin(0.73 * w + b));

@@ -106,6 +106,7 @@ Scenario MakeLoop(const ScenarioOptions& options) {
   const Terrain terrain(shape, random);
   const std::vector<Road> roads = BlockRoads();
   Town town(scenario.world, terrain, RoadNetwork(roads), {}, options.seed);
+  for (const double lane_m : {-kLane_m, kLane_m}) town.KeepClear(block.Shifted(lane_m), 2.3);
   for (std::size_t i = 0; i < roads.size(); ++i) AddSide(town, roads[i], static_cast<int>(i));
   AddCourtyard(town);
 

@@ -186,7 +186,12 @@ Scenario MakeMotorway(const ScenarioOptions& options) {
   const Drive drive(shoulder, limits, {}, kStartRest_s);
   MotionPlan plan;
   plan.knot_interval_s = kCarKnot_s;
-  plan.knots = FollowDrive(shoulder, drive, height, {}, kCarKnot_s, planned_s);
+  const HeightFunction height_of_lane = [&](const Vector2& p_m, double along_m) {
+    double slope = 0.0;
+    const double left_m = (kOwnLane_m - kShoulder_m) * MergeShare(along_m, slope);
+    return terrain.Height(p_m + left_m * shoulder.At(along_m).Left());
+  };
+  plan.knots = FollowDrive(shoulder, drive, height_of_lane, {}, kCarKnot_s, planned_s);
   ShiftIntoLane(plan.knots, drive, shoulder);
   plan.oscillations = CarOscillations(options.seed);
   AddTraffic(scenario.world, road, drive, planned_s, height, random);

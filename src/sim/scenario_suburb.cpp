@@ -11,7 +11,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 3.6;
+constexpr double kHalfRoad_m = 4.8;  // two lanes and a few parked cars
 constexpr double kBefore_m = 80.0;
 constexpr double kSpeed_mps = 11.0;
 

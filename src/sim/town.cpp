@@ -87,6 +87,15 @@ bool Town::Reserve(const Vector2& centre_m, double heading_rad, const Vector2& s
   return true;
 }
 
+void Town::KeepClear(const Path& path, double width_m) {
+  constexpr double kPiece_m = 2.0;
+  for (double along_m = 0.5 * kPiece_m; along_m < path.length_m(); along_m += kPiece_m) {
+    const PathPoint p = path.At(along_m);
+    const Vector2 axis(std::cos(p.heading_rad), std::sin(p.heading_rad));
+    taken_.push_back({p.position_m, axis, 0.5 * Vector2(kPiece_m, width_m)});
+  }
+}
+
 void Town::AddHouses(const Path& path, const Frontage& f, const HouseRow& row) {
   double along_m = f.from_m;
   while (along_m < f.to_m) {

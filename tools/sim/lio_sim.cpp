@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // lio-sim: a drive through a synthetic world, as the sensors would have logged it, with the truth.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include <stdexcept>
 
 #include "lio/io/command_line.hpp"
+#include "lio/io/progress_bar.hpp"
 #include "lio/sim/data_file.hpp"
 #include "lio/sim/picture.hpp"
 #include "lio/sim/recorder.hpp"
@@ -114,11 +113,6 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   return options;
 }
 
-void ShowProgress(double share) {
-  std::fprintf(stderr, "\r%3.0f %%", 100.0 * share);
-  std::fflush(stderr);
-}
-
 void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options,
                 const sim::RecordStats& stats, double wall_s) {
   std::printf("%s: %.1f s, %lld sweeps of %s, %.1f M rays, %.1f M points, %lld IMU samples\n",
@@ -144,10 +138,14 @@ void Write(const Arguments& arguments, const sim::Scenario& scenario,
   }
   if (arguments.folder.empty()) return;
   const auto start = Clock::now();
-  std::function<void(double)> progress;
-  if (isatty(STDERR_FILENO) != 0) progress = ShowProgress;
-  const sim::RecordStats stats = sim::Record(scenario, options, arguments.folder, progress);
-  if (progress) std::fputs("\r     \r", stderr);
+  sim::RecordStats stats;
+  {
+    constexpr std::int64_t kSteps = 1000;
+    ProgressBar bar("simulate", kSteps);
+    stats = sim::Record(scenario, options, arguments.folder, [&](double share) {
+      bar.Update(static_cast<std::int64_t>(share * kSteps));
+    });
+  }
   PrintStats(scenario, options, stats, std::chrono::duration<double>(Clock::now() - start).count());
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where the sensors' data files are: in $LIO_CONFIG_DIR, else beside the program, in its source
-// tree or where it was installed.
+// The sensors' data files, in the folder that lio::ConfigDirectory() finds.
 #pragma once
 
 #include <filesystem>

@@ -25,9 +25,10 @@ constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
   return key;
 }
 
-// Uniform in (0, 1): never 0, so that its logarithm exists.
+// Uniform in (0, 1): never 0, so that its logarithm exists, and never 1 (52 bits and a half are
+// exact in a double; with 53 the last one would round up to 1).
 constexpr double UnitInterval(std::uint64_t bits) {
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1.0p-53;
+  return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
 }
 
 // What a key's draws are used for: keeps one purpose's numbers when another's count changes.

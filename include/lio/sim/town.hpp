@@ -53,6 +53,9 @@ class Town {
   bool Reserve(const Vector2& centre_m, double heading_rad, const Vector2& size_m,
                double road_margin_m);
 
+  // Takes a lane of that width along a path, before anything is put there.
+  void KeepClear(const Path& path, double width_m);
+
   void AddHouses(const Path& path, const Frontage& frontage, const HouseRow& row);
   void AddTrees(const Path& path, const Frontage& frontage, double spacing_m, double height_m);
   void AddLamps(const Path& path, const Frontage& frontage, double spacing_m);

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/imu_simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "lio/sim/scenario.hpp"
+
+namespace lio::sim {
+namespace {
+
+constexpr double kGravity = 9.788;
+
+Trajectory Still() {
+  MotionPlan plan;
+  plan.knots.resize(4);
+  plan.T_body_imu.rotation = ExpSo3({0.2, -0.1, 0.5});
+  return Trajectory(plan);
+}
+
+ImuSetup SetupOf(const std::string& model, double rate_hz) {
+  ImuSetup setup;
+  setup.model = LoadImuModel(model);
+  setup.model.rate_hz = rate_hz;
+  setup.gravity_mps2 = kGravity;
+  setup.seed = 3;
+  return setup;
+}
+
+std::vector<SimulatedImu> Samples(const ImuSetup& setup, const Trajectory& trajectory,
+                                  double seconds) {
+  ImuSimulator imu(setup, trajectory);
+  std::vector<SimulatedImu> samples;
+  const auto num = static_cast<std::int64_t>(seconds * setup.model.rate_hz);
+  for (std::int64_t k = 0; k <= num; ++k) {
+    samples.push_back(imu.Sample(std::llround(1e9 * static_cast<double>(k) / setup.model.rate_hz)));
+  }
+  return samples;
+}
+
+struct State {
+  Vector3 position;
+  Vector3 velocity;
+  Quaternion rotation;
+};
+
+// Derivative of a state by time: rotation as quaternion coefficients (x y z w).
+struct Slope {
+  Vector3 position;
+  Vector3 velocity;
+  Eigen::Vector4d rotation;
+};
+
+Slope SlopeOf(const State& s, const ImuSample& imu) {
+  const Quaternion w(0.0, imu.w_imu_radps.x(), imu.w_imu_radps.y(), imu.w_imu_radps.z());
+  return {s.velocity, s.rotation.normalized() * imu.f_imu_mps2 - Vector3(0, 0, kGravity),
+          0.5 * (s.rotation * w).coeffs()};
+}
+
+State Advance(const State& s, const Slope& slope, double dt) {
+  return {s.position + dt * slope.position, s.velocity + dt * slope.velocity,
+          Quaternion(Eigen::Vector4d(s.rotation.coeffs() + dt * slope.rotation))};
+}
+
+// The classic fourth-order rule of Runge and Kutta over two sample intervals, whose middle sample
+// serves as the midpoint.
+State Step(const State& s, const ImuSample& begin, const ImuSample& middle, const ImuSample& end) {
+  const double h = SecondsBetween(begin.stamp, end.stamp);
+  const Slope a = SlopeOf(s, begin);
+  const Slope b = SlopeOf(Advance(s, a, 0.5 * h), middle);
+  const Slope c = SlopeOf(Advance(s, b, 0.5 * h), middle);
+  const Slope d = SlopeOf(Advance(s, c, h), end);
+  const Slope mean = {(a.position + 2 * b.position + 2 * c.position + d.position) / 6,
+                      (a.velocity + 2 * b.velocity + 2 * c.velocity + d.velocity) / 6,
+                      (a.rotation + 2 * b.rotation + 2 * c.rotation + d.rotation) / 6};
+  State next = Advance(s, mean, h);
+  next.rotation.normalize();
+  return next;
+}
+
+struct Drift {
+  double position_m = 0.0;
+  double rotation_deg = 0.0;
+};
+
+// The largest distance from the truth while integrating from the true start.
+Drift StrapdownDrift(const std::vector<SimulatedImu>& samples) {
+  const Kinematics& start = samples.front().truth;
+  State state{start.T_world_imu.translation, start.v_world_mps, start.T_world_imu.rotation};
+  Drift drift;
+  for (std::size_t k = 0; k + 2 < samples.size(); k += 2) {
+    state = Step(state, samples[k].sample, samples[k + 1].sample, samples[k + 2].sample);
+    const Pose& truth = samples[k + 2].truth.T_world_imu;
+    drift.position_m = std::max(drift.position_m, (state.position - truth.translation).norm());
+    drift.rotation_deg =
+        std::max(drift.rotation_deg,
+                 state.rotation.angularDistance(truth.rotation) * 180.0 / std::numbers::pi);
+  }
+  return drift;
+}
+
+struct Case {
+  const char* scenario;
+  double rate_hz;
+};
+
+class Strapdown : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Strapdown, OfTheIdealImuStaysWithinACentimetreAndAHundredthOfADegreeAfterAMinute) {
+  ScenarioOptions options;
+  options.duration_s = 60.0;
+  const Scenario scenario = MakeScenario(GetParam().scenario, options);
+  const Drift drift =
+      StrapdownDrift(Samples(SetupOf("ideal", GetParam().rate_hz), *scenario.trajectory, 60.0));
+  RecordProperty("drift_um", static_cast<int>(1e6 * drift.position_m));
+  EXPECT_LT(drift.position_m, 0.01);
+  EXPECT_LT(drift.rotation_deg, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Strapdown,
+                         ::testing::Values(Case{"street", 200.0}, Case{"street", 1000.0},
+                                           Case{"tunnel", 200.0}, Case{"garage", 1000.0},
+                                           Case{"campus", 1000.0}, Case{"hall", 1000.0}),
+                         [](const auto& test) {
+                           return std::string(test.param.scenario) + "_" +
+                                  std::to_string(static_cast<int>(test.param.rate_hz)) + "_hz";
+                         });
+
+TEST(ImuSimulator, AtRestReadsGravityUpwardAndNoRate) {
+  const Trajectory trajectory = Still();
+  const SimulatedImu imu = Samples(SetupOf("ideal", 200.0), trajectory, 0.1).back();
+  const Vector3 up = imu.truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+  EXPECT_LT((imu.sample.f_imu_mps2 - up).norm(), 1e-9);
+  EXPECT_LT(imu.sample.w_imu_radps.norm(), 1e-12);
+}
+
+TEST(ImuSimulator, VariantsRemoveGravityOrReadInG) {
+  const Trajectory trajectory = Still();
+  ImuSetup setup = SetupOf("ideal", 200.0);
+  setup.variant = ImuVariant::kGravityRemoved;
+  EXPECT_LT(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(), 1e-9);
+  setup.variant = ImuVariant::kInG;
+  EXPECT_NEAR(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(), kGravity / 9.80665,
+              1e-9);
+}
+
+// Noise of a sample is density / sqrt(dt): its spread grows with the rate, its mean over a second
+// does not.
+TEST(ImuSimulator, WhiteNoiseHasItsDensityAtAnyRate) {
+  const Trajectory trajectory = Still();
+  for (const double rate_hz : {100.0, 400.0, 1000.0}) {
+    ImuSetup setup = SetupOf("xsens_mti10", rate_hz);
+    const double density = setup.model.gyro.noise_density;
+    setup.model.gyro = {};
+    setup.model.gyro.noise_density = density;
+    double sum_sq = 0.0;
+    const auto samples = Samples(setup, trajectory, 100.0);
+    for (const SimulatedImu& imu : samples) sum_sq += imu.sample.w_imu_radps.squaredNorm() / 3.0;
+    const auto num = static_cast<double>(samples.size());
+    EXPECT_NEAR(std::sqrt(sum_sq / num) / (density * std::sqrt(rate_hz)), 1.0,
+                3.0 / std::sqrt(6.0 * num))
+        << rate_hz;
+  }
+}
+
+TEST(ImuSimulator, BiasesWalkWithTheirDensityFromTheTurnOnBias) {
+  const Trajectory trajectory = Still();
+  double walk_sq = 0.0;
+  double turn_on_sq = 0.0;
+  constexpr int kRuns = 60;
+  constexpr double kSeconds = 20.0;
+  for (int run = 0; run < kRuns; ++run) {
+    ImuSetup setup = SetupOf("consumer_mems", 100.0);
+    setup.model.gyro.bias_instability = 0.0;
+    setup.seed = static_cast<std::uint64_t>(run);
+    const auto samples = Samples(setup, trajectory, kSeconds);
+    const Vector3 first = samples.front().gyro_bias_radps;
+    turn_on_sq += first.squaredNorm() / 3.0;
+    walk_sq += (samples.back().gyro_bias_radps - first).squaredNorm() / 3.0;
+  }
+  const InertialModel model = LoadImuModel("consumer_mems").gyro;
+  const double tolerance = 3.0 / std::sqrt(2.0 * 3.0 * kRuns);
+  EXPECT_NEAR(std::sqrt(turn_on_sq / kRuns) / model.turn_on_bias_std, 1.0, tolerance);
+  EXPECT_NEAR(std::sqrt(walk_sq / kRuns) / (model.bias_walk_density * std::sqrt(kSeconds)), 1.0,
+              tolerance);
+}
+
+TEST(ImuSimulator, BiasInstabilityKeepsItsSpreadAndForgetsInItsTime) {
+  const Trajectory trajectory = Still();
+  double product = 0.0;
+  double start_sq = 0.0;
+  double end_sq = 0.0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    ImuSetup setup = SetupOf("ideal", 100.0);
+    setup.model.accel.bias_instability = 0.01;
+    setup.model.accel.bias_instability_time_s = 5.0;
+    setup.seed = static_cast<std::uint64_t>(run);
+    const auto samples = Samples(setup, trajectory, 5.0);
+    product += samples.front().accel_bias_mps2.dot(samples.back().accel_bias_mps2);
+    start_sq += samples.front().accel_bias_mps2.squaredNorm();
+    end_sq += samples.back().accel_bias_mps2.squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(start_sq / (3.0 * kRuns)), 0.01, 0.001);
+  EXPECT_NEAR(std::sqrt(end_sq / (3.0 * kRuns)), 0.01, 0.001);
+  EXPECT_NEAR(product / std::sqrt(start_sq * end_sq), std::exp(-1.0), 0.12);
+}
+
+TEST(ImuSimulator, SaturatesAndQuantises) {
+  const Trajectory trajectory = Still();
+  ImuSetup setup = SetupOf("ideal", 200.0);
+  setup.model.accel.full_scale = 5.0;
+  setup.model.accel.step = 0.25;
+  for (const SimulatedImu& imu : Samples(setup, trajectory, 0.1)) {
+    for (const double axis : imu.sample.f_imu_mps2) {
+      EXPECT_LE(std::abs(axis), 5.0);
+      EXPECT_EQ(axis, 0.25 * std::round(axis / 0.25));
+    }
+  }
+}
+
+TEST(ImuSimulator, ScaleAndMisalignmentActOnTheTruth) {
+  const Trajectory trajectory = Still();
+  ImuSetup setup = SetupOf("ideal", 200.0);
+  setup.model.accel.scale_std_ratio = 0.01;
+  setup.model.accel.misalignment_std_rad = 0.01;
+  const auto samples = Samples(setup, trajectory, 0.1);
+  const Vector3 truth = samples[0].truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+  const double error = (samples[0].sample.f_imu_mps2 - truth).norm();
+  EXPECT_GT(error, 0.01);
+  EXPECT_LT(error, 0.6);
+  EXPECT_EQ(samples[0].sample.f_imu_mps2, samples[5].sample.f_imu_mps2);  // constant
+}
+
+TEST(NormalGravity, AgreesWithKnownPlaces) {
+  const double degrees = std::numbers::pi / 180.0;
+  EXPECT_NEAR(NormalGravity(0.0, 0.0), 9.780325, 1e-5);
+  EXPECT_NEAR(NormalGravity(45.0 * degrees, 0.0), 9.806199, 1e-5);
+  EXPECT_NEAR(NormalGravity(90.0 * degrees, 0.0), 9.832185, 1e-5);
+  EXPECT_NEAR(NormalGravity(22.3 * degrees, 0.0), 9.788, 5e-4);
+  EXPECT_NEAR(NormalGravity(0.0, 1000.0), 9.780325 - 0.003086, 1e-5);
+}
+
+}  // namespace
+}  // namespace lio::sim

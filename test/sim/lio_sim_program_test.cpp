@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The program's contract: what it prints, what it writes and how it ends.
+#include <gtest/gtest.h>
+
+#include "lio/sim/scenario.hpp"
+#include "support/run_program.hpp"
+
+namespace lio::sim {
+namespace {
+
+test::ProgramResult Simulate(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), LIO_SIM_PROGRAM);
+  return test::RunProgram(arguments);
+}
+
+TEST(LioSim, ListsTheScenariosOneALine) {
+  const auto result = Simulate({"--list"});
+  std::string expected;
+  for (const ScenarioEntry& entry : AllScenarios()) expected += entry.name + "\n";
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, expected);
+}
+
+TEST(LioSim, HelpTeachesScenariosFaultsAndExamples) {
+  const auto result = Simulate({"--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* word : {"street", "imu_gap", "wrong_extrinsic", "lio-replay", "--imu-variant"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(Simulate({"--version"}).exit_code, 0);
+}
+
+TEST(LioSim, WritesTheFourFilesAndNoProgressIntoAPipe) {
+  const test::TempDir dir;
+  const std::string out = (dir.path() / "made" / "here").string();
+  const auto result = Simulate({"--scenario", "hall", "--duration", "0.5", "--lidar", "vlp16",
+                                "--imu", "consumer_mems", "--imu-rate", "400", "--seed", "3",
+                                "--fault", "nan:ratio=0.1", "--out", out});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* file : {"log.lcm", "truth.tum", "truth_states.csv", "config.yaml"}) {
+    EXPECT_TRUE(std::filesystem::is_regular_file(dir.path() / "made" / "here" / file)) << file;
+  }
+}
+
+TEST(LioSim, EndsWithTheRightCodeAndOneLineThatHelps) {
+  const test::TempDir dir;
+  const std::string file = dir.Write("file", "").string();
+  struct Case {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string word;
+  };
+  for (const Case& c : std::vector<Case>{
+           {{}, 2, "--scenario"},
+           {{"--scenario", "hall"}, 2, "--out"},
+           {{"--scenario", "stret", "--out", file}, 2, "street"},
+           {{"--scenario", "hall", "--duration", "-3", "--out", file}, 2, "duration"},
+           {{"--scenario", "hall", "--threads", "0", "--out", file}, 2, "threads"},
+           {{"--scenario", "hall", "--imu-rate", "5000", "--out", file}, 2, "imu-rate"},
+           {{"--scenario", "hall", "--fault", "hole", "--out", file}, 2, "imu_gap"},
+           {{"--scenario", "hall", "--lidar", "hdl33", "--out", file}, 3, "hdl32e"},
+           {{"--scenario", "hall", "--imu", "best", "--out", file}, 3, "xsens_mti10"},
+           {{"--scenario", "hall", "--duration", "1", "--out", file}, 5, "file"}}) {
+    const auto result = Simulate(c.arguments);
+    EXPECT_EQ(result.exit_code, c.exit_code) << result.err;
+    EXPECT_NE(result.err.find(c.word), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace lio::sim

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/sim/scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lio::sim {
+namespace {
+
+World WallAndMover() {
+  World world;
+  AddQuad(world.fixed, {10, -50, -50}, {10, 50, -50}, {10, 50, 50}, {10, -50, 50},
+          Material::kBrick);
+  Mesh box;
+  AddBox(box, UprightPose({0, 0, -0.5}, 0.0), {1.0, 1.0, 1.0}, Material::kRetro);
+  world.shapes.push_back(box);
+  // Drives toward us and brakes while it turns.
+  world.movers.push_back({0, [](double t) {
+                            return UprightPose({8.0 - 10.0 * t + 4.0 * t * t, 0.0, 0.0}, 0.0);
+                          }});
+  return world;
+}
+
+Hit CastOne(const Scene::Interval& interval, const Vector3f& from, const Vector3f& direction,
+            float time_ratio = 0.0f) {
+  const Ray ray{from, direction.normalized(), time_ratio};
+  Hit hit;
+  interval.Cast({&ray, 1}, 100.0f, {&hit, 1});
+  return hit;
+}
+
+TEST(Scene, FindsTheWallItsMaterialAndIncidence) {
+  const World world = WallAndMover();
+  const Scene scene(world);
+  const auto interval = scene.During(0.0, 0.1);
+  const Hit hit = CastOne(interval, {0, 5, 0}, {1, 1, 0});
+  EXPECT_EQ(hit.object, Hit::kFixed);
+  EXPECT_NEAR(hit.range_m, 10.0 * std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(hit.cos_incidence, std::sqrt(0.5), 1e-5);
+  EXPECT_EQ(hit.material, Material::kBrick);
+}
+
+TEST(Scene, NothingInReachIsNothing) {
+  const World world = WallAndMover();
+  const Scene scene(world);
+  const Hit hit = CastOne(scene.During(0.0, 0.1), {0, 5, 0}, {-1, 0, 0});
+  EXPECT_EQ(hit.object, Hit::kNothing);
+  EXPECT_TRUE(std::isinf(hit.range_m));
+}
+
+TEST(Scene, MoversAreWhereTheyAreAtTheRaysOwnInstant) {
+  const World world = WallAndMover();
+  const Scene scene(world);
+  const double begin = 0.2;
+  const double end = 0.3;
+  const auto interval = scene.During(begin, end);
+  for (double ratio = 0.0; ratio <= 1.0; ratio += 0.03) {
+    const double t = begin + ratio * (end - begin);
+    const Hit hit = CastOne(interval, {0, 0, 0}, {1, 0, 0}, static_cast<float>(ratio));
+    EXPECT_EQ(hit.object, 0);
+    EXPECT_EQ(hit.material, Material::kRetro);
+    // Linear between poses 10 ms apart: off by a dt^2 / 8 = 0.1 mm.
+    EXPECT_NEAR(hit.range_m, 8.0 - 10.0 * t + 4.0 * t * t - 0.5, 2e-4) << "at " << t;
+  }
+}
+
+TEST(Scene, AnswersDoNotDependOnTheCompanyOfARay) {
+  const World world = WallAndMover();
+  const Scene scene(world);
+  const auto interval = scene.During(0.0, 0.1);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 37; ++i) {
+    const Vector3f direction(1.0f, 0.02f * static_cast<float>(i - 18), 0.01f);
+    rays.push_back({{0, 0, 0}, direction.normalized(), 0.027f * static_cast<float>(i)});
+  }
+  std::vector<Hit> together(rays.size());
+  interval.Cast(rays, 100.0f, together);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Hit alone;
+    interval.Cast({&rays[i], 1}, 100.0f, {&alone, 1});
+    EXPECT_EQ(alone.range_m, together[i].range_m);
+    EXPECT_EQ(alone.object, together[i].object);
+  }
+}
+
+TEST(Scene, EmptyWorldIsAllowed) {
+  const World world;
+  const Scene scene(world);
+  EXPECT_EQ(CastOne(scene.During(0.0, 0.1), {0, 0, 0}, {1, 0, 0}).object, Hit::kNothing);
+}
+
+}  // namespace
+}  // namespace lio::sim

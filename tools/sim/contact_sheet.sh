@@ -1,0 +1,23 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+# A contact sheet of every scenario: one bird's-eye picture each, with the way.
+#   tools/sim/contact_sheet.sh [OUT.png] [SEED]
+# Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD names another build folder.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+build=${LIO_BUILD:-$here/../../build}
+out=${1:-contact_sheet.png}
+seed=${2:-1}
+sim=$build/bin/lio-sim
+if [ ! -x "$sim" ]; then
+  echo "contact_sheet.sh: no $sim: run tools/setup.sh first, or set LIO_BUILD" >&2
+  exit 5
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for name in $("$sim" --list); do
+  "$sim" --scenario "$name" --seed "$seed" --threads "$(nproc)" --picture "$work/$name.ppm"
+done
+"$sim" --list >"$work/names"
+/usr/bin/python3 -B "$here/contact_sheet.py" "$work" "$out"
