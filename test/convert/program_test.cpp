@@ -32,8 +32,9 @@ class ConvertProgram : public testing::Test {
   std::string Path(const std::string& name) const { return (dir_.path() / name).string(); }
 
   // A bag of `num` clouds on each of the topics and an IMU.
-  std::string WriteBag(const std::vector<std::string>& cloud_topics, int num = 12) {
-    test::Bag1Writer writer(dir_.path() / "drive.bag");
+  std::string WriteBag(const std::vector<std::string>& cloud_topics, int num = 12,
+                       const test::Bag1Writer::Options& form = {}) {
+    test::Bag1Writer writer(dir_.path() / "drive.bag", form);
     const test::SpinningLidar lidar;
     for (int k = 0; k < num; ++k) {
       const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
@@ -154,6 +155,66 @@ TEST_F(ConvertProgram, ACutBagIsConvertedUpToTheCutAndIs5) {
   EXPECT_THAT(result.out, HasSubstr("bytes lost"));
   EXPECT_THAT(result.out, HasSubstr("converted up to"));
   EXPECT_GT(std::filesystem::file_size(dir_.path() / "o.lcm"), 100'000u);
+}
+
+TEST_F(ConvertProgram, ABagThatWasNeverClosedIsConvertedAndIs5) {
+  const std::string bag = WriteBag({"/points"}, 20, {.with_index = false});
+  const ProgramResult result = Run({"rosbag", bag, Path("o.lcm")});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.out, HasSubstr("was never closed, it has no index"));
+  EXPECT_THAT(result.out, HasSubstr("/points: 20 sweeps"));
+}
+
+TEST_F(ConvertProgram, ADamagedMessageInASoundBagIsPassedOverAndIs5) {
+  const test::SpinningLidar lidar;
+  test::Bag1Writer writer(dir_.path() / "drive.bag");
+  for (int k = 0; k < 12; ++k) {
+    const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+    auto cloud = test::CloudMessage(test::VelodyneCloud(stamp, test::SeePoints(lidar, k)));
+    if (k == 5) cloud.resize(cloud.size() / 2);
+    writer.Write("/points", "sensor_msgs/PointCloud2",
+                 stamp + Duration::FromSeconds(CloudSeconds(lidar) + 0.005), cloud);
+  }
+  writer.Close();
+  const ProgramResult result = Run({"rosbag", Path("drive.bag"), Path("o.lcm")});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.out, HasSubstr("/points: 11 sweeps"));
+  EXPECT_THAT(result.out, HasSubstr("1 messages passed over, /points"));
+}
+
+TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {
+  const test::SpinningLidar lidar;
+  test::Bag2Writer writer(dir_.path() / "drive");
+  for (int k = 0; k < 20; ++k) {
+    const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+    writer.Write("/points", "sensor_msgs/msg/PointCloud2",
+                 stamp + Duration::FromSeconds(CloudSeconds(lidar) + 0.005),
+                 test::CloudMessage(test::VelodyneCloud(stamp, test::SeePoints(lidar, k)),
+                                    test::RosBytes(RosEncoding::kCdr)));
+  }
+  writer.Close();
+  const ProgramResult whole = Run({"rosbag", Path("drive"), Path("o.lcm")});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.out, HasSubstr("/points: 20 sweeps"));
+  const std::string bytes = test::ReadText(dir_.path() / "drive/bag_0.db3");
+  dir_.Write("drive/bag_0.db3", bytes.substr(0, bytes.size() / 2));
+  const ProgramResult cut = Run({"rosbag", Path("drive"), Path("o.lcm")});
+  ExpectOneLine(cut, 5);
+  EXPECT_THAT(cut.out, HasSubstr("messages missing"));
+  EXPECT_THAT(cut.out, HasSubstr("converted up to"));
+}
+
+// As much memory for a bag of four times the length, give or take a few megabytes.
+TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
+  const auto peak_kb = [&](int num_clouds) {
+    const std::string bag = WriteBag({"/points"}, num_clouds, {.compression = "lz4"});
+    return test::PeakMemoryKb({LIO_CONVERT_PROGRAM, "rosbag", bag, Path("o.lcm")});
+  };
+  const std::int64_t of_short = peak_kb(100);
+  const std::int64_t of_long = peak_kb(400);
+  EXPECT_GT(of_short, 0);
+  EXPECT_GT(std::filesystem::file_size(dir_.path() / "o.lcm"), 40'000'000u);
+  EXPECT_LT(of_long, of_short + 5'000);
 }
 
 TEST_F(ConvertProgram, AnOutputThatCannotBeWrittenIsOneLine) {

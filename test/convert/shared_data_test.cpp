@@ -156,6 +156,56 @@ TEST(KittiDrive0005, ConvertsWholly) {
   }
 }
 
+// A ROS 1 message in ROS 2's form.
+std::vector<std::uint8_t> InRos2Form(const BagTopic& topic, const BagMessage& message) {
+  const test::RosBytes form(RosEncoding::kCdr);
+  if (topic.type == "sensor_msgs/Imu") {
+    return test::ImuMessage(*DecodeRosImu(message.data, topic.encoding), form);
+  }
+  if (topic.type == "nav_msgs/Odometry") {
+    return test::OdometryMessage(*DecodeRosOdometry(message.data, topic.encoding), form);
+  }
+  const RosCloud cloud = *DecodeRosCloud(message.data, topic.encoding);
+  return test::CloudMessage({.stamp = cloud.stamp,
+                             .height = cloud.height,
+                             .width = cloud.width,
+                             .fields = cloud.fields,
+                             .point_step = cloud.point_step,
+                             .row_step = cloud.row_step,
+                             .big_endian = cloud.big_endian,
+                             .data = {cloud.data.begin(), cloud.data.end()}},
+                            form);
+}
+
+// Most of UrbanLoco's Hong Kong data is in ROS 2's form now.
+TEST(UlhkSample, GivesTheSameLogAndTruthAsARos2Bag) {
+  LIO_REQUIRE_SHARED_DATA(bag, "ulhk_sample.bag.xz");
+  const test::TempDir dir;
+  const test::TempDir ros2_dir;
+  {
+    test::Bag2Writer writer(ros2_dir.path() / "drive", 400);
+    const auto reader = OpenBag(bag);
+    for (BagMessage message; reader->Next(message);) {
+      const BagTopic& topic = reader->topics()[message.topic];
+      const std::size_t slash = topic.type.find('/');
+      writer.Write(topic.name, topic.type.substr(0, slash) + "/msg" + topic.type.substr(slash),
+                   message.received, InRos2Form(topic, message));
+    }
+    writer.Close();
+  }
+  RosbagOptions ros1 = Options(bag, dir);
+  ros1.truth_file = dir.path() / "truth.tum";
+  RosbagOptions ros2 = Options(ros2_dir.path() / "drive", ros2_dir);
+  ros2.truth_file = ros2_dir.path() / "truth.tum";
+  ConvertRosbag(ros1);
+  const RosbagReport report = ConvertRosbag(ros2);
+  EXPECT_FALSE(report.IsDamaged());
+  EXPECT_EQ(report.lidar.num(), 79);
+  EXPECT_EQ(report.imu.num(), 801);
+  EXPECT_TRUE(test::ReadText(ros1.output) == test::ReadText(ros2.output));
+  EXPECT_EQ(test::ReadText(*ros1.truth_file), test::ReadText(*ros2.truth_file));
+}
+
 // Lays drive 0005 out anew as an odometry sequence: camera poses from the OXTS truth at the scans'
 // stamps, times from the first scan on.
 class KittiSequenceOf0005 {

@@ -3,8 +3,12 @@
 // Runs a program as a user would, and keeps what it said.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -37,6 +41,23 @@ inline ProgramResult RunProgram(const std::vector<std::string>& command,
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(dir.path() / "out"),
           ReadText(dir.path() / "err")};
+}
+
+// The most memory that the program held at once [kB], or -1 when it did not end with 0.
+inline std::int64_t PeakMemoryKb(std::vector<std::string> command) {
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool is_quiet = std::freopen("/dev/null", "w", stdout) != nullptr;
+    if (is_quiet) execv(words[0], words.data());
+    _exit(127);
+  }
+  int status = -1;
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0) return -1;
+  return usage.ru_maxrss;
 }
 
 }  // namespace lio::test
