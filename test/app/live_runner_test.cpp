@@ -27,6 +27,29 @@ Options SceneOptions() {
   return loaded.options;
 }
 
+// Gives out nothing while it is held, so that messages pile up however slowly they are published.
+class HoldableBus final : public Bus {
+ public:
+  void Subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
+    bus_->Subscribe(channel, queue_capacity, std::move(handler));
+  }
+  ReceiveResult Receive(std::chrono::milliseconds timeout) override {
+    if (!is_held_) return bus_->Receive(timeout);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return ReceiveResult::kTimeout;
+  }
+  bool Publish(const std::string& channel, ByteView data) override {
+    return bus_->Publish(channel, data);
+  }
+  std::int64_t num_oversized() const override { return bus_->num_oversized(); }
+  std::int64_t num_handler_faults() const override { return bus_->num_handler_faults(); }
+  void Hold(bool hold) { is_held_ = hold; }
+
+ private:
+  std::unique_ptr<Bus> bus_ = OpenMemoryBus();
+  std::atomic<bool> is_held_ = false;
+};
+
 class LiveRunnerTest : public ::testing::Test {
  protected:
   LiveRunnerTest() {
@@ -88,7 +111,7 @@ class LiveRunnerTest : public ::testing::Test {
   std::atomic<bool> has_delivered_all_ = false;
   test::TempDir folder_;
   std::filesystem::path out_ = folder_.path() / "live";
-  std::unique_ptr<Bus> bus_ = OpenMemoryBus();
+  std::unique_ptr<HoldableBus> bus_ = std::make_unique<HoldableBus>();
 };
 
 TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
@@ -169,11 +192,16 @@ TEST_F(LiveRunnerTest, OverloadDropsWholeScansAndCountsThem) {
   LoadResult loaded = LoadOptions({kScene / "config.yaml"}, {"pipeline.max_queued_scans=1"});
   LiveRunner runner(*bus_, loaded.options, WithFiles());
   Play(runner, 500);  // past the start, where nothing is dropped
+  bus_->Hold(true);
   EventLogReader reader(kScene / "log.lcm");
   LogEvent event;
   for (int i = 0; reader.Next(event); ++i) {
     if (i >= 500) bus_->Publish(event.channel, event.data);
   }
+  has_delivered_all_ = false;
+  bus_->Publish(kEndMark, Bytes{0});
+  bus_->Hold(false);
+  WaitUntil([this] { return has_delivered_all_.load(); }, "all messages are delivered");
   runner.Stop();
   EXPECT_EQ(Stats()["num_imu_queue_dropped"], 0);
   EXPECT_EQ(Stats()["num_chunks_missing"], 0);
