@@ -219,6 +219,29 @@ TEST(PoseUpdate, WhollyNewMapForgetsTheMapPoseError) {
   EXPECT_LT((estimate.cov.bottomRightCorner<6, 6>() - measurement.blend_cov).norm(), 1e-18);
 }
 
+TEST(PoseUpdate, WhereTheMapIsTheWorldAPoseMeasuresBoth) {
+  std::mt19937_64 random(12);
+  Estimate estimate = RandomEstimate(random, 0.01);
+  MakeMapTheWorld(estimate);
+  EXPECT_EQ(LogSe3(estimate.state.T_world_imu.Inverse() * estimate.state.T_map_imu).norm(), 0.0);
+  Estimate expected = estimate;  // the textbook's update of the world pose alone
+  const Vector6 shift = 1e-4 * test::RandomVector<6>(random);
+  const Matrix6 R = test::RandomCovariance<6>(random, 0.01);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, kStateDim);
+  H.block<3, 3>(0, kPos) = estimate.state.T_world_imu.rotation.conjugate().toRotationMatrix();
+  H.block<3, 3>(3, kRot) = Matrix3::Identity();
+  FuseLinear(expected, H, shift, R);
+
+  PoseMeasurement measurement;
+  measurement.T_map_imu = estimate.state.T_world_imu * ExpSe3(shift);
+  measurement.cov = R;
+  ASSERT_TRUE(FusePose(estimate, measurement, kNoGate).fused);
+  EXPECT_LT(BoxMinus(estimate.state, expected.state).norm(), 1e-7);  // the shift's square
+  EXPECT_LT((estimate.cov - expected.cov).norm(), 1e-3 * expected.cov.norm());
+  const Pose apart = estimate.state.T_world_imu.Inverse() * estimate.state.T_map_imu;
+  EXPECT_LT(LogSe3(apart).norm(), 1e-7);
+}
+
 TEST(PoseUpdate, LinearUpdateOfOneNumberIsTheTextbooks) {
   Estimate estimate;
   estimate.cov = 4.0 * ErrorMatrix::Identity();

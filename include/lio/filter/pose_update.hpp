@@ -31,6 +31,12 @@ UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, do
 // Call when the scan goes into the map at the estimate's T_map_imu.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
+// From here on the map's frame is world itself, as for poses that are absolute: of motion capture,
+// or of a surveyed map. T_map_imu becomes T_world_imu with its very error, so that FusePose
+// measures both; nothing may be inserted or rebased then. The two stay equal to second order of the
+// errors.
+void MakeMapTheWorld(Estimate& estimate);
+
 // General linear update with noise `R`, for start-up and pseudo-measurements: Joseph form,
 // injection and reset. `H` has as many rows as `residual`.
 void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,

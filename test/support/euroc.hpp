@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Recorded inertial samples with true poses: the EuRoC extract of the shared data.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lio/sensor/imu_sample.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio::test {
+
+struct RealDrive {
+  std::vector<ImuSample> samples;  // 200 Hz
+  StampedPoses T_world_imu;        // 20 Hz, the truth; z up
+};
+
+// `name`: V101 or MH04. The files' quaternions turn world to camera, although their description has
+// it the other way round: only so do rates and gravity agree with the IMU. Throws
+// std::runtime_error when a file cannot be read.
+RealDrive ReadEuroc(const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace lio::test
