@@ -120,6 +120,25 @@ bool RosSchema::ParseLine(std::string_view line, Message& message) const {
   return true;
 }
 
+// What the field's type is. False: a message that is not defined.
+bool RosSchema::LinkField(Field& field, const std::string& package) const {
+  if (FindPrimitive(field.type) != nullptr) {
+    field.kind = Kind::kNumber;
+  } else if (field.type == "string" || field.type == "wstring") {
+    field.kind = Kind::kString;
+  } else if (field.type == "time" || field.type == "duration") {
+    field.kind = Kind::kTime;
+  } else {
+    field.kind = Kind::kMessage;
+    const auto found = std::find_if(messages_.begin() + 1, messages_.end(), [&](const Message& m) {
+      return Matches(m.type, field.type, package);
+    });
+    if (found == messages_.end()) return false;
+    field.message = static_cast<std::size_t>(found - messages_.begin());
+  }
+  return true;
+}
+
 // Finds the message of every field that is one. False when a type is not defined.
 bool RosSchema::Link() {
   for (Message& message : messages_) {
@@ -127,20 +146,7 @@ bool RosSchema::Link() {
     const std::string package =
         slash == std::string::npos ? std::string() : message.type.substr(0, slash);
     for (Field& field : message.fields) {
-      if (FindPrimitive(field.type) != nullptr) {
-        field.kind = Kind::kNumber;
-      } else if (field.type == "string" || field.type == "wstring") {
-        field.kind = Kind::kString;
-      } else if (field.type == "time" || field.type == "duration") {
-        field.kind = Kind::kTime;
-      } else {
-        field.kind = Kind::kMessage;
-        const auto found =
-            std::find_if(messages_.begin() + 1, messages_.end(),
-                         [&](const Message& m) { return Matches(m.type, field.type, package); });
-        if (found == messages_.end()) return false;
-        field.message = static_cast<std::size_t>(found - messages_.begin());
-      }
+      if (!LinkField(field, package)) return false;
     }
   }
   return !messages_.front().fields.empty();

@@ -30,6 +30,7 @@ std::string List(const std::vector<const BagTopic*>& topics) {
 
 std::string ListAll(const std::vector<BagTopic>& topics) {
   std::vector<const BagTopic*> all;
+  all.reserve(topics.size());
   for (const BagTopic& topic : topics) all.push_back(&topic);
   return List(all);
 }

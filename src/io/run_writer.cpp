@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -82,9 +83,7 @@ std::string RegistrationRow(const ScanReport& scan) {
 
 // The smallest value that `fraction` of all values do not exceed; `sorted` is not empty.
 float Quantile(const std::vector<float>& sorted, double fraction) {
-  const auto rank =
-      static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) + 0.5);
-  return sorted[rank];
+  return sorted[std::lround(fraction * static_cast<double>(sorted.size() - 1))];
 }
 
 Json StageStats(std::vector<float> values_ms) {

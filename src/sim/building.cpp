@@ -122,8 +122,9 @@ void AddFacade(Mesh& mesh, const Wall& wall, const BuildingPlan& plan, Random& r
   const int num_bays = std::max(1, static_cast<int>(wall.length_m / style.bay_m));
   const double bay_m = wall.length_m / num_bays;
   AddRectangle(mesh, wall, {0.0, wall.length_m, kFoot_m, 0.0}, 0.0, Material::kConcrete);
-  std::vector<bool> balconies;
-  for (int b = 0; b < num_bays; ++b) balconies.push_back(random.Chance(style.balcony_chance));
+  std::vector<bool> balconies(static_cast<std::size_t>(num_bays));
+  std::generate(balconies.begin(), balconies.end(),
+                [&] { return random.Chance(style.balcony_chance); });
   double floor = 0.0;
   for (int storey = 0; storey < plan.num_storeys; ++storey) {
     const double height = storey == 0 ? style.ground_storey_m : style.storey_m;

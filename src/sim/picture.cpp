@@ -79,7 +79,7 @@ Camera MakeCamera(const Scenario& scenario, const std::vector<Vector3>& way,
   camera.up = out.cross(camera.right);
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9);
   Eigen::Vector2d high = -low;
-  const Vector3 now =
+  const Vector3& now =
       way[static_cast<std::size_t>(scenario.view_share * static_cast<double>(way.size() - 1))];
   const double reach_m = Extent(way) < scenario.view_width_m ? 1e9 : 0.5 * scenario.view_width_m;
   double top_z = -1e9;

@@ -80,27 +80,26 @@ void AddParkedRow(Mesh& mesh, double y, double z, double heading, Random& random
   }
 }
 
-// Columns, downstand beams, parapets, a stair core and what hangs and stands about.
+// What carries and hangs below the ceiling at x: columns, some with a cabinet, a beam, lamps.
+void AddColumns(Mesh& mesh, double x, double z, double clear, Random& random) {
+  for (const double y : {-3.4, 3.6, 14.4, 21.4}) {
+    const double from_turn_m = std::hypot(x - kStraight_m, y - kRadius_m) - kRadius_m;
+    if (x > kStraight_m && std::abs(from_turn_m) < kHalfRamp_m) continue;  // in the way
+    AddBox(mesh, At(x, y, z), {0.5, 0.5, clear}, Material::kConcrete);
+    if (!random.Chance(0.3)) continue;
+    AddBox(mesh, At(x, y + (y < 9.0 ? -0.3 : 0.3), z + 1.4), {0.4, 0.06, 0.5}, Material::kRetro);
+  }
+  AddBox(mesh, At(x, 9.0, z + clear - 0.45), {0.4, kNorth_m - kSouth_m, 0.45}, Material::kConcrete);
+  for (const double y : {1.6, 16.4}) {
+    AddBox(mesh, At(x + 4.0, y, z + clear - 0.12), {1.5, 0.15, 0.1}, Material::kPlaster);
+  }
+}
+
+// Columns and beams under a ceiling, parapets, a stair core.
 void AddStructure(Mesh& mesh, double z, bool has_ceiling, Random& random) {
   const double clear = kStorey_m - kSlab_m;
-  for (double x = 0.4; x < kEast_m; x += 8.0) {
-    if (has_ceiling) {
-      for (const double y : {-3.4, 3.6, 14.4, 21.4}) {
-        const double from_turn_m = std::hypot(x - kStraight_m, y - kRadius_m) - kRadius_m;
-        if (x > kStraight_m && std::abs(from_turn_m) < kHalfRamp_m) continue;
-        AddBox(mesh, At(x, y, z), {0.5, 0.5, clear}, Material::kConcrete);
-        if (random.Chance(0.3)) {
-          AddBox(mesh, At(x, y + (y < 9.0 ? -0.3 : 0.3), z + 1.4), {0.4, 0.06, 0.5},
-                 Material::kRetro);
-        }
-      }
-      AddBox(mesh, At(x, 9.0, z + clear - 0.45), {0.4, kNorth_m - kSouth_m, 0.45},
-             Material::kConcrete);
-    }
-    for (const double y : {1.6, 16.4}) {  // lamps on or above the aisles' sides
-      if (has_ceiling)
-        AddBox(mesh, At(x + 4.0, y, z + clear - 0.12), {1.5, 0.15, 0.1}, Material::kPlaster);
-    }
+  for (double x = 0.4; has_ceiling && x < kEast_m; x += 8.0) {
+    AddColumns(mesh, x, z, clear, random);
   }
   for (const double y : {kSouth_m, kNorth_m}) {
     AddBox(mesh, At(0.5 * kEast_m, y, z), {kEast_m, 0.2, 1.1}, Material::kConcrete);

@@ -64,14 +64,15 @@ void AddCutting(World& world, Town& town, double from_m, double to_m) {
                         0.2 * std::sin(0.9 * x - 0.7 * y);
     return RoadHeight(x) + 0.05 + std::max(-0.4, rise);
   };
+  const auto add_turf = [&](double x, double y, double side) {
+    const auto at = [&](double dx, double dy) {
+      return Vector3(x + dx, side * (y + dy), height(x + dx, side * (y + dy)));
+    };
+    AddQuad(world.fixed, at(0, 0), at(2, 0), at(2, 2), at(0, 2), Material::kGrass);
+  };
   for (const double side : {-1.0, 1.0}) {
     for (double x = from_m; x < to_m; x += 2.0) {
-      for (double y = kFoot_m - 1.0; y < kTop_m; y += 2.0) {
-        const auto at = [&](double dx, double dy) {
-          return Vector3(x + dx, side * (y + dy), height(x + dx, side * (y + dy)));
-        };
-        AddQuad(world.fixed, at(0, 0), at(2, 0), at(2, 2), at(0, 2), Material::kGrass);
-      }
+      for (double y = kFoot_m - 1.0; y < kTop_m; y += 2.0) add_turf(x, y, side);
     }
     Random& random = town.random();
     for (double x = from_m + 2.0; x < to_m; x += random.Uniform(2.0, 8.0)) {

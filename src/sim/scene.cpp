@@ -71,6 +71,8 @@ struct Scene::Impl {
 };
 
 struct Scene::Interval::Impl {
+  Hit HitOf(const RTCRayHit8& packet, std::size_t i, const Ray& ray) const;
+
   const Scene::Impl* world = nullptr;
   ScenePtr movers;                // null when nothing moves
   std::vector<Matrix3> to_mover;  // rotation world to mover at the interval's middle
@@ -126,6 +128,49 @@ Scene::Interval::Interval(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
 Scene::Interval::~Interval() = default;
 Scene::Interval::Interval(Interval&&) noexcept = default;
 
+// Fills the packet's lanes with `rays`; the lanes beyond repeat the last ray and are not valid.
+static void Load(std::span<const Ray> rays, float max_range_m, RTCRayHit8& packet,
+                 std::array<int, kLanes>& valid) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const Ray& ray = rays[std::min(i, rays.size() - 1)];
+    valid[i] = i < rays.size() ? -1 : 0;
+    packet.ray.org_x[i] = ray.origin_m.x();
+    packet.ray.org_y[i] = ray.origin_m.y();
+    packet.ray.org_z[i] = ray.origin_m.z();
+    packet.ray.dir_x[i] = ray.direction.x();
+    packet.ray.dir_y[i] = ray.direction.y();
+    packet.ray.dir_z[i] = ray.direction.z();
+    packet.ray.tnear[i] = 0.0f;
+    packet.ray.tfar[i] = max_range_m;
+    packet.ray.time[i] = ray.time_ratio;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+// What lane i of the packet has hit.
+Hit Scene::Interval::Impl::HitOf(const RTCRayHit8& packet, std::size_t i, const Ray& ray) const {
+  Hit hit;
+  if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return hit;
+  const Vector3f normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
+  Vector3f direction = ray.direction;
+  const unsigned mover = packet.hit.instID[0][i];
+  const unsigned triangle = packet.hit.primID[i];
+  hit.range_m = packet.ray.tfar[i];
+  if (mover == RTC_INVALID_GEOMETRY_ID) {
+    hit.object = Hit::kFixed;
+    hit.material = world->fixed_materials[triangle];
+  } else {
+    hit.object = static_cast<int>(mover);
+    hit.material = world->shape_materials[world->movers[mover].shape][triangle];
+    direction = (to_mover[mover] * direction.cast<double>()).cast<float>();
+  }
+  hit.cos_incidence = std::abs(normal.dot(direction)) / normal.norm();
+  return hit;
+}
+
 void Scene::Interval::Cast(std::span<const Ray> rays, float max_range_m,
                            std::span<Hit> hits) const {
   RTCIntersectContext context;
@@ -135,45 +180,11 @@ void Scene::Interval::Cast(std::span<const Ray> rays, float max_range_m,
   alignas(32) std::array<int, kLanes> valid;
   for (std::size_t first = 0; first < rays.size(); first += kLanes) {
     const std::size_t num = std::min<std::size_t>(kLanes, rays.size() - first);
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const Ray& ray = rays[first + std::min(i, num - 1)];
-      valid[i] = i < num ? -1 : 0;
-      packet.ray.org_x[i] = ray.origin_m.x();
-      packet.ray.org_y[i] = ray.origin_m.y();
-      packet.ray.org_z[i] = ray.origin_m.z();
-      packet.ray.dir_x[i] = ray.direction.x();
-      packet.ray.dir_y[i] = ray.direction.y();
-      packet.ray.dir_z[i] = ray.direction.z();
-      packet.ray.tnear[i] = 0.0f;
-      packet.ray.tfar[i] = max_range_m;
-      packet.ray.time[i] = ray.time_ratio;
-      packet.ray.mask[i] = ~0u;
-      packet.ray.flags[i] = 0;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
+    Load(rays.subspan(first, num), max_range_m, packet, valid);
     rtcIntersect8(valid.data(), impl_->world->fixed.get(), &context, &packet);
     if (impl_->movers) rtcIntersect8(valid.data(), impl_->movers.get(), &context, &packet);
-    for (std::size_t i = 0; i < num; ++i) {
-      Hit hit;
-      if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-        const Vector3f normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
-        Vector3f direction = rays[first + i].direction;
-        const unsigned mover = packet.hit.instID[0][i];
-        const unsigned triangle = packet.hit.primID[i];
-        hit.range_m = packet.ray.tfar[i];
-        if (mover == RTC_INVALID_GEOMETRY_ID) {
-          hit.object = Hit::kFixed;
-          hit.material = impl_->world->fixed_materials[triangle];
-        } else {
-          hit.object = static_cast<int>(mover);
-          hit.material = impl_->world->shape_materials[impl_->world->movers[mover].shape][triangle];
-          direction = (impl_->to_mover[mover] * direction.cast<double>()).cast<float>();
-        }
-        hit.cos_incidence = std::abs(normal.dot(direction)) / normal.norm();
-      }
-      hits[first + i] = hit;
-    }
+    for (std::size_t i = 0; i < num; ++i)
+      hits[first + i] = impl_->HitOf(packet, i, rays[first + i]);
   }
 }
 

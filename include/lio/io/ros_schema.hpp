@@ -45,6 +45,7 @@ class RosSchema {
   };
 
   bool ParseLine(std::string_view line, Message& message) const;
+  bool LinkField(Field& field, const std::string& package) const;
   bool Link();
   struct Walk {
     RosCursor cursor;
