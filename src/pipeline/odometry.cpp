@@ -62,12 +62,48 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
     ++counters_.num_imu;
     return;
   }
+  if (!new_stretch_.empty()) {
+    held_.push_back({sample, std::nullopt, 0});
+    return;
+  }
   const std::int64_t begin = Now();
-  const ImuIntake::Result result = intake_.Add(sample);
-  if (result.jumped) BeginNewStretch(result.accepted.front());
-  for (const ImuSample& accepted : result.accepted) Accept(accepted);
+  ImuIntake::Result result = intake_.Add(sample);
+  if (result.jumped) {
+    new_stretch_ = std::move(result.accepted);
+    EndStretch();
+  } else {
+    for (const ImuSample& accepted : result.accepted) Accept(accepted);
+  }
   filter_ns_ += Now() - begin;
   OpenGate();
+}
+
+// The inertial stream has jumped to new_stretch_. What the lidar saw before is matched first, all
+// that comes meanwhile waits: so it does not matter how fast jobs are finished.
+void Odometry::Impl::EndStretch() {
+  const Timestamp first = new_stretch_.front().stamp;
+  const bool goes_back = first < imu_.back().stamp;
+  while (history_ && !gate_.empty() && (goes_back || gate_.oldest().end < first)) {
+    ++counters_.num_scans_without_imu;
+    Admit(gate_.Force());
+  }
+  if (!HasWork()) ResumeAfterStretch();
+}
+
+void Odometry::Impl::ResumeAfterStretch() {
+  const std::vector<ImuSample> samples = std::exchange(new_stretch_, {});
+  BeginNewStretch(samples.front());
+  for (const ImuSample& sample : samples) Accept(sample);
+  while (!held_.empty() && new_stretch_.empty()) {
+    HeldMessage message = std::move(held_.front());
+    held_.pop_front();
+    message.chunk ? AddChunk(std::move(*message.chunk), message.decode_ns) : AddImu(message.sample);
+  }
+  if (is_flushed_ && new_stretch_.empty()) Flush();
+}
+
+bool Odometry::Impl::HasWork() const {
+  return in_flight_ || ready_.size() > (phase_ == Phase::kScouting ? scouted_.size() : 0);
 }
 
 void Odometry::Impl::Accept(const ImuSample& sample) {
@@ -97,7 +133,7 @@ void Odometry::Impl::Accept(const ImuSample& sample) {
 void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   imu_.clear();
   cut_.reset();
-  gate_.Clear();
+  gate_.BeginNewStretch(first.stamp);
   ready_.clear();
   ++counters_.num_restarts;
   if (!history_) {
@@ -130,6 +166,10 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
 }
 
 void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  if (!new_stretch_.empty()) {
+    held_.push_back({{}, std::move(chunk), decode_ns});
+    return;
+  }
   const Timestamp stamp = chunk.stamp;
   assembler_.Add(std::move(chunk), decode_ns);
   if (!use_imu_ || imu_.empty()) {
@@ -139,12 +179,19 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 }
 
 void Odometry::Impl::Flush() {
+  is_flushed_ = true;
+  if (!new_stretch_.empty()) return;
   assembler_.CloseAll();
   OpenGate();
+  gate_.Flush();
   if (use_imu_ && imu_.empty() && !gate_.empty()) {
     GoLidarOnly("the log ended without inertial samples");
   }
   OpenGate();
+  while (!gate_.empty()) {
+    if (gate_.oldest().start > imu_.back().stamp) ++counters_.num_scans_without_imu;
+    Admit(gate_.Force());
+  }
 }
 
 void Odometry::Impl::GoLidarOnly(const std::string& why) {
@@ -175,7 +222,15 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
   const auto bracket = std::lower_bound(
       imu_.begin(), imu_.end(), sweep->end,
       [](const ImuSample& sample, Timestamp stamp) { return sample.stamp < stamp; });
-  cut_ = bracket == imu_.end() ? sweep->end : bracket->stamp;
+  if (bracket == imu_.end()) {
+    ImuSample held = imu_.back();
+    held.stamp = sweep->end;
+    imu_.push_back(held);
+    if (history_) history_->AddImu(held);
+    cut_ = held.stamp;
+  } else {
+    cut_ = bracket->stamp;
+  }
   ready_.push_back(std::move(sweep));
 }
 

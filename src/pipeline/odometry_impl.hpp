@@ -46,6 +46,9 @@ class Odometry::Impl {
 
   // --- odometry.cpp: intake
   void Accept(const ImuSample& sample);
+  void EndStretch();
+  void ResumeAfterStretch();
+  bool HasWork() const;
   void BeginNewStretch(const ImuSample& first);
   void CollectSweeps();
   void OpenGate();
@@ -74,6 +77,7 @@ class Odometry::Impl {
   // --- odometry_scan.cpp
   FilterHistory& history() { return scout_ ? scout_->history() : *history_; }
   MatchJob MakeJob(const SweepPtr& sweep, bool clear_map);
+  InsertTask TakeOutcome(MatchOutcome outcome);
   void FinishRunning(MatchOutcome& outcome, InsertTask& insert);
   Matrix6 DeskewCov(const Sweep& sweep);
   bool Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report);
@@ -91,8 +95,16 @@ class Odometry::Impl {
 
   bool use_imu_;
   ImuIntake intake_{counters_};
-  std::deque<ImuSample> imu_;     // accepted, by stamp, of the last seconds
-  std::optional<Timestamp> cut_;  // samples up to here come too late: a scan has used them
+  std::deque<ImuSample> imu_;           // accepted, by stamp, of the last seconds
+  std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
+  std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
+  struct HeldMessage {
+    ImuSample sample;
+    std::optional<ScanChunk> chunk;  // absent: it is the sample
+    std::int64_t decode_ns = 0;
+  };
+  std::deque<HeldMessage> held_;  // what came since new_stretch_ did
+  bool is_flushed_ = false;
   ScanAssembler assembler_{counters_};
   ScanGate gate_{counters_};
   std::deque<SweepPtr> ready_;  // covered by inertial data, not yet done with

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLost_s = 2.0;          // no accepted match for this long
 constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
+constexpr int kMinPointsToGrow = 200;    // a scan of fewer points tells nothing of the map
 
 }  // namespace
 
@@ -48,11 +49,16 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
 }
 
 InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
+  InsertTask insert = TakeOutcome(std::move(outcome));
+  if (!new_stretch_.empty() && !HasWork()) ResumeAfterStretch();
+  return insert;
+}
+
+InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
   InsertTask insert;
   const bool is_current = in_flight_ && outcome.sweep == in_flight_;
   in_flight_.reset();
   counters_.num_points_nonfinite += outcome.num_nonfinite;
-  // A jump of the clock while the job was out has cleared the queue: the result has no place.
   const std::size_t at = phase_ == Phase::kScouting ? scouted_.size() : 0;
   if (!is_current || at >= ready_.size() || ready_[at] != outcome.sweep) return insert;
   if (phase_ == Phase::kScouting) {
@@ -128,8 +134,9 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
   // Where the map has nothing to match against, it is grown from where the filter stands.
-  const bool leaves_map = outcome.match.status == MatchStatus::kTooFewPoints ||
-                          num_unmatched_in_a_row_ > kMaxUnmatchedInARow;
+  const bool leaves_map =
+      outcome.num_used >= kMinPointsToGrow && (outcome.match.status == MatchStatus::kTooFewPoints ||
+                                               num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
   if (starts_map || leaves_map) history().AddRebase(middle);
   const Estimate estimate = history().At(middle);
   const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);

@@ -7,9 +7,11 @@
 namespace lio {
 namespace {
 
-constexpr double kImuSilence_s = 1.0;  // the lidar goes on without the IMU after this
+constexpr Duration kImuSilence{1'000'000'000};  // the lidar goes on without the IMU after this
 constexpr Duration kScanGap{250'000'000};
-constexpr int kMaxLateInARow = 5;  // then the lidar's clock has moved back for good
+constexpr Duration kFarAhead{2'000'000'000};  // a longer gap may be a wrong stamp
+constexpr Duration kBearsOut{500'000'000};    // of a wrong stamp no second one comes so near
+constexpr int kMaxLateInARow = 5;             // then the lidar's clock has moved back for good
 
 }  // namespace
 
@@ -19,17 +21,55 @@ void ScanGate::Add(Sweep sweep) {
     ++counters_->num_scans_empty;
     return;
   }
-  if (last_end_ && sweep.end <= *last_end_) {
-    ++counters_->num_scans_late;
-    if (++num_late_in_a_row_ < kMaxLateInARow) return;
-    ++counters_->num_clock_jumps;
-    waiting_.clear();
-  } else if (last_end_ && sweep.start - *last_end_ > kScanGap) {
-    ++counters_->num_scan_gaps;
-  }
+  if (HoldsBack(sweep)) return;
+  if (last_end_ && sweep.end <= *last_end_ && DropLate()) return;
+  LetIn(std::move(sweep));
+}
+
+void ScanGate::LetIn(Sweep sweep) {
+  if (last_end_ && sweep.start - *last_end_ > kScanGap) ++counters_->num_scan_gaps;
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
   waiting_.push_back(std::make_shared<const Sweep>(std::move(sweep)));
+}
+
+// Counts a late sweep. False: so many come late that time itself has moved back.
+bool ScanGate::DropLate() {
+  ++counters_->num_scans_late;
+  if (++num_late_in_a_row_ < kMaxLateInARow) return true;
+  ++counters_->num_clock_jumps;
+  counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
+  waiting_.clear();
+  last_end_.reset();
+  return false;
+}
+
+// Takes the sweep when it is far ahead; lets one in that was held before when this one follows it.
+bool ScanGate::HoldsBack(Sweep& sweep) {
+  if (suspect_) {
+    const Duration after = sweep.start - suspect_->end;
+    if (sweep.end > suspect_->end && after < kBearsOut && -after < kBearsOut) {
+      LetIn(std::move(*suspect_));
+    } else {
+      ++counters_->num_scans_late;
+    }
+    suspect_.reset();
+  }
+  if (!last_end_ || sweep.start - *last_end_ <= kFarAhead) return false;
+  suspect_ = std::move(sweep);
+  return true;
+}
+
+void ScanGate::Flush() {
+  if (suspect_) LetIn(std::move(*suspect_));
+  suspect_.reset();
+}
+
+void ScanGate::BeginNewStretch(Timestamp first) {
+  if (!last_end_ || *last_end_ <= first) return;
+  counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
+  waiting_.clear();
+  last_end_.reset();
 }
 
 double ScanGate::waiting_span_s() const {
@@ -37,9 +77,14 @@ double ScanGate::waiting_span_s() const {
 }
 
 SweepPtr ScanGate::Open(std::optional<Timestamp> newest_imu) {
+  if (newest_imu != last_imu_) {
+    last_imu_ = newest_imu;
+    imu_silent_at_ = last_end_;
+  }
   if (waiting_.empty() || !newest_imu) return nullptr;
   if (*newest_imu >= waiting_.front()->end) return Force();
-  if (waiting_span_s() <= kImuSilence_s) return nullptr;
+  if (!imu_silent_at_) imu_silent_at_ = waiting_.front()->start;
+  if (waiting_.back()->end - *imu_silent_at_ <= kImuSilence) return nullptr;
   ++counters_->num_scans_without_imu;
   return Force();
 }

@@ -79,7 +79,8 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
 }
 
 void ScanAssembler::CloseUpTo(Timestamp stamp) {
-  while (!open_.empty() && open_.front().name.last < stamp) CloseOldest();
+  const auto end = [&](const SweepName& name) { return std::max(name.last, name.first + span_); };
+  while (!open_.empty() && end(open_.front().name) < stamp) CloseOldest();
 }
 
 void ScanAssembler::CloseAll() {
@@ -96,6 +97,7 @@ void ScanAssembler::CloseOldest() {
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
   counters_->num_chunks_missing += sweep.num_missing_chunks;
+  if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kMaxSweepSpan);
   if (partial.chunks.size() == 1) {
     sweep.points = std::move(partial.chunks.front().points);
   } else {

@@ -136,6 +136,19 @@ TEST(ScanAssembler, TimeClosesAnIncompleteSweep) {
   EXPECT_EQ(sweeps[0].end, last);
 }
 
+// Once the length of a sweep is known, its end is, too: chunks that are still to come are waited
+// for, however few and long they are.
+TEST(ScanAssembler, SweepThatIsStillComingInIsNotClosed) {
+  Assembly a;
+  for (const ScanChunk& chunk : MakeSweep(0)) a.Add(chunk);
+  a.Add(MakeChunk(1, 0));
+  const Timestamp end = MakeChunk(1, kChunks - 1).stamp + Duration{24'000'000};
+  a.assembler.CloseUpTo(end);
+  EXPECT_EQ(a.TakeAll().size(), 1u);
+  a.assembler.CloseUpTo(end + Duration{1});
+  EXPECT_EQ(a.TakeAll().size(), 1u);
+}
+
 TEST(ScanAssembler, MissingFirstChunkMovesTheStart) {
   Assembly a;
   for (const int index : {2, 3}) a.Add(MakeChunk(0, index));

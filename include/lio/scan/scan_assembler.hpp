@@ -21,7 +21,8 @@ class ScanAssembler {
   explicit ScanAssembler(Counters& counters) : counters_(&counters) {}
 
   void Add(ScanChunk chunk, std::int64_t decode_ns);
-  // Closes every sweep whose last known point is before `stamp`.
+  // Closes every sweep that ends before `stamp`: by its last known point, and by how long the last
+  // whole sweep was.
   void CloseUpTo(Timestamp stamp);
   void CloseAll();
 
@@ -50,6 +51,7 @@ class ScanAssembler {
   Counters* counters_;
   std::deque<Partial> open_;  // at most two, oldest first
   std::deque<Sweep> closed_;
+  Duration span_;                       // of the last whole sweep
   std::deque<SweepName> closed_names_;  // of the last sweeps, to know their stragglers by
 };
 

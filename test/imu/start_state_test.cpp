@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/start_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "support/motion.hpp"
+#include "support/random_state.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+
+constexpr double kStep_s = 0.01;
+
+struct Rest {
+  Quaternion R_world_imu = Quaternion::Identity();
+  Vector3 gyro_bias = Vector3::Zero();
+  Vector3 accel_bias = Vector3::Zero();
+  Vector3 g_world = test::kGravity;
+};
+
+// A second of an IMU that stands still, its noise as the rig says.
+std::vector<ImuSample> StandStill(const Rest& rest, const Rig& rig, std::mt19937_64& random) {
+  const double white = 1.0 / std::sqrt(kStep_s);
+  std::vector<ImuSample> samples;
+  for (int i = 0; i <= 100; ++i) {
+    ImuSample sample;
+    sample.stamp = StampAt(i * kStep_s);
+    sample.w_imu_radps =
+        rest.gyro_bias + rig.imu.gyro_noise_density * white * test::RandomVector<3>(random);
+    sample.f_imu_mps2 = rest.R_world_imu.conjugate() * -rest.g_world + rest.accel_bias +
+                        rig.imu.accel_noise_density * white * test::RandomVector<3>(random);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+Quaternion Tilted(double roll_rad, double pitch_rad) {
+  return ExpSo3(Vector3(0, pitch_rad, 0)) * ExpSo3(Vector3(roll_rad, 0, 0));
+}
+
+TEST(StartState, StatisticsAreMeanAndSpread) {
+  std::vector<ImuSample> samples(2);
+  samples[0] = {StampAt(0.0), Vector3(1, 0, 0), Vector3(0, 0, 9)};
+  samples[1] = {StampAt(0.5), Vector3(3, 0, 0), Vector3(0, 0, 11)};
+  const ImuStatistics statistics = Summarise(samples);
+  EXPECT_EQ(statistics.num_samples, 2);
+  EXPECT_DOUBLE_EQ(statistics.span_s, 0.5);
+  EXPECT_LT((statistics.mean_w_radps - Vector3(2, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((statistics.mean_f_mps2 - Vector3(0, 0, 10)).norm(), 1e-12);
+  EXPECT_NEAR(statistics.gyro_std_radps, 1.0, 1e-12);
+  EXPECT_NEAR(statistics.accel_std_mps2, 1.0, 1e-12);
+}
+
+TEST(StartState, StatisticsOfNothingAreZero) {
+  EXPECT_EQ(Summarise({}).num_samples, 0);
+  EXPECT_EQ(Summarise({}).span_s, 0.0);
+}
+
+TEST(StartState, GravityIsFoundInTheReadingUnlessTheRigSays) {
+  Rig rig;
+  ImuStatistics present;
+  present.mean_f_mps2 = Vector3(0.3, 0, 9.7);
+  ImuStatistics removed;
+  removed.mean_f_mps2 = Vector3(0.3, 0, -0.1);
+  EXPECT_TRUE(GravityPresent(present, rig));
+  EXPECT_FALSE(GravityPresent(removed, rig));
+  rig.imu.gravity = GravityInput::kRemoved;
+  EXPECT_FALSE(GravityPresent(present, rig));
+  rig.imu.gravity = GravityInput::kPresent;
+  EXPECT_TRUE(GravityPresent(removed, rig));
+}
+
+TEST(StartState, RestLevelsTheWorldAndSeedsTheGyroBias) {
+  std::mt19937_64 random(1);
+  const Rig rig;
+  Rest rest;
+  rest.R_world_imu = Tilted(0.2, -0.1);
+  rest.gyro_bias = Vector3(0.01, -0.02, 0.005);
+  const StartState start = StartAtRest(StandStill(rest, rig, random), StampAt(1.0), rig);
+  const NavState& state = start.estimate.state;
+  EXPECT_EQ(start.estimate.stamp, StampAt(1.0));
+  const Vector3 up = state.T_world_imu.rotation * (rest.R_world_imu.conjugate() * Vector3::UnitZ());
+  EXPECT_GT(up.z(), 0.99999);
+  const Vector3 forward = state.T_world_imu.rotation * Vector3::UnitX();
+  EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 0.0, 1e-9) << "yaw is zero by definition";
+  EXPECT_LT((state.gyro_bias - rest.gyro_bias).norm(), 0.004);
+  EXPECT_EQ(state.T_world_imu.translation, Vector3::Zero());
+  EXPECT_LT(state.v_world_imu.norm(), 1e-9);
+  EXPECT_EQ(start.g_world, Vector3(0, 0, -rig.gravity_mps2));
+  EXPECT_NE(start.how.find("at rest"), std::string::npos);
+  EXPECT_EQ(LogSe3(state.T_map_imu.Inverse() * state.T_world_imu).norm(), 0.0);
+}
+
+TEST(StartState, UpsideDownAndOnItsSideAreLevelledToo) {
+  std::mt19937_64 random(2);
+  const Rig rig;
+  for (const double roll_rad : {M_PI / 2, M_PI - 0.01, M_PI}) {
+    Rest rest;
+    rest.R_world_imu = Tilted(roll_rad, 0.05);
+    const StartState start = StartAtRest(StandStill(rest, rig, random), StampAt(1.0), rig);
+    const Vector3 up = start.estimate.state.T_world_imu.rotation *
+                       (rest.R_world_imu.conjugate() * Vector3::UnitZ());
+    EXPECT_GT(up.z(), 0.999) << roll_rad;
+    EXPECT_TRUE(start.estimate.cov.allFinite());
+  }
+}
+
+TEST(StartState, GravityFreeReadingIsNoTilt) {
+  std::mt19937_64 random(3);
+  const Rig rig;
+  Rest rest;
+  rest.g_world = Vector3::Zero();
+  rest.accel_bias = Vector3(0.02, 0.03, -0.01);
+  const StartState start = StartAtRest(StandStill(rest, rig, random), StampAt(1.0), rig);
+  EXPECT_EQ(start.g_world, Vector3::Zero());
+  EXPECT_LT(LogSo3(start.estimate.state.T_world_imu.rotation).norm(), 1e-9);
+  EXPECT_LT((start.estimate.state.accel_bias - rest.accel_bias).norm(), 0.01);
+  EXPECT_NE(start.how.find("without gravity"), std::string::npos);
+}
+
+// Biases drawn from the rig's own spread: errors must be what the covariance says, the tie of tilt
+// to accelerometer bias included.
+TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
+  constexpr int kRuns = 300;
+  std::mt19937_64 random(4);
+  Rig rig;
+  std::vector<int> rows = {kRot, kRot + 1};  // level enough that yaw, zero by definition, is z
+  for (int i = kGyroBias; i < kGyroBias + 6; ++i) rows.push_back(i);
+  double nees = 0;
+  double tilt_sq = 0;
+  double predicted_tilt_sq = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    Rest rest;
+    rest.gyro_bias = rig.imu.gyro_bias_std_radps * test::RandomVector<3>(random);
+    rest.accel_bias = rig.imu.accel_bias_std_mps2 * test::RandomVector<3>(random);
+    const StartState start = StartAtRest(StandStill(rest, rig, random), StampAt(1.0), rig);
+    NavState truth;
+    truth.gyro_bias = rest.gyro_bias;
+    truth.accel_bias = rest.accel_bias;
+    const ErrorVector error = BoxMinus(truth, start.estimate.state);
+    const Eigen::VectorXd part = error(rows);
+    const Eigen::MatrixXd cov = start.estimate.cov(rows, rows);
+    nees += part.dot(cov.ldlt().solve(part)) / kRuns;
+    tilt_sq += part.head<2>().squaredNorm() / kRuns;
+    predicted_tilt_sq += (cov(0, 0) + cov(1, 1)) / kRuns;
+  }
+  const auto dof = static_cast<double>(rows.size());
+  // Gravity's strength is known exactly here but taken as unsure, so a little below is right.
+  EXPECT_LT(nees, dof + 3 * std::sqrt(2 * dof / kRuns));
+  EXPECT_GT(nees, 0.8 * dof);
+  EXPECT_NEAR(tilt_sq / predicted_tilt_sq, 1.0, 3 * std::sqrt(1.0 / kRuns));
+}
+
+TEST(StartState, RefusesToStartWithoutSamples) {
+  EXPECT_THROW(StartAtRest({}, StampAt(0.0), Rig{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A drive through a scene as the messages that its sensors send, and the estimator run over them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lio/pipeline/odometry.hpp"
+#include "support/motion.hpp"
+#include "support/scene.hpp"
+
+namespace lio::test {
+
+struct Message {
+  Timestamp arrival;
+  bool is_imu = true;
+  ImuSample sample;
+  ScanChunk chunk;
+};
+using Messages = std::vector<Message>;  // in order of arrival
+
+struct DriveOptions {
+  Motion motion;
+  double imu_from_s = 0.0;
+  double lidar_from_s = 0.0;
+  double to_s = 5.0;
+  double imu_step_s = 0.01;
+  int chunks_per_sweep = 3;
+  // What the IMU gets wrong.
+  double gyro_density = 2e-4;
+  double accel_density = 2e-3;
+  Vector3 gyro_bias{0.002, -0.001, 0.0015};
+  Vector3 accel_bias{0.02, -0.01, 0.03};
+  Vector3 g_world = kGravity;  // zero: an IMU that takes gravity out
+};
+
+Messages SimulateDrive(const Scene& scene, const DriveOptions& options);
+
+// Options for TestLidar() and the IMU of DriveOptions.
+Options DriveRig();
+
+struct RunResult {
+  std::vector<ScanOutput> scans;
+  std::vector<NavOutput> navs;
+  std::vector<Notice> notices;
+  Counters counters;
+  TrackingStatus status = TrackingStatus::kInit;
+};
+
+// `lag`: messages that are taken between a job's start and its end, as with a slow matching thread.
+RunResult RunOdometry(const Messages& messages, const Options& options, int lag = 0);
+
+// Everything that the scans' outputs say but times of computing, bit by bit.
+std::string Bytes(const std::vector<ScanOutput>& scans);
+
+struct TrackError {
+  double max_m = 0.0;  // of the path from the first output's pose on
+  double max_rad = 0.0;
+  double max_tilt_rad = 0.0;  // of the output's vertical against the true one, at any time
+  double end_m = 0.0;
+};
+// How far the outputs with stamps from `from_s` on are from the motion. Stamps that were shifted
+// are shifted back by `shift_s`.
+TrackError ErrorAgainst(const Motion& motion, const std::vector<ScanOutput>& scans,
+                        double from_s = -1e9, double shift_s = 0.0);
+
+bool HasNotice(const RunResult& run, const std::string& part);
+
+}  // namespace lio::test
