@@ -35,6 +35,17 @@ std::vector<Eigen::Vector3f> Thin(const std::vector<Eigen::Vector3f>& points, in
   return thinned;
 }
 
+constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
+
+// To axes whose z is up; the origin stays at the sensor.
+UprightView ViewOf(const std::vector<Eigen::Vector3f>& points_imu, const Quaternion& R_level_imu) {
+  const Eigen::Matrix3f R = R_level_imu.toRotationMatrix().cast<float>();
+  std::vector<Eigen::Vector3f> levelled;
+  levelled.reserve(points_imu.size());
+  for (const Eigen::Vector3f& point : points_imu) levelled.push_back(R * point);
+  return UprightView(levelled);
+}
+
 }  // namespace
 
 MatchSide::MatchSide(const Options& options, ClockNs clock)
@@ -44,6 +55,24 @@ MatchSide::MatchSide(const Options& options, ClockNs clock)
       reducer_(options.reduce, options.rig.lidar),
       matcher_(std::make_unique<NdtMatcher>(options.ndt)) {}
 
+MatchInput MatchSide::Guess(const MatchJob& job,
+                            const std::vector<Eigen::Vector3f>& points_imu) const {
+  MatchInput guess{{}, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
+  if (!job.seek_shift_up_map || !last_scan_) return guess;
+  const Quaternion R_level_map =
+      Quaternion::FromTwoVectors(*job.seek_shift_up_map, Vector3::UnitZ());
+  const UprightView before =
+      ViewOf(last_scan_->points_imu, R_level_map * last_scan_->T_map_imu.rotation);
+  const UprightView after = ViewOf(points_imu, R_level_map * job.T_map_imu_guess.rotation);
+  if (const auto shift = FindShift(before, after)) {
+    const Vector3 level(shift->x(), shift->y(), 0.0);
+    guess.T_map_imu_guess.translation =
+        last_scan_->T_map_imu.translation + R_level_map.conjugate() * level;
+    guess.guess_cov.topLeftCorner<3, 3>() = kSoughtStd_m * kSoughtStd_m * Matrix3::Identity();
+  }
+  return guess;
+}
+
 MatchOutcome MatchSide::Run(const MatchJob& job) {
   const Sweep& sweep = *job.sweep;
   MatchOutcome outcome;
@@ -52,7 +81,10 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   const auto time = [&](Stage stage, std::int64_t since) {
     times[static_cast<std::size_t>(stage)] += Now() - since;
   };
-  if (job.clear_map) matcher_->Clear();
+  if (job.clear_map) {
+    matcher_->Clear();
+    last_scan_.reset();
+  }
 
   std::int64_t begin = Now();
   const ReducedScan reduced = reducer_.Reduce(sweep);
@@ -67,8 +99,9 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
 
   begin = Now();
   std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
-  outcome.match =
-      matcher_->Match({to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew});
+  MatchInput input = Guess(job, to_match);
+  input.points_imu = to_match;
+  outcome.match = matcher_->Match(input);
   time(Stage::kMatch, begin);
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
@@ -79,6 +112,10 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
     to_match = Thin(outcome.points_imu, match_points_);
     outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true});
     time(Stage::kMatch, begin);
+  }
+  if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
+    last_scan_ = {to_match,
+                  outcome.match.IsUsable() ? outcome.match.T_map_imu : input.T_map_imu_guess};
   }
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;
   times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;

@@ -144,7 +144,8 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   }
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
-  const double unknown_s = std::clamp(jump_s, 0.1, 3.0);
+  // Back in time: a clock was set, and about a message's time has passed.
+  const double unknown_s = jump_s < 0.0 ? 0.1 : std::min(jump_s, 3.0);
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;
@@ -156,7 +157,7 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   ProcessNoise noise = history.noise;
   noise.accel_density = 2.0 * history.gap_accel_std_mps2 * std::sqrt(unknown_s);
   noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
-  Propagate(estimate, coast, end, noise, g_world_);
+  if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
   estimate.stamp = first.stamp;
   history_.emplace(history, estimate, first);
   last_published_.reset();

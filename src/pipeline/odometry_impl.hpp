@@ -63,6 +63,7 @@ class Odometry::Impl {
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
   void BeginScouting(const Sweep& sweep);
   void BeginScoutingAnew();
+  Vector3 UpInMap() const;  // about
   void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
   void TryStartAtRest(Timestamp begin, Timestamp stamp);
@@ -118,6 +119,7 @@ class Odometry::Impl {
   std::vector<Scouted> scouted_;    // one a sweep of ready_
   std::optional<NavState> glance_;  // the motion that the first scans showed
   bool scouts_with_gyro_ = true;
+  Vector3 scout_up_map_ = Vector3::UnitZ();  // about
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kLost_s = 2.0;          // no accepted match for this long
 constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
-constexpr int kMinPointsToGrow = 200;    // a scan of fewer points tells nothing of the map
+constexpr double kSeekStd_m = 0.7;     // a shift since the last scan less sure than this is sought
+constexpr int kMinPointsToGrow = 200;  // a scan of fewer points tells nothing of the map
 
 }  // namespace
 
@@ -44,6 +45,9 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.refine_deskew = scout_.has_value();
   if (last_found_) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+    const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);
+    const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
+    if (velocity_std_mps * job.since_last_fix_s > kSeekStd_m) job.seek_shift_up_map = UpInMap();
   }
   return job;
 }

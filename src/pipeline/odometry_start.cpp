@@ -32,6 +32,16 @@ double LargestStd(const Estimate& estimate, int at) {
   return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
 }
 
+// Roughly up, in whatever unit and sign forces come. Where gravity is not in them they point
+// anywhere: then along the lidar's axis.
+Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig) {
+  constexpr double kMaxLean = 0.7;  // cosine
+  const Vector3 axis = rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ();
+  if (samples.empty()) return axis;
+  const Vector3 up = Summarise(samples).mean_f_mps2.normalized();
+  return std::abs(up.dot(axis)) > kMaxLean ? up : axis;
+}
+
 template <class... Args>
 std::string Text(const char* format, Args... args) {
   char text[240];
@@ -64,6 +74,13 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
   if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(start).w_imu_radps;
   scout_.emplace(start, scouting);
+  scout_up_map_ = MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
+}
+
+Vector3 Odometry::Impl::UpInMap() const {
+  if (scout_) return scout_up_map_;
+  const NavState& state = history_->head().state;
+  return state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
 void Odometry::Impl::AdvanceScout(Timestamp stamp) {
