@@ -9,18 +9,20 @@ namespace lio {
 namespace {
 
 // Beyond the gate by force: the body has moved in a way that the filter did not see, by about the
-// residual, and has kept the speed of it. Both poses and the velocity take the unseen motion; what
-// is known of tilt and biases stays.
+// residual, and may have kept the speed of it or not: the next scans tell. Both poses and the
+// velocity take the unseen motion; what is known of tilt and biases stays.
 void AllowUnseenMotion(Estimate& estimate, const Pose& T_map_imu_measured) {
   constexpr double kDuration_s = 0.2;  // a scan or two
   const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * T_map_imu_measured);
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
   Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
   effect.block<3, 3>(kPos, 0) = R;
-  effect.block<3, 3>(kVel, 0) = R / kDuration_s;
   effect.block<3, 3>(kRot, 3) = Matrix3::Identity();
   effect.block<6, 6>(kMapPose, 0) = Matrix6::Identity();
-  estimate.cov += effect * residual.cwiseAbs2().asDiagonal() * effect.transpose();
+  const Vector6 variance = residual.cwiseAbs2();
+  estimate.cov += effect * variance.asDiagonal() * effect.transpose();
+  const Vector3 velocity_var = variance.head<3>() / (kDuration_s * kDuration_s);
+  estimate.cov.block<3, 3>(kVel, kVel) += R * velocity_var.asDiagonal() * R.transpose();
 }
 
 void RebaseMapPose(Estimate& estimate) {

@@ -13,6 +13,7 @@
 namespace lio {
 namespace {
 
+constexpr double kMaxGap_s = 3.0;
 constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
 constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
 constexpr Duration kStampSlack{20'000'000};
@@ -144,8 +145,9 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   }
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
-  // Back in time: a clock was set, and about a message's time has passed.
-  const double unknown_s = jump_s < 0.0 ? 0.1 : std::min(jump_s, 3.0);
+  const bool is_gap =
+      jump_s >= 0.0 && jump_s < kMaxGap_s;  // else a clock was set, as messages go on
+  const double unknown_s = is_gap ? jump_s : std::clamp(jump_s, 0.1, kMaxGap_s);
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;
@@ -157,7 +159,9 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   ProcessNoise noise = history.noise;
   noise.accel_density = 2.0 * history.gap_accel_std_mps2 * std::sqrt(unknown_s);
   noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
+  const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
+  if (!is_gap) estimate.state = before;
   estimate.stamp = first.stamp;
   history_.emplace(history, estimate, first);
   last_published_.reset();
