@@ -8,12 +8,19 @@
 namespace lio {
 namespace {
 
-// Beyond the gate by force: the body has moved in a way that the filter did not see, by about the
-// residual, and may have kept the speed of it or not: the next scans tell. Both poses and the
-// velocity take the unseen motion; what is known of tilt and biases stays.
-void AllowUnseenMotion(Estimate& estimate, const Pose& T_map_imu_measured) {
+// What registration may be wrong by without being lost: beyond the gate by less, its claim was too
+// good; by more, the body has moved unseen.
+bool IsSmall(const Vector6& residual) {
+  constexpr double kSmall_m = 0.15;
+  constexpr double kSmall_rad = 0.03;
+  return residual.head<3>().norm() < kSmall_m && residual.tail<3>().norm() < kSmall_rad;
+}
+
+// The body has moved in a way that the filter did not see, by about the residual, and may have kept
+// the speed of it or not: the next scans tell. Both poses and the velocity take the unseen motion;
+// what is known of tilt and biases stays.
+void AllowUnseenMotion(Estimate& estimate, const Vector6& residual) {
   constexpr double kDuration_s = 0.2;  // a scan or two
-  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * T_map_imu_measured);
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
   Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
   effect.block<3, 3>(kPos, 0) = R;
@@ -23,6 +30,17 @@ void AllowUnseenMotion(Estimate& estimate, const Pose& T_map_imu_measured) {
   estimate.cov += effect * variance.asDiagonal() * effect.transpose();
   const Vector3 velocity_var = variance.head<3>() / (kDuration_s * kDuration_s);
   estimate.cov.block<3, 3>(kVel, kVel) += R * velocity_var.asDiagonal() * R.transpose();
+}
+
+// Fuses a pose from beyond the gate. `nis`: how far beyond.
+bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
+  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+  if (IsSmall(residual)) {
+    measurement.cov *= nis / nis_limit;
+  } else {
+    AllowUnseenMotion(estimate, residual);
+  }
+  return FusePose(estimate, measurement, std::numeric_limits<double>::infinity()).fused;
 }
 
 void RebaseMapPose(Estimate& estimate) {
@@ -107,10 +125,8 @@ void FilterHistory::Step(std::size_t at) {
 
   node.update = FusePose(node.posterior, node.pose.measurement, options_.nis_limit);
   if (!node.update.fused && node.pose.force) {
-    AllowUnseenMotion(node.posterior, node.pose.measurement.T_map_imu);
     node.update.fused =
-        FusePose(node.posterior, node.pose.measurement, std::numeric_limits<double>::infinity())
-            .fused;
+        FuseByForce(node.posterior, node.pose.measurement, node.update.nis, options_.nis_limit);
   }
   if (node.update.fused) BlendMapPose(node.posterior, node.pose.measurement);
 }
@@ -186,7 +202,8 @@ StampedPoses FilterHistory::Trajectory(Timestamp from, Timestamp to) const {
 }
 
 void FilterHistory::Trim() {
-  const Timestamp oldest = nodes_.back().stamp - Duration::FromSeconds(options_.span_s);
+  Timestamp oldest = nodes_.back().stamp - Duration::FromSeconds(options_.span_s);
+  if (keep_from_) oldest = std::min(oldest, *keep_from_);
   while (nodes_.size() > 2 && nodes_[1].stamp <= oldest) nodes_.pop_front();
 }
 

@@ -36,14 +36,20 @@ std::vector<Eigen::Vector3f> Thin(const std::vector<Eigen::Vector3f>& points, in
 }
 
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
+constexpr std::size_t kMinScansToSeek = 3;
 
 // To axes whose z is up; the origin stays at the sensor.
-UprightView ViewOf(const std::vector<Eigen::Vector3f>& points_imu, const Quaternion& R_level_imu) {
+std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
+                                      const Quaternion& R_level_imu) {
   const Eigen::Matrix3f R = R_level_imu.toRotationMatrix().cast<float>();
   std::vector<Eigen::Vector3f> levelled;
   levelled.reserve(points_imu.size());
-  for (const Eigen::Vector3f& point : points_imu) levelled.push_back(R * point);
-  return UprightView(levelled);
+  for (const Eigen::Vector3f& point : points_imu) levelled.emplace_back(R * point);
+  return levelled;
+}
+
+Quaternion LevelOf(const Vector3& up_map) {
+  return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
 }
 
 }  // namespace
@@ -55,22 +61,61 @@ MatchSide::MatchSide(const Options& options, ClockNs clock)
       reducer_(options.reduce, options.rig.lidar),
       matcher_(std::make_unique<NdtMatcher>(options.ndt)) {}
 
-MatchInput MatchSide::Guess(const MatchJob& job,
-                            const std::vector<Eigen::Vector3f>& points_imu) const {
-  MatchInput guess{{}, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
-  if (!job.seek_shift_up_map || !last_scan_) return guess;
-  const Quaternion R_level_map =
-      Quaternion::FromTwoVectors(*job.seek_shift_up_map, Vector3::UnitZ());
-  const UprightView before =
-      ViewOf(last_scan_->points_imu, R_level_map * last_scan_->T_map_imu.rotation);
-  const UprightView after = ViewOf(points_imu, R_level_map * job.T_map_imu_guess.rotation);
-  if (const auto shift = FindShift(before, after)) {
-    const Vector3 level(shift->x(), shift->y(), 0.0);
-    guess.T_map_imu_guess.translation =
-        last_scan_->T_map_imu.translation + R_level_map.conjugate() * level;
-    guess.guess_cov.topLeftCorner<3, 3>() = kSoughtStd_m * kSoughtStd_m * Matrix3::Identity();
+MatchInput MatchSide::SeekShift(const MatchJob& job,
+                                std::span<const Eigen::Vector3f> points_imu) const {
+  MatchInput input{points_imu, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
+  if (!last_found_) return input;
+  const Quaternion R_level_map = LevelOf(job.up_map);
+  VelocitySearch search;
+  search.Add(last_found_->stamp,
+             Levelled(last_found_->points_imu, R_level_map * last_found_->T_map_imu.rotation));
+  search.Add(job.sweep->middle(), Levelled(points_imu, R_level_map * job.T_map_imu_guess.rotation));
+  if (const auto v_level = search.Find()) {
+    const double since_s = SecondsBetween(last_found_->stamp, job.sweep->middle());
+    const Vector3 shift_level = since_s * Vector3(v_level->x(), v_level->y(), 0.0);
+    input.T_map_imu_guess.translation =
+        last_found_->T_map_imu.translation + R_level_map.conjugate() * shift_level;
+    input.guess_cov.topLeftCorner<3, 3>() = kSoughtStd_m * kSoughtStd_m * Matrix3::Identity();
   }
-  return guess;
+  return input;
+}
+
+void MatchSide::SeekVelocity(const MatchJob& job, MatchOutcome& outcome) {
+  const Quaternion R_level_map = LevelOf(job.up_map);
+  velocity_search_.Add(job.sweep->middle(),
+                       Levelled(outcome.points_imu, R_level_map * job.T_map_imu_guess.rotation));
+  outcome.match.T_map_imu = job.T_map_imu_guess;
+  if (velocity_search_.num_scans() < kMinScansToSeek) return;
+  if (const auto v_level = velocity_search_.Find()) {
+    outcome.v_map_imu_mps = R_level_map.conjugate() * Vector3(v_level->x(), v_level->y(), 0.0);
+  }
+}
+
+void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome) {
+  StageTimes& times = outcome.stage_ns;
+  const auto time = [&](Stage stage, std::int64_t since) {
+    times[static_cast<std::size_t>(stage)] += Now() - since;
+  };
+  std::int64_t begin = Now();
+  std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
+  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
+  if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, to_match);
+  outcome.match = matcher_->Match(input);
+  time(Stage::kMatch, begin);
+  if (job.refine_deskew && outcome.match.IsUsable()) {
+    begin = Now();
+    const SweepTimes times_of_sweep{job.sweep->start, job.sweep->end, job.sweep->middle()};
+    outcome.points_imu =
+        Deskew(reduced.points, times_of_sweep, Bend(job, outcome.match.T_map_imu), T_imu_lidar_);
+    time(Stage::kDeskew, begin);
+    begin = Now();
+    to_match = Thin(outcome.points_imu, match_points_);
+    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true});
+    time(Stage::kMatch, begin);
+  }
+  if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
+    last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
+  }
 }
 
 MatchOutcome MatchSide::Run(const MatchJob& job) {
@@ -83,7 +128,8 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   };
   if (job.clear_map) {
     matcher_->Clear();
-    last_scan_.reset();
+    velocity_search_ = {};
+    last_found_.reset();
   }
 
   std::int64_t begin = Now();
@@ -97,25 +143,10 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   outcome.points_imu = Deskew(reduced.points, sweep_times, job.T_any_imu, T_imu_lidar_);
   time(Stage::kDeskew, begin);
 
-  begin = Now();
-  std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
-  MatchInput input = Guess(job, to_match);
-  input.points_imu = to_match;
-  outcome.match = matcher_->Match(input);
-  time(Stage::kMatch, begin);
-  if (job.refine_deskew && outcome.match.IsUsable()) {
-    begin = Now();
-    outcome.points_imu =
-        Deskew(reduced.points, sweep_times, Bend(job, outcome.match.T_map_imu), T_imu_lidar_);
-    time(Stage::kDeskew, begin);
-    begin = Now();
-    to_match = Thin(outcome.points_imu, match_points_);
-    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true});
-    time(Stage::kMatch, begin);
-  }
-  if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
-    last_scan_ = {to_match,
-                  outcome.match.IsUsable() ? outcome.match.T_map_imu : input.T_map_imu_guess};
+  if (job.seek == MatchJob::Seek::kVelocity) {
+    SeekVelocity(job, outcome);
+  } else {
+    Match(job, reduced, outcome);
   }
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;
   times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;

@@ -62,9 +62,10 @@ ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
 }  // namespace
 
 MotionScout::MotionScout(Timestamp start, const ScoutOptions& options)
-    : has_gyro_(options.first_rate_radps.has_value()),
+    : history_options_(MakeHistoryOptions(options)),
+      has_gyro_(options.first_rate_radps.has_value()),
       last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
-      history_(MakeHistoryOptions(options), Start(start, options), Rate(start, last_rate_)) {}
+      history_(history_options_, Start(start, options), Rate(start, last_rate_)) {}
 
 void MotionScout::AddRate(const ImuSample& sample) {
   if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
@@ -78,6 +79,14 @@ void MotionScout::AdvanceTo(Timestamp stamp) {
     at = std::min(at + kStep, stamp);
     history_.AddImu(Rate(at, last_rate_));
   }
+}
+
+void MotionScout::SetClock(Timestamp stamp) {
+  Estimate estimate = history_.head();
+  estimate.stamp = stamp;
+  estimate.cov.block<3, 3>(kVel, kVel) +=
+      kKnownVelocityStd_mps * kKnownVelocityStd_mps * Matrix3::Identity();
+  history_ = FilterHistory(history_options_, estimate, Rate(stamp, last_rate_));
 }
 
 }  // namespace lio

@@ -35,7 +35,6 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
                                          : SteadyWorld::Mode::kFollow) {
   const std::vector<OptionFault> faults = Validate(options);
   if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
-  if (!use_imu_) phase_ = Phase::kRunning;
 }
 
 void Odometry::Impl::Say(Timestamp stamp, Notice::Severity severity, std::string text) {
@@ -193,6 +192,7 @@ void Odometry::Impl::Flush() {
     GoLidarOnly("the log ended without inertial samples");
   }
   OpenGate();
+  if (!use_imu_ && phase_ == Phase::kScouting && !in_flight_ && IsLastScouted()) RunLidarOnly();
   while (!gate_.empty()) {
     if (gate_.oldest().start > imu_.back().stamp) ++counters_.num_scans_without_imu;
     Admit(gate_.Force());
@@ -201,7 +201,6 @@ void Odometry::Impl::Flush() {
 
 void Odometry::Impl::GoLidarOnly(const std::string& why) {
   use_imu_ = false;
-  phase_ = Phase::kRunning;
   Say(gate_.oldest().end, Notice::Severity::kWarning, why + ": lidar-only odometry");
 }
 
@@ -236,6 +235,7 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
   } else {
     cut_ = bracket->stamp;
   }
+  if (history_ && ready_.empty()) history_->KeepFrom(sweep->start);
   ready_.push_back(std::move(sweep));
 }
 

@@ -63,6 +63,9 @@ class Odometry::Impl {
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
   void BeginScouting(const Sweep& sweep);
   void BeginScoutingAnew();
+  void FinishSeeking(const MatchOutcome& outcome);
+  void RunLidarOnly();
+  bool IsLastScouted() const { return is_flushed_ && scouted_.size() == ready_.size(); }
   Vector3 UpInMap() const;  // about
   void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
@@ -117,6 +120,7 @@ class Odometry::Impl {
     bool is_matched = false;
   };
   std::vector<Scouted> scouted_;    // one a sweep of ready_
+  bool has_sought_ = false;         // the first scans' velocity, over a wide range
   std::optional<NavState> glance_;  // the motion that the first scans showed
   bool scouts_with_gyro_ = true;
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about

@@ -25,12 +25,19 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
   const bool is_first = phase_ == Phase::kScouting ? scouted_.empty() : is_first_scan_;
   const bool needs_scout = phase_ == Phase::kScouting || !use_imu_;
   if (needs_scout) {
-    if (is_first) BeginScouting(*in_flight_);
+    const bool is_back = scout_ && in_flight_->end <= scout_->history().head().stamp;
+    if (is_first) {
+      BeginScouting(*in_flight_);
+    } else if (is_back) {
+      scout_->SetClock(in_flight_->start);
+      last_found_.reset();
+    }
     AdvanceScout(in_flight_->end);
   }
   MatchJob job = MakeJob(in_flight_, is_first);
   job.filter_ns = filter_ns_ + Now() - begin;
   filter_ns_ = 0;
+  if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
   return job;
 }
 
@@ -43,11 +50,12 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
   job.refine_deskew = scout_.has_value();
+  job.up_map = UpInMap();
   if (last_found_) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
     const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);
     const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
-    if (velocity_std_mps * job.since_last_fix_s > kSeekStd_m) job.seek_shift_up_map = UpInMap();
+    if (velocity_std_mps * job.since_last_fix_s > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
   }
   return job;
 }
@@ -70,6 +78,9 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
   } else {
     FinishRunning(outcome, insert);
     ready_.pop_front();
+    if (history_) {
+      history_->KeepFrom(ready_.empty() ? std::nullopt : std::optional(ready_.front()->start));
+    }
   }
   insert.points_imu = std::move(outcome.points_imu);
   return insert;

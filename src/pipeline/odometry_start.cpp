@@ -23,6 +23,9 @@ constexpr double kMaxWindow_s = 3.5;
 // Of the first scans nothing is known of the motion, and they are skewed: after this many it is,
 // and they are matched anew.
 constexpr std::size_t kMinGlance = 4;
+constexpr std::size_t kMaxGlance = 8;
+// Where after so many scans no velocity is clear, they start from rest.
+constexpr std::size_t kMaxSought = 5;
 constexpr double kGlanceVelocityStd_mps = 1.0;
 // A scan whose place in the map is less sure would blur the map.
 constexpr double kMaxInsertStd_m = 0.3;
@@ -90,7 +93,31 @@ void Odometry::Impl::AdvanceScout(Timestamp stamp) {
   scout_->AdvanceTo(stamp);
 }
 
+// Of the first scans it is only sought how fast they were taken; then they are matched.
+void Odometry::Impl::FinishSeeking(const MatchOutcome& outcome) {
+  scouted_.push_back({{outcome.sweep->middle(), outcome.match.T_map_imu, Matrix6::Zero()}, false});
+  if (!outcome.v_map_imu_mps && scouted_.size() < kMaxSought && !IsLastScouted()) return;
+  if (outcome.v_map_imu_mps) {
+    glance_.emplace();
+    glance_->v_world_imu = *outcome.v_map_imu_mps;
+  }
+  has_sought_ = true;
+  scouted_.clear();
+}
+
+// From the first sweep on, along the motion that was glanced.
+void Odometry::Impl::RunLidarOnly() {
+  scouted_.clear();
+  scout_.reset();
+  phase_ = Phase::kRunning;
+}
+
 void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {
+  if (!has_sought_) {
+    FinishSeeking(outcome);
+    if (!use_imu_ && glance_) RunLidarOnly();
+    return;
+  }
   const Timestamp middle = outcome.sweep->middle();
   const bool is_matched = outcome.match.IsUsable();
   PoseEvent event;
@@ -114,6 +141,11 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
       LargestStd(estimate, kVel) < kGlanceVelocityStd_mps) {
     glance_ = state;
     scouted_.clear();
+    if (!use_imu_) RunLidarOnly();
+    return;
+  }
+  if (!use_imu_) {
+    if (scouted_.size() >= kMaxGlance || IsLastScouted()) RunLidarOnly();
     return;
   }
   TryStart(outcome.sweep->end);
@@ -123,6 +155,7 @@ void Odometry::Impl::BeginScoutingAnew() {
   scout_.reset();
   scouted_.clear();
   glance_.reset();
+  has_sought_ = false;
 }
 
 bool Odometry::Impl::HasMovedSince(std::size_t first, bool is_calm) const {

@@ -51,6 +51,10 @@ class FilterHistory {
   // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
   EventOutcome AddRebase(Timestamp stamp);
 
+  // Events from `stamp` on, and what they need, are kept even beyond the window: a scan of that time
+  // is still to come. Absent: none is.
+  void KeepFrom(std::optional<Timestamp> stamp) { keep_from_ = stamp; }
+
   const Estimate& head() const { return nodes_.back().posterior; }
   Timestamp start_stamp() const { return start_stamp_; }
   // The estimate at `stamp`, after all events up to it. Before the window: the oldest one's.
@@ -84,6 +88,7 @@ class FilterHistory {
 
   HistoryOptions options_;
   Timestamp start_stamp_;
+  std::optional<Timestamp> keep_from_;
   std::deque<Node> nodes_;  // never empty; the first one is where replays begin
 };
 

@@ -12,8 +12,8 @@
 #include "lio/pipeline/odometry.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/scan/reduce.hpp"
-#include "lio/scan/shift_search.hpp"
 #include "lio/scan/sweep.hpp"
+#include "lio/scan/velocity_search.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {
@@ -25,16 +25,18 @@ struct MatchJob {
   Matrix6 guess_cov = Matrix6::Zero();
   bool clear_map = false;      // forget everything first: the estimator starts anew
   bool refine_deskew = false;  // match, deskew again along what was found, match again
-  // The guess may be metres off: seek the shift against the scan before over a wide range. Up in
-  // map.
-  std::optional<Vector3> seek_shift_up_map;
-  double since_last_fix_s = 0.1;  // how long the guess has run free at the sweep's middle
-  std::int64_t filter_ns = 0;     // CPU time the filter spent since the job before
+  // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
+  // of the scans since clear_map, and nothing is matched.
+  enum class Seek { kNothing, kShift, kVelocity } seek = Seek::kNothing;
+  Vector3 up_map = Vector3::UnitZ();  // about; for seeking
+  double since_last_fix_s = 0.1;      // how long the guess has run free at the sweep's middle
+  std::int64_t filter_ns = 0;         // CPU time the filter spent since the job before
 };
 
 struct MatchOutcome {
   std::shared_ptr<const Sweep> sweep;
   MatchResult match;
+  std::optional<Vector3> v_map_imu_mps;  // sought and found
   int num_used = 0;
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;  // deskewed, at the sweep's middle
@@ -57,21 +59,25 @@ class MatchSide {
   const ScanMatcher& matcher() const { return *matcher_; }
 
  private:
-  struct LastScan {
+  struct FoundScan {
+    Timestamp stamp;
     std::vector<Eigen::Vector3f> points_imu;
     Pose T_map_imu;
   };
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
-  // The guess and its covariance, bettered where the job says so.
-  MatchInput Guess(const MatchJob& job, const std::vector<Eigen::Vector3f>& points_imu) const;
+  void SeekVelocity(const MatchJob& job, MatchOutcome& outcome);
+  void Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome);
+  // The job's guess, bettered by the shift since the last scan.
+  MatchInput SeekShift(const MatchJob& job, std::span<const Eigen::Vector3f> points_imu) const;
 
   Pose T_imu_lidar_;
   int match_points_;
   ClockNs clock_;
   ScanReducer reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
-  std::optional<LastScan> last_scan_;  // the last one that was found in the map
+  VelocitySearch velocity_search_;
+  std::optional<FoundScan> last_found_;
   std::int64_t last_insert_ns_ = 0;
 };
 

@@ -30,10 +30,13 @@ class MotionScout {
   void AddRate(const ImuSample& sample);
   // Fills the time up to `stamp`; with a gyro its last rate holds.
   void AdvanceTo(Timestamp stamp);
+  // Goes on at another time, unsure of the velocity.
+  void SetClock(Timestamp stamp);
   FilterHistory& history() { return history_; }
   const FilterHistory& history() const { return history_; }
 
  private:
+  HistoryOptions history_options_;
   bool has_gyro_;
   Vector3 last_rate_ = Vector3::Zero();  // rad/s; stays zero without a gyro
   FilterHistory history_;

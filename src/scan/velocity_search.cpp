@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/scan/velocity_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace lio {
+namespace {
+
+constexpr float kReach_m = 60.f;  // of the view, to each side
+constexpr float kColumn_m = 0.5f;
+constexpr float kMinHeight_m = 0.4f;  // of a column's points above each other
+constexpr float kCell_m = 0.25f;      // of how near is near
+constexpr int kSide = 2 * static_cast<int>(kReach_m / kCell_m);
+constexpr std::size_t kMinPlaces = 20;
+constexpr std::size_t kMaxPlaces = 300;
+
+constexpr float kStep_mps = 0.5f;
+constexpr int kMaxSteps = 90;  // 45 m/s each way
+constexpr int kNumSteps = 2 * kMaxSteps + 1;
+constexpr float kPeakWidth_m = 1.f;  // what is farther from the best shift must fit worse ...
+constexpr double kClearly = 2.0;     // ... by so many roots of the best score
+constexpr double kFlatTop = 0.95;
+
+struct Column {
+  float low = 0.f;
+  float high = 0.f;
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  int num = 0;
+};
+
+int CellOf(float coordinate) {
+  return static_cast<int>(std::floor((coordinate + kReach_m) / kCell_m));
+}
+
+bool IsInside(int x, int y) {
+  return x >= 0 && y >= 0 && x < kSide && y < kSide;
+}
+
+std::size_t IndexOf(int x, int y) {
+  return static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+}
+
+// Ordered, so that the result depends on points alone.
+std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
+  std::map<std::pair<int, int>, Column> columns;
+  for (const Eigen::Vector3f& point : points) {
+    if (!(point.head<2>().cwiseAbs().maxCoeff() < kReach_m)) continue;
+    const std::pair at(static_cast<int>(std::floor(point.x() / kColumn_m)),
+                       static_cast<int>(std::floor(point.y() / kColumn_m)));
+    Column& column = columns.try_emplace(at, Column{point.z(), point.z()}).first->second;
+    column.low = std::min(column.low, point.z());
+    column.high = std::max(column.high, point.z());
+    column.sum += point.head<2>();
+    ++column.num;
+  }
+  return columns;
+}
+
+std::vector<Eigen::Vector2f> Choose(const std::vector<Eigen::Vector2f>& places) {
+  if (places.size() <= kMaxPlaces) return places;
+  std::vector<Eigen::Vector2f> chosen;
+  for (std::size_t i = 0; i < kMaxPlaces; ++i) {
+    chosen.push_back(places[i * places.size() / kMaxPlaces]);
+  }
+  return chosen;
+}
+
+Eigen::Vector2f VelocityOf(int x, int y) {
+  return kStep_mps *
+         Eigen::Vector2f(static_cast<float>(x - kMaxSteps), static_cast<float>(y - kMaxSteps));
+}
+
+}  // namespace
+
+UprightView::UprightView(std::span<const Eigen::Vector3f> points)
+    : near_(static_cast<std::size_t>(kSide) * kSide, 0) {
+  std::vector<Eigen::Vector2f> places;
+  for (const auto& [at, column] : ColumnsOf(points)) {
+    if (column.high - column.low < kMinHeight_m) continue;
+    const Eigen::Vector2f place = column.sum / static_cast<float>(column.num);
+    places.push_back(place);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = CellOf(place.x()) + dx;
+        const int y = CellOf(place.y()) + dy;
+        if (IsInside(x, y)) near_[IndexOf(x, y)] = 1;
+      }
+    }
+  }
+  places_ = Choose(places);
+}
+
+bool UprightView::IsNear(const Eigen::Vector2f& place) const {
+  const int x = CellOf(place.x());
+  const int y = CellOf(place.y());
+  return IsInside(x, y) && near_[IndexOf(x, y)] != 0;
+}
+
+void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> points) {
+  Scan scan{stamp, UprightView(points)};
+  if (scan.view.places().size() < kMinPlaces) return;
+  for (const Scan& before : scans_) AddPair(before, scan);
+  scans_.push_back(std::move(scan));
+}
+
+void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
+  scores_.resize(static_cast<std::size_t>(kNumSteps) * kNumSteps, 0);
+  const auto dt_s = static_cast<float>(SecondsBetween(before.stamp, after.stamp));
+  auto score = scores_.begin();
+  for (int y = 0; y < kNumSteps; ++y) {
+    for (int x = 0; x < kNumSteps; ++x, ++score) {
+      const Eigen::Vector2f shift = dt_s * VelocityOf(x, y);
+      for (const Eigen::Vector2f& place : after.view.places()) {
+        *score += before.view.IsNear(place + shift) ? 1 : 0;
+      }
+    }
+  }
+}
+
+std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
+  if (scans_.size() < 2) return {};
+  const auto span_s = static_cast<float>(SecondsBetween(scans_.front().stamp, scans_.back().stamp));
+  const auto best =
+      static_cast<int>(std::max_element(scores_.begin(), scores_.end()) - scores_.begin());
+  const int best_x = best % kNumSteps;
+  const int best_y = best / kNumSteps;
+  const int width = std::max(1, static_cast<int>(kPeakWidth_m / (span_s * kStep_mps)));
+  const int peak = scores_[static_cast<std::size_t>(best)];
+  int rival = 0;
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();  // of the peak's flat top
+  int num = 0;
+  for (int i = 0; i < kNumSteps * kNumSteps; ++i) {
+    const int x = i % kNumSteps;
+    const int y = i / kNumSteps;
+    const int score = scores_[static_cast<std::size_t>(i)];
+    if (std::max(std::abs(x - best_x), std::abs(y - best_y)) > width) {
+      rival = std::max(rival, score);
+    } else if (static_cast<double>(score) > kFlatTop * peak) {
+      sum += VelocityOf(x, y);
+      ++num;
+    }
+  }
+  fprintf(stderr, "SEARCH scans %zu places %zu peak %d rival %d at %.1f %.1f\n", scans_.size(),
+          scans_.back().view.places().size(), peak, rival, double(sum.x() / float(num)),
+          double(sum.y() / float(num)));
+  if (peak - rival < kClearly * std::sqrt(static_cast<double>(peak))) return {};
+  return sum / static_cast<float>(num);
+}
+
+}  // namespace lio
