@@ -144,9 +144,6 @@ std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
       ++num;
     }
   }
-  fprintf(stderr, "SEARCH scans %zu places %zu peak %d rival %d at %.1f %.1f\n", scans_.size(),
-          scans_.back().view.places().size(), peak, rival, double(sum.x() / float(num)),
-          double(sum.y() / float(num)));
   if (peak - rival < kClearly * std::sqrt(static_cast<double>(peak))) return {};
   return sum / static_cast<float>(num);
 }

@@ -31,8 +31,8 @@ struct HistoryOptions {
   double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
-  double gap_accel_std_mps2 = 1.0;
-  double gap_gyro_std_radps = 0.2;
+  double gap_accel_std_mps2 = 1.5;
+  double gap_gyro_std_radps = 0.4;
 };
 
 struct PoseEvent {
