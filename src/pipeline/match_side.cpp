@@ -58,6 +58,7 @@ MatchSide::MatchSide(const Options& options, ClockNs clock)
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
       match_points_(options.reduce.match_points),
       clock_(clock),
+      filter_(options.rig.lidar),
       reducer_(options.reduce, options.rig.lidar),
       matcher_(std::make_unique<NdtMatcher>(options.ndt)) {}
 
@@ -102,11 +103,12 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, to_match);
   outcome.match = matcher_->Match(input);
   time(Stage::kMatch, begin);
+  const SweepTimes sweep_times{job.sweep->start, job.sweep->end, job.sweep->middle()};
+  StampedPoses motion = job.T_any_imu;
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
-    const SweepTimes times_of_sweep{job.sweep->start, job.sweep->end, job.sweep->middle()};
-    outcome.points_imu =
-        Deskew(reduced.points, times_of_sweep, Bend(job, outcome.match.T_map_imu), T_imu_lidar_);
+    motion = Bend(job, outcome.match.T_map_imu);
+    outcome.points_imu = Deskew(reduced.points, sweep_times, motion, T_imu_lidar_);
     time(Stage::kDeskew, begin);
     begin = Now();
     to_match = Thin(outcome.points_imu, match_points_);
@@ -115,6 +117,12 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
+  }
+  if (job.is_map_young) {
+    begin = Now();
+    const std::vector<ScanPoint> dense = DensePoints(*job.sweep, filter_);
+    outcome.points_imu = Deskew(dense, sweep_times, motion, T_imu_lidar_);
+    time(Stage::kDeskew, begin);
   }
 }
 

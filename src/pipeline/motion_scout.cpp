@@ -12,6 +12,7 @@ constexpr double kAccelDensity = 1.5;      // m/s^2/sqrt(Hz): 0.5 m/s in a sweep
 constexpr double kTurnAccelDensity = 1.0;  // rad/s^2/sqrt(Hz): 0.3 rad/s in a sweep
 constexpr double kStartVelocityStd_mps = 15.0;
 constexpr double kStartTurnRateStd_radps = 1.0;
+constexpr double kSoughtVelocityStd_mps = 4.0;
 constexpr double kKnownVelocityStd_mps = 2.0;
 constexpr double kKnownTurnRateStd_radps = 0.3;
 constexpr double kGyroDensity = 5.0e-3;  // rad/s/sqrt(Hz): also what scale and time errors do
@@ -38,7 +39,11 @@ Estimate Start(Timestamp start, const ScoutOptions& options) {
   const bool is_known = options.motion.has_value();
   double turn_rate_std_radps = is_known ? kKnownTurnRateStd_radps : kStartTurnRateStd_radps;
   if (options.first_rate_radps) turn_rate_std_radps = kGyroBiasStd_radps;
-  const double velocity_std_mps = is_known ? kKnownVelocityStd_mps : kStartVelocityStd_mps;
+  double velocity_std_mps = is_known ? kKnownVelocityStd_mps : kStartVelocityStd_mps;
+  if (!is_known && options.sought_v_imu_mps) {
+    estimate.state.v_world_imu = *options.sought_v_imu_mps;
+    velocity_std_mps = kSoughtVelocityStd_mps;
+  }
   const auto set = [&](int at, double std) {
     estimate.cov.block<3, 3>(at, at) = std * std * Matrix3::Identity();
   };

@@ -119,8 +119,9 @@ class Odometry::Impl {
     ScoutedPose pose;  // T_map_imu
     bool is_matched = false;
   };
-  std::vector<Scouted> scouted_;    // one a sweep of ready_
-  bool has_sought_ = false;         // the first scans' velocity, over a wide range
+  std::vector<Scouted> scouted_;  // one a sweep of ready_
+  bool has_sought_ = false;       // the first scans' velocity, over a wide range
+  std::optional<Vector3> sought_v_imu_mps_;
   std::optional<NavState> glance_;  // the motion that the first scans showed
   bool scouts_with_gyro_ = true;
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about
@@ -134,6 +135,7 @@ class Odometry::Impl {
   SweepPtr in_flight_;          // the sweep whose job is out
   bool is_first_scan_ = true;   // of the running phase
   std::int64_t last_seq_ = -1;  // the last scan that was fused
+  int num_inserted_ = 0;        // scans in the map since it was cleared
   int num_gated_in_a_row_ = 0;
   int num_unmatched_in_a_row_ = 0;
   std::optional<Timestamp> last_fused_;  // end of the last sweep that was fused

@@ -73,7 +73,7 @@ ImuSample Odometry::Impl::SampleAt(Timestamp stamp) const {
 
 void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   last_found_.reset();
-  ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, glance_};
+  ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, sought_v_imu_mps_, glance_};
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
   if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(start).w_imu_radps;
   scout_.emplace(start, scouting);
@@ -97,10 +97,7 @@ void Odometry::Impl::AdvanceScout(Timestamp stamp) {
 void Odometry::Impl::FinishSeeking(const MatchOutcome& outcome) {
   scouted_.push_back({{outcome.sweep->middle(), outcome.match.T_map_imu, Matrix6::Zero()}, false});
   if (!outcome.v_map_imu_mps && scouted_.size() < kMaxSought && !IsLastScouted()) return;
-  if (outcome.v_map_imu_mps) {
-    glance_.emplace();
-    glance_->v_world_imu = *outcome.v_map_imu_mps;
-  }
+  sought_v_imu_mps_ = outcome.v_map_imu_mps;  // the map's axes are those of the first sweep
   has_sought_ = true;
   scouted_.clear();
 }
@@ -115,7 +112,6 @@ void Odometry::Impl::RunLidarOnly() {
 void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {
   if (!has_sought_) {
     FinishSeeking(outcome);
-    if (!use_imu_ && glance_) RunLidarOnly();
     return;
   }
   const Timestamp middle = outcome.sweep->middle();
@@ -156,6 +152,7 @@ void Odometry::Impl::BeginScoutingAnew() {
   scouted_.clear();
   glance_.reset();
   has_sought_ = false;
+  sought_v_imu_mps_.reset();
 }
 
 bool Odometry::Impl::HasMovedSince(std::size_t first, bool is_calm) const {

@@ -6,36 +6,12 @@
 #include <cmath>
 
 #include "lio/map/voxel_key.hpp"
+#include "scan/sampling.hpp"
 
 namespace lio {
 namespace {
 
 constexpr std::size_t kInitialSlots = 1u << 14;
-
-// A total order on points, so that a tie in distance does not depend on the order of arrival.
-bool Precedes(const LidarPoint& a, const LidarPoint& b) {
-  if (a.t_offset_ns != b.t_offset_ns) return a.t_offset_ns < b.t_offset_ns;
-  if (a.ring != b.ring) return a.ring < b.ring;
-  if (a.x_m != b.x_m) return a.x_m < b.x_m;
-  if (a.y_m != b.y_m) return a.y_m < b.y_m;
-  return a.z_m < b.z_m;
-}
-
-// Sweeps with more returns are sampled down to about this many, which leaves several to choose from
-// in each voxel of the thinning grid.
-constexpr std::size_t kMaxSampled = 32000;
-
-// A number in 0..65535 that depends on nothing but when and by which beam the point was measured.
-std::uint32_t Sample(const LidarPoint& point) {
-  const std::uint32_t mixed = (point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u)) * 0x85EBCA6Bu;
-  return (mixed ^ (mixed >> 15)) * 0xC2B2AE35u >> 16;
-}
-
-// Points whose sample is below this are used.
-std::uint32_t SampleShare(std::size_t num_points) {
-  if (num_points <= kMaxSampled) return 1u << 16;
-  return static_cast<std::uint32_t>((kMaxSampled << 16) / num_points);
-}
 
 struct Voxel {
   VoxelKey key;

@@ -51,8 +51,8 @@ class FilterHistory {
   // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
   EventOutcome AddRebase(Timestamp stamp);
 
-  // Events from `stamp` on, and what they need, are kept even beyond the window: a scan of that time
-  // is still to come. Absent: none is.
+  // Events from `stamp` on, and what they need, are kept even beyond the window: a scan of that
+  // time is still to come. Absent: none is.
   void KeepFrom(std::optional<Timestamp> stamp) { keep_from_ = stamp; }
 
   const Estimate& head() const { return nodes_.back().posterior; }

@@ -11,6 +11,7 @@
 
 #include "lio/pipeline/odometry.hpp"
 #include "lio/registration/scan_matcher.hpp"
+#include "lio/scan/dense_points.hpp"
 #include "lio/scan/reduce.hpp"
 #include "lio/scan/sweep.hpp"
 #include "lio/scan/velocity_search.hpp"
@@ -24,6 +25,7 @@ struct MatchJob {
   Pose T_map_imu_guess;    // at the sweep's middle
   Matrix6 guess_cov = Matrix6::Zero();
   bool clear_map = false;      // forget everything first: the estimator starts anew
+  bool is_map_young = false;   // insert all that is seen, not a thinned scan
   bool refine_deskew = false;  // match, deskew again along what was found, match again
   // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
   // of the scans since clear_map, and nothing is matched.
@@ -74,6 +76,7 @@ class MatchSide {
   Pose T_imu_lidar_;
   int match_points_;
   ClockNs clock_;
+  PointFilter filter_;
   ScanReducer reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
   VelocitySearch velocity_search_;

@@ -17,7 +17,9 @@ struct ScoutOptions {
   double nis_limit = 22.5;  // see FilterHistory
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
-  // Velocity and, without a gyro, turn rate to begin with: an earlier scout's state.
+  // To begin with: a velocity in the body's axes that was only sought, or velocity and, without a
+  // gyro, turn rate of an earlier scout's state.
+  std::optional<Vector3> sought_v_imu_mps;
   std::optional<NavState> motion;
 };
 
