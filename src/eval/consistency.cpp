@@ -4,105 +4,30 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-
-#include "lio/eval/statistics.hpp"
 
 namespace lio {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kEndShare = 0.1;
-constexpr int kMaxLag = 20;
 constexpr double kSparseTruth_s = 0.05;
 constexpr int kNisDof = 6;
 
-struct Sample {
-  double time_s = 0;
-  double value = 0;
-};
-using Samples = std::vector<Sample>;  // of one run, in time order
-
-double MedianInterval(const std::vector<Samples>& runs) {
-  std::vector<double> intervals;
-  for (const Samples& run : runs) {
-    for (std::size_t i = 1; i < run.size(); ++i) {
-      intervals.push_back(run[i].time_s - run[i - 1].time_s);
-    }
-  }
-  return intervals.empty() ? 1.0 : Median(std::move(intervals));
-}
-
-BandedSeries MakeSeries(const std::vector<Samples>& runs, int dof) {
-  struct Bin {
-    double sum = 0;
-    int count = 0;
-  };
-  const double interval_s = MedianInterval(runs);
-  std::map<std::int64_t, Bin> bins;
-  double sum = 0;
-  int count = 0;
-  for (const Samples& run : runs) {
-    for (const Sample& sample : run) {
-      Bin& bin = bins[std::llround(sample.time_s / interval_s)];
-      bin.sum += sample.value;
-      ++bin.count;
-      sum += sample.value;
-      ++count;
-    }
-  }
-  BandedSeries series;
-  series.dof = dof;
-  series.average_per_dof = sum / (static_cast<double>(count) * dof);
-  int num_inside = 0;
-  double end_sum = 0;
-  int end_count = 0;
-  const double span = static_cast<double>(bins.rbegin()->first - bins.begin()->first);
-  const double end_begin = static_cast<double>(bins.rbegin()->first) - kEndShare * span;
-  std::map<int, Band> bands;  // by number of runs: quantiles are not cheap
-  for (const auto& [index, bin] : bins) {
-    if (!bands.contains(bin.count)) bands[bin.count] = MeanBandPerDof(dof, bin.count);
-    series.time_s.push_back(static_cast<double>(index) * interval_s);
-    series.mean_per_dof.push_back(bin.sum / (static_cast<double>(bin.count) * dof));
-    series.band_per_dof.push_back(bands[bin.count]);
-    num_inside += series.band_per_dof.back().Contains(series.mean_per_dof.back()) ? 1 : 0;
-    if (static_cast<double>(index) < end_begin) continue;
-    end_sum += bin.sum;
-    end_count += bin.count;
-  }
-  series.share_in_band = static_cast<double>(num_inside) / static_cast<double>(bins.size());
-  series.end_average_per_dof = end_sum / (static_cast<double>(end_count) * dof);
-  return series;
-}
-
-// NEES of the error's entries `begin` .. `begin + kSize - 1`.
+// NEES of the entries `begin` .. `begin + kSize - 1` of the error.
 template <int kSize>
-double Nees(const RunInstant& instant, int begin) {
-  const Eigen::Matrix<double, kSize, 1> error = instant.error.segment<kSize>(begin);
-  const Eigen::Matrix<double, kSize, kSize> cov = instant.cov.block<kSize, kSize>(begin, begin);
-  return error.dot(cov.ldlt().solve(error));
-}
-
-template <int kSize>
-std::vector<Samples> NeesOfRuns(const std::vector<RunErrors>& runs, int begin) {
-  std::vector<Samples> result;
+std::vector<TimedValues> NeesOfRuns(const std::vector<RunErrors>& runs, int begin) {
+  std::vector<TimedValues> result;
   for (const RunErrors& run : runs) {
-    Samples& samples = result.emplace_back();
+    TimedValues& samples = result.emplace_back();
     for (const RunInstant& instant : run.instants) {
-      samples.push_back({instant.time_s, Nees<kSize>(instant, begin)});
+      samples.push_back(
+          {instant.time_s, NormalisedSquare(instant.error.segment<kSize>(begin),
+                                            instant.cov.block<kSize, kSize>(begin, begin))});
     }
   }
   return result;
-}
-
-double MeanValue(const Samples& samples) {
-  double sum = 0;
-  for (const Sample& sample : samples) sum += sample.value;
-  return samples.empty() ? 0 : sum / static_cast<double>(samples.size());
 }
 
 template <class Visit>
@@ -113,18 +38,14 @@ void ForEachInstant(const std::vector<RunErrors>& runs, Visit visit) {
 }
 
 std::array<SigmaShares, 6> ComputeSigmaShares(const std::vector<RunErrors>& runs) {
-  std::array<SigmaShares, 6> shares{};
-  double count = 0;
+  std::array<std::vector<double>, 6> in_sigmas;
   ForEachInstant(runs, [&](const RunInstant& instant) {
-    ++count;
     for (int axis = 0; axis < 6; ++axis) {
-      const double sigmas = std::abs(instant.error(axis)) / std::sqrt(instant.cov(axis, axis));
-      for (int i = 0; i < 3; ++i) shares[axis][i] += sigmas <= i + 1 ? 1 : 0;
+      in_sigmas[axis].push_back(instant.error(axis) / std::sqrt(instant.cov(axis, axis)));
     }
   });
-  for (SigmaShares& axis : shares) {
-    for (double& share : axis) share /= count;
-  }
+  std::array<SigmaShares, 6> shares;
+  for (int axis = 0; axis < 6; ++axis) shares[axis] = SharesWithin(in_sigmas[axis]);
   return shares;
 }
 
@@ -153,48 +74,19 @@ void ComputeRms(const std::vector<RunErrors>& runs, Consistency& result) {
   result.yaw_deg = rms(yaw, kDegPerRad);
 }
 
-Whiteness ComputeWhiteness(const std::vector<Samples>& runs) {
-  Whiteness whiteness;
-  int num_inside = 0;
-  for (int lag = 1; lag <= kMaxLag; ++lag) {
-    double products = 0, squares = 0, num_products = 0, num_squares = 0;
-    for (const Samples& run : runs) {
-      const double mean = MeanValue(run);
-      for (std::size_t i = 0; i < run.size(); ++i) {
-        const double value = run[i].value - mean;
-        squares += value * value;
-        ++num_squares;
-        if (i + static_cast<std::size_t>(lag) >= run.size()) continue;
-        products += value * (run[i + static_cast<std::size_t>(lag)].value - mean);
-        ++num_products;
-      }
-    }
-    if (num_products < 2 || squares <= 0) break;
-    const double rho = (products / num_products) / (squares / num_squares);
-    const double band = 1.96 / std::sqrt(num_products);
-    whiteness.autocorrelation.push_back(rho);
-    whiteness.band.push_back(band);
-    num_inside += std::abs(rho) <= band ? 1 : 0;
-  }
-  if (!whiteness.band.empty()) {
-    whiteness.share_in_band = num_inside / static_cast<double>(whiteness.band.size());
-  }
-  return whiteness;
-}
-
 void JudgeNis(const std::vector<RunErrors>& runs, Consistency& result) {
-  std::vector<Samples> nis;
+  std::vector<TimedValues> nis;
   for (const RunErrors& run : runs) {
     if (run.nis.empty()) continue;
-    Samples& samples = nis.emplace_back();
+    TimedValues& samples = nis.emplace_back();
     for (const NisSample& sample : run.nis) samples.push_back({sample.time_s, sample.nis});
   }
   if (nis.empty()) {
     result.notes.push_back("no NIS: no registration.csv holds a fused scan");
     return;
   }
-  result.nis = MakeSeries(nis, kNisDof);
-  result.nis_whiteness = ComputeWhiteness(nis);
+  result.nis = MakeBandedSeries(nis, kNisDof);
+  result.nis_whiteness = ComputeWhiteness(nis, std::nullopt);
 }
 
 void NoteRuns(const std::vector<RunErrors>& runs, Consistency& result) {
@@ -229,14 +121,14 @@ void NoteRuns(const std::vector<RunErrors>& runs, Consistency& result) {
 
 Consistency JudgeConsistency(const std::vector<RunErrors>& runs) {
   Consistency result;
-  const std::vector<Samples> pose = NeesOfRuns<6>(runs, 0);
+  const std::vector<TimedValues> pose = NeesOfRuns<6>(runs, 0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     result.runs.push_back(runs[i].name);
-    result.run_pose_average_per_dof.push_back(MeanValue(pose[i]) / 6);
+    result.run_pose_average_per_dof.push_back(Mean(pose[i]) / 6);
   }
-  result.pose = MakeSeries(pose, 6);
-  result.position = MakeSeries(NeesOfRuns<3>(runs, 0), 3);
-  result.rotation = MakeSeries(NeesOfRuns<3>(runs, 3), 3);
+  result.pose = MakeBandedSeries(pose, 6);
+  result.position = MakeBandedSeries(NeesOfRuns<3>(runs, 0), 3);
+  result.rotation = MakeBandedSeries(NeesOfRuns<3>(runs, 3), 3);
   result.sigma_shares = ComputeSigmaShares(runs);
   ComputeRms(runs, result);
   JudgeNis(runs, result);

@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 # A contact sheet of every scenario: one bird's-eye picture each, with the way.
-#   tools/sim/contact_sheet.sh [OUT.png] [SEED]
+#   tools/sim/contact_sheet.sh [OUT.png] [SEED]     (docs/images/contact_sheet.png, seed 1)
 # Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD names another build folder.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${LIO_BUILD:-$here/../../build}
-out=${1:-contact_sheet.png}
+out=${1:-$here/../../docs/images/contact_sheet.png}
 seed=${2:-1}
 sim=$build/bin/lio-sim
 if [ ! -x "$sim" ]; then

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The estimator on faulty logs: each fault of --fault is counted, and survived.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+
+#include "lio/io/log_input.hpp"
+#include "lio/io/options_yaml.hpp"
+#include "lio/io/trajectory_file.hpp"
+#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/odometry.hpp"
+#include "lio/sim/recorder.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio::sim {
+namespace {
+
+constexpr double kDuration_s = 14.0;
+constexpr std::uint64_t kSeed = 5;
+
+// A walk over the campus, with what its folder holds.
+struct Walk {
+  std::vector<Message> messages;
+  StampedPoses truth;
+  Options options;
+
+  explicit Walk(const std::vector<Fault>& faults_of_the_world = {}) {
+    const test::TempDir dir;
+    ScenarioOptions scenario_options;
+    scenario_options.seed = kSeed;
+    scenario_options.duration_s = kDuration_s;
+    RecordOptions record;
+    record.lidar = LoadLidarModel("vlp16");
+    record.imu = LoadImuModel("xsens_mti10");
+    record.seed = kSeed;
+    record.faults = faults_of_the_world;
+    Record(MakeScenario("campus", scenario_options), record, dir.path(), {});
+    truth = ReadTrajectory(dir.path() / "truth.tum").poses;
+    options = LoadOptions({dir.path() / "config.yaml"}, {}).options;
+    LogInput input(dir.path() / "log.lcm", LogInputOptions());
+    std::int32_t seq = 0;
+    while (auto item = input.Next()) {
+      const Timestamp arrival{1000 * item->utime};
+      if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
+        messages.push_back({arrival, ImuMessage{*sample, seq++}});
+      } else {
+        messages.push_back({arrival, std::get<ScanChunk>(std::move(item->data))});
+      }
+    }
+  }
+};
+
+struct Outcome {
+  Counters counters;
+  TrackingStatus status = TrackingStatus::kInit;
+  int num_rows = 0;
+  double end_error_m = 0.0;    // of the motion from the first row to the last
+  double end_error_deg = 0.0;  // of the same
+};
+
+class Estimator {
+ public:
+  explicit Estimator(const Options& options) : odometry_(options), match_side_(options) {}
+
+  void Take(Message message) {
+    if (const auto* imu = std::get_if<ImuMessage>(&message.body)) {
+      odometry_.AddImu(imu->sample);
+    } else {
+      odometry_.AddChunk(std::get<ScanChunk>(std::move(message.body)));
+    }
+    Match();
+  }
+
+  Outcome Finish(const StampedPoses& truth) {
+    odometry_.Flush();
+    Match();
+    Outcome outcome;
+    outcome.counters = odometry_.counters();
+    outcome.status = odometry_.status();
+    outcome.num_rows = static_cast<int>(rows_.size());
+    if (rows_.size() < 2) return outcome;
+    const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
+    const Pose expected =
+        TruthAt(truth, rows_.front().stamp).Inverse() * TruthAt(truth, rows_.back().stamp);
+    const Pose error = expected.Inverse() * motion;
+    outcome.end_error_m = error.translation.norm();
+    outcome.end_error_deg = LogSo3(error.rotation).norm() * 57.29578;
+    return outcome;
+  }
+
+ private:
+  static Pose TruthAt(const StampedPoses& truth, Timestamp stamp) {
+    std::size_t k = 0;
+    while (k + 2 < truth.size() && truth[k + 1].stamp <= stamp) ++k;
+    const double span_s = SecondsBetween(truth[k].stamp, truth[k + 1].stamp);
+    return Interpolate(truth[k].pose, truth[k + 1].pose,
+                       SecondsBetween(truth[k].stamp, stamp) / span_s);
+  }
+  void Match() {
+    while (const auto job = odometry_.NextJob()) {
+      match_side_.Insert(odometry_.FinishJob(match_side_.Run(*job)));
+    }
+    for (const Output& output : odometry_.TakeOutputs()) {
+      const auto* scan = std::get_if<ScanOutput>(&output);
+      if (scan == nullptr || !scan->filter) continue;
+      const NavOutput& nav = scan->filter->nav;
+      if (!rows_.empty()) {
+        EXPECT_GT(nav.stamp, rows_.back().stamp);
+      }
+      EXPECT_TRUE(nav.T_world_imu.translation.allFinite());
+      rows_.push_back({nav.stamp, nav.T_world_imu});
+    }
+  }
+
+  Odometry odometry_;
+  MatchSide match_side_;
+  StampedPoses rows_;
+};
+
+Outcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
+  std::vector<Fault> faults;
+  for (const std::string& text : fault_texts) faults.push_back(ParseFault(text));
+  const FaultInjector injector(faults, kSeed, walk.truth.front().stamp);
+  ArrivalQueue queue;
+  for (const Message& message : walk.messages) {
+    for (Message& sent : injector.Apply(message)) queue.Push(std::move(sent));
+  }
+  Options options = walk.options;
+  options.rig.T_imu_lidar = ClaimedExtrinsic(faults, *walk.options.rig.T_imu_lidar);
+  Estimator estimator(options);
+  while (auto message = queue.PopBefore({INT64_MAX})) estimator.Take(std::move(*message));
+  return estimator.Finish(walk.truth);
+}
+
+struct Expectation {
+  const char* name;
+  const char* fault;
+  std::vector<std::int64_t Counters::*> counted;  // each above that of the clean walk
+  double error_m;                                 // at the end of about 10 m of walk
+  double error_deg;
+};
+
+class FaultSurvival : public ::testing::TestWithParam<Expectation> {
+ protected:
+  static void SetUpTestSuite() {
+    walk_ = new Walk();
+    clean_ = new Outcome(Replay(*walk_, {}));
+  }
+  static void TearDownTestSuite() {
+    delete clean_;
+    delete walk_;
+  }
+  static const Walk* walk_;
+  static const Outcome* clean_;  // without a fault
+};
+const Walk* FaultSurvival::walk_ = nullptr;
+const Outcome* FaultSurvival::clean_ = nullptr;
+
+TEST_P(FaultSurvival, IsCountedAndTheWalkGoesOn) {
+  const Expectation& expected = GetParam();
+  const Outcome outcome = Replay(*walk_, {expected.fault});
+  for (const auto counter : expected.counted) {
+    EXPECT_GT(outcome.counters.*counter, clean_->counters.*counter);
+  }
+  EXPECT_GT(outcome.num_rows, 90);
+  EXPECT_LE(outcome.status, TrackingStatus::kDegenerate) << "lost at the end";
+  EXPECT_GE(outcome.status, TrackingStatus::kOk);
+  EXPECT_LT(outcome.end_error_m, expected.error_m);
+  EXPECT_LT(outcome.end_error_deg, expected.error_deg);
+  RecordProperty("end_error_mm", static_cast<int>(1e3 * outcome.end_error_m));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FaultSurvival,
+    ::testing::Values(
+        Expectation{"imu_gap", "imu_gap:start=7,duration=0.4", {&Counters::num_imu_gaps}, 0.3, 1},
+        Expectation{
+            "lidar_gap", "lidar_gap:start=7,duration=0.6", {&Counters::num_scan_gaps}, 0.3, 1},
+        Expectation{"drop", "drop:ratio=0.1", {}, 0.3, 1},
+        Expectation{"duplicate",
+                    "duplicate:ratio=0.1",
+                    {&Counters::num_imu_duplicate, &Counters::num_chunks_duplicate},
+                    0.2,
+                    1},
+        Expectation{"reorder", "reorder:ratio=0.1,delay=0.03", {&Counters::num_imu_late}, 0.3, 1},
+        Expectation{"chunk_loss", "chunk_loss:ratio=0.1", {&Counters::num_chunks_missing}, 0.3, 1},
+        Expectation{"stamps_ahead",
+                    "stamp_jump:start=7,offset=1.5,channel=lidar",
+                    {&Counters::num_clock_jumps},
+                    0.5,
+                    2},
+        Expectation{"stamps_back",
+                    "stamp_jump:start=7,offset=-1.5,channel=lidar",
+                    {&Counters::num_chunks_late},
+                    0.5,
+                    2},
+        Expectation{"clock_offset", "clock_offset:offset=0.02", {&Counters::num_gated}, 0.5, 2},
+        Expectation{"nan",
+                    "nan:ratio=0.05",
+                    {&Counters::num_imu_nonfinite, &Counters::num_points_nonfinite},
+                    0.2,
+                    1},
+        Expectation{"gyro_saturation",
+                    "gyro_saturation:start=6,duration=3,limit=0.3",
+                    {&Counters::num_gated},
+                    0.5,
+                    3},
+        Expectation{
+            "empty_scan", "empty_scan:start=7,duration=0.5", {&Counters::num_scans_empty}, 0.3, 1},
+        Expectation{"sparse_scan",
+                    "sparse_scan:start=7,duration=0.5",
+                    {&Counters::num_matches_rejected},
+                    0.3,
+                    1},
+        Expectation{
+            "wrong_extrinsic", "wrong_extrinsic:yaw_deg=1", {&Counters::num_gated}, 0.5, 2}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {
+  const Counters& counters = clean_->counters;
+  EXPECT_EQ(counters.num_imu_nonfinite + counters.num_imu_duplicate + counters.num_imu_late +
+                counters.num_imu_gaps + counters.num_imu_out_of_range,
+            0);
+  EXPECT_EQ(counters.num_chunks_duplicate + counters.num_chunks_late + counters.num_chunks_missing +
+                counters.num_chunks_bad + counters.num_points_nonfinite,
+            0);
+  EXPECT_EQ(counters.num_scans_empty + counters.num_scans_dropped + counters.num_scans_late +
+                counters.num_scan_gaps + counters.num_clock_jumps + counters.num_restarts,
+            0);
+  EXPECT_EQ(clean_->status, TrackingStatus::kOk);
+  EXPECT_LT(clean_->end_error_m, 0.2);
+}
+
+TEST_F(FaultSurvival, DustIsSeenThrough) {
+  const Walk dusty({ParseFault("dust:start=6,duration=4,density=0.05")});
+  const Outcome outcome = Replay(dusty, {});
+  EXPECT_LE(outcome.status, TrackingStatus::kDegenerate);
+  EXPECT_LT(outcome.end_error_m, 0.3);
+}
+
+}  // namespace
+}  // namespace lio::sim
