@@ -146,22 +146,55 @@ TEST(ImuSimulator, VariantsRemoveGravityOrReadInG) {
               1e-9);
 }
 
-// Noise of a sample is density / sqrt(dt): its spread grows with the rate, its mean over a second
-// does not.
-TEST(ImuSimulator, WhiteNoiseHasItsDensityAtAnyRate) {
+// Allan deviation of white noise over tau: density / sqrt(tau), whatever the rate.
+double AllanDeviation(const std::vector<double>& values, std::size_t num_averaged) {
+  std::vector<double> means;
+  for (std::size_t i = 0; i + num_averaged <= values.size(); i += num_averaged) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < num_averaged; ++k) sum += values[i + k];
+    means.push_back(sum / static_cast<double>(num_averaged));
+  }
+  double sum_sq = 0.0;
+  for (std::size_t i = 1; i < means.size(); ++i) {
+    sum_sq += (means[i] - means[i - 1]) * (means[i] - means[i - 1]);
+  }
+  return std::sqrt(0.5 * sum_sq / static_cast<double>(means.size() - 1));
+}
+
+void KeepWhiteNoiseOnly(InertialModel& model) {
+  const double density = model.noise_density;
+  model = {};
+  model.noise_density = density;
+}
+
+TEST(ImuSimulator, PresetsHaveTheirNoiseDensityAtAnyRateByAllanDeviation) {
   const Trajectory trajectory = Still();
-  for (const double rate_hz : {100.0, 400.0, 1000.0}) {
-    ImuSetup setup = SetupOf("xsens_mti10", rate_hz);
-    const double density = setup.model.gyro.noise_density;
-    setup.model.gyro = {};
-    setup.model.gyro.noise_density = density;
-    double sum_sq = 0.0;
-    const auto samples = Samples(setup, trajectory, 100.0);
-    for (const SimulatedImu& imu : samples) sum_sq += imu.sample.w_imu_radps.squaredNorm() / 3.0;
-    const auto num = static_cast<double>(samples.size());
-    EXPECT_NEAR(std::sqrt(sum_sq / num) / (density * std::sqrt(rate_hz)), 1.0,
-                3.0 / std::sqrt(6.0 * num))
-        << rate_hz;
+  const Vector3 gravity =
+      trajectory.At(0.0).T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+  for (const char* preset : {"xsens_mti10", "consumer_mems"}) {
+    for (const double rate_hz : {100.0, 1000.0}) {
+      ImuSetup setup = SetupOf(preset, rate_hz);
+      const double gyro_density = setup.model.gyro.noise_density;
+      const double accel_density = setup.model.accel.noise_density;
+      ASSERT_GT(gyro_density, 0.0);
+      KeepWhiteNoiseOnly(setup.model.gyro);
+      KeepWhiteNoiseOnly(setup.model.accel);
+      std::vector<double> gyro, accel;
+      for (const SimulatedImu& imu : Samples(setup, trajectory, 100.0)) {
+        gyro.push_back(imu.sample.w_imu_radps.x());
+        accel.push_back(imu.sample.f_imu_mps2.y() - gravity.y());
+      }
+      for (const double tau_s : {1.0 / rate_hz, 0.1, 1.0}) {
+        const auto num = static_cast<std::size_t>(std::lround(tau_s * rate_hz));
+        // Three standard errors of N differences.
+        const double tolerance = 3.0 * std::sqrt(0.75 * tau_s / 100.0);
+        const double to_density = std::sqrt(tau_s);
+        EXPECT_NEAR(AllanDeviation(gyro, num) * to_density / gyro_density, 1.0, tolerance)
+            << preset << " at " << rate_hz << " Hz, tau " << tau_s;
+        EXPECT_NEAR(AllanDeviation(accel, num) * to_density / accel_density, 1.0, tolerance)
+            << preset << " at " << rate_hz << " Hz, tau " << tau_s;
+      }
+    }
   }
 }
 

@@ -1,24 +1,80 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Is the covariance true? Runs seeds of a scenario through the whole pipeline on all cores and judges
-# the runs together by NEES and NIS.
-#   tools/bench/monte_carlo.sh SCENARIO [RUNS [DURATION_S]]     (20 runs of 40 s)
-# Needs tools/setup.sh. Leaves out/monte_carlo/SCENARIO/consistency.{json,png}.
+# Is the covariance true? See usage.
 set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
+Runs seeds of a scenario (20, of 40 s) through the whole pipeline, one a core at a time, and judges
+the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves in
+out/monte_carlo/SCENARIO/: a folder a seed with what lio-replay writes and truth.tum, and
+consistency.txt, .json and .png. Seeds that the same programs and settings have done already are
+not done again, so an interrupted run goes on where it was.
+  --set KEY=VALUE    override one key of the estimator; may be given again
+  --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
+  --first N          the first seed (1)
+  --jobs N           runs at a time (all cores)
+  --out DIR          another folder
+Examples:
+  tools/bench/monte_carlo.sh street 50 60
+  tools/bench/monte_carlo.sh --set filter.map_walk_scale=0.5 --out out/walk_half loop 20 60
+USAGE
+}
+
+fail_usage() {
+  echo "tools/bench/monte_carlo.sh: $1; see tools/bench/monte_carlo.sh --help" >&2
+  exit 2
+}
+
+settings=() sim="" first=1 jobs=$(nproc) root="" words=()
+while (($#)); do
+  case $1 in
+    -h | --help) usage && exit 0 ;;
+    --set | --sim | --first | --jobs | --out)
+      (($# > 1)) || fail_usage "$1 needs a value"
+      case $1 in
+        --set) settings+=(--set "$2") ;;
+        --sim) sim=$2 ;;
+        --first) first=$2 ;;
+        --jobs) jobs=$2 ;;
+        --out) root=$(realpath -ms "$2") ;;
+      esac
+      shift
+      ;;
+    -*) fail_usage "unknown option $1" ;;
+    *) words+=("$1") ;;
+  esac
+  shift
+done
+((${#words[@]} >= 1 && ${#words[@]} <= 3)) || fail_usage "name one SCENARIO"
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-scenario=${1:?usage: tools/bench/monte_carlo.sh SCENARIO [RUNS [DURATION_S]]}
-runs=${2:-20} duration=${3:-40}
-root=out/monte_carlo/$scenario
+scenario=${words[0]} runs=${words[1]:-20} duration=${words[2]:-40}
+root=${root:-out/monte_carlo/$scenario}
 mkdir -p "$root"
-one_run() { # ROOT SCENARIO DURATION SEED
-  local dir=$1/$4
-  [[ -f $dir/stats.json ]] && return
-  build/bin/lio-sim --scenario "$2" --duration "$3" --seed "$4" --out "$dir" >/dev/null
-  build/bin/lio-replay --config "$dir/config.yaml" "$dir/log.lcm" --out "$dir" 2>"$dir/replay.log"
-  rm "$dir/log.lcm"
+id="$scenario $duration $sim ${settings[*]} $(cat build/bin/lio-sim build/bin/lio-replay \
+  config/lidars/*.yaml config/imus/*.yaml | cksum)"
+
+one_run() { # SEED SETTINGS...
+  local dir=$root/$1 code=0
+  [[ -f $dir/id && $(<"$dir/id") == "$id" ]] && return
+  rm -rf "$dir" && mkdir -p "$dir"
+  # shellcheck disable=SC2086 # the arguments of lio-sim are words
+  build/bin/lio-sim --scenario "$scenario" --duration "$duration" $sim --seed "$1" \
+    --out "$dir" >"$dir/sim.log"
+  build/bin/lio-replay --config "$dir/config.yaml" "${@:2}" "$dir/log.lcm" --out "$dir" \
+    2>"$dir/replay.log" || code=$?
+  rm "$dir/log.lcm" # up to a gigabyte
+  ((code == 0)) || { cat "$dir/replay.log" >&2 && return "$code"; }
+  echo "$id" >"$dir/id"
+  echo "seed $1 is done" >&2
 }
 export -f one_run
-seq "$runs" | xargs -P "$(nproc)" -I{} bash -c "one_run '$root' '$scenario' '$duration' {}"
-build/bin/lio-eval consistency truth.tum "$root"/[0-9]* --json "$root/consistency.json" \
-  --plot "$root/consistency.png"
+export root id scenario duration sim
+seq "$first" $((first + runs - 1)) |
+  xargs -P "$jobs" -I{} bash -c 'set -e; one_run "$@"' _ {} "${settings[@]}"
+dirs=()
+for seed in $(seq "$first" $((first + runs - 1))); do dirs+=("$root/$seed"); done
+build/bin/lio-eval consistency truth.tum "${dirs[@]}" --json "$root/consistency.json" \
+  --plot "$root/consistency.png" | tee "$root/consistency.txt"

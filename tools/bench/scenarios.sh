@@ -1,25 +1,68 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The estimator over every scenario of the simulator: drives, replays and scores each, and prints one
-# Markdown table, which docs/results.md shows.
-#   tools/bench/scenarios.sh [SEED [SCENARIO...]]     (seed 1, all scenarios)
-# Needs tools/setup.sh. Results stay in out/scenarios/SEED/, pictures of each path included.
+# The estimator over every scenario of the simulator: see usage.
 set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/bench/scenarios.sh [OPTIONS] [SCENARIO...]
+Drives, replays and scores every scenario of lio-sim (or those named), and prints one Markdown table.
+Needs tools/setup.sh. Leaves in out/scenarios/SEED/: table.md, a folder a scenario with eval.txt,
+path.png and run/, and loop/closeup.png, surfaces that the loop sees at its begin and at its end.
+  --seed N         of the places, the traffic and every error (1)
+  --set KEY=VALUE  override one key of the estimator; may be given again
+  --keep-logs      keep each log.lcm (up to 1.4 GB) and use it again while lio-sim is the same
+  --docs           put the table into docs/results.md and the close-up into docs/images/
+USAGE
+}
+
+fail_usage() {
+  echo "tools/bench/scenarios.sh: $1; see tools/bench/scenarios.sh --help" >&2
+  exit 2
+}
+
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seed=${1:-1}
-shift || true
-scenarios=("$@")
+seed=1 keep_logs=no docs=no settings=() scenarios=()
+while (($#)); do
+  case $1 in
+    -h | --help) usage && exit 0 ;;
+    --seed | --set)
+      (($# > 1)) || fail_usage "$1 needs a value"
+      if [[ $1 == --seed ]]; then seed=$2; else settings+=(--set "$2"); fi
+      shift
+      ;;
+    --keep-logs) keep_logs=yes ;;
+    --docs) docs=yes ;;
+    -*) fail_usage "unknown option $1" ;;
+    *) scenarios+=("$1") ;;
+  esac
+  shift
+done
 ((${#scenarios[@]})) || mapfile -t scenarios < <(build/bin/lio-sim --list)
 root=out/scenarios/$seed
+maker=$(cat build/bin/lio-sim config/lidars/*.yaml config/imus/*.yaml | cksum)
+
 for scenario in "${scenarios[@]}"; do
   dir=$root/$scenario
   mkdir -p "$dir"
   echo "$scenario" >&2
-  build/bin/lio-sim --scenario "$scenario" --seed "$seed" --threads "$(nproc)" --out "$dir" >&2
-  build/bin/lio-replay --config "$dir/config.yaml" "$dir/log.lcm" --out "$dir/run" --map >&2
+  if [[ ! -f $dir/log.lcm || ! -f $dir/maker || $(<"$dir/maker") != "$maker" ]]; then
+    rm -f "$dir/maker"
+    build/bin/lio-sim --scenario "$scenario" --seed "$seed" --threads "$(nproc)" --out "$dir" >&2
+    echo "$maker" >"$dir/maker"
+  fi
+  build/bin/lio-replay --config "$dir/config.yaml" "${settings[@]}" "$dir/log.lcm" \
+    --out "$dir/run" --map >&2
   build/bin/lio-eval "$dir/truth.tum" "$dir/run/trajectory.tum" --json "$dir/eval.json" \
     --plot "$dir/path.png" --map "$dir/run/map.pcd" >"$dir/eval.txt"
-  rm "$dir/log.lcm" # up to a gigabyte each
+  if [[ $scenario == loop ]]; then
+    /usr/bin/python3 -B tools/bench/wall_closeup.py "$dir" "$dir/closeup.png" >&2
+  fi
+  [[ $keep_logs == yes ]] || rm "$dir/log.lcm"
 done
-/usr/bin/python3 tools/bench/scenarios_table.py "$root" "${scenarios[@]}"
+/usr/bin/python3 -B tools/bench/scenarios_table.py "$root" "${scenarios[@]}" | tee "$root/table.md"
+if [[ $docs == yes ]]; then
+  /usr/bin/python3 -B tools/bench/put_table.py docs/results.md scenarios "$root/table.md"
+  [[ ! -f $root/loop/closeup.png ]] || cp "$root/loop/closeup.png" docs/images/loop_closeup.png
+fi

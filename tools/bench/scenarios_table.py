@@ -7,8 +7,27 @@ import json
 import pathlib
 import sys
 
-HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | z drift cm | tilt deg "
-          "| step mm | scans | not fused | weak | ms a scan | MB |")
+HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | closing gap cm | z drift cm "
+          "| tilt deg | step mm | scans | converged | weak | no match | not fused | ms a scan | MB |")
+CLOSED_RATIO = 0.01  # a way that ends this near its start, by its length, is closed
+
+
+def closing_gap(score):
+    """Between first and last position, where the truth has none; else a dash."""
+    end = score["end"]
+    if end["truth_gap_m"] > CLOSED_RATIO * score["path_length_m"]:
+        return "-"
+    return f"{100 * end['estimate_gap_m']:.1f}"
+
+
+def status_counts(matches):
+    """Converged, with weak directions, neither; and how many of all were not fused."""
+    counts = {"converged": 0, "degenerate": 0}
+    for match in matches:
+        counts[match["status"]] = counts.get(match["status"], 0) + 1
+    others = len(matches) - counts["converged"] - counts["degenerate"]
+    unfused = sum(match["fused"] == "0" for match in matches)
+    return [counts["converged"], counts["degenerate"], others, unfused]
 
 
 def row(root, name):
@@ -17,15 +36,14 @@ def row(root, name):
     stats = json.loads((folder / "run" / "stats.json").read_text())
     with open(folder / "run" / "registration.csv", encoding="utf-8") as file:
         matches = list(csv.DictReader(file))
-    weak = sum(match["status"] in ("degenerate", "5") for match in matches)
     drift = score["drift"]["translation_percent"] if score["drift"]["num_segments"] else None
     cells = [name, f"{score['path_length_m']:.0f}",
              f"{100 * score['ape']['position_m']['rmse']:.2f}",
              "-" if drift is None else f"{drift:.3f}",
-             f"{100 * score['end']['error_m']:.1f}", f"{100 * score['z_drift']['end_m']:.1f}",
-             f"{score['tilt_deg']['rmse']:.2f}",
-             f"{1000 * score['step']['translation_m']['median']:.2f}",
-             str(len(matches)), str(stats["num_matches_rejected"]), str(weak),
+             f"{100 * score['end']['error_m']:.1f}", closing_gap(score),
+             f"{100 * score['z_drift']['end_m']:.1f}", f"{score['tilt_deg']['rmse']:.2f}",
+             f"{1000 * score['step']['translation_m']['median']:.2f}", str(len(matches)),
+             *(str(count) for count in status_counts(matches)),
              f"{stats['stage_ms']['total']['median']:.1f}", f"{stats['rss_peak_mb']:.0f}"]
     return "| " + " | ".join(cells) + " |"
 

@@ -16,8 +16,12 @@ kept() {
 # source_id PATH: changes when the file, or the folder's own list, does.
 source_id() { stat -c '%n %s %Y' "$(realpath "$1")"; }
 
+# What the simulated drive is made by: the program and its sensors' files.
+maker_id() { cat build/bin/lio-sim config/lidars/*.yaml config/imus/*.yaml | cksum; }
+
 make_input() {
-  local folder=out/inputs/loop id="loop vlp16 1"
+  local folder=out/inputs/loop id
+  id="loop vlp16 $(maker_id)"
   if ! kept "$folder" "$id"; then
     echo "demo: making the input, a drive around a simulated block (kept in $folder)"
     build/bin/lio-sim --scenario loop --lidar vlp16 --threads "$(nproc)" --out "$folder"
