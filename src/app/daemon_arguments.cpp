@@ -7,6 +7,9 @@
 namespace lio {
 namespace {
 
+// LCM's channel names have at most 63 characters; the longest of ours adds less than 23.
+constexpr std::size_t kMaxPrefixCharacters = 40;
+
 constexpr const char* kDescription =
     "LiDAR-inertial odometry over LCM.\n\n"
     "Listens on LIO_IMU and LIO_SCAN; publishes LIO_ODOM (once a scan), LIO_ODOM_IMU (once an\n"
@@ -36,6 +39,7 @@ void DaemonArguments::AddTo(CLI::App& app) {
                "Publish every point, registered, on LIO_CLOUD_FULL; LIO_CMD may change it");
   app.add_option("--channel-prefix", channel_prefix, "Of all channels, in and out")
       ->type_name("NAME")
+      ->check(NameUpTo(kMaxPrefixCharacters))
       ->capture_default_str();
   AddOptionsArguments(app, options);
 }

@@ -4,8 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <iostream>
+#include <sstream>
 
+#include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 
 namespace lio {
@@ -27,7 +31,77 @@ std::string CheckKeyValue(const std::string& set) {
   return is_usable ? "" : "expects KEY=VALUE, not '" + set + "'";
 }
 
+template <typename Number>
+std::optional<Number> Parse(const std::string& text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + text.starts_with('+'), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+template <typename Accept>
+TextCheck NumberThat(const std::string& is_what, Accept accept) {
+  return [is_what, accept](const std::string& text) -> std::string {
+    const auto value = Parse<double>(text);
+    if (value && std::isfinite(*value) && accept(*value)) return "";
+    return "expects a number " + is_what + ", not '" + text + "'";
+  };
+}
+
+std::string Text(double number) {
+  std::ostringstream stream;
+  stream << number;
+  return stream.str();
+}
+
 }  // namespace
+
+TextCheck NumberWithin(double least, double most) {
+  return NumberThat("within " + Text(least) + " .. " + Text(most),
+                    [=](double value) { return value >= least && value <= most; });
+}
+
+TextCheck NumberFromZero() {
+  return NumberThat("from 0 on", [](double value) { return value >= 0.0; });
+}
+
+TextCheck NumberAboveZero() {
+  return NumberThat("above 0", [](double value) { return value > 0.0; });
+}
+
+TextCheck WholeNumberFromZero() {
+  return [](const std::string& text) -> std::string {
+    if (Parse<std::uint64_t>(text)) return "";
+    return "expects a whole number from 0 on, not '" + text + "'";
+  };
+}
+
+TextCheck NameUpTo(std::size_t max_characters) {
+  return [max_characters](const std::string& text) -> std::string {
+    if (text.size() <= max_characters) return "";
+    return "expects a name of at most " + std::to_string(max_characters) + " characters, not of " +
+           std::to_string(text.size());
+  };
+}
+
+void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const auto is_same = [&](const fs::path& file) { return fs::equivalent(file, output, ignored); };
+  bool is_data = is_same(input);
+  if (fs::is_directory(input, ignored) && fs::is_regular_file(output, ignored)) {
+    const std::string extension = output.extension().string();
+    const bool is_recorded = extension == ".db3" || extension == ".bin" || extension == ".txt" ||
+                             output.filename() == "metadata.yaml";
+    fs::path folder = fs::weakly_canonical(output, ignored).parent_path();
+    while (is_recorded && !is_data && folder.has_relative_path()) {
+      is_data = fs::equivalent(folder, input, ignored);
+      folder = folder.parent_path();
+    }
+  }
+  if (is_data) throw UsageError(output.string() + ": is input, name another file to write");
+}
 
 std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
                                     const std::string& version) {

@@ -13,6 +13,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "lio/io/input_error.hpp"
+
 namespace lio {
 namespace {
 
@@ -50,7 +52,7 @@ struct EventLogWriter::Impl {
 
   void Put(const void* bytes, std::size_t size) const {
     if (size > 0 && std::fwrite(bytes, 1, size, file) != size) {
-      throw std::runtime_error("cannot write " + name + ": " + Why());
+      throw OutputError("cannot write " + name + ": " + Why());
     }
   }
 };
@@ -60,7 +62,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path)
   impl_->name = path.string();
   impl_->file = std::fopen(path.c_str(), "wb");
   if (impl_->file == nullptr) {
-    throw std::runtime_error("cannot create " + impl_->name + ": " + Why());
+    throw OutputError("cannot create " + impl_->name + ": " + Why());
   }
 }
 
@@ -90,7 +92,7 @@ void EventLogWriter::Close() {
   if (impl_->file == nullptr) return;
   const int result = std::fclose(impl_->file);
   impl_->file = nullptr;
-  if (result != 0) throw std::runtime_error("cannot write " + impl_->name + ": " + Why());
+  if (result != 0) throw OutputError("cannot write " + impl_->name + ": " + Why());
 }
 
 struct EventLogReader::Impl {

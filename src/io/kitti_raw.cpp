@@ -197,7 +197,7 @@ void WriteRig(const fs::path& drive, const fs::path& file) {
       "    model: hdl64e\n",
       calibration.filename().string(), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!stream) throw OutputError(file.string() + ": cannot be written");
 }
 
 }  // namespace

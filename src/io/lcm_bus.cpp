@@ -73,6 +73,8 @@ class StderrCapture {
 
 std::string WhatToDo(const std::string& url) {
   if (url.starts_with("tcpq:")) return "start its server: java -cp lcm.jar lcm.lcm.TCPService PORT";
+  if (url.starts_with("file:")) return "name an existing log";
+  if (!url.starts_with("udpm:")) return "give a URL of udpm://, tcpq:// or file://";
   return "if this machine has no multicast route: sudo ip link set lo up && "
          "sudo ip route add 224.0.0.0/4 dev lo";
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "lio/io/beam_table.hpp"
 #include "lio/io/nearest_name.hpp"
@@ -106,6 +107,8 @@ class Loader {
   std::map<std::string, std::string> given_;  // where each given key has its value from, by path
   std::string source_;                        // the file, or "--set"
   bool is_set_ = false;
+  bool is_file_unusable_ = false;
+  std::set<std::string> refused_;  // keys whose value last given could not be read
 };
 
 void Loader::ApplyFile(const std::filesystem::path& file) {
@@ -114,6 +117,7 @@ void Loader::ApplyFile(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file)) {
     Fault(source_, "cannot be read; give an existing YAML file");
+    is_file_unusable_ = true;
     return;
   }
   try {
@@ -122,6 +126,7 @@ void Loader::ApplyFile(const std::filesystem::path& file) {
     if (!documents.empty()) ApplyMap(documents.front(), "");
   } catch (const YAML::Exception& e) {
     Fault(source_ + ":" + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
+    is_file_unusable_ = true;
   }
 }
 
@@ -144,6 +149,7 @@ void Loader::ApplyMap(const YAML::Node& map, const std::string& path) {
   if (map.IsNull()) return;
   if (!map.IsMap()) {
     Fault(Where(map), (path.empty() ? "" : path + ": ") + "expects keys, not " + Describe(map));
+    is_file_unusable_ = is_file_unusable_ || path.empty();
     return;
   }
   std::map<std::string, int> seen;
@@ -177,7 +183,12 @@ void Loader::ApplyKey(const YAML::Node& key, const YAML::Node& value, const std:
     return;
   }
   const std::string problem = known->parse(value);
-  if (!problem.empty()) Fault(Where(key), full + ": " + problem);
+  if (problem.empty()) {
+    refused_.erase(full);
+  } else {
+    Fault(Where(key), full + ": " + problem);
+    refused_.insert(full);
+  }
 }
 
 void Loader::SettleOptionalGroups() {
@@ -217,7 +228,10 @@ LoadResult Loader::Finish() {
     faults.insert(faults.end(), more.begin(), more.end());
   }
   for (const OptionFault& fault : faults) {
+    if (refused_.contains(fault.key)) continue;  // nothing of its text was taken
     const auto where = given_.find(fault.key);
+    // What is not given may stand in the file that could not be used: its fault is the one to mend.
+    if (where == given_.end() && is_file_unusable_) continue;
     Fault(where == given_.end() ? "configuration" : where->second,
           fault.key + ": " + fault.message);
   }

@@ -13,11 +13,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lio/io/input_error.hpp"
+
 namespace lio {
 namespace {
 
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
+constexpr double kMaxPosition_m = 1e12;     // more is a damaged number: squares must stay exact
 constexpr double kMaxRotationError = 1e-2;  // files with three decimals pass
 
 std::vector<std::string_view> Words(std::string_view line) {
@@ -84,6 +87,12 @@ class Reader {
     return *value;
   }
 
+  double Metres(const std::vector<std::string_view>& words, std::size_t index) const {
+    const double value = Number(words, index);
+    if (std::abs(value) > kMaxPosition_m) FailColumn(index, words[index], "is beyond 1e12 m");
+    return value;
+  }
+
   StampedPose TumPose(const std::vector<std::string_view>& words) const {
     const std::optional<Timestamp> stamp = ParseStamp(words[0]);
     if (!stamp) FailColumn(0, words[0], "is no stamp in seconds");
@@ -92,7 +101,7 @@ class Reader {
     }
     StampedPose row;
     row.stamp = *stamp;
-    row.pose.translation = Vector3(Number(words, 1), Number(words, 2), Number(words, 3));
+    row.pose.translation = Vector3(Metres(words, 1), Metres(words, 2), Metres(words, 3));
     const double x = Number(words, 4), y = Number(words, 5), z = Number(words, 6);
     const Quaternion rotation(Number(words, 7), x, y, z);
     if (std::abs(rotation.norm() - 1.0) > kMaxRotationError) {
@@ -104,7 +113,7 @@ class Reader {
 
   StampedPose KittiPose(const std::vector<std::string_view>& words) const {
     Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix;
-    for (std::size_t i = 0; i < kKittiColumns; ++i) matrix.data()[i] = Number(words, i);
+    for (std::size_t i = 0; i < kKittiColumns; ++i) matrix.data()[i] = Metres(words, i);
     const Matrix3 rotation = matrix.leftCols<3>();
     const double error = (rotation.transpose() * rotation - Matrix3::Identity()).norm();
     if (error > kMaxRotationError || rotation.determinant() < 0) {
@@ -127,7 +136,7 @@ void WriteRows(const std::filesystem::path& file, const StampedPoses& poses, Row
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   for (const StampedPose& pose : poses) stream << row_text(pose) << '\n';
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!stream) throw OutputError(file.string() + ": cannot be written");
 }
 
 std::string KittiRow(const StampedPose& row) {

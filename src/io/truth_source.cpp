@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/truth_source.hpp"
 
-#include <stdexcept>
-
 #include "lio/io/input_error.hpp"
 #include "lio/io/ros_messages.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -26,7 +24,7 @@ bool IsTruthType(const std::string& type) {
 
 TruthSource::TruthSource(const BagTopic& topic, const std::filesystem::path& tum_file)
     : topic_(topic), path_(tum_file), file_(tum_file) {
-  if (!file_) throw std::runtime_error(tum_file.string() + ": cannot be written");
+  if (!file_) throw OutputError(tum_file.string() + ": cannot be written");
   if (!IsInspvax(topic.type)) return;
   const char* known = KnownInspvaxDefinition(topic.type);
   const std::string definition =
@@ -75,7 +73,7 @@ void TruthSource::Add(const BagMessage& message) {
 
 void TruthSource::Close() {
   file_.close();
-  if (!file_) throw std::runtime_error(path_.string() + ": cannot be written, is the disk full?");
+  if (!file_) throw OutputError(path_.string() + ": cannot be written, is the disk full?");
 }
 
 std::string TruthSource::description() const {

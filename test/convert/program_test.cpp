@@ -94,6 +94,9 @@ TEST_F(ConvertProgram, WrongUsageIs2) {
   ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--point-time", "h"}), 2);
   ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--start", "-1"}), 2);
   ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--duration", "0"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--start", "nan"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--duration", "inf"}), 2);
+  ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--no-such-option"}), 2);
   ExpectOneLine(Run({"rosbag", "in.bag", "out.lcm", "--truth-topic", "/t"}), 2);
   ExpectOneLine(Run({"kitti-raw", "dir", "out.lcm", "--imu-rate", "-5"}), 2);
   ExpectOneLine(Run({"kitti-odometry", "dir", "out.lcm", "--vertical-correction", "x"}), 2);
@@ -219,8 +222,21 @@ TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
 
 TEST_F(ConvertProgram, AnOutputThatCannotBeWrittenIsOneLine) {
   const ProgramResult result = Run({"rosbag", WriteBag({"/points"}), Path("no/such/folder/o.lcm")});
-  EXPECT_NE(result.exit_code, 0);
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  ExpectOneLine(result, 2);
+  EXPECT_THAT(result.err, HasSubstr("cannot create"));
+  const ProgramResult full = Run({"rosbag", WriteBag({"/points"}), "/dev/full"});
+  ExpectOneLine(full, 2);
+  EXPECT_THAT(full.err, HasSubstr("No space left"));
+  ExpectOneLine(Run({"rosbag", WriteBag({"/points"}), dir_.path().string()}), 2);
+}
+
+TEST_F(ConvertProgram, TheRecordingIsNeverOverwritten) {
+  const std::string bag = WriteBag({"/points"});
+  const std::string before = test::ReadText(bag);
+  const ProgramResult result = Run({"rosbag", bag, bag});
+  ExpectOneLine(result, 2);
+  EXPECT_THAT(result.err, HasSubstr("name another file"));
+  EXPECT_TRUE(test::ReadText(bag) == before);
 }
 
 }  // namespace

@@ -48,12 +48,52 @@ class ExitCodes(unittest.TestCase):
             with self.subTest(program):
                 self.check(USAGE, [], program)
 
-    def test_missing_configuration_file_is_named(self):
+    def test_unusable_configuration_file_is_named_and_nothing_else(self):
+        texts = {"list.yaml": "- 1\n- 2\n", "scalar.yaml": "hello\n", "broken.yaml": "a: [1\n"}
+        for name, text in texts.items():
+            (self.folder / name).write_text(text)
+        files = ["/no/such.yaml", self.folder, *(self.folder / name for name in texts)]
         for program, rest in (("lio-replay", ("log.lcm", "--out", self.folder)), ("liod", ())):
-            with self.subTest(program):
-                done = support.run(program, "--config", "/no/such.yaml", *rest)
-                self.assertEqual(done.returncode, CONFIGURATION, done.stderr)
-                self.assertIn("/no/such.yaml", done.stderr)
+            for file in files:
+                with self.subTest(program=program, file=file):
+                    self.check(CONFIGURATION, [str(file)], program, "--config", file, *rest)
+
+    def test_numbers_beyond_reason_are_refused(self):
+        log, truth = self.drive / "log.lcm", self.drive / "truth.tum"
+        run = (*self.config, log, "--out", self.folder / "never")
+        bag = ("rosbag", "in.bag", "out.lcm")
+        sim = ("--scenario", "street", "--out", self.folder / "never")
+        cases = [("lio-replay", run, "--start"), ("lio-replay", run, "--duration"),
+                 ("lio-replay", run, "--threads"), ("lio-convert", bag, "--start"),
+                 ("lio-convert", bag, "--duration"), ("lio-eval", (truth, truth), "--max-gap"),
+                 ("lio-convert", ("kitti-raw", "in", "out.lcm"), "--imu-rate"),
+                 ("lio-convert", ("kitti-odometry", "in", "out.lcm"), "--vertical-correction"),
+                 ("lio-sim", sim, "--duration"), ("lio-sim", sim, "--seed"),
+                 ("lio-sim", sim, "--imu-rate"), ("lio-sim", sim, "--threads")]
+        for program, words, option in cases:
+            for value in ("nan", "inf", "-1e300", "1e999", "x", ""):
+                with self.subTest(program=program, option=option, value=value):
+                    done = self.check(USAGE, [], program, *words, f"{option}={value}")
+                    self.assertLess(len(done.stderr), 300)
+        for key in ("rig.gravity_mps2", "ndt.voxel_m", "pipeline.max_queued_scans"):
+            for value in ("1e999", ".nan", "-1e300", "99999999999999999999", "[1]", "{a: 1}", ""):
+                with self.subTest(key=key, value=value):
+                    self.check(CONFIGURATION, [key], "lio-replay", *run, "--set", f"{key}={value}")
+
+    def test_outputs_that_cannot_be_written_are_usage_errors(self):
+        file = self.folder / "file"
+        file.write_text("")
+        truth = self.drive / "truth.tum"
+        for program, words in (
+                ("lio-replay", (*self.config, self.drive / "log.lcm", "--out", file)),
+                ("lio-sim", ("--scenario", "street", "--duration", "1", "--out", file)),
+                ("lio-eval", (truth, truth, "--json", self.folder)),
+                ("lio-eval", (truth, truth, "--json", "/dev/full"))):
+            with self.subTest(program=program):
+                self.check(USAGE, [], program, *words)
+
+    def test_liod_refuses_channels_that_lcm_cannot_name(self):
+        self.check(USAGE, ["--channel-prefix"], "liod", *self.config, "--channel-prefix", "X" * 41)
 
     def test_unknown_key_names_the_nearest_right_one(self):
         self.check(CONFIGURATION, ["voxel_size_m", "voxel_m"], "lio-replay", *self.config, "--set",
@@ -73,7 +113,13 @@ class ExitCodes(unittest.TestCase):
                    self.folder)
         empty = self.folder / "empty.lcm"
         empty.write_bytes(b"")
-        self.check(INPUT, ["empty.lcm"], "lio-replay", *self.config, empty, "--out", self.folder)
+        other = self.folder / "other.lcm"
+        other.write_bytes(bytes(range(256)) * 100)
+        for log in (empty, other, self.folder, self.drive / "truth.tum", "/dev/null"):
+            with self.subTest(log=log):
+                self.check(INPUT, [str(log)], "lio-replay", *self.config, log, "--out", self.folder)
+        self.check(INPUT, ["--start"], "lio-replay", *self.config, self.drive / "log.lcm",
+                   "--out", self.folder, "--start", "1000")
 
     def test_replay_goes_past_damage_says_how_much_and_ends_with_5(self):
         whole = (self.drive / "log.lcm").read_bytes()
@@ -93,16 +139,35 @@ class ExitCodes(unittest.TestCase):
         other.write_bytes(b"not a bag at all, but long enough to be looked at" * 10)
         out = self.folder / "none.lcm"
         self.check(INPUT, ["other.bag"], "lio-convert", "rosbag", other, out)
-        self.check(INPUT, ["/no/such.bag"], "lio-convert", "rosbag", "/no/such.bag", out)
-        self.check(INPUT, ["/no/such"], "lio-convert", "kitti-raw", "/no/such", out)
-        self.check(INPUT, ["/no/such"], "lio-convert", "kitti-odometry", "/no/such", out)
+        empty = self.folder / "empty"
+        empty.mkdir(exist_ok=True)
+        for kind in ("rosbag", "kitti-raw", "kitti-odometry"):
+            for given in ("/no/such", empty, other, "/dev/null", self.drive / "log.lcm"):
+                with self.subTest(kind=kind, given=given):
+                    self.check(INPUT, [str(given)], "lio-convert", kind, given, out)
+
+    def test_convert_never_writes_over_its_input(self):
+        precious = self.folder / "precious.bag"
+        precious.write_bytes(b"#ROSBAG V2.0\n" + bytes(5000))
+        self.check(USAGE, ["precious.bag"], "lio-convert", "rosbag", precious, precious)
+        self.assertEqual(precious.stat().st_size, 5013)
 
     def test_eval_refuses_missing_and_malformed_trajectories(self):
         truth = self.drive / "truth.tum"
-        bad = self.folder / "bad.tum"
-        bad.write_text("1 2 three\n")
-        self.check(INPUT, ["/no/such.tum"], "lio-eval", truth, "/no/such.tum")
-        self.check(INPUT, ["bad.tum"], "lio-eval", truth, bad)
+        texts = {"bad": "1 2 three\n", "short": "1 0 0 0\n", "none": "# nothing\n", "empty": "",
+                 "nan": "1 nan 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "one": "1 0 0 0 0 0 0 1\n",
+                 "huge": "1 1e300 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n",
+                 "late": "1e300 0 0 0 0 0 0 1\n2e300 0 0 0 0 0 0 1\n",
+                 "back": "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
+                 "turn": "1 0 0 0 0 0 0 0\n2 0 0 0 0 0 0 0\n"}
+        for name, text in texts.items():
+            (self.folder / f"{name}.tum").write_text(text)
+        files = [*(self.folder / f"{name}.tum" for name in texts), "/no/such.tum", self.folder,
+                 self.drive / "log.lcm"]
+        for file in files:
+            with self.subTest(file=file):
+                self.check(INPUT, [], "lio-eval", truth, file)
+                self.check(INPUT, [], "lio-eval", file, truth)
 
     def test_sim_lists_the_scenarios_when_the_name_is_wrong(self):
         self.check(USAGE, ["street"], "lio-sim", "--scenario", "moon", "--out", self.folder)

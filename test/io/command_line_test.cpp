@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "support/temp_dir.hpp"
 
 namespace lio {
 namespace {
@@ -99,6 +101,47 @@ TEST(CommandLine, HelpAndVersionEndWithZero) {
   const Program help({"--help"});
   EXPECT_EQ(help.exit_code, kExitDone);
   EXPECT_THAT(help.out, HasSubstr("--print-options"));
+}
+
+TEST(CommandLine, NumbersAreCheckedAndNaNIsNone) {
+  for (const char* bad : {"nan", "inf", "-inf", "", "x", "1x", "1e999", "--1"}) {
+    EXPECT_THAT(NumberFromZero()(bad), HasSubstr("expects a number from 0 on, not '")) << bad;
+    EXPECT_NE(NumberAboveZero()(bad), "") << bad;
+    EXPECT_NE(NumberWithin(-5, 5)(bad), "") << bad;
+    EXPECT_NE(WholeNumberFromZero()(bad), "") << bad;
+  }
+  EXPECT_EQ(NumberFromZero()("0"), "");
+  EXPECT_EQ(NumberFromZero()("+1.5e3"), "");
+  EXPECT_NE(NumberFromZero()("-0.1"), "");
+  EXPECT_EQ(NumberAboveZero()("1e-9"), "");
+  EXPECT_NE(NumberAboveZero()("0"), "");
+  EXPECT_EQ(NumberWithin(-5, 5)("-5"), "");
+  EXPECT_EQ(NumberWithin(-5, 5)("5.1"), "expects a number within -5 .. 5, not '5.1'");
+  EXPECT_EQ(WholeNumberFromZero()("18446744073709551615"), "");
+  EXPECT_NE(WholeNumberFromZero()("18446744073709551616"), "");
+  EXPECT_NE(WholeNumberFromZero()("-1"), "");
+  EXPECT_NE(WholeNumberFromZero()("1.5"), "");
+}
+
+TEST(CommandLine, NamesHaveALargestLength) {
+  EXPECT_EQ(NameUpTo(3)("abc"), "");
+  EXPECT_THAT(NameUpTo(3)("abcd"), HasSubstr("at most 3 characters"));
+}
+
+TEST(CommandLine, InputIsNeverOverwritten) {
+  namespace fs = std::filesystem;
+  const test::TempDir dir;
+  const fs::path file = dir.Write("drive/bag_0.db3", "x");
+  const fs::path deep = dir.Write("drive/velodyne_points/data/0.bin", "x");
+  const fs::path folder = dir.path() / "drive";
+  EXPECT_THROW(RefuseToOverwrite(file, file), UsageError);
+  EXPECT_THROW(RefuseToOverwrite(file, folder / "velodyne_points/../bag_0.db3"), UsageError);
+  EXPECT_THROW(RefuseToOverwrite(folder, file), UsageError);
+  EXPECT_THROW(RefuseToOverwrite(folder, deep), UsageError);
+  EXPECT_NO_THROW(RefuseToOverwrite(folder, dir.Write("drive/out.lcm", "x")));
+  EXPECT_NO_THROW(RefuseToOverwrite(folder, dir.Write("other/0.bin", "x")));
+  EXPECT_NO_THROW(RefuseToOverwrite(file, dir.path() / "not there"));
+  EXPECT_NO_THROW(RefuseToOverwrite(dir.path() / "not there", file));
 }
 
 }  // namespace

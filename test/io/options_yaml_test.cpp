@@ -125,6 +125,11 @@ TEST_F(OptionsYaml, WrongTypesAreRefused) {
   }
 }
 
+TEST_F(OptionsYaml, AValueThatCannotBeReadHasOneFault) {
+  EXPECT_THAT(Load(kRig, {"pipeline.max_queued_scans=-1e300"}).faults, SizeIs(1));
+  EXPECT_THAT(Load(kRig, {"rig.gravity_mps2=-x"}).faults, SizeIs(1));
+}
+
 TEST_F(OptionsYaml, NonFiniteNumbersAreRefused) {
   for (const std::string value : {"nan", "inf", "-inf"}) {
     const LoadResult result = Load(kRig, {"ndt.voxel_m=" + value});
@@ -164,14 +169,15 @@ TEST_F(OptionsYaml, DoubledKeysAreRefused) {
   EXPECT_THAT(result.faults, ElementsAre(At(7) + "ndt.voxel_m: is given twice"));
 }
 
+// And no fault of a key that may stand in them.
 TEST_F(OptionsYaml, UnreadableAndBrokenFilesAreNamed) {
   const LoadResult result = LoadOptions(
-      {dir_.path() / "missing.yaml", dir_.path(), dir_.Write("broken.yaml", "a: 1\n  b: [\n")},
-      {"pipeline.use_imu=false"});
+      {dir_.path() / "missing.yaml", dir_.path(), dir_.Write("broken.yaml", "a: 1\n  b: [\n")}, {});
   ASSERT_THAT(result.faults, SizeIs(3));
   EXPECT_THAT(result.faults[0], HasSubstr("missing.yaml: cannot be read"));
   EXPECT_THAT(result.faults[1], HasSubstr(": cannot be read"));
   EXPECT_THAT(result.faults[2], HasSubstr("broken.yaml:2: is not valid YAML"));
+  EXPECT_THAT(Load("- 1\n").faults, ElementsAre(At(1) + "expects keys, not a list"));
 }
 
 TEST_F(OptionsYaml, OddDocumentsAreFaultsNotCrashes) {

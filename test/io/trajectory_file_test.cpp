@@ -76,6 +76,12 @@ TEST_F(TrajectoryFile, FaultsNameLineAndColumn) {
   EXPECT_EQ(Fault("# nothing\n"), ": holds no pose");
 }
 
+TEST_F(TrajectoryFile, PositionsBeyondReasonAreRefused) {
+  EXPECT_EQ(Fault("1 1e12 0 0 0 0 0 1\n"), "no fault");
+  EXPECT_EQ(Fault("1 1e300 0 0 0 0 0 1\n"), ":1: column 2 ('1e300') is beyond 1e12 m");
+  EXPECT_EQ(Fault("1 0 0 1 0 1 0 -1e13 0 0 1 0\n"), ":1: column 8 ('-1e13') is beyond 1e12 m");
+}
+
 TEST_F(TrajectoryFile, MissingFilesAreNamed) {
   EXPECT_THROW(ReadTrajectory(dir_.path() / "missing.tum"), std::runtime_error);
   EXPECT_THROW(ReadTrajectory(dir_.path()), std::runtime_error);

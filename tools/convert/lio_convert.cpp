@@ -40,6 +40,14 @@ constexpr const char* kAboutOdometry =
     "A KITTI odometry sequence: velodyne/, times.txt, calib.txt. Poses (default\n"
     "../../poses/NN.txt) are turned from the camera's frame into the lidar's.";
 
+// No output may take the place of the recording.
+void Guard(const std::filesystem::path& input,
+           const std::vector<std::optional<std::filesystem::path>>& outputs) {
+  for (const auto& output : outputs) {
+    if (output) lio::RefuseToOverwrite(input, *output);
+  }
+}
+
 // A bar while `convert` runs, then its summary; the exit code tells whether something was lost.
 template <typename Options, typename Convert>
 int Run(Options& options, Convert&& convert) {
@@ -96,9 +104,9 @@ CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
           "What a cloud's stamp is of its sweep: auto, start, end")
       ->check(CLI::IsMember(stamps));
   command->add_option("--start", options.start_s, "Seconds after the bag's first message")
-      ->check(CLI::NonNegativeNumber);
+      ->check(lio::NumberFromZero());
   command->add_option("--duration", options.duration_s, "Seconds to convert")
-      ->check(CLI::PositiveNumber);
+      ->check(lio::NumberAboveZero());
   command->add_flag("--whole-scans", options.whole_scans, "One message a sweep, not chunks");
   return command;
 }
@@ -110,7 +118,7 @@ CLI::App* AddKittiRaw(CLI::App& app, lio::KittiRawOptions& options) {
   command->add_option("--truth", options.truth_file, "Write the IMU's poses, as TUM file");
   command->add_option("--rig", options.rig_file, "Write the rig's configuration, as YAML file");
   command->add_option("--imu-rate", options.imu_rate_hz, "Interpolate the IMU to this rate [Hz]")
-      ->check(CLI::Range(1.0, 10000.0));
+      ->check(lio::NumberWithin(1.0, 10000.0));
   return command;
 }
 
@@ -125,7 +133,7 @@ CLI::App* AddKittiOdometry(CLI::App& app, lio::KittiOdometryOptions& options) {
   command
       ->add_option("--vertical-correction", options.vertical_correction_deg,
                    "Raise every point's elevation [deg]; 0.205 suits KITTI's scanner")
-      ->check(CLI::Range(-5.0, 5.0));
+      ->check(lio::NumberWithin(-5.0, 5.0));
   return command;
 }
 
@@ -141,8 +149,18 @@ int Convert(int argc, char** argv) {
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
     return *exit_code;
   }
-  if (rosbag_command->parsed()) return Run(rosbag, lio::ConvertRosbag);
-  if (raw_command->parsed()) return Run(raw, lio::ConvertKittiRaw);
+  if (rosbag_command->parsed()) {
+    Guard(rosbag.input, {rosbag.output, rosbag.truth_file});
+    return Run(rosbag, lio::ConvertRosbag);
+  }
+  if (raw_command->parsed()) {
+    Guard(raw.drive, {raw.output, raw.truth_file, raw.rig_file});
+    return Run(raw, lio::ConvertKittiRaw);
+  }
+  Guard(odometry.sequence, {odometry.output, odometry.truth_file});
+  if (odometry.poses_file) {
+    Guard(*odometry.poses_file, {odometry.output, odometry.truth_file});
+  }
   return Run(odometry, lio::ConvertKittiOdometry);
 }
 
@@ -152,6 +170,9 @@ int main(int argc, char** argv) {
   try {
     return Convert(argc, argv);
   } catch (const lio::UsageError& error) {
+    std::cerr << "lio-convert: " << error.what() << "\n";
+    return lio::kExitUsage;
+  } catch (const lio::OutputError& error) {
     std::cerr << "lio-convert: " << error.what() << "\n";
     return lio::kExitUsage;
   } catch (const std::exception& error) {

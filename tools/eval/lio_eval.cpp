@@ -9,6 +9,7 @@
 #include "lio/eval/evaluation.hpp"
 #include "lio/eval/report.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/input_error.hpp"
 #include "plot_runner.hpp"
 
 namespace lio {
@@ -46,7 +47,7 @@ void Describe(CLI::App& app, Arguments& arguments) {
       ->type_name("none|yaw|se3");
   app.add_option("--max-gap", arguments.max_gap_s,
                  "Interpolate across gaps of at most so many seconds (default: from the data)")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(NumberAboveZero())
       ->type_name("S");
   app.add_option("--json", arguments.json, "Write the figures there")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw paths, errors and height in one picture")
@@ -79,6 +80,9 @@ int Run(const Arguments& arguments) {
     return Fail(kExitUnusableInput, arguments.map + ": cannot be read; give a PCD file");
   }
   try {
+    for (const std::string& file : {arguments.truth, arguments.estimate}) {
+      if (!arguments.json.empty()) RefuseToOverwrite(file, arguments.json);
+    }
     const Trajectory truth = ReadTrajectory(arguments.truth);
     const Trajectory estimate = ReadTrajectory(arguments.estimate);
     const Evaluation evaluation = Evaluate(truth, estimate, ToOptions(arguments));
@@ -89,6 +93,8 @@ int Run(const Arguments& arguments) {
       if (exit_code != kExitDone) return exit_code;
     }
     return Draw(arguments, evaluation, files);
+  } catch (const UsageError& e) {
+    return Fail(kExitUsage, e.what());
   } catch (const std::runtime_error& e) {
     return Fail(kExitUnusableInput, e.what());
   }

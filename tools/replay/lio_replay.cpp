@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
@@ -58,10 +59,10 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_flag("--map", arguments.writes_map, "Write map.pcd, one point each 0.2 m");
   app.add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
       ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
+      ->check(NumberFromZero());
   app.add_option("--duration", arguments.duration_s, "Replay S seconds and no more")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberAboveZero());
   app.add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
       ->type_name("NAME")
       ->capture_default_str();
@@ -143,10 +144,11 @@ class Replay {
 std::string Complaint(const LogInput& input, const Counters& counters,
                       const ReplayArguments& arguments) {
   if (counters.num_chunks == 0) {
+    const bool is_whole = arguments.start_s == 0.0 && std::isinf(arguments.duration_s);
     return fmt::format(
-        "{} has no scans on {}SCAN: nothing to estimate; see what it holds with "
-        "'lio-log info'",
-        arguments.log, arguments.channel_prefix);
+        "{} has no scans on {}SCAN{}: nothing to estimate; see what it holds with 'lio-log info'",
+        arguments.log, arguments.channel_prefix,
+        is_whole ? "" : " in the part that --start and --duration leave");
   }
   std::string text;
   if (input.num_skipped_bytes() > 0) {

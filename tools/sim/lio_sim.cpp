@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -60,20 +61,22 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "draw the place from above with the way into this PPM file; alone or with --out");
   app.add_option("--duration", arguments.duration_s, "length of the log [s]");
   app.add_option("--seed", arguments.seed, "another seed is another world and other noise")
+      ->check(WholeNumberFromZero())
       ->capture_default_str();
   app.add_option("--lidar", arguments.lidar,
                  "hdl32e, vlp16, hdl64e, os1_64 or a file of that form");
   app.add_option("--imu", arguments.imu,
                  "xsens_mti10, consumer_mems, ideal or a file of that form");
   app.add_option("--imu-rate", arguments.imu_rate_hz, "samples a second [Hz]")
-      ->check(CLI::Range(100.0, 1000.0));
+      ->check(NumberWithin(100.0, 1000.0));
   app.add_option("--imu-variant", arguments.imu_variant,
                  "what the accelerometer gives: normal, gravity-removed, in-g")
       ->transform(CLI::CheckedTransformer(variants));
   app.add_option("--latitude", arguments.latitude_deg, "of the place, for its gravity [deg]")
       ->capture_default_str()
-      ->check(CLI::Range(-90.0, 90.0));
+      ->check(NumberWithin(-90.0, 90.0));
   app.add_option("--altitude", arguments.altitude_m, "of the place, for its gravity [m]")
+      ->check(NumberWithin(-1000.0, 20000.0))
       ->capture_default_str();
   app.add_flag("--moving-start", arguments.starts_moving, "begin the log in motion, without rest");
   app.add_option("--fault", arguments.faults,
@@ -174,8 +177,11 @@ int Run(const Arguments& arguments) {
   }
   try {
     Write(arguments, *scenario, options);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Fail("cannot create " + error.path1().string() + ": " + error.code().message(),
+                kExitUsage);
   } catch (const std::exception& error) {
-    return Fail(error.what(), kExitUnusableInput);
+    return Fail(error.what(), kExitUsage);
   }
   return kExitDone;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,20 @@ enum ExitCode : int {
 // LIO_VERSION, passed by the caller).
 std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
                                     const std::string& version);
+
+// For CLI::Option::check: the option takes a finite number in that range. CLI11's own checks let
+// NaN pass, and tell the largest double in full.
+using TextCheck = std::function<std::string(const std::string&)>;
+TextCheck NumberWithin(double least, double most);
+TextCheck NumberFromZero();
+TextCheck NumberAboveZero();
+TextCheck WholeNumberFromZero();  // of 64 bits
+// And: a name of at most so many characters.
+TextCheck NameUpTo(std::size_t max_characters);
+
+// Throws UsageError when writing `output` would destroy `input`, which is the same file; or, when
+// `input` is a folder, a file of recorded data in it.
+void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output);
 
 struct OptionsArguments {
   std::vector<std::filesystem::path> files;  // --config, in order

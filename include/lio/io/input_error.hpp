@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Why a conversion cannot be done, as exceptions that carry one line for the user. Damage inside an
-// otherwise sound input is not one of them: that is counted, and the work goes on.
+// Why a program cannot do its work, as exceptions that carry one line for the user. Damage inside
+// an otherwise sound input is not one of them: that is counted, and the work goes on.
 #pragma once
 
 #include <stdexcept>
@@ -15,6 +15,11 @@ struct UsageError : std::runtime_error {
 
 // The input is missing, of an unknown kind or unusable: exit code 5.
 struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// A file cannot be created or written in full: the command line named a wrong place, exit code 2.
+struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
