@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lio/registration/ndt_matcher.hpp"
+#include "lio/pipeline/match_method.hpp"
 #include "lio/scan/deskew.hpp"
 
 namespace lio {
@@ -23,16 +23,13 @@ StampedPoses Bend(const MatchJob& job, const Pose& found) {
   return bent;
 }
 
-// Every n-th point, so that about `wanted` are left. Points come by time: spread over the whole
-// turn.
-std::vector<Eigen::Vector3f> Thin(const std::vector<Eigen::Vector3f>& points, int wanted) {
-  const double step = std::max(1.0, static_cast<double>(points.size()) / wanted);
-  std::vector<Eigen::Vector3f> thinned;
-  thinned.reserve(static_cast<std::size_t>(wanted) + 1);
-  for (double at = 0.0; at < static_cast<double>(points.size()); at += step) {
-    thinned.push_back(points[static_cast<std::size_t>(at)]);
-  }
-  return thinned;
+template <class T>
+std::vector<T> Pick(const std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+  std::vector<T> picked;
+  if (values.empty()) return picked;
+  picked.reserve(indices.size());
+  for (const std::uint32_t i : indices) picked.push_back(values[i]);
+  return picked;
 }
 
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
@@ -54,23 +51,23 @@ Quaternion LevelOf(const Vector3& up_map) {
 
 }  // namespace
 
-MatchSide::MatchSide(const Options& options, ClockNs clock)
+MatchSide::MatchSide(const Options& options, ClockNs clock,
+                     const std::vector<double>& beam_elevations_rad)
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
-      match_points_(options.reduce.match_points),
       clock_(clock),
+      feeds_young_map_(options.pipeline.method == MatchMethod::kNdt),
       filter_(options.rig.lidar),
-      reducer_(options.reduce, options.rig.lidar),
-      matcher_(std::make_unique<NdtMatcher>(options.ndt)) {}
+      reducer_(MakeReducer(options, beam_elevations_rad)),
+      matcher_(MakeMatcher(options)) {}
 
-MatchInput MatchSide::SeekShift(const MatchJob& job,
-                                std::span<const Eigen::Vector3f> points_imu) const {
-  MatchInput input{points_imu, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
+MatchInput MatchSide::SeekShift(const MatchJob& job, MatchInput input) const {
   if (!last_found_) return input;
   const Quaternion R_level_map = LevelOf(job.up_map);
   VelocitySearch search;
   search.Add(last_found_->stamp,
              Levelled(last_found_->points_imu, R_level_map * last_found_->T_map_imu.rotation));
-  search.Add(job.sweep->middle(), Levelled(points_imu, R_level_map * job.T_map_imu_guess.rotation));
+  search.Add(job.sweep->middle(),
+             Levelled(input.points_imu, R_level_map * job.T_map_imu_guess.rotation));
   if (const auto v_level = search.Find()) {
     const double since_s = SecondsBetween(last_found_->stamp, job.sweep->middle());
     const Vector3 shift_level = since_s * Vector3(v_level->x(), v_level->y(), 0.0);
@@ -98,9 +95,11 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     times[static_cast<std::size_t>(stage)] += Now() - since;
   };
   std::int64_t begin = Now();
-  std::vector<Eigen::Vector3f> to_match = Thin(outcome.points_imu, match_points_);
-  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew};
-  if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, to_match);
+  const std::vector<FeatureTag> tags = Pick(reduced.tags, reduced.to_match);
+  std::vector<Eigen::Vector3f> to_match = Pick(outcome.points_imu, reduced.to_match);
+  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew,
+                   tags,     outcome.points_imu};
+  if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
   time(Stage::kMatch, begin);
   const SweepTimes sweep_times{job.sweep->start, job.sweep->end, job.sweep->middle()};
@@ -111,14 +110,15 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     outcome.points_imu = Deskew(reduced.points, sweep_times, motion, T_imu_lidar_);
     time(Stage::kDeskew, begin);
     begin = Now();
-    to_match = Thin(outcome.points_imu, match_points_);
-    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true});
+    to_match = Pick(outcome.points_imu, reduced.to_match);
+    outcome.match = matcher_->Match(
+        {to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, tags, outcome.points_imu});
     time(Stage::kMatch, begin);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
   }
-  if (job.is_map_young) {
+  if (job.is_map_young && feeds_young_map_) {
     begin = Now();
     const std::vector<ScanPoint> dense = DensePoints(*job.sweep, filter_);
     outcome.points_imu = Deskew(dense, sweep_times, motion, T_imu_lidar_);
@@ -141,8 +141,8 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   }
 
   std::int64_t begin = Now();
-  const ReducedScan reduced = reducer_.Reduce(sweep);
-  outcome.num_used = std::min(static_cast<int>(reduced.points.size()), match_points_);
+  ReducedScan reduced = reducer_->Reduce(sweep);
+  outcome.num_used = static_cast<int>(reduced.to_match.size());
   outcome.num_nonfinite = reduced.num_nonfinite;
   time(Stage::kReduce, begin);
 
@@ -156,6 +156,8 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   } else {
     Match(job, reduced, outcome);
   }
+  outcome.tags = std::move(reduced.tags);
+  outcome.features = std::move(reduced.features);
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;
   times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;
   times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;
@@ -166,7 +168,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
 void MatchSide::Insert(const InsertTask& task) {
   if (!task.T_map_imu) return;
   const std::int64_t begin = Now();
-  matcher_->Insert(task.points_imu, *task.T_map_imu);
+  matcher_->Insert({task.points_imu, task.tags}, *task.T_map_imu);
   last_insert_ns_ = Now() - begin;
 }
 

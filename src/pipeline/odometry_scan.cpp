@@ -87,6 +87,7 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
   }
   if (insert.T_map_imu) ++num_inserted_;
   insert.points_imu = std::move(outcome.points_imu);
+  insert.tags = std::move(outcome.tags);
   return insert;
 }
 

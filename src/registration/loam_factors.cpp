@@ -3,7 +3,6 @@
 #include "lio/registration/loam_factors.hpp"
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/sized_cost_function.h>
 
 namespace lio {
 namespace {
@@ -71,56 +70,37 @@ Vector3 Move(const double* block, const Vector3& p, PointJacobian* jacobian) {
   return rotation * p + translation;
 }
 
-// (p - a) x (p - b) / |a - b| = u x p + m with u the line's direction from a to b: linear in p.
-class Edge final : public ceres::SizedCostFunction<3, 7> {
- public:
-  Edge(const Vector3& point, const Vector3& a, const Vector3& b)
-      : point_(point), direction_((b - a).normalized()), moment_(a.cross(direction_)) {}
-
-  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
-    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    PointJacobian by_block;
-    const Vector3 p = Move(blocks[0], point_, wants_jacobian ? &by_block : nullptr);
-    Eigen::Map<Vector3> r(residual);
-    r = direction_.cross(p) + moment_;
-    if (wants_jacobian) {
-      Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> jacobian(jacobians[0]);
-      jacobian.noalias() = Hat(direction_) * by_block;
-    }
-    return true;
-  }
-
- private:
-  Vector3 point_, direction_, moment_;
-};
-
-class Plane final : public ceres::SizedCostFunction<1, 7> {
- public:
-  Plane(const Vector3& point, const Vector3& normal, double offset)
-      : point_(point), normal_(normal), offset_(offset) {}
-
-  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
-    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    PointJacobian by_block;
-    const Vector3 p = Move(blocks[0], point_, wants_jacobian ? &by_block : nullptr);
-    residual[0] = normal_.dot(p) + offset_;
-    if (wants_jacobian) {
-      Eigen::Map<Eigen::Matrix<double, 1, 7>> jacobian(jacobians[0]);
-      jacobian.noalias() = normal_.transpose() * by_block;
-    }
-    return true;
-  }
-
- private:
-  Vector3 point_, normal_;
-  double offset_;
-};
-
 bool IsLine(const Vector3& a, const Vector3& b) {
   return (a - b).norm() >= kMinLineLength_m;
 }
 
 }  // namespace
+
+bool EdgeFactor::Evaluate(double const* const* blocks, double* residual, double** jacobians) const {
+  const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+  PointJacobian by_block;
+  const Vector3 p = Move(blocks[0], point_, wants_jacobian ? &by_block : nullptr);
+  Eigen::Map<Vector3> r(residual);
+  r = direction_.cross(p) + moment_;
+  if (wants_jacobian) {
+    Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> jacobian(jacobians[0]);
+    jacobian.noalias() = Hat(direction_) * by_block;
+  }
+  return true;
+}
+
+bool PlaneFactor::Evaluate(double const* const* blocks, double* residual,
+                           double** jacobians) const {
+  const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+  PointJacobian by_block;
+  const Vector3 p = Move(blocks[0], point_, wants_jacobian ? &by_block : nullptr);
+  residual[0] = normal_.dot(p) + offset_;
+  if (wants_jacobian) {
+    Eigen::Map<Eigen::Matrix<double, 1, 7>> jacobian(jacobians[0]);
+    jacobian.noalias() = normal_.transpose() * by_block;
+  }
+  return true;
+}
 
 CostPtr MakeAutoEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s) {
   if (!IsLine(a, b)) return nullptr;
@@ -149,11 +129,11 @@ CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s) {
 
 CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b) {
   if (!IsLine(a, b)) return nullptr;
-  return std::make_unique<Edge>(point, a, b);
+  return std::make_unique<EdgeFactor>(point, a, b);
 }
 
 CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset) {
-  return std::make_unique<Plane>(point, normal, offset);
+  return std::make_unique<PlaneFactor>(point, normal, offset);
 }
 
 }  // namespace lio

@@ -68,12 +68,12 @@ void NdtMatcher::Clear() {
   map_ = GaussianMap(options_);
 }
 
-void NdtMatcher::Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) {
+void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   std::vector<Vector3> points_grid;
-  points_grid.reserve(points_imu.size());
-  for (const Eigen::Vector3f& point : points_imu) {
+  points_grid.reserve(scan.points_imu.size());
+  for (const Eigen::Vector3f& point : scan.points_imu) {
     points_grid.push_back(rotation * point.cast<double>() + T_grid_imu.translation);
   }
   map_.Insert(points_grid, T_grid_imu.translation);
@@ -82,6 +82,7 @@ void NdtMatcher::Insert(std::span<const Eigen::Vector3f> points_imu, const Pose&
 void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu) {
   for (const Pair& pair : pairs_) cell_counts_[static_cast<std::size_t>(pair.cell)] = 0;
   pairs_.clear();
+  paired_at_ = T_grid_imu;
   cell_counts_.resize(map_.cell_capacity(), 0);
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -95,6 +96,36 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
   }
 }
 
+NdtMatcher::Term NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
+  const SurfacePatch& patch = map_.patch(pair.cell);
+  const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
+  const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
+  const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
+  const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
+  const float variance =
+      patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
+  Term term;
+  term.distance = patch.normal.dot(pair.from_mean);
+  term.distance_sq = term.distance * term.distance / variance;
+  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
+  term.weight = term.kernel * term.kernel / variance;
+  return term;
+}
+
+double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+  const Pose T_grid_imu = GridFromMap() * T_map_imu;
+  double cost = 0.0;
+  for (const Pair& pair : pairs_) {
+    const Term term = TermOf(pair, 0.f);
+    if (term.distance_sq > kGateSq) continue;
+    const Vector3 point = input.points_imu[static_cast<std::size_t>(pair.point)].cast<double>();
+    const Vector3 moved = T_grid_imu * point - paired_at_ * point;
+    const double distance = term.distance + map_.patch(pair.cell).normal.cast<double>().dot(moved);
+    cost += 0.5 * term.weight * distance * distance;
+  }
+  return cost;
+}
+
 NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points,
                                          const Pose& T_grid_imu, float reach_var,
                                          Scores* scores) const {
@@ -102,18 +133,12 @@ NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
   for (const Pair& pair : pairs_) {
     const SurfacePatch& patch = map_.patch(pair.cell);
-    const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
-    const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
-    const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
-    const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
-    const float variance =
-        patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
-    const float distance = patch.normal.dot(pair.from_mean);
-    const float distance_sq = distance * distance / variance;
-    if (distance_sq > kGateSq) continue;
-    const float kernel = 1.f / (1.f + distance_sq / kKernelWidthSq);
-    const float weight = kernel * kernel / variance;
-
+    const Term term = TermOf(pair, reach_var);
+    if (term.distance_sq > kGateSq) continue;
+    const float distance = term.distance;
+    const float distance_sq = term.distance_sq;
+    const float kernel = term.kernel;
+    const float weight = term.weight;
     const Eigen::Vector3f& point = points[static_cast<std::size_t>(pair.point)];
     const Vector6f row = JacobianRow(point, to_imu * patch.normal);
     const Vector6f tangent1 = JacobianRow(point, to_imu * patch.tangent1_per_std);

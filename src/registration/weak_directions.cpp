@@ -48,6 +48,17 @@ Vector6 StepInHeldDirections(const DirectionSplit& split, const Vector6& gradien
   return inverse_scale.cwiseProduct(step);
 }
 
+Vector6 KeepHeldDirections(const DirectionSplit& split, const Vector6& step) {
+  const Vector6 scale = split.Scale();
+  Vector6 scaled = scale.cwiseProduct(step);
+  for (int i = 0; i < 6; ++i) {
+    if (!(split.weak_mask & (1u << i))) continue;
+    const Vector6 v = split.directions.col(i);
+    scaled -= v * v.dot(scaled);
+  }
+  return scale.cwiseInverse().cwiseProduct(scaled);
+}
+
 Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov) {
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   const Matrix6 scores = inverse_scale.asDiagonal() * score_cov * inverse_scale.asDiagonal();

@@ -103,16 +103,27 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
     const LidarPoint& point = sweep.points[chosen.index];
     result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
   }
-  AdaptVoxel(num_kept);
+  result.to_match = SpreadIndices(result.points.size(), options_.match_points);
+  voxel_m_ = AdaptedVoxel(options_, voxel_m_, num_kept);
   return result;
 }
 
-// Points lie on surfaces, so their number goes with the inverse square of the edge.
-void ScanReducer::AdaptVoxel(std::size_t num_kept) {
-  if (num_kept == 0) return;
-  const double ratio = std::sqrt(static_cast<double>(num_kept) / options_.target_points);
-  const double wanted = voxel_m_ * std::clamp(ratio, 0.8, 1.25);
-  voxel_m_ = static_cast<float>(std::clamp(wanted, options_.min_voxel_m, options_.max_voxel_m));
+std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted) {
+  const double step = std::max(1.0, static_cast<double>(count) / wanted);
+  std::vector<std::uint32_t> indices;
+  indices.reserve(static_cast<std::size_t>(wanted) + 1);
+  for (double at = 0.0; at < static_cast<double>(count); at += step) {
+    indices.push_back(static_cast<std::uint32_t>(at));
+  }
+  return indices;
+}
+
+float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept) {
+  if (num_kept == 0) return voxel_m;
+  // Points lie on surfaces, so their number goes with the inverse square of the edge.
+  const double ratio = std::sqrt(static_cast<double>(num_kept) / options.target_points);
+  const double wanted = voxel_m * std::clamp(ratio, 0.8, 1.25);
+  return static_cast<float>(std::clamp(wanted, options.min_voxel_m, options.max_voxel_m));
 }
 
 }  // namespace lio

@@ -30,7 +30,7 @@ class NdtMatcherIn {
   explicit NdtMatcherIn(const test::Scene& scene) : scene_(scene) {}
 
   Points See(const Pose& T_world_imu) { return CastStill(scene_, lidar_, T_world_imu, random_); }
-  void InsertFrom(const Pose& T_world_imu) { matcher_.Insert(See(T_world_imu), T_world_imu); }
+  void InsertFrom(const Pose& T_world_imu) { matcher_.Insert({See(T_world_imu)}, T_world_imu); }
   void InsertRoad(double from_m, double to_m) {
     for (double x = from_m; x <= to_m; x += 1.0) InsertFrom(OnRoad(x));
   }
@@ -203,7 +203,7 @@ TEST(NdtMatcher, IterationsStayWithinTheLimit) {
   NdtOptions options;
   options.max_iterations = 2;  // too few for the reach to shrink
   NdtMatcher hurried(options);
-  for (double x = 0.0; x <= 8.0; x += 1.0) hurried.Insert(street.See(OnRoad(x)), OnRoad(x));
+  for (double x = 0.0; x <= 8.0; x += 1.0) hurried.Insert({street.See(OnRoad(x))}, OnRoad(x));
   const Points points = street.See(OnRoad(5.5));
   const MatchResult result = hurried.Match({points, OnRoad(5.2), Matrix6::Identity()});
   EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
@@ -269,7 +269,7 @@ TEST(NdtMatcher, ParkedMapKeepsUpWithTheVehicleDrivingOff) {
     const MatchResult result = street.Match(street.See(truth), guess, 0.1);
     ASSERT_TRUE(result.IsUsable()) << x_m;
     estimate = result.T_map_imu;
-    street.matcher().Insert(street.See(truth), estimate);
+    street.matcher().Insert({street.See(truth)}, estimate);
     ASSERT_LT((estimate.translation - truth.translation).norm(), 0.03) << "at " << x_m << " m";
   }
 }

@@ -14,10 +14,10 @@
 namespace lio {
 namespace {
 
-using test::Box;
 using test::CastSweep;
 using test::CastTurn;
 using test::Cylinder;
+using test::RayBox;
 using test::RayScene;
 using test::SpinningLidar;
 
@@ -27,11 +27,11 @@ constexpr int kGround = 0;
 RayScene Street() {
   RayScene scene;
   scene.AddGround(-1.8);
-  scene.Add(Box{{8, 9, 2}, {5, 3, 6}, 0.1});
-  scene.Add(Box{{-6, 10, 2}, {6, 4, 6}, -0.1});
-  scene.Add(Box{{4, -11, 2}, {7, 4, 6}, 0.05});
-  scene.Add(Box{{-12, -9, 2}, {4, 3, 6}, 0.3});
-  scene.Add(Box{{22, 0, 2}, {2, 4, 6}, 0.5});
+  scene.Add(RayBox{{8, 9, 2}, {5, 3, 6}, 0.1});
+  scene.Add(RayBox{{-6, 10, 2}, {6, 4, 6}, -0.1});
+  scene.Add(RayBox{{4, -11, 2}, {7, 4, 6}, 0.05});
+  scene.Add(RayBox{{-12, -9, 2}, {4, 3, 6}, 0.3});
+  scene.Add(RayBox{{22, 0, 2}, {2, 4, 6}, 0.5});
   scene.Add(Cylinder{{5, 4, -1.8}, 0.15, 6});
   scene.Add(Cylinder{{-3, -5, -1.8}, 0.15, 6});
   return scene;
@@ -171,8 +171,8 @@ TEST(LoamFeatures, NeighboursOfAPickAreNotPickedUnlessTheSurfaceBreaks) {
 // A board 6 m ahead of a wall at 15 m.
 RayScene BoardBeforeWall() {
   RayScene scene;
-  scene.Add(Box{{6.05, 0, 0}, {0.05, 1, 4}, 0});
-  scene.Add(Box{{15.5, 0, 0}, {0.5, 30, 8}, 0});
+  scene.Add(RayBox{{6.05, 0, 0}, {0.05, 1, 4}, 0});
+  scene.Add(RayBox{{15.5, 0, 0}, {0.5, 30, 8}, 0});
   return scene;
 }
 
@@ -205,7 +205,7 @@ TEST(LoamFeatures, BorderOfAShadowIsLeftOut) {
 TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
   // A long wall passing 1 m beside the sensor: beyond 8 m the beams graze it at less than 7 deg.
   RayScene scene;
-  scene.Add(Box{{20, 1.5, 0}, {19, 0.5, 6}, 0});
+  scene.Add(RayBox{{20, 1.5, 0}, {19, 0.5, 6}, 0});
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.start_azimuth_rad = std::numbers::pi;
   lidar.range_std_m = 0.02;
@@ -232,7 +232,7 @@ TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
 
 TEST(LoamFeatures, NoisyWallFacingTheSensorIsNotGrazed) {
   RayScene scene;
-  scene.Add(Box{{3, 0, 0}, {1, 30, 8}, 0});
+  scene.Add(RayBox{{3, 0, 0}, {1, 30, 8}, 0});
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.range_std_m = 0.02;
   const CastSweep cast = CastTurn(scene, lidar, Pose::Identity());

@@ -45,7 +45,7 @@ TEST(RingOrder, TurnFractionsGrowClockwiseAcrossTheWrap) {
 TEST(RingOrder, RebuiltTimesAgreeWithTheTrueOnes) {
   test::RayScene scene;
   scene.AddGround(-2);
-  scene.Add(test::Box{{0, 12, 0}, {40, 1, 9}, 0.2});
+  scene.Add(test::RayBox{{0, 12, 0}, {40, 1, 9}, 0.2});
   auto lidar = test::SpinningLidar::Hdl32e();
   lidar.start_azimuth_rad = 2.0;
   const Sweep sweep = CastTurn(scene, lidar, Pose::Identity()).sweep;

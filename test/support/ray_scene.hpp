@@ -26,7 +26,7 @@ struct Hit {
 };
 
 // Turned about z by `yaw_rad`, standing on `centre`'s xy.
-struct Box {
+struct RayBox {
   Vector3 centre = Vector3::Zero();
   Vector3 half = Vector3::Ones();
   double yaw_rad = 0.0;
@@ -45,7 +45,7 @@ class RayScene {
     ground_object_ = num_objects_++;
     return ground_object_;
   }
-  int Add(const Box& box) {
+  int Add(const RayBox& box) {
     boxes_.push_back({box, num_objects_});
     return num_objects_++;
   }
@@ -59,16 +59,35 @@ class RayScene {
     if (ground_z_ && direction.z() < 0 && origin.z() > *ground_z_) {
       best = {(*ground_z_ - origin.z()) / direction.z(), ground_object_, Vector3::UnitZ()};
     }
-    for (const auto& [box, object] : boxes_) CastBox(box, object, origin, direction, best);
+    const double inverse_length_sq = 1.0 / std::max(direction.head<2>().squaredNorm(), 1e-12);
+    for (const auto& [box, object] : boxes_) {
+      const double radius = box.half.head<2>().norm();
+      if (!PassesNear(box.centre, radius, origin, direction, inverse_length_sq)) continue;
+      CastBox(box, object, origin, direction, best);
+    }
     for (const auto& [cylinder, object] : cylinders_) {
+      if (!PassesNear(cylinder.foot, cylinder.radius_m, origin, direction, inverse_length_sq)) {
+        continue;
+      }
       CastCylinder(cylinder, object, origin, direction, best);
     }
     return best;
   }
 
  private:
-  static void CastBox(const Box& box, int object, const Vector3& origin, const Vector3& direction,
-                      Hit& best) {
+  // Seen from above, does the ray pass within `radius` of a place, or begin there?
+  static bool PassesNear(const Vector3& place, double radius, const Vector3& origin,
+                         const Vector3& direction, double inverse_length_sq) {
+    const Eigen::Vector2d to = (place - origin).head<2>();
+    const double distance_sq = to.squaredNorm();
+    const double along = to.dot(direction.head<2>());
+    const double radius_sq = radius * radius;
+    if (distance_sq <= radius_sq) return true;
+    return along > 0 && distance_sq - along * along * inverse_length_sq <= radius_sq;
+  }
+
+  static void CastBox(const RayBox& box, int object, const Vector3& origin,
+                      const Vector3& direction, Hit& best) {
     const Quaternion turn = ExpSo3(Vector3(0, 0, box.yaw_rad));
     const Vector3 o = turn.conjugate() * (origin - box.centre);
     const Vector3 d = turn.conjugate() * direction;
@@ -112,7 +131,7 @@ class RayScene {
 
   std::optional<double> ground_z_;
   int ground_object_ = -1;
-  std::vector<std::pair<Box, int>> boxes_;
+  std::vector<std::pair<RayBox, int>> boxes_;
   std::vector<std::pair<Cylinder, int>> cylinders_;
   int num_objects_ = 0;
 };

@@ -12,7 +12,7 @@
 #include "lio/pipeline/odometry.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/scan/dense_points.hpp"
-#include "lio/scan/reduce.hpp"
+#include "lio/scan/reduced_scan.hpp"
 #include "lio/scan/sweep.hpp"
 #include "lio/scan/velocity_search.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -41,19 +41,25 @@ struct MatchOutcome {
   std::optional<Vector3> v_map_imu_mps;  // sought and found
   int num_used = 0;
   int num_nonfinite = 0;
-  std::vector<Eigen::Vector3f> points_imu;  // deskewed, at the sweep's middle
-  StageTimes stage_ns{};                    // insert: of the scan before
+  std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
+  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
+  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  StageTimes stage_ns{};                         // insert: of the scan before
 };
 
 struct InsertTask {
   std::vector<Eigen::Vector3f> points_imu;
-  std::optional<Pose> T_map_imu;  // absent: do not insert
+  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
+  std::optional<Pose> T_map_imu;      // absent: do not insert
 };
 
 class MatchSide {
  public:
   // Same options as the Odometry's; throws std::invalid_argument as that does.
-  explicit MatchSide(const Options& options, ClockNs clock = nullptr);
+  // `beam_elevations_rad`: of the lidar's model, lowest beam first; only LOAM wants them, for
+  // sweeps without rings.
+  explicit MatchSide(const Options& options, ClockNs clock = nullptr,
+                     const std::vector<double>& beam_elevations_rad = {});
 
   MatchOutcome Run(const MatchJob& job);
   void Insert(const InsertTask& task);
@@ -71,13 +77,13 @@ class MatchSide {
   void SeekVelocity(const MatchJob& job, MatchOutcome& outcome);
   void Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome);
   // The job's guess, bettered by the shift since the last scan.
-  MatchInput SeekShift(const MatchJob& job, std::span<const Eigen::Vector3f> points_imu) const;
+  MatchInput SeekShift(const MatchJob& job, MatchInput input) const;
 
   Pose T_imu_lidar_;
-  int match_points_;
   ClockNs clock_;
+  bool feeds_young_map_;  // with all that a sweep shows: only NDT's cells want it
   PointFilter filter_;
-  ScanReducer reducer_;
+  std::unique_ptr<SweepReducer> reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
   VelocitySearch velocity_search_;
   std::optional<FoundScan> last_found_;

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "lio/filter/filter_options.hpp"
+#include "lio/registration/gicp_options.hpp"
+#include "lio/registration/loam_options.hpp"
 #include "lio/registration/ndt_options.hpp"
+#include "lio/scan/loam_feature_options.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/sensor/rig.hpp"
 
@@ -37,6 +40,9 @@ struct Options {
   StartOptions start;
   ReduceOptions reduce;
   NdtOptions ndt;
+  LoamFeatureOptions loam_features;
+  LoamOptions loam;
+  GicpOptions gicp;
   FilterOptions filter;
 };
 

@@ -35,13 +35,17 @@ template <>
 inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto", "present",
                                                                           "removed"};
 
+template <>
+inline constexpr std::array<std::string_view, 2> kEnumNames<LoamTarget>{"map", "scan"};
+
 // Structs whose fields VisitFields lists.
 template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>
 inline constexpr bool kIsGroup =
     kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, PipelineOptions, StartOptions,
-             ReduceOptions, NdtOptions, FilterOptions>;
+             ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions, GicpOptions,
+             FilterOptions>;
 
 template <class T, class Struct>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
@@ -149,6 +153,84 @@ void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
 }
 
 template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<LoamFeatureOptions> auto& o) {
+  visit("num_sectors", o.num_sectors, "of a ring, each picked from alone", Range{1, 100});
+  visit("num_sharp", o.num_sharp, "sharpest edge points of a sector", Range{0, 1000});
+  visit("num_less_sharp", o.num_less_sharp, "edge points of a sector, sharp ones included",
+        Range{0, 1000});
+  visit("num_flat", o.num_flat, "flattest surface points of a sector", Range{0, 1000});
+  visit("curvature_m2", o.curvature_m2,
+        "squared sum of ten neighbours' offsets: edges above, flats below [m^2]", Range{1e-6, 100});
+  visit("leaf_m", o.leaf_m, "other surface points are thinned to one a voxel and ring [m]",
+        Range{0.01, 10});
+  visit("break_m2", o.break_m2, "a larger squared gap ends a feature [m^2]", Range{1e-6, 100});
+  visit("min_occlusion_m", o.min_occlusion_m,
+        "a range jump from which the far side may lie in a shadow [m]", Range{0.01, 100});
+  visit("max_occlusion_gap_deg", o.max_occlusion_gap_deg,
+        "beams farther apart do not shadow each other [deg]", Range{0, 90});
+  visit("min_incidence_deg", o.min_incidence_deg,
+        "surfaces that beams graze at less are left out [deg]", Range{0, 90});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<LoamOptions> auto& o) {
+  visit("target", o.target, "what scans are matched against: the map, or the scan before");
+  visit("edge_leaf_m", o.edge_leaf_m, "voxel of the edge map, one point each [m]", Range{0.05, 10});
+  visit("surface_leaf_m", o.surface_leaf_m, "voxel of the surface map [m]; A-LOAM 0.8",
+        Range{0.05, 10});
+  visit("max_leaf_points", o.max_leaf_points, "a voxel with as many points is frozen",
+        Range{1, 1000000});
+  visit("num_neighbours", o.num_neighbours, "points that a line or a plane is laid through",
+        Range{3, 8});
+  visit("min_line_ratio", o.min_line_ratio, "of a line's spread to the next largest",
+        Range{1, 1000});
+  visit("max_plane_error_m", o.max_plane_error_m, "a plane fits none of its points worse [m]",
+        Range{0.001, 10});
+  visit("huber_m", o.huber_m, "residuals above count linearly [m]", Range{0.001, 10});
+  visit("edge_std_m", o.edge_std_m, "how well an edge point tells where the edge is [m]",
+        Range{1e-4, 10});
+  visit("surface_std_m", o.surface_std_m, "the same of a surface point [m]", Range{1e-4, 10});
+  visit("max_iterations", o.max_iterations, "of Ceres in one round", Range{1, 1000});
+  visit("max_rounds", o.max_rounds, "correspondences are sought anew in each; A-LOAM always 2",
+        Range{1, 1000});
+  visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
+        Range{0, 1});
+  visit("converged_step_rad", o.converged_step_rad, "the rotation step is smaller [rad]",
+        Range{0, 1});
+  visit("max_leaves", o.max_leaves, "memory bound of each map; the least recently seen go first",
+        Range{1000, 100000000});
+  visit("max_distance_m", o.max_distance_m, "leaves farther from the vehicle are dropped [m]",
+        Range{10, 100000});
+}
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<GicpOptions> auto& o) {
+  visit("surface_std_m", o.surface_std_m,
+        "floor of a surface's thickness; not below the range noise [m]", Range{1e-4, 1});
+  visit("shape_voxel_m", o.shape_voxel_m, "a point's shape comes from three such voxels around [m]",
+        Range{0.05, 10});
+  visit("shape_voxel_rad", o.shape_voxel_rad, "or this much of its range: two beams at least [rad]",
+        Range{1e-3, 1});
+  visit("keyframe_openness_ratio", o.keyframe_openness_ratio,
+        "a keyframe every so much of the place's median range", Range{0, 10});
+  visit("min_keyframe_m", o.min_keyframe_m, "but at least so far apart [m]", Range{0, 1000});
+  visit("max_keyframe_m", o.max_keyframe_m, "and at most [m]", Range{0, 1000});
+  visit("keyframe_deg", o.keyframe_deg, "or after turning this much [deg]", Range{0, 360});
+  visit("num_near_keyframes", o.num_near_keyframes, "of the submap", Range{1, 10000});
+  visit("num_hull_keyframes", o.num_hull_keyframes, "of the submap, from the convex hull of all",
+        Range{0, 10000});
+  visit("max_iterations", o.max_iterations, "of one match", Range{1, 1000});
+  visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
+        Range{0, 1});
+  visit("converged_step_rad", o.converged_step_rad, "the rotation step is smaller [rad]",
+        Range{0, 1});
+  visit("max_points", o.max_points,
+        "memory bound of the map; the longest unused keyframes go first", Range{1000, 100000000});
+  visit("max_distance_m", o.max_distance_m, "keyframes farther from the vehicle are dropped [m]",
+        Range{10, 100000});
+}
+
+template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
   visit("history_s", o.history_s, "how late a measurement may come [s]", Range{0.1, 60});
   visit("max_imu_gap_s", o.max_imu_gap_s, "longer IMU gaps are bridged with inflated noise [s]",
@@ -172,6 +254,9 @@ void VisitFields(Visitor& visit, MaybeConst<Options> auto& o) {
   visit("start", o.start, "how the filter finds its first state, at rest or in motion");
   visit("reduce", o.reduce, "how a sweep is thinned before it is deskewed and matched");
   visit("ndt", o.ndt, "the normal-distributions map and its matcher");
+  visit("loam_features", o.loam_features, "what counts as an edge or a surface (method loam)");
+  visit("loam", o.loam, "LOAM's maps and matcher");
+  visit("gicp", o.gicp, "direct matching against keyframes");
   visit("filter", o.filter, "the error-state filter");
 }
 

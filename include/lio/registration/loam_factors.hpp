@@ -14,7 +14,7 @@
 // Source: Zhang and Singh, "LOAM", RSS 2014, eqs. (2) and (3).
 #pragma once
 
-#include <ceres/cost_function.h>
+#include <ceres/sized_cost_function.h>
 
 #include <memory>
 
@@ -32,6 +32,30 @@ CostPtr MakeAutoPlaneByPoints(const Vector3& point, const Vector3& a, const Vect
 // The plane n . p + offset = 0, |n| = 1.
 CostPtr MakeAutoPlane(const Vector3& point, const Vector3& normal, double offset, double s = 1.0);
 CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s = 1.0);
+
+// |b - a| must be at least kMinLineLength_m; MakeEdge refuses where it is not.
+class EdgeFactor final : public ceres::SizedCostFunction<3, 7> {
+ public:
+  EdgeFactor(const Vector3& point, const Vector3& a, const Vector3& b)
+      : point_(point), direction_((b - a).normalized()), moment_(a.cross(direction_)) {}
+  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override;
+
+ private:
+  // (p - a) x (p - b) / |a - b| = u x p + m, u the line's direction from a to b: linear in p.
+  Vector3 point_, direction_, moment_;
+};
+
+// |normal| = 1.
+class PlaneFactor final : public ceres::SizedCostFunction<1, 7> {
+ public:
+  PlaneFactor(const Vector3& point, const Vector3& normal, double offset)
+      : point_(point), normal_(normal), offset_(offset) {}
+  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override;
+
+ private:
+  Vector3 point_, normal_;
+  double offset_;
+};
 
 CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b);
 CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset);

@@ -27,7 +27,8 @@ class NdtMatcher final : public ScanMatcher {
   explicit NdtMatcher(const NdtOptions& options);
 
   MatchResult Match(const MatchInput& input) override;
-  void Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) override;
+  void Insert(const ScanView& scan, const Pose& T_map_imu) override;
+  double HeldCost(const MatchInput& input, const Pose& T_map_imu) const override;
   void Clear() override;
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
@@ -38,10 +39,18 @@ class NdtMatcher final : public ScanMatcher {
     std::int32_t cell = 0;
     Eigen::Vector3f from_mean;  // of the patch, grid axes
   };
+  // What a pair adds to the cost.
+  struct Term {
+    float distance = 0.f;     // m
+    float distance_sq = 0.f;  // in its variance
+    float kernel = 0.f;       // Geman-McClure's root weight
+    float weight = 0.f;       // 1 / m^2
+  };
   struct System;
   struct Scores;
 
   void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu);
+  Term TermOf(const Pair& pair, float reach_var) const;
   System Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, float reach_var,
                    Scores* scores) const;
   double NewContentShare() const;
@@ -50,6 +59,7 @@ class NdtMatcher final : public ScanMatcher {
   NdtOptions options_;
   GaussianMap map_;
   std::vector<Pair> pairs_;                // of the current iteration, in the points' order
+  Pose paired_at_;                         // T_grid_imu of the pairs
   std::vector<std::int32_t> cell_counts_;  // this scan's points by cell; zero between scans
 };
 

@@ -12,16 +12,25 @@
 
 #include "lio/base/pose.hpp"
 #include "lio/pipeline/outputs.hpp"
+#include "lio/scan/feature_tag.hpp"
 
 namespace lio {
 
-struct MatchInput {
+// Points of a scan and, where a method tells them apart, what each stands for.
+struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
+  std::span<const FeatureTag> tags = {};  // of each point; empty where the method needs none
+};
+
+struct MatchInput {
+  std::span<const Eigen::Vector3f> points_imu;  // to be matched
   Pose T_map_imu_guess;
   // Right error of the guess, [translation; rotation]: sets how far correspondences are sought. It
   // is not a prior: it stays out of the cost.
   Matrix6 guess_cov = Matrix6::Zero();
-  bool is_far_off = false;  // the guess may be: take more iterations before giving up
+  bool is_far_off = false;                // the guess may be: take more iterations before giving up
+  std::span<const FeatureTag> tags = {};  // of points_imu
+  std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to see shapes in
 };
 
 struct MatchResult {
@@ -47,8 +56,11 @@ class ScanMatcher {
   virtual ~ScanMatcher() = default;
 
   virtual MatchResult Match(const MatchInput& input) = 0;
-  virtual void Insert(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu) = 0;
+  virtual void Insert(const ScanView& scan, const Pose& T_map_imu) = 0;
   virtual void Clear() = 0;
+  // The cost at a pose with the correspondences and weights of the last Match, which had this
+  // input, held; its second derivative at the solution is the information. For tests and diagnosis.
+  virtual double HeldCost(const MatchInput& input, const Pose& T_map_imu) const = 0;
 
   struct MapSize {
     std::size_t num_cells = 0;

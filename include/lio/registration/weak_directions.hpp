@@ -30,6 +30,9 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& feigne
 // The Gauss-Newton step -H^-1 g within the held directions, [translation; rotation].
 Vector6 StepInHeldDirections(const DirectionSplit& split, const Vector6& gradient);
 
+// A step without its part along the weak directions, [translation; rotation].
+Vector6 KeepHeldDirections(const DirectionSplit& split, const Vector6& step);
+
 // H^-1 S H^-1 within the held directions, zero along the weak ones.
 Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
 

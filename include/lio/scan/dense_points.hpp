@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lio/scan/point_filter.hpp"
-#include "lio/scan/reduce.hpp"
+#include "lio/scan/reduced_scan.hpp"
 
 namespace lio {
 

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "lio/scan/reduce.hpp"
+#include "lio/scan/reduced_scan.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {

@@ -9,31 +9,18 @@
 
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
-#include "lio/scan/sweep.hpp"
+#include "lio/scan/reduced_scan.hpp"
 #include "lio/sensor/rig.hpp"
 
 namespace lio {
 
-// A return that will be used: lidar frame at its own instant.
-struct ScanPoint {
-  Eigen::Vector3f position;       // m
-  std::uint32_t t_offset_ns = 0;  // after the sweep's start
-};
-
-struct ReducedScan {
-  std::vector<ScanPoint> points;
-  int num_raw = 0;
-  int num_nonfinite = 0;
-  float voxel_m = 0;  // the edge that was used
-};
-
-class ScanReducer {
+class ScanReducer final : public SweepReducer {
  public:
   ScanReducer(const ReduceOptions& options, const LidarRig& rig);
 
-  // Adapts the voxel edge for the next call to options.target_points, so results depend on the
-  // scans before, and on nothing else. Cost: linear; no allocation once warm but the result.
-  ReducedScan Reduce(const Sweep& sweep);
+  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; no allocation
+  // once warm but the result.
+  ReducedScan Reduce(const Sweep& sweep) override;
 
  private:
   struct Slot {
@@ -51,7 +38,6 @@ class ScanReducer {
   // Gives the number of voxels hit, or kTableFull.
   std::size_t FillSlots(const Sweep& sweep, int& num_nonfinite);
   std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept) const;
-  void AdaptVoxel(std::size_t num_kept);
 
   ReduceOptions options_;
   PointFilter filter_;

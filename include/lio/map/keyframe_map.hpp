@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A bounded map of keyframes: the points of chosen scans, each with its shape, in one voxel index.
+// A submap is a choice of keyframes: searching it passes over the points of all others, so that
+// choosing anew costs nothing. Positions are kept relative to their voxel. Not safe for concurrent
+// use while changing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/map/shaped_point.hpp"
+#include "lio/map/voxel_index.hpp"
+
+namespace lio {
+
+struct KeyframeMapOptions {
+  double voxel_m = 0.5;  // of the index: about the distance of points that are sought
+  int max_points = 1000000;
+  double max_distance_m = 150.0;
+  int num_near = 20;
+  int num_hull = 10;
+};
+
+class KeyframeMap {
+ public:
+  // Throws std::invalid_argument when an option is out of its range.
+  explicit KeyframeMap(const KeyframeMapOptions& options);
+
+  // Adds a keyframe of the points that have a shape, given in the keyframe's own frame; then drops
+  // keyframes farther than max_distance_m from it and, beyond the bound on points, those longest
+  // not part of a submap, never the new one.
+  void Add(std::span<const ShapedPoint> points_kf, const Pose& T_map_kf);
+
+  // The keyframes nearest to a place, and those nearest to it on the convex hull of all (seen from
+  // above). Height differences count three times: storeys above are no neighbours.
+  void ChooseSubmap(const Vector3& place_map);
+
+  struct Hit {
+    std::int32_t point = -1;     // for shape(); -1: none within the radius
+    Eigen::Vector3f from_query;  // map axes
+  };
+  Hit FindNearest(const Vector3& query_map, double radius_m) const;
+  // Shape in the map's frame; its position is not set.
+  const ShapedPoint& shape(std::int32_t point) const { return points_[ToIndex(point)].shape; }
+
+  // Points of the submap's and other keyframes in the voxel around it.
+  int CountAt(const Vector3& point_map) const;
+
+  // The keyframe nearest to a place and how far it is; none: -1.
+  struct Nearest {
+    std::int32_t keyframe = -1;
+    Pose T_map_kf;
+  };
+  Nearest NearestKeyframe(const Vector3& place_map) const;
+
+  std::size_t num_keyframes() const { return num_keyframes_; }
+  std::size_t num_points() const { return num_points_; }
+  std::size_t memory_bytes() const;
+  bool IsInSubmap(std::int32_t keyframe) const { return keyframes_[ToIndex(keyframe)].is_chosen; }
+
+ private:
+  static constexpr int kNodeSize = 8;
+  static constexpr std::int32_t kNone = -1;
+  using Cell = std::array<std::int32_t, 3>;
+
+  // Some points of one voxel, in a chain.
+  struct Node {
+    std::array<float, kNodeSize> x{}, y{}, z{};  // from the voxel's centre
+    std::array<std::int32_t, kNodeSize> point{};
+    std::array<std::int32_t, kNodeSize> keyframe{};
+    std::int32_t count = 0;
+    std::int32_t next = kNone;
+  };
+  struct Point {
+    ShapedPoint shape;
+    std::int32_t voxel = kNone;
+  };
+  struct Keyframe {
+    Pose T_map_kf;
+    std::vector<std::int32_t> points;
+    std::uint64_t last_chosen = 0;  // number of the submap
+    bool is_used = false;
+    bool is_chosen = false;
+  };
+
+  static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
+  Cell VoxelOf(const Vector3& point_map) const;
+  Vector3 CentreOf(const Cell& voxel) const;
+  std::int32_t AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
+                        std::int32_t keyframe);
+  void RemovePoint(std::int32_t point);
+  void RemoveKeyframe(std::int32_t keyframe);
+  void SearchVoxel(const Cell& voxel, const Vector3& query_map, float& best_sq, Hit& best) const;
+  std::vector<std::int32_t> HullKeyframes() const;
+
+  KeyframeMapOptions options_;
+  double inverse_voxel_;
+  VoxelIndex index_;
+  std::vector<std::int32_t> first_node_;  // by voxel
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> free_nodes_;
+  std::vector<Point> points_;
+  std::vector<std::int32_t> free_points_;
+  std::vector<Keyframe> keyframes_;
+  std::vector<std::int32_t> free_keyframes_;
+  std::size_t num_keyframes_ = 0;
+  std::size_t num_points_ = 0;
+  std::uint64_t submap_number_ = 0;
+};
+
+}  // namespace lio

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// From the terms of a least-squares match at its solution to what is reported: information,
+// covariance, weak directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the map, n
+// a unit direction of the map and w a robust weight held constant.
+#pragma once
+
+#include <vector>
+
+#include "lio/registration/scan_matcher.hpp"
+#include "lio/registration/weak_directions.hpp"
+
+namespace lio {
+
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+
+// Derivative of n . (T p) by the right perturbation of T, for n given in the imu's axes.
+inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
+  Vector6f row;  // [n; p x n], both in the imu's axes
+  row << n.x(), n.y(), n.z(), p.y() * n.z() - p.z() * n.y(), p.z() * n.x() - p.x() * n.z(),
+      p.x() * n.y() - p.y() * n.x();
+  return row;
+}
+
+// The upper triangle alone is added to; symmetric when read.
+class TermSum {
+ public:
+  void Add(const Vector6f& row, float weight) {
+    const Vector6f weighted = weight * row;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) sum_(i, j) += static_cast<double>(weighted[i] * row[j]);
+    }
+  }
+  // Of a matrix with a valid upper triangle.
+  void SetUpper(const Matrix6& upper) { sum_ = upper; }
+  Matrix6 Full() const { return sum_.selfadjointView<Eigen::Upper>(); }
+
+ private:
+  Matrix6 sum_ = Matrix6::Zero();
+};
+
+// Sums over terms, in the order they are added.
+struct MatchSums {
+  TermSum information;
+  TermSum feigned;  // information that the noise of the map's directions alone would show
+  Vector6 gradient = Vector6::Zero();
+  double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
+  double residual_sq_sum = 0.0;  // weighted so [m^2]
+  double curvature_sum = 0.0;    // of the robust cost, and ...
+  double information_sum = 0.0;  // ... of the one with weights held
+  int num_matched = 0;
+};
+
+// Scores (gradients) summed per part of the map: terms of one part share its errors.
+class ClusterScores {
+ public:
+  // `num_parts`: upper bound of the parts' numbers.
+  void Reset(std::size_t num_parts);
+  void Add(std::int32_t part, const Vector6f& score);
+  // Sum over parts of score score^T, corrected for the six estimated dimensions.
+  Matrix6 Covariance() const;
+
+ private:
+  std::vector<Vector6f> by_part_;
+  std::vector<std::int32_t> parts_;  // in use
+  std::vector<std::uint8_t> is_used_;
+};
+
+// Fills information, covariances, eigenvalues, weak directions and residual; turns kConverged into
+// kDegenerate where a direction is weak. Gives the step that is left, within the held directions.
+Vector6 Summarise(const MatchSums& sums, const ClusterScores& scores, MatchResult& result);
+
+}  // namespace lio

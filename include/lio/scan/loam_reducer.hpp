@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What LOAM takes from a sweep: its edge points, and its surface points thinned to a number, the
+// flattest first.
+#pragma once
+
+#include <vector>
+
+#include "lio/map/voxel_set.hpp"
+#include "lio/scan/loam_feature_options.hpp"
+#include "lio/scan/reduce_options.hpp"
+#include "lio/scan/reduced_scan.hpp"
+#include "lio/sensor/rig.hpp"
+
+namespace lio {
+
+class LoamReducer final : public SweepReducer {
+ public:
+  // `beam_elevations_rad`: of the lidar's model, lowest first; for sweeps without rings.
+  LoamReducer(const LoamFeatureOptions& features, const ReduceOptions& reduce, const LidarRig& rig,
+              std::vector<double> beam_elevations_rad);
+
+  ReducedScan Reduce(const Sweep& sweep) override;
+
+ private:
+  void AddEdges(const Sweep& sweep, const LoamFeatures& features, ReducedScan& result);
+  void AddSurfaces(const Sweep& sweep, const LoamFeatures& features, ReducedScan& result);
+
+  LoamFeatureOptions feature_options_;
+  ReduceOptions options_;
+  LidarRig rig_;
+  std::vector<double> beam_elevations_rad_;
+  float voxel_m_;
+  VoxelSet voxels_;
+};
+
+}  // namespace lio

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What a method takes from a sweep, and what takes it: one reducer a method.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lio/scan/feature_tag.hpp"
+#include "lio/scan/loam_features.hpp"
+#include "lio/scan/reduce_options.hpp"
+#include "lio/scan/sweep.hpp"
+
+namespace lio {
+
+// A return that will be used: lidar frame at its own instant.
+struct ScanPoint {
+  Eigen::Vector3f position;       // m
+  std::uint32_t t_offset_ns = 0;  // after the sweep's start
+};
+
+struct ReducedScan {
+  std::vector<ScanPoint> points;                 // what the map grows by
+  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
+  std::vector<std::uint32_t> to_match;           // indices of the points that are matched
+  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  int num_raw = 0;
+  int num_nonfinite = 0;
+  float voxel_m = 0;  // the edge of the thinning grid that was used
+};
+
+class SweepReducer {
+ public:
+  virtual ~SweepReducer() = default;
+  // Adapts its thinning from call to call, so results depend on the sweeps before, and on nothing
+  // else.
+  virtual ReducedScan Reduce(const Sweep& sweep) = 0;
+};
+
+// The edge of the thinning grid for the next sweep, when this one left so many points.
+float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept);
+
+// About `wanted` of `count` indices, evenly spread.
+std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted);
+
+}  // namespace lio

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/gicp_matcher.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "registration/scan_shapes.hpp"
+
+namespace lio {
+namespace {
+
+constexpr int kMinMatched = 50;
+constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
+constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
+// How far a surface is taken to reach, m^2: what counts against a pair whose surfaces are askew.
+constexpr float kTangentVar = 1.f;
+constexpr float kShapelessVar = 0.04f;  // m^2, of a point on no known surface: it may be an edge
+constexpr float kMinCosine = 0.7f;      // surfaces more askew are not the same one
+constexpr double kSearchSigmas = 3.0;
+constexpr double kMinSearch_m = 0.7;      // the map's own resolution: keyframes' points are so far
+constexpr double kSearchPerRange = 0.05;  // apart, two beams where these spread more
+constexpr double kIndexVoxel_m = 0.5;
+constexpr double kClusterVoxel_m = 1.0;  // points of one such voxel share the errors of its shapes
+constexpr double kMaxLastStep = 5e-3;    // m, rad
+constexpr double kOpennessKeep = 0.9;    // share of the old value in each scan's smoothing
+
+KeyframeMapOptions MapOptions(const GicpOptions& options) {
+  return {kIndexVoxel_m, options.max_points, options.max_distance_m, options.num_near_keyframes,
+          options.num_hull_keyframes};
+}
+
+}  // namespace
+
+GicpMatcher::GicpMatcher(const GicpOptions& options)
+    : options_(options),
+      map_(MapOptions(options)),
+      shapes_(std::make_unique<ScanShapes>(options)) {}
+
+GicpMatcher::~GicpMatcher() = default;
+
+void GicpMatcher::Clear() {
+  map_ = KeyframeMap(MapOptions(options_));
+  openness_m_ = 0.0;
+}
+
+ScanMatcher::MapSize GicpMatcher::map_size() const {
+  return {map_.num_points(), map_.memory_bytes()};
+}
+
+void GicpMatcher::UpdateOpenness(std::span<const Eigen::Vector3f> points_imu) {
+  if (points_imu.empty()) return;
+  std::vector<float> ranges;
+  ranges.reserve(points_imu.size());
+  for (const Eigen::Vector3f& point : points_imu) ranges.push_back(point.norm());
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  const auto median = static_cast<double>(*middle);
+  openness_m_ =
+      openness_m_ == 0.0 ? median : kOpennessKeep * openness_m_ + (1.0 - kOpennessKeep) * median;
+}
+
+bool GicpMatcher::IsKeyframe(const Pose& T_map_imu) const {
+  const KeyframeMap::Nearest nearest = map_.NearestKeyframe(T_map_imu.translation);
+  if (nearest.keyframe < 0) return true;
+  const Pose motion = nearest.T_map_kf.Inverse() * T_map_imu;
+  const double distance = std::clamp(options_.keyframe_openness_ratio * openness_m_,
+                                     options_.min_keyframe_m, options_.max_keyframe_m);
+  return motion.translation.norm() > distance ||
+         LogSo3(motion.rotation).norm() > options_.keyframe_deg * std::numbers::pi / 180.0;
+}
+
+void GicpMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
+  if (openness_m_ == 0.0) UpdateOpenness(scan.points_imu);
+  if (!IsKeyframe(T_map_imu)) return;
+  shapes_->SetScan(scan.points_imu);
+  std::vector<ShapedPoint> points;
+  points.reserve(scan.points_imu.size());
+  for (const Eigen::Vector3f& point : scan.points_imu) points.push_back(shapes_->At(point));
+  map_.Add(points, T_map_imu);
+}
+
+void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
+  pairs_.clear();
+  paired_at_ = T_map_imu;
+  const Matrix3 rotation = T_map_imu.rotation.toRotationMatrix();
+  for (std::size_t i = 0; i < source_.size(); ++i) {
+    const Vector3 point_imu = source_[i].position.cast<double>();
+    const double range = point_imu.norm();
+    const double search =
+        kSearchSigmas * radius.StdAt(range) + std::max(kMinSearch_m, kSearchPerRange * range);
+    const KeyframeMap::Hit hit =
+        map_.FindNearest(rotation * point_imu + T_map_imu.translation, search);
+    if (hit.point < 0) continue;
+    pairs_.push_back({static_cast<std::int32_t>(i), hit.point, hit.from_query});
+  }
+}
+
+// The pair's covariance C_q + R C_p R' has its least eigenvalue along the bisector of the normals.
+GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& rotation,
+                                      float reach_var) const {
+  const ShapedPoint& source = source_[static_cast<std::size_t>(pair.point)];
+  const ShapedPoint& target = map_.shape(pair.target);
+  Term term;
+  float variance = reach_var;
+  if (source.HasShape()) {
+    const Eigen::Vector3f normal = rotation * source.normal;
+    const float cosine = normal.dot(target.normal);
+    const float aligned = std::abs(cosine);
+    if (aligned < kMinCosine) return term;
+    term.direction = (target.normal + std::copysign(1.f, cosine) * normal).normalized();
+    variance += 0.5f * (1.f + aligned) * (source.thickness_var + target.thickness_var) +
+                (1.f - aligned) * kTangentVar;
+    term.tilt_var = 0.25f * (source.normal_var + target.normal_var);
+  } else {
+    term.direction = target.normal;
+    variance += target.thickness_var + kShapelessVar;
+    term.tilt_var = target.normal_var;
+  }
+  term.distance = term.direction.dot(pair.offset);
+  term.distance_sq = term.distance * term.distance / variance;
+  if (term.distance_sq > kGateSq) return term;
+  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
+  term.weight = term.kernel * term.kernel / variance;
+  return term;
+}
+
+MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radius,
+                                 ClusterScores* scores) {
+  MatchSums sums;
+  const Eigen::Matrix3f rotation = T_map_imu.rotation.toRotationMatrix().cast<float>();
+  VoxelIndex clusters;
+  if (scores != nullptr) scores->Reset(pairs_.size());
+  for (const Pair& pair : pairs_) {
+    const Eigen::Vector3f& point = source_[static_cast<std::size_t>(pair.point)].position;
+    const double reach = radius.StdAt(point.norm());
+    const Term term = TermOf(pair, rotation, static_cast<float>(reach * reach));
+    if (term.weight == 0.f) continue;
+    const Eigen::Vector3f normal = rotation.transpose() * term.direction;
+    const Vector6f row = JacobianRow(point, normal);
+    sums.information.Add(row, term.weight);
+    const Eigen::Vector3f tangent = normal.unitOrthogonal();
+    for (const Eigen::Vector3f& axis : {tangent, Eigen::Vector3f(normal.cross(tangent))}) {
+      sums.feigned.Add(JacobianRow(point, axis), term.weight * term.tilt_var);
+    }
+    // The distance falls as the point moves on.
+    const Vector6f score = (-term.weight * term.distance) * row;
+    sums.gradient += score.cast<double>();
+    sums.curvature_sum +=
+        term.weight * (1.f - 4.f * term.kernel * term.distance_sq / kKernelWidthSq);
+    sums.information_sum += term.weight;
+    const float inlier = term.kernel * term.kernel;
+    sums.weight_sum += inlier;
+    sums.residual_sq_sum += inlier * term.distance * term.distance;
+    ++sums.num_matched;
+    if (scores == nullptr) continue;
+    const Vector3 place = (T_map_imu * point.cast<double>()) / kClusterVoxel_m;
+    const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v)); };
+    const VoxelKey key = PackVoxel(cell(place.x()), cell(place.y()), cell(place.z()));
+    scores->Add(clusters.FindOrAdd(key).voxel, score);
+  }
+  return sums;
+}
+
+double GicpMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+  const Eigen::Matrix3f rotation = paired_at_.rotation.toRotationMatrix().cast<float>();
+  double cost = 0.0;
+  for (const Pair& pair : pairs_) {
+    const Term term = TermOf(pair, rotation, 0.f);
+    const Vector3 point = input.points_imu[static_cast<std::size_t>(pair.point)].cast<double>();
+    const Vector3 moved = T_map_imu * point - paired_at_ * point;
+    const double distance = term.distance - term.direction.cast<double>().dot(moved);
+    cost += 0.5 * term.weight * distance * distance;
+  }
+  return cost;
+}
+
+// Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
+double GicpMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
+  if (pairs_.empty()) return 1.0;
+  if (!IsKeyframe(T_map_imu)) return 0.0;
+  // The whole scan is inserted, of which a part is matched.
+  const double inserted_per_matched =
+      static_cast<double>(std::max(input.scan_points_imu.size(), input.points_imu.size())) /
+      static_cast<double>(input.points_imu.size());
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
+    const int before = map_.CountAt(T_map_imu * point);
+    sum += inserted_per_matched / (before + inserted_per_matched);
+  }
+  return sum / static_cast<double>(pairs_.size());
+}
+
+void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
+  const SearchRadius none(Matrix6::Zero());
+  Associate(T_map_imu, none);
+  const MatchSums sums = Linearize(T_map_imu, none, &scores_);
+  result.T_map_imu = T_map_imu;
+  result.num_matched = sums.num_matched;
+  result.new_content_share = NewContentShare(input, T_map_imu);
+  if (sums.num_matched < kMinMatched) {
+    result.status = MatchStatus::kTooFewPoints;
+    return;
+  }
+  const Vector6 last_step = Summarise(sums, scores_, result);
+  // The residual step at hand costs nothing, and the iteration stopped at a finite one.
+  if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
+}
+
+MatchResult GicpMatcher::Match(const MatchInput& input) {
+  MatchResult result;
+  result.T_map_imu = input.T_map_imu_guess;
+  const std::span<const Eigen::Vector3f> scan =
+      input.scan_points_imu.empty() ? input.points_imu : input.scan_points_imu;
+  UpdateOpenness(scan);
+  if (map_.num_keyframes() == 0) return result;
+  shapes_->SetScan(scan);
+  source_.clear();
+  for (const Eigen::Vector3f& point : input.points_imu) source_.push_back(shapes_->At(point));
+  map_.ChooseSubmap(input.T_map_imu_guess.translation);
+
+  Pose T_map_imu = input.T_map_imu_guess;
+  SearchRadius radius(input.guess_cov);
+  result.status = MatchStatus::kMaxIterations;
+  for (result.iterations = 1; result.iterations <= options_.max_iterations; ++result.iterations) {
+    Associate(T_map_imu, radius);
+    const MatchSums sums = Linearize(T_map_imu, radius, nullptr);
+    if (sums.num_matched < kMinMatched) break;
+    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    const Vector6 step = StepInHeldDirections(split, sums.gradient);
+    if (!step.allFinite()) {
+      result.status = MatchStatus::kDiverged;
+      return result;
+    }
+    T_map_imu = T_map_imu * ExpSe3(step);
+    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
+        step.tail<3>().norm() < options_.converged_step_rad) {
+      result.status = MatchStatus::kConverged;
+      break;
+    }
+    radius.Shrink();
+  }
+  Finish(input, T_map_imu, result);
+  return result;
+}
+
+}  // namespace lio

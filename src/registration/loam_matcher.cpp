@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/loam_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "registration/loam_terms.hpp"
+#include "registration/neighbour_shape.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kMinMatched = 50;
+constexpr double kSearchSigmas = 3.0;
+constexpr double kLeavesPerSearch = 2.5;  // neighbours are this many leaves off at the most
+constexpr double kGate_m = 0.3;           // residuals beyond, and beyond the reach, do not count
+constexpr int kFullRounds = 4;  // later ones go halfway: two sets of neighbours may alternate
+constexpr double kMaxLastStep = 5e-3;  // m, rad
+
+PointMapOptions MapOptions(const LoamOptions& options, double leaf_m) {
+  return {leaf_m, options.max_leaf_points, options.max_leaves, options.max_distance_m};
+}
+
+}  // namespace
+
+LoamMatcher::LoamMatcher(const LoamOptions& options)
+    : options_(options),
+      edge_map_(MapOptions(options, options.edge_leaf_m)),
+      surface_map_(MapOptions(options, options.surface_leaf_m)),
+      terms_(std::make_unique<LoamTerms>(options)) {}
+
+LoamMatcher::~LoamMatcher() = default;
+
+void LoamMatcher::Clear() {
+  edge_map_ = PointMap(MapOptions(options_, options_.edge_leaf_m));
+  surface_map_ = PointMap(MapOptions(options_, options_.surface_leaf_m));
+}
+
+ScanMatcher::MapSize LoamMatcher::map_size() const {
+  return {edge_map_.num_voxels() + surface_map_.num_voxels(),
+          edge_map_.memory_bytes() + surface_map_.memory_bytes()};
+}
+
+void LoamMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
+  if (scan.tags.size() != scan.points_imu.size()) {
+    throw std::invalid_argument("LoamMatcher: every point needs a tag");
+  }
+  std::vector<Vector3> edges, surfaces;
+  for (std::size_t i = 0; i < scan.points_imu.size(); ++i) {
+    (scan.tags[i].IsEdge() ? edges : surfaces)
+        .push_back(T_map_imu * scan.points_imu[i].cast<double>());
+  }
+  edge_map_.Insert(edges, T_map_imu.translation);
+  surface_map_.Insert(surfaces, T_map_imu.translation);
+}
+
+void LoamMatcher::Associate(const MatchInput& input, const Pose& T_map_imu,
+                            const SearchRadius& radius) {
+  terms_->Clear();
+  scores_.Reset(surface_map_.block_capacity() + edge_map_.block_capacity());
+  const auto first_edge_block = static_cast<std::int32_t>(surface_map_.block_capacity());
+  const int wanted = options_.num_neighbours;
+  for (std::size_t i = 0; i < input.points_imu.size(); ++i) {
+    const Vector3 point_imu = input.points_imu[i].cast<double>();
+    const Vector3 point = T_map_imu * point_imu;
+    const double reach = kSearchSigmas * radius.StdAt(point_imu.norm());
+    const auto number = static_cast<std::int32_t>(i);
+    if (input.tags[i].IsEdge()) {
+      const double search = reach + kLeavesPerSearch * options_.edge_leaf_m;
+      const PointMap::Neighbours near = edge_map_.FindNearest(point, wanted, search);
+      const std::optional<LineShape> line = FitLine(near, options_);
+      if (!line || line->direction.cross(line->centre).norm() > reach + kGate_m) continue;
+      terms_->Add(EdgeTerm{number, first_edge_block + near.list[0].block, point + line->centre,
+                           line->direction, line->direction_var});
+    } else {
+      const double search = reach + kLeavesPerSearch * options_.surface_leaf_m;
+      const PointMap::Neighbours near = surface_map_.FindNearest(point, wanted, search);
+      const std::optional<PlaneShape> plane = FitPlane(near, options_);
+      if (!plane || std::abs(plane->normal.dot(plane->centre)) > reach + kGate_m) continue;
+      terms_->Add(PlaneTerm{number, near.list[0].block, point + plane->centre, plane->axes,
+                            plane->normal_var});
+    }
+  }
+}
+
+double LoamMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+  return terms_->HeldCost(input.points_imu, T_map_imu);
+}
+
+// Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
+double LoamMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
+  if (terms_->size() == 0) return 1.0;
+  // The whole scan is inserted, of which a part, evenly spread, is matched.
+  const double here =
+      static_cast<double>(std::max(input.scan_points_imu.size(), input.points_imu.size())) /
+      static_cast<double>(input.points_imu.size());
+  double sum = 0.0;
+  const auto add = [&](const PointMap& map, std::int32_t point) {
+    const Vector3 point_imu = input.points_imu[static_cast<std::size_t>(point)].cast<double>();
+    const PointMap::Content content = map.ContentAt(T_map_imu * point_imu);
+    if (!content.is_frozen) sum += here / (content.num_points + here);
+  };
+  for (const EdgeTerm& term : terms_->edges()) add(edge_map_, term.point);
+  for (const PlaneTerm& term : terms_->planes()) add(surface_map_, term.point);
+  return sum / static_cast<double>(terms_->size());
+}
+
+void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
+  Associate(input, T_map_imu, SearchRadius(Matrix6::Zero()));
+  const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+  result.T_map_imu = T_map_imu;
+  result.num_matched = sums.num_matched;
+  result.new_content_share = NewContentShare(input, T_map_imu);
+  if (terms_->size() < kMinMatched) {
+    result.status = MatchStatus::kTooFewPoints;
+    return;
+  }
+  const Vector6 last_step = Summarise(sums, scores_, result);
+  // The residual step at hand costs nothing, and the rounds stopped at a finite one.
+  if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
+}
+
+MatchResult LoamMatcher::Match(const MatchInput& input) {
+  MatchResult result;
+  result.T_map_imu = input.T_map_imu_guess;
+  if (edge_map_.num_voxels() + surface_map_.num_voxels() == 0) return result;
+  if (input.tags.size() != input.points_imu.size()) {
+    throw std::invalid_argument("LoamMatcher: every point needs a tag");
+  }
+  Pose T_map_imu = input.T_map_imu_guess;
+  SearchRadius radius(input.guess_cov);
+  result.status = MatchStatus::kMaxIterations;
+  for (result.iterations = 1; result.iterations <= options_.max_rounds; ++result.iterations) {
+    Associate(input, T_map_imu, radius);
+    if (terms_->size() < kMinMatched) break;
+    const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    const Pose solved = terms_->Solve(input.points_imu, {}, T_map_imu);
+    Vector6 step = KeepHeldDirections(split, LogSe3(T_map_imu.Inverse() * solved));
+    if (result.iterations > kFullRounds) step *= 0.5;
+    if (!step.allFinite()) {
+      result.status = MatchStatus::kDiverged;
+      return result;
+    }
+    T_map_imu = T_map_imu * ExpSe3(step);
+    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
+        step.tail<3>().norm() < options_.converged_step_rad) {
+      result.status = MatchStatus::kConverged;
+      break;
+    }
+    radius.Shrink();
+  }
+  Finish(input, T_map_imu, result);
+  return result;
+}
+
+}  // namespace lio

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/loam_scan_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "registration/loam_terms.hpp"
+#include "registration/ring_grid.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kMinMatched = 30;
+constexpr double kSearchSigmas = 3.0;
+constexpr double kMinSearch_m = 1.0;      // neighbours on a scan are so far apart, ...
+constexpr double kSearchPerRange = 0.06;  // ... two beams where these spread more
+constexpr double kMaxSearch_m = 5.0;      // A-LOAM's limit
+constexpr double kMaxLastStep = 5e-3;     // m, rad
+constexpr float kMinAcross_m = 0.5f;      // of a line or a plane across rings
+constexpr float kMinBaseline_m = 1.f;     // of a plane along its ring: noise tilts shorter ones
+constexpr double kMinTriangle = 0.1;      // sine of the angle at which three points make a plane
+
+Pose PartOf(const Pose& motion, double ratio) {
+  return ratio == 1.0 ? motion : Interpolate(Pose::Identity(), motion, ratio);
+}
+
+}  // namespace
+
+LoamScanMatcher::LoamScanMatcher(const LoamOptions& options)
+    : options_(options),
+      edges_(std::make_unique<RingGrid>()),
+      surfaces_(std::make_unique<RingGrid>()),
+      terms_(std::make_unique<LoamTerms>(options)) {}
+
+LoamScanMatcher::~LoamScanMatcher() = default;
+
+void LoamScanMatcher::Clear() {
+  edges_->Clear();
+  surfaces_->Clear();
+}
+
+ScanMatcher::MapSize LoamScanMatcher::map_size() const {
+  const std::size_t num_points = edges_->size() + surfaces_->size();
+  return {num_points, num_points * sizeof(Eigen::Vector4f)};
+}
+
+void LoamScanMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
+  if (scan.tags.size() != scan.points_imu.size()) {
+    throw std::invalid_argument("LoamScanMatcher: every point needs a tag");
+  }
+  Clear();
+  T_map_last_ = T_map_imu;
+  for (std::size_t i = 0; i < scan.points_imu.size(); ++i) {
+    RingGrid& grid = scan.tags[i].IsEdge() ? *edges_ : *surfaces_;
+    grid.Add(scan.points_imu[i], scan.tags[i].ring);
+  }
+}
+
+void LoamScanMatcher::AddEdge(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
+  const RingGrid::Found found = edges_->Search(place, search_m, {0.f, kMinAcross_m});
+  if (found.nearest < 0 || found.other_ring < 0) return;
+  const Vector3 a = edges_->point(found.nearest).cast<double>();
+  const Vector3 b = edges_->point(found.other_ring).cast<double>();
+  const double length = (b - a).norm();
+  if (length < kMinLineLength_m) return;
+  const double end_std = options_.edge_std_m / length;
+  terms_->Add(EdgeTerm{number, static_cast<std::int32_t>(surfaces_->num_parts()) + found.part, a,
+                       (b - a) / length, 2.0 * end_std * end_std});
+}
+
+void LoamScanMatcher::AddPlane(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
+  const RingGrid::Found found = surfaces_->Search(place, search_m, {kMinBaseline_m, kMinAcross_m});
+  if (found.nearest < 0 || found.same_ring < 0 || found.other_ring < 0) return;
+  const Vector3 a = surfaces_->point(found.nearest).cast<double>();
+  const Vector3 along = surfaces_->point(found.same_ring).cast<double>() - a;
+  const Vector3 up = surfaces_->point(found.other_ring).cast<double>() - a;
+  const Vector3 area = along.cross(up);
+  if (area.norm() < kMinTriangle * along.norm() * up.norm()) return;
+  PlaneTerm term;
+  term.point = number;
+  term.part = found.part;
+  term.on_plane = a;
+  term.axes.col(0) = area.normalized();
+  term.axes.col(1) = along.normalized();
+  term.axes.col(2) = term.axes.col(0).cross(term.axes.col(1));
+  const double height = area.norm() / along.norm();
+  const double noise_var = 2.0 * options_.surface_std_m * options_.surface_std_m;
+  term.normal_var = {noise_var / along.squaredNorm(), noise_var / (height * height)};
+  terms_->Add(term);
+}
+
+void LoamScanMatcher::Associate(const MatchInput& input, std::span<const float> sweep_ratios,
+                                const Pose& T_last_imu, const SearchRadius& radius) {
+  terms_->Clear();
+  scores_.Reset(edges_->num_parts() + surfaces_->num_parts());
+  for (std::size_t i = 0; i < input.points_imu.size(); ++i) {
+    const FeatureKind kind = input.tags[i].kind;
+    if (kind != FeatureKind::kSharp && kind != FeatureKind::kFlat) continue;
+    const double ratio = sweep_ratios.empty() ? 1.0 : double{sweep_ratios[i]};
+    const Vector3 point_imu = input.points_imu[i].cast<double>();
+    const Vector3 place = PartOf(T_last_imu, ratio) * point_imu;
+    const double range = point_imu.norm();
+    const double search = std::min(
+        kSearchSigmas * radius.StdAt(range) + std::max(kMinSearch_m, kSearchPerRange * range),
+        kMaxSearch_m);
+    const auto add =
+        kind == FeatureKind::kSharp ? &LoamScanMatcher::AddEdge : &LoamScanMatcher::AddPlane;
+    (this->*add)(static_cast<std::int32_t>(i), place.cast<float>(), static_cast<float>(search));
+  }
+}
+
+double LoamScanMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+  return terms_->HeldCost(input.points_imu, T_map_last_.Inverse() * T_map_imu);
+}
+
+void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> sweep_ratios,
+                             const Pose& T_last_imu, MatchResult& result) {
+  result.T_map_imu = T_map_last_ * T_last_imu;
+  result.num_matched = static_cast<int>(terms_->size());
+  result.new_content_share = 1.0;  // nothing of the scan before is kept
+  if (terms_->size() < kMinMatched) {
+    result.status = MatchStatus::kTooFewPoints;
+    return;
+  }
+  std::vector<Eigen::Vector3f> points(input.points_imu.begin(), input.points_imu.end());
+  if (!sweep_ratios.empty()) {  // every point with its part of the motion taken off
+    const Pose T_imu_last = T_last_imu.Inverse();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Pose part = T_imu_last * PartOf(T_last_imu, double{sweep_ratios[i]});
+      points[i] = (part * points[i].cast<double>()).cast<float>();
+    }
+  }
+  const MatchSums sums = terms_->Linearize(points, T_last_imu, scores_);
+  const Vector6 last_step = Summarise(sums, scores_, result);
+  if (sweep_ratios.empty() && last_step.norm() < kMaxLastStep) {
+    result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
+  }
+}
+
+MatchResult LoamScanMatcher::Match(const MatchInput& input) {
+  return MatchSkewed(input, {});
+}
+
+MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
+                                         std::span<const float> sweep_ratios) {
+  MatchResult result;
+  result.T_map_imu = input.T_map_imu_guess;
+  if (edges_->size() + surfaces_->size() == 0) return result;
+  if (input.tags.size() != input.points_imu.size() ||
+      (!sweep_ratios.empty() && sweep_ratios.size() != input.points_imu.size())) {
+    throw std::invalid_argument("LoamScanMatcher: every point needs a tag, and a ratio if any");
+  }
+  Pose T_last_imu = T_map_last_.Inverse() * input.T_map_imu_guess;
+  SearchRadius radius(input.guess_cov);
+  result.status = MatchStatus::kMaxIterations;
+  for (result.iterations = 1; result.iterations <= options_.max_rounds; ++result.iterations) {
+    Associate(input, sweep_ratios, T_last_imu, radius);
+    if (terms_->size() < kMinMatched) break;
+    const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, T_last_imu);
+    Vector6 step = LogSe3(T_last_imu.Inverse() * solved);
+    if (sweep_ratios.empty()) {
+      const MatchSums sums = terms_->Linearize(input.points_imu, T_last_imu, scores_);
+      const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+      step = KeepHeldDirections(split, step);
+    }
+    if (!step.allFinite()) {
+      result.status = MatchStatus::kDiverged;
+      return result;
+    }
+    T_last_imu = T_last_imu * ExpSe3(step);
+    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
+        step.tail<3>().norm() < options_.converged_step_rad) {
+      result.status = MatchStatus::kConverged;
+      break;
+    }
+    radius.Shrink();
+  }
+  Finish(input, sweep_ratios, T_last_imu, result);
+  return result;
+}
+
+}  // namespace lio

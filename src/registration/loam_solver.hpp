@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// One Ceres problem over one pose: edge and plane terms with Huber's loss. Terms lie next to
+// each other rather than each in an allocation of its own.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "lio/registration/loam_factors.hpp"
+
+namespace lio {
+
+struct LoamSolverOptions {
+  double huber_m = 0.1;
+  double edge_weight = 1.0;  // of a squared edge residual against a plane's
+  int max_iterations = 4;
+  bool uses_qr = false;  // else normal equations, measured faster
+};
+
+class LoamSolver {
+ public:
+  void Clear();
+  // The line through a and b, which are at least kMinLineLength_m apart. `s`: sweep ratio; below 1
+  // the terms are automatic ones.
+  void AddEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s);
+  void AddPlane(const Vector3& point, const Vector3& normal, double offset, double s);
+
+  // From `start`; the pose itself when Ceres fails.
+  Pose Solve(const Pose& start, const LoamSolverOptions& options);
+
+ private:
+  std::deque<EdgeFactor> edges_;  // cost functions cannot be moved
+  std::deque<PlaneFactor> planes_;
+  std::vector<CostPtr> partial_edges_;  // of a sweep ratio below 1
+  std::vector<CostPtr> partial_planes_;
+};
+
+}  // namespace lio

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/match_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lio {
+namespace {
+
+constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene of outliers
+
+}  // namespace
+
+void ClusterScores::Reset(std::size_t num_parts) {
+  for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
+  parts_.clear();
+  if (by_part_.size() < num_parts) {
+    by_part_.resize(num_parts);
+    is_used_.resize(num_parts, 0);
+  }
+}
+
+void ClusterScores::Add(std::int32_t part, const Vector6f& score) {
+  const auto i = static_cast<std::size_t>(part);
+  if (!is_used_[i]) {
+    is_used_[i] = 1;
+    by_part_[i].setZero();
+    parts_.push_back(part);
+  }
+  by_part_[i] += score;
+}
+
+Matrix6 ClusterScores::Covariance() const {
+  Matrix6 cov = Matrix6::Zero();
+  for (const std::int32_t part : parts_) {
+    const Vector6 score = by_part_[static_cast<std::size_t>(part)].cast<double>();
+    cov += score * score.transpose();
+  }
+  const auto num_parts = static_cast<double>(parts_.size());
+  return cov * (num_parts / std::max(1.0, num_parts - 6.0));
+}
+
+Vector6 Summarise(const MatchSums& sums, const ClusterScores& scores, MatchResult& result) {
+  result.information = sums.information.Full();
+  const DirectionSplit split = SplitDirections(result.information, sums.feigned.Full());
+  // The sandwich wants the robust cost's own curvature, which is less than the information.
+  const double curvature =
+      std::clamp(sums.curvature_sum / sums.information_sum, kMinCurvature, 1.0);
+  result.eigenvalues = split.eigenvalues;
+  result.weak_mask = split.weak_mask;
+  result.held_cov = CovarianceFromScores(split, scores.Covariance() / (curvature * curvature));
+  result.cov = result.held_cov + WeakCovariance(split);
+  result.residual_rms_m = std::sqrt(sums.residual_sq_sum / sums.weight_sum);
+  if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {
+    result.status = MatchStatus::kDegenerate;
+  }
+  return StepInHeldDirections(split, sums.gradient);
+}
+
+}  // namespace lio

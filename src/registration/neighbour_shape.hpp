@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The line or plane that a few neighbouring map points make, if they make one. Positions are
+// relative to the query point.
+#pragma once
+
+#include <optional>
+
+#include "lio/map/point_map.hpp"
+#include "lio/registration/loam_options.hpp"
+
+namespace lio {
+
+struct LineShape {
+  Vector3 centre;
+  Vector3 direction;           // unit
+  double direction_var = 0.0;  // of each of its two components across [rad^2]
+};
+
+struct PlaneShape {
+  Vector3 centre;
+  Vector3 normal;              // unit
+  Matrix3 axes;                // columns: normal and the two tangents
+  Eigen::Vector2d normal_var;  // of the normal's tilt toward either tangent [rad^2]
+};
+
+std::optional<LineShape> FitLine(const PointMap::Neighbours& neighbours,
+                                 const LoamOptions& options);
+std::optional<PlaneShape> FitPlane(const PointMap::Neighbours& neighbours,
+                                   const LoamOptions& options);
+
+}  // namespace lio

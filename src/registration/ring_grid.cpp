@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "registration/ring_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lio {
+namespace {
+
+constexpr int kMaxRingGap = 3;
+
+std::int32_t Cell(float coordinate) {
+  return FloorToInt(coordinate);  // voxels of one metre
+}
+
+}  // namespace
+
+void RingGrid::Clear() {
+  index_.Clear();
+  first_.clear();
+  points_.clear();
+}
+
+void RingGrid::Add(const Eigen::Vector3f& point, std::uint16_t ring) {
+  const auto added = index_.FindOrAdd(PackVoxel(
+      Cell(point.x() / kVoxel_m), Cell(point.y() / kVoxel_m), Cell(point.z() / kVoxel_m)));
+  if (added.is_new) first_.push_back(-1);
+  std::int32_t& first = first_[static_cast<std::size_t>(added.voxel)];
+  points_.push_back({point, first, ring});
+  first = static_cast<std::int32_t>(points_.size()) - 1;
+}
+
+template <class Visit>
+void RingGrid::ForEachNear(const Eigen::Vector3f& query, float radius_m, const Visit& visit) const {
+  const auto low = [&](float v) { return Cell((v - radius_m) / kVoxel_m); };
+  const auto high = [&](float v) { return Cell((v + radius_m) / kVoxel_m); };
+  for (std::int32_t z = low(query.z()); z <= high(query.z()); ++z) {
+    for (std::int32_t y = low(query.y()); y <= high(query.y()); ++y) {
+      for (std::int32_t x = low(query.x()); x <= high(query.x()); ++x) {
+        const std::int32_t voxel = index_.Find(PackVoxel(x, y, z));
+        if (voxel == VoxelIndex::kNone) continue;
+        for (std::int32_t i = first_[static_cast<std::size_t>(voxel)]; i >= 0;
+             i = points_[static_cast<std::size_t>(i)].next) {
+          visit(i, voxel, points_[static_cast<std::size_t>(i)]);
+        }
+      }
+    }
+  }
+}
+
+RingGrid::Found RingGrid::Search(const Eigen::Vector3f& query, float radius_m,
+                                 const Apart& apart) const {
+  Found found;
+  float best_sq = radius_m * radius_m;
+  ForEachNear(query, radius_m, [&](std::int32_t i, std::int32_t voxel, const Point& point) {
+    const float distance_sq = (point.position - query).squaredNorm();
+    if (distance_sq >= best_sq) return;
+    best_sq = distance_sq;
+    found.nearest = i;
+    found.part = voxel;
+  });
+  if (found.nearest < 0) return found;
+  const Point& nearest = points_[static_cast<std::size_t>(found.nearest)];
+  const auto limit_sq_on = [&](int gap) {
+    const float limit = radius_m + apart.On(gap);
+    return limit * limit;
+  };
+  float same_sq = limit_sq_on(0);
+  float other_sq = limit_sq_on(1);
+  ForEachNear(query, radius_m + std::max(apart.same_ring_m, apart.other_ring_m),
+              [&](std::int32_t i, std::int32_t, const Point& point) {
+                const int gap = std::abs(point.ring - nearest.ring);
+                if (gap > kMaxRingGap || i == found.nearest) return;
+                const float apart_sq = (point.position - nearest.position).squaredNorm();
+                if (apart_sq < apart.On(gap) * apart.On(gap)) return;
+                const float distance_sq = (point.position - query).squaredNorm();
+                float& limit_sq = gap == 0 ? same_sq : other_sq;
+                if (distance_sq >= limit_sq) return;
+                limit_sq = distance_sq;
+                (gap == 0 ? found.same_ring : found.other_ring) = i;
+              });
+  return found;
+}
+
+}  // namespace lio
