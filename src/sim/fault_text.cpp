@@ -13,6 +13,8 @@
 namespace lio::sim {
 namespace {
 
+constexpr double kToTheEnd = 1e9;  // s
+
 struct KindText {
   FaultKind kind;
   std::string_view name;
@@ -33,25 +35,25 @@ const std::vector<KindText>& Kinds() {
        "messages lost, of a scan all its chunks",
        true,
        C::kBoth,
-       {{"ratio", 0.05}, {"start", 0}, {"duration", 1e9}}},
+       {{"ratio", 0.05}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kDuplicate,
        "duplicate",
        "messages that come twice",
        true,
        C::kBoth,
-       {{"ratio", 0.05}, {"delay", 0.004}, {"start", 0}, {"duration", 1e9}}},
+       {{"ratio", 0.05}, {"delay", 0.004}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kReorder,
        "reorder",
        "messages that come late, after newer ones",
        true,
        C::kBoth,
-       {{"ratio", 0.05}, {"delay", 0.03}, {"start", 0}, {"duration", 1e9}}},
+       {{"ratio", 0.05}, {"delay", 0.03}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kChunkLoss,
        "chunk_loss",
        "single chunks of scans lost",
        false,
        C::kLidar,
-       {{"ratio", 0.05}, {"start", 0}, {"duration", 1e9}}},
+       {{"ratio", 0.05}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kStampJump,
        "stamp_jump",
        "stamps off by offset [s], forward or back",
@@ -69,7 +71,7 @@ const std::vector<KindText>& Kinds() {
        "not-a-number in samples, or in this share of a scan's points",
        true,
        C::kBoth,
-       {{"ratio", 0.02}, {"start", 0}, {"duration", 1e9}}},
+       {{"ratio", 0.02}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kGyroSaturation,
        "gyro_saturation",
        "rates clipped at limit [rad/s]",
@@ -178,7 +180,12 @@ std::string DescribeFaults() {
          << std::string(19, ' ');
     if (kind.has_channel) text << "channel=" << NameOf(kind.channel) << " ";
     for (const auto& [key, value] : kind.keys) {
-      if (value < 1e8) text << key << "=" << value << " ";
+      text << key << "=";
+      if (value == kToTheEnd) {
+        text << "(to the end) ";
+      } else {
+        text << value << " ";
+      }
     }
     text << "\n";
   }

@@ -218,6 +218,22 @@ TEST(Fault, DustAndExtrinsicAreForOthersToApply) {
   EXPECT_LT((claimed.rotation * Vector3::UnitX() - Vector3::UnitY()).norm(), 1e-12);
 }
 
+TEST(Fault, ThoseDrawnByRatioKeepToTheirWindowToo) {
+  for (const char* kind : {"drop", "duplicate", "reorder", "chunk_loss", "nan"}) {
+    const Outcome whole(std::string(kind) + ":ratio=0.5,start=0,duration=1e-6");
+    EXPECT_TRUE(whole.ImuIsWhole() && whole.LidarIsWhole()) << kind;
+    const Outcome out(std::string(kind) + ":ratio=0.5,start=5,duration=1");
+    std::vector<std::int64_t> outside_ns;
+    for (const auto& chunk : out.chunks) {
+      const double t = Seconds(chunk.stamp);
+      if (t < 4.8 || t > 6.2) outside_ns.push_back(chunk.stamp.ns);
+      const bool is_sound = !std::isnan(chunk.points[0].x_m);
+      EXPECT_TRUE(is_sound || (t > 4.8 && t < 6.2)) << kind << " at " << t;
+    }
+    EXPECT_EQ(outside_ns.size(), 800u - 57u) << kind;
+  }
+}
+
 TEST(Fault, SeveralFaultsAddUp) {
   const FaultInjector injector(
       {ParseFault("imu_gap:start=1,duration=1"), ParseFault("clock_offset:channel=imu,offset=0.5")},

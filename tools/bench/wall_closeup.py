@@ -25,6 +25,7 @@ from plot_style import plt  # noqa: E402
 
 NEAR_M = 15.0  # of the start: poses from which points are taken
 RANGE_M = 30.0
+STEP_M = 0.3  # between scans that are taken: at rest each sees the same points again
 CELL_M = 2.5  # size of a patch
 MIN_POINTS = 250  # a pass
 FLAT_M = 0.05  # a patch with more scatter than this is no surface
@@ -35,7 +36,10 @@ DIRECTIONS = ("along the way", "across the way", "up")
 
 
 def chunks(path):
-    """(stamp in s, points) of each LIO_SCAN event of an LCM log; points are little-endian inside."""
+    """(scan's number, stamp in s, points) of each LIO_SCAN event of an LCM log.
+
+    LCM's own numbers are big-endian, the packed points little-endian.
+    """
     with open(path, "rb") as stream:
         while len(head := stream.read(28)) == 28:
             sync, _, _, name_size, size = struct.unpack(">IqqII", head)
@@ -46,10 +50,10 @@ def chunks(path):
                 stream.seek(size, 1)
                 continue
             data = stream.read(size)
-            utime, _, _, _, _, _, _, step, num, num_bytes = struct.unpack_from(">qqihhbbhii", data, 8)
+            utime, _, seq, _, _, _, _, step, num, num_bytes = struct.unpack_from(">qqihhbbhii", data, 8)
             if step != POINT.itemsize:
                 raise ValueError(f"{path}: points of {step} bytes")
-            yield 1e-6 * utime, np.frombuffer(data, POINT, num, len(data) - num_bytes)
+            yield seq, 1e-6 * utime, np.frombuffer(data, POINT, num, len(data) - num_bytes)
 
 
 def rotations(q):
@@ -106,9 +110,12 @@ def collect(folder):
     own_low, own_high = numbers_of(config, "min_m"), numbers_of(config, "max_m")
     middle = 0.5 * (truth.t[0] + truth.t[-1])
     parts = []
-    for stamp, raw in chunks(folder / "log.lcm"):
+    last, scan = truth.p[0] + 2 * STEP_M, None
+    for seq, stamp, raw in chunks(folder / "log.lcm"):
         here = truth.at(np.array([stamp]))[1][0]
-        if np.linalg.norm(here - truth.p[0]) > NEAR_M:
+        if seq != scan and np.linalg.norm(here - last) > STEP_M:
+            last, scan = here, seq
+        if seq != scan or np.linalg.norm(here - truth.p[0]) > NEAR_M:
             continue
         xyz = raw["xyz"].astype(float)
         distance = np.linalg.norm(xyz, axis=1)
