@@ -8,7 +8,7 @@ import unittest
 import support
 
 USAGE, CONFIGURATION, TRANSPORT, INPUT = 2, 3, 4, 5
-PROGRAMS = ("liod", "lio-replay", "lio-convert", "lio-eval", "lio-sim")
+PROGRAMS = ("liod", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim")
 
 
 class ExitCodes(unittest.TestCase):

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "calib/turn_fit.hpp"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "lio/imu/preintegration.hpp"
+
+namespace lio {
+namespace {
+
+constexpr int kMaxRounds = 8;
+constexpr double kConverged_s = 1e-7;
+constexpr double kConverged_rad = 1e-7;
+constexpr double kHuberSigmas = 3.0;
+constexpr double kLeastStd_rad = 1e-5;
+
+// Common unknowns of all turns, as changes of the state of the round: offset [s], rotation [rad,
+// right], gyro bias [rad/s].
+constexpr int kNumCommon = 7;
+
+template <class T>
+using Quat = std::array<T, 4>;  // w x y z, as Ceres has it
+
+template <class T>
+Quat<T> Exp(const T* rotation) {
+  Quat<T> q;
+  ceres::AngleAxisToQuaternion(rotation, q.data());
+  return q;
+}
+
+template <class T>
+Quat<T> Times(const Quat<T>& a, const Quat<T>& b) {
+  Quat<T> q;
+  ceres::QuaternionProduct(a.data(), b.data(), q.data());
+  return q;
+}
+
+template <class T>
+Quat<T> Constant(const Quaternion& q) {
+  return {T(q.w()), T(q.x()), T(q.y()), T(q.z())};
+}
+
+template <class T>
+Quat<T> Inverse(const Quat<T>& q) {
+  return {q[0], -q[1], -q[2], -q[3]};
+}
+
+// A turn by gyro at the offset of the round, and how it changes.
+struct GyroTurn {
+  Quaternion turn;
+  Matrix3 by_bias;             // right
+  Vector3 rate_from, rate_to;  // rad/s, bias-corrected: what an offset adds at both ends
+};
+
+Vector3 RateAt(std::span<const ImuSample> samples, Timestamp stamp) {
+  const auto after =
+      std::lower_bound(samples.begin(), samples.end(), stamp,
+                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
+  if (after == samples.begin()) return samples.front().w_imu_radps;
+  if (after == samples.end()) return samples.back().w_imu_radps;
+  return InterpolateSample(*std::prev(after), *after, stamp).w_imu_radps;
+}
+
+GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
+                    const RotationCalibration& state) {
+  const Duration offset = Duration::FromSeconds(state.offset_s);
+  const Timestamp from = turn.from + offset;
+  const Timestamp to = turn.to + offset;
+  const Preintegration sum =
+      Preintegrate(samples, from, to, {state.gyro_bias_radps, Vector3::Zero()}, {});
+  return {sum.rotation, sum.by_bias.block<3, 3>(3, 0),
+          RateAt(samples, from) - state.gyro_bias_radps,
+          RateAt(samples, to) - state.gyro_bias_radps};
+}
+
+// What the lidar's turn has beyond the gyro's, given the two sweeps' own errors.
+struct TurnError {
+  TurnError(const SweepTurn& turn, const GyroTurn& gyro_in, const RotationCalibration& state)
+      : R_from_to(turn.R_from_to),
+        gyro(gyro_in),
+        R_imu_lidar(state.R_imu_lidar),
+        std_rad(state.turn_std_rad) {}
+
+  template <class T>
+  bool operator()(const T* common, const T* own_from, const T* own_to, T* residual) const {
+    const T& shift_s = common[0];
+    const T* bias = common + 4;
+    std::array<T, 3> before, by_bias, after, minus_own;
+    for (int i = 0; i < 3; ++i) {
+      before[i] = -shift_s * (gyro.rate_from[i] - bias[i]);
+      after[i] = shift_s * (gyro.rate_to[i] - bias[i]);
+      by_bias[i] = gyro.by_bias(i, 0) * bias[0] + gyro.by_bias(i, 1) * bias[1] +
+                   gyro.by_bias(i, 2) * bias[2];
+      minus_own[i] = -own_from[i];
+    }
+    const Quat<T> turn_imu = Times(Times(Exp(before.data()), Constant<T>(gyro.turn)),
+                                   Times(Exp(by_bias.data()), Exp(after.data())));
+    const Quat<T> R = Times(Constant<T>(R_imu_lidar), Exp(common + 1));
+    const Quat<T> turn_lidar = Times(Inverse(R), Times(turn_imu, R));
+    const Quat<T> expected = Times(Exp(minus_own.data()), Times(turn_lidar, Exp(own_to)));
+    const Quat<T> error = Times(Inverse(Constant<T>(R_from_to)), expected);
+    ceres::QuaternionToAngleAxis(error.data(), residual);
+    for (int i = 0; i < 3; ++i) residual[i] /= std_rad;
+    return true;
+  }
+
+  Quaternion R_from_to;
+  GyroTurn gyro;
+  Quaternion R_imu_lidar;
+  double std_rad;
+};
+
+struct OwnError {
+  template <class T>
+  bool operator()(const T* own, T* residual) const {
+    for (int i = 0; i < 3; ++i) residual[i] = own[i] / std_rad;
+    return true;
+  }
+  double std_rad;
+};
+
+std::vector<Vector3> Residuals(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
+                               const RotationCalibration& state) {
+  std::vector<Vector3> residuals;
+  const std::array<double, kNumCommon> none{};
+  for (const SweepTurn& turn : turns) {
+    TurnError error(turn, TurnByGyro(samples, turn, state), state);
+    error.std_rad = 1.0;
+    Vector3 residual;
+    error(none.data(), none.data(), none.data(), residual.data());
+    residuals.push_back(residual);
+  }
+  return residuals;
+}
+
+// A sweep's own error shows with opposite signs in the turns before and after it: the product of
+// neighbouring residuals has the mean -sweep_std^2, their square 2 sweep_std^2 + turn_std^2.
+void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>& residuals,
+                   RotationCalibration& state) {
+  std::vector<double> sizes;
+  for (const Vector3& residual : residuals) sizes.push_back(residual.norm());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double limit = 4.0 * *middle;  // what is wild does not count
+  double square = 0.0, product = 0.0;
+  int num = 0, num_pairs = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals[i].norm() > limit) continue;
+    square += residuals[i].squaredNorm() / 3.0;
+    ++num;
+    const bool follows = i > 0 && turns[i].first == turns[i - 1].first + 1;
+    if (!follows || residuals[i - 1].norm() > limit) continue;
+    product += residuals[i].dot(residuals[i - 1]) / 3.0;
+    ++num_pairs;
+  }
+  square /= std::max(1, num);
+  const double sweep_var =
+      num_pairs > 0 ? std::clamp(-product / num_pairs, 0.0, 0.5 * square) : 0.0;
+  state.sweep_std_rad = std::max(kLeastStd_rad, std::sqrt(sweep_var));
+  state.turn_std_rad = std::max({kLeastStd_rad, std::sqrt(std::max(0.0, square - 2.0 * sweep_var)),
+                                 0.05 * state.sweep_std_rad});
+}
+
+class Round {
+ public:
+  Round(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
+        const RotationCalibration& state) {
+    for (const SweepTurn& turn : turns) {
+      auto* cost = new ceres::AutoDiffCostFunction<TurnError, 3, kNumCommon, 3, 3>(
+          new TurnError(turn, TurnByGyro(samples, turn, state), state));
+      problem_.AddResidualBlock(cost, new ceres::HuberLoss(kHuberSigmas), common_.data(),
+                                Own(turn.first, state), Own(turn.first + 1, state));
+    }
+  }
+
+  bool Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = 20;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    cost_ = summary.final_cost;
+    num_residuals_ = summary.num_residuals;
+    return summary.IsSolutionUsable();
+  }
+
+  // Moves the state by what was found; true when that was next to nothing.
+  bool Apply(RotationCalibration& state) const {
+    const Vector3 turn(common_[1], common_[2], common_[3]);
+    state.offset_s += common_[0];
+    state.R_imu_lidar = (state.R_imu_lidar * ExpSo3(turn)).normalized();
+    state.gyro_bias_radps += Vector3(common_[4], common_[5], common_[6]);
+    const auto own = static_cast<double>(own_.size());
+    state.misfit = std::sqrt(2.0 * cost_ / std::max(1.0, num_residuals_ - 3.0 * own - kNumCommon));
+    return std::abs(common_[0]) < kConverged_s && turn.norm() < kConverged_rad;
+  }
+
+  bool FillCovariance(RotationCalibration& state) {
+    ceres::Covariance covariance(ceres::Covariance::Options{});
+    const std::vector<const double*> blocks = {common_.data()};
+    if (!covariance.Compute(blocks, &problem_)) return false;
+    Eigen::Matrix<double, kNumCommon, kNumCommon, Eigen::RowMajor> cov;
+    if (!covariance.GetCovarianceMatrix(blocks, cov.data())) return false;
+    cov *= std::max(1.0, state.misfit * state.misfit);
+    state.offset_std_s = std::sqrt(cov(0, 0));
+    state.rotation_cov = cov.block<3, 3>(1, 1);
+    state.gyro_bias_std_radps = cov.diagonal().tail<3>().cwiseSqrt();
+    return cov.allFinite();
+  }
+
+ private:
+  double* Own(std::size_t sweep, const RotationCalibration& state) {
+    const auto [at, is_new] = own_.try_emplace(sweep);
+    if (is_new) {
+      at->second.fill(0.0);
+      auto* cost =
+          new ceres::AutoDiffCostFunction<OwnError, 3, 3>(new OwnError{state.sweep_std_rad});
+      problem_.AddResidualBlock(cost, nullptr, at->second.data());
+    }
+    return at->second.data();
+  }
+
+  ceres::Problem problem_;
+  std::array<double, kNumCommon> common_{};
+  std::map<std::size_t, std::array<double, 3>> own_;  // by sweep; addresses stay
+  double cost_ = 0.0;
+  double num_residuals_ = 0.0;
+};
+
+}  // namespace
+
+bool FitTurns(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
+              RotationCalibration& state) {
+  state.num_turns = static_cast<int>(turns.size());
+  for (int i = 0; i < kMaxRounds; ++i) {
+    // The guess's own errors are in the first residuals: noise is settled in the second round.
+    if (i < 3) EstimateNoise(turns, Residuals(samples, turns, state), state);
+    Round round(samples, turns, state);
+    if (!round.Solve()) return false;
+    if (round.Apply(state) && i >= 2) return round.FillCovariance(state);
+  }
+  return false;
+}
+
+}  // namespace lio

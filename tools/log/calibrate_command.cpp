@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// lio-log calibrate: clock offset and rotation between lidar and IMU from a log.
+// docs/calibration.md
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "lio/calib/rotation_calibration.hpp"
+#include "lio/io/log_input.hpp"
+#include "lio/io/options_yaml.hpp"
+#include "lio/io/progress_bar.hpp"
+#include "lio/pipeline/scan_poses.hpp"
+
+namespace lio {
+namespace {
+
+constexpr const char* kAboutCalibrate =
+    "Clock offset and rotation between lidar and IMU, with standard deviations, from a log of "
+    "some\n"
+    "motion: lidar-only odometry gives turns, the gyro others, and what makes them agree is "
+    "found.\n"
+    "Half a minute of walking with turns about all axes does. Refuses when the motion does not "
+    "show\n"
+    "the offset to 1 ms and the rotation to 0.2 deg. rig.T_imu_lidar of the configuration is not\n"
+    "used but for its translation, which this does not find.\n\n"
+    "Example:\n"
+    "  lio-log calibrate walk.lcm --config my_rig.yaml --rig calibrated.yaml";
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+// What a pass over the log found.
+struct Pass {
+  std::vector<ImuSample> samples;
+  StampedPoses sweeps;  // T_map_lidar at their middles
+  int num_unmatched = 0;
+  std::int64_t num_chunks = 0;
+  std::int64_t num_skipped_bytes = 0;
+  std::int64_t num_refused = 0;
+};
+
+Pass ReadLog(const CalibrateArguments& arguments, const Options& options, int number,
+             const SweepPath* path) {
+  LogInputOptions input_options;
+  input_options.channels = Channels(arguments.channel_prefix);
+  input_options.start_s = arguments.start_s;
+  if (arguments.duration_s > 0) input_options.duration_s = arguments.duration_s;
+  input_options.reads_ahead = true;
+  LogInput input(arguments.log, input_options);
+  ProgressBar bar(fmt::format("pass {} of {}", number, arguments.num_passes), input.size_bytes());
+  ScanPoses poses(options, path);
+  Pass pass;
+  while (std::optional<InputItem> item = input.Next()) {
+    bar.Update(item->position_bytes);
+    if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
+      const bool is_next = pass.samples.empty() || sample->stamp > pass.samples.back().stamp;
+      if (is_next && sample->w_imu_radps.allFinite()) pass.samples.push_back(*sample);
+    } else {
+      ++pass.num_chunks;
+      poses.Add(std::get<ScanChunk>(std::move(item->data)));
+    }
+  }
+  poses.Finish();
+  pass.sweeps = poses.found();
+  pass.num_unmatched = poses.num_unmatched();
+  pass.num_skipped_bytes = input.num_skipped_bytes();
+  pass.num_refused = input.counters().TotalRefused();
+  return pass;
+}
+
+// Where the lidar was all the time: poses by matching, turns by the gyro as if it sat on the lidar
+// and kept its clock.
+SweepPath PathOf(const Pass& pass, const RotationCalibration& found) {
+  std::vector<ImuSample> rates;
+  const Quaternion R_lidar_imu = found.R_imu_lidar.conjugate();
+  const Duration offset = Duration::FromSeconds(found.offset_s);
+  for (const ImuSample& sample : pass.samples) {
+    const Vector3 w_imu_radps = sample.w_imu_radps - found.gyro_bias_radps;
+    rates.push_back({sample.stamp - offset, R_lidar_imu * w_imu_radps, Vector3::Zero()});
+  }
+  return {pass.sweeps, std::move(rates)};
+}
+
+RotationCalibrationResult Calibrate(const CalibrateArguments& arguments, const Pass& pass) {
+  std::vector<SweepRotation> rotations;
+  for (const StampedPose& sweep : pass.sweeps) {
+    rotations.push_back({sweep.stamp, sweep.pose.rotation});
+  }
+  RotationCalibrationOptions options;
+  options.max_offset_s = arguments.max_offset_s;
+  return CalibrateRotation(pass.samples, rotations, options);
+}
+
+Vector3 RotationStdDeg(const RotationCalibration& found) {
+  return kDegrees * found.rotation_cov.diagonal().cwiseSqrt();
+}
+
+std::optional<double> ChangeDeg(const RotationCalibration& found, const Options& options) {
+  if (!options.rig.T_imu_lidar) return std::nullopt;
+  const Quaternion configured = options.rig.T_imu_lidar->rotation;
+  return kDegrees * LogSo3(configured.conjugate() * found.R_imu_lidar).norm();
+}
+
+void Print(const RotationCalibration& found, const Options& options, const Pass& pass) {
+  const Quaternion& q = found.R_imu_lidar;
+  const Vector3 std_deg = RotationStdDeg(found);
+  const Vector3& bias = found.gyro_bias_radps;
+  fmt::print(
+      "clock:    lidar stamps are {:.3f} ms {} the IMU's (1 sigma {:.3f} ms): offset_s {:.6f} "
+      "is to be added to them\n",
+      1e3 * std::abs(found.offset_s), found.offset_s < 0 ? "ahead of" : "behind",
+      1e3 * found.offset_std_s, found.offset_s);
+  fmt::print(
+      "rotation: rig.T_imu_lidar.rotation_wxyz [{:.8f}, {:.8f}, {:.8f}, {:.8f}] (1 sigma {:.4f} "
+      "{:.4f} {:.4f} deg about the lidar's axes)\n",
+      q.w(), q.x(), q.y(), q.z(), std_deg.x(), std_deg.y(), std_deg.z());
+  if (const auto change_deg = ChangeDeg(found, options)) {
+    fmt::print("          {:.3f} deg from the configuration's\n", *change_deg);
+  }
+  fmt::print("gyro:     bias [{:.5f}, {:.5f}, {:.5f}] rad/s\n", bias.x(), bias.y(), bias.z());
+  fmt::print(
+      "from:     {} turns between sweeps, {:.2f} rad/s rms, correlation {:.4f}; a sweep's "
+      "rotation scatters by {:.4f} deg; misfit {:.2f}; {} sweeps unmatched\n",
+      found.num_turns, found.turn_rate_rms_radps, found.correlation, kDegrees * found.sweep_std_rad,
+      found.misfit, pass.num_unmatched);
+}
+
+void WriteText(const std::string& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(file + ": cannot be written");
+}
+
+void WriteJson(const std::string& file, const RotationCalibration& found, const Options& options) {
+  const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
+  const Quaternion& q = found.R_imu_lidar;
+  nlohmann::ordered_json json;
+  json["offset_s"] = found.offset_s;
+  json["offset_std_s"] = found.offset_std_s;
+  json["rotation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+  json["rotation_std_deg"] = list(RotationStdDeg(found));
+  if (const auto change_deg = ChangeDeg(found, options)) {
+    json["rotation_from_configured_deg"] = *change_deg;
+  }
+  json["gyro_bias_radps"] = list(found.gyro_bias_radps);
+  json["gyro_bias_std_radps"] = list(found.gyro_bias_std_radps);
+  json["num_turns"] = found.num_turns;
+  json["turn_rate_rms_radps"] = found.turn_rate_rms_radps;
+  json["correlation"] = found.correlation;
+  json["sweep_std_deg"] = kDegrees * found.sweep_std_rad;
+  json["turn_std_deg"] = kDegrees * found.turn_std_rad;
+  json["misfit"] = found.misfit;
+  WriteText(file, json.dump(2) + "\n");
+}
+
+void WriteRig(const std::string& file, const RotationCalibration& found, const Pose& configured) {
+  const Vector3& t = configured.translation;
+  const Quaternion& q = found.R_imu_lidar;
+  const Vector3 std_deg = RotationStdDeg(found);
+  WriteText(file,
+            fmt::format("# By lio-log calibrate: rotation to {:.4f} {:.4f} {:.4f} deg (1 sigma, "
+                        "lidar's axes); translation as configured.\n"
+                        "# Clocks: add {:.6f} s to the lidar's stamps to have the IMU's, "
+                        "to {:.6f} s (1 sigma).\n"
+                        "rig:\n"
+                        "  T_imu_lidar:  # p_imu = T_imu_lidar * p_lidar\n"
+                        "    translation_m: [{:.9g}, {:.9g}, {:.9g}]\n"
+                        "    rotation_wxyz: [{:.10f}, {:.10f}, {:.10f}, {:.10f}]\n",
+                        std_deg.x(), std_deg.y(), std_deg.z(), found.offset_s, found.offset_std_s,
+                        t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()));
+}
+
+// Empty: go on. The rotation need not be configured, it is what is sought.
+std::optional<int> Configure(const CalibrateArguments& arguments, Options& options) {
+  std::vector<std::string> sets = arguments.options.sets;
+  sets.emplace_back("pipeline.use_imu=false");
+  const LoadResult loaded = LoadOptions(arguments.options.files, sets);
+  if (arguments.options.print) fmt::print("{}", PrintOptions(loaded.options));
+  for (const std::string& fault : loaded.faults) fmt::print(stderr, "lio-log: {}\n", fault);
+  if (!loaded.faults.empty()) return kExitConfiguration;
+  if (arguments.options.print) return kExitDone;
+  options = loaded.options;
+  if (arguments.rig_file.empty() || options.rig.T_imu_lidar) return std::nullopt;
+  fmt::print(stderr,
+             "lio-log: --rig needs rig.T_imu_lidar in a --config file: its translation is "
+             "taken over, calibration finds the rotation alone\n");
+  return kExitConfiguration;
+}
+
+// Why calibration cannot even be tried; empty when it can.
+std::string MissingInput(const CalibrateArguments& arguments, const Pass& pass) {
+  const std::string& prefix = arguments.channel_prefix;
+  std::string missing;
+  if (pass.samples.empty()) missing = prefix + "IMU";
+  if (pass.num_chunks == 0) missing += (missing.empty() ? "" : " and ") + prefix + "SCAN";
+  if (missing.empty()) return {};
+  return fmt::format("nothing on {}; see what the log holds with 'lio-log info'", missing);
+}
+
+int Refuse(const CalibrateArguments& arguments, const std::string& why) {
+  fmt::print(stderr, "lio-log: {}: {}\n", arguments.log, why);
+  return kExitUnusableInput;
+}
+
+}  // namespace
+
+CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments) {
+  CLI::App* command = app.add_subcommand("calibrate", kAboutCalibrate);
+  command->add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
+      ->type_name("IN.lcm")
+      ->required();
+  command->add_option("--json", arguments.json_file, "Write the result as JSON too")
+      ->type_name("FILE");
+  command->add_option("--rig", arguments.rig_file, "Write it as a configuration file")
+      ->type_name("OUT.yaml");
+  command->add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--duration", arguments.duration_s, "Use S seconds and no more")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-offset", arguments.max_offset_s, "Search offsets up to this [s]")
+      ->type_name("S")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  command->add_option("--passes", arguments.num_passes, "Match the whole log this many times")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  arguments.channel_prefix = kDefaultChannelPrefix;
+  command->add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
+      ->type_name("NAME")
+      ->capture_default_str();
+  AddOptionsArguments(*command, arguments.options);
+  return command;
+}
+
+int RunCalibrate(const CalibrateArguments& arguments) {
+  Options options;
+  if (const auto exit_code = Configure(arguments, options)) return *exit_code;
+  Pass pass = ReadLog(arguments, options, 1, nullptr);
+  if (const std::string missing = MissingInput(arguments, pass); !missing.empty()) {
+    return Refuse(arguments, missing);
+  }
+  RotationCalibrationResult result = Calibrate(arguments, pass);
+  // Again along what was found: the first pass deskews by constant velocity.
+  for (int number = 2; number <= arguments.num_passes && result.found; ++number) {
+    const SweepPath path = PathOf(pass, *result.found);
+    pass = ReadLog(arguments, options, number, &path);
+    result = Calibrate(arguments, pass);
+  }
+  if (!result.found) return Refuse(arguments, "not calibrated: " + result.why_not);
+  Print(*result.found, options, pass);
+  if (!arguments.json_file.empty()) WriteJson(arguments.json_file, *result.found, options);
+  if (!arguments.rig_file.empty()) {
+    WriteRig(arguments.rig_file, *result.found, *options.rig.T_imu_lidar);
+  }
+  if (pass.num_skipped_bytes + pass.num_refused == 0) return kExitDone;
+  return Refuse(arguments,
+                fmt::format("damaged: {} bytes skipped, {} messages refused; the rest was "
+                            "used",
+                            pass.num_skipped_bytes, pass.num_refused));
+}
+
+}  // namespace lio

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The subcommands of lio-log: each adds its arguments to the program and runs once they are parsed.
+#pragma once
+
+#include <string>
+
+#include "lio/io/command_line.hpp"
+
+namespace lio {
+
+struct InfoArguments {
+  std::string log;
+  std::string channel_prefix;
+};
+CLI::App* AddInfoCommand(CLI::App& app, InfoArguments& arguments);
+int RunInfo(const InfoArguments& arguments);
+
+struct CalibrateArguments {
+  OptionsArguments options;
+  std::string log;
+  std::string channel_prefix;
+  std::string json_file;
+  std::string rig_file;
+  double start_s = 0.0;
+  double duration_s = 0.0;  // 0: to the end
+  double max_offset_s = 0.5;
+  int num_passes = 3;
+};
+CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments);
+int RunCalibrate(const CalibrateArguments& arguments);
+
+}  // namespace lio

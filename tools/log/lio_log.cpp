@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Looks into LCM logs: the command line; info_command.cpp and calibrate_command.cpp do the work.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+
+namespace {
+
+constexpr const char* kAbout =
+    "Looks into LCM logs and diagnoses a sensor set-up from them.\n\n"
+    "Examples:\n"
+    "  lio-log info drive.lcm\n"
+    "  lio-log calibrate drive.lcm --config config/ulhk.yaml\n"
+    "  lio-log calibrate walk.lcm --config my_rig.yaml --json out.json --rig calibrated.yaml\n\n"
+    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log.";
+
+int Main(int argc, char** argv) {
+  CLI::App app(kAbout, "lio-log");
+  app.require_subcommand(1);
+  lio::InfoArguments info;
+  lio::CalibrateArguments calibrate;
+  const CLI::App* info_command = AddInfoCommand(app, info);
+  AddCalibrateCommand(app, calibrate);
+  if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
+    return *exit_code;
+  }
+  return info_command->parsed() ? RunInfo(info) : RunCalibrate(calibrate);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Main(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "lio-log: {}\n", error.what());
+    return lio::kExitUnusableInput;
+  }
+}
