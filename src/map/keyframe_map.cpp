@@ -3,6 +3,7 @@
 #include "lio/map/keyframe_map.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,6 +14,15 @@ namespace {
 constexpr double kHeightFactor = 3.0;
 constexpr int kMaxReach = 8;  // voxels: a search never goes farther
 constexpr std::int32_t kCoordinateLimit = kVoxelCoordinateLimit - 2 * kMaxReach;
+
+bool IsInRange(const std::array<std::int32_t, 3>& voxel) {
+  return std::all_of(voxel.begin(), voxel.end(),
+                     [](std::int32_t v) { return std::abs(v) < kCoordinateLimit; });
+}
+
+std::int32_t VoxelInBlock(const std::array<std::int32_t, 3>& voxel) {
+  return (voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3);
+}
 
 std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
   if (free.empty()) return static_cast<std::int32_t>(next_new);
@@ -44,19 +54,27 @@ KeyframeMap::Cell KeyframeMap::VoxelOf(const Vector3& point_map) const {
           static_cast<std::int32_t>(std::floor(scaled.z()))};
 }
 
-Vector3 KeyframeMap::CentreOf(const Cell& voxel) const {
-  return options_.voxel_m * (Vector3(voxel[0], voxel[1], voxel[2]).array() + 0.5);
+Vector3 KeyframeMap::CornerOf(const Block& block) const {
+  return kEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
 }
 
 std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
                                    std::int32_t keyframe) {
   const Cell cell = VoxelOf(position_map);
-  const auto is_far = [](std::int32_t v) { return std::abs(v) >= kCoordinateLimit; };
-  if (std::any_of(cell.begin(), cell.end(), is_far)) return kNone;
-  const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(cell[0], cell[1], cell[2]));
-  if (first_node_.size() < index_.capacity()) first_node_.resize(index_.capacity(), kNone);
-  std::int32_t& head = first_node_[ToIndex(added.voxel)];
-  if (added.is_new) head = kNone;
+  if (!IsInRange(cell)) return kNone;
+  const Cell at{cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
+  const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
+  if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
+  Block& block = blocks_[ToIndex(added.voxel)];
+  if (added.is_new) {
+    block.occupied = 0;
+    block.at = at;
+  }
+  const std::int32_t voxel = VoxelInBlock(cell);
+  const std::uint64_t bit = std::uint64_t{1} << voxel;
+  std::int32_t& head = block.first_node[ToIndex(voxel)];
+  if (!(block.occupied & bit)) head = kNone;
+  block.occupied |= bit;
   if (head == kNone || nodes_[ToIndex(head)].count == kNodeSize) {
     const std::int32_t node = Take(free_nodes_, nodes_.size());
     if (ToIndex(node) == nodes_.size()) nodes_.emplace_back();
@@ -66,9 +84,10 @@ std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& 
   }
   const std::int32_t point = Take(free_points_, points_.size());
   if (ToIndex(point) == points_.size()) points_.emplace_back();
-  points_[ToIndex(point)] = {shape_map, added.voxel};
+  const Eigen::Vector3f local = (position_map - CornerOf(block)).cast<float>();
+  points_[ToIndex(point)] = {shape_map, added.voxel, voxel};
+  points_[ToIndex(point)].shape.position = local;
   Node& node = nodes_[ToIndex(head)];
-  const Eigen::Vector3f local = (position_map - CentreOf(cell)).cast<float>();
   const auto i = ToIndex(node.count++);
   node.x[i] = local.x();
   node.y[i] = local.y();
@@ -81,8 +100,9 @@ std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& 
 
 // The last point of the chain's first node fills the gap.
 void KeyframeMap::RemovePoint(std::int32_t point) {
-  const std::int32_t voxel = points_[ToIndex(point)].voxel;
-  std::int32_t& head = first_node_[ToIndex(voxel)];
+  const Point& removed = points_[ToIndex(point)];
+  Block& block = blocks_[ToIndex(removed.block)];
+  std::int32_t& head = block.first_node[ToIndex(removed.voxel)];
   Node& first = nodes_[ToIndex(head)];
   const auto last = ToIndex(first.count - 1);
   for (std::int32_t at = head; at != kNone; at = nodes_[ToIndex(at)].next) {
@@ -102,7 +122,8 @@ void KeyframeMap::RemovePoint(std::int32_t point) {
     const std::int32_t emptied = head;
     head = first.next;
     free_nodes_.push_back(emptied);
-    if (head == kNone) index_.Remove(voxel);
+    if (head == kNone) block.occupied &= ~(std::uint64_t{1} << removed.voxel);
+    if (block.occupied == 0) index_.Remove(removed.block);
   }
   free_points_.push_back(point);
   --num_points_;
@@ -214,12 +235,18 @@ void KeyframeMap::ChooseSubmap(const Vector3& place_map) {
   choose_nearest(hull, options_.num_hull);
 }
 
-void KeyframeMap::SearchVoxel(const Cell& voxel, const Vector3& query_map, float& best_sq,
-                              Hit& best) const {
-  const std::int32_t number = index_.Find(PackVoxel(voxel[0], voxel[1], voxel[2]));
-  if (number == VoxelIndex::kNone) return;
-  const Eigen::Vector3f query = (query_map - CentreOf(voxel)).cast<float>();
-  for (std::int32_t at = first_node_[ToIndex(number)]; at != kNone; at = nodes_[ToIndex(at)].next) {
+struct KeyframeMap::Search {
+  Vector3 query;
+  Cell voxel;
+  // Squared distance from the query to the voxels `offset` away along an axis [m^2].
+  std::array<std::array<float, 2 * kMaxReach + 1>, 3> gap_sq;
+  float best_sq;
+  Hit best;
+};
+
+void KeyframeMap::SearchVoxel(const Block& block, std::size_t voxel, const Eigen::Vector3f& query,
+                              Search& search) const {
+  for (std::int32_t at = block.first_node[voxel]; at != kNone; at = nodes_[ToIndex(at)].next) {
     const Node& node = nodes_[ToIndex(at)];
     std::array<float, kNodeSize> distance_sq;
     for (std::size_t i = 0; i < kNodeSize; ++i) {  // all of them: this becomes vector code
@@ -229,59 +256,95 @@ void KeyframeMap::SearchVoxel(const Cell& voxel, const Vector3& query_map, float
       distance_sq[i] = dx * dx + dy * dy + dz * dz;
     }
     for (std::size_t i = 0; i < ToIndex(node.count); ++i) {
-      if (distance_sq[i] >= best_sq || !keyframes_[ToIndex(node.keyframe[i])].is_chosen) continue;
-      best_sq = distance_sq[i];
-      best.point = node.point[i];
-      best.from_query = Eigen::Vector3f(node.x[i], node.y[i], node.z[i]) - query;
+      if (distance_sq[i] >= search.best_sq) continue;
+      if (!keyframes_[ToIndex(node.keyframe[i])].is_chosen) continue;
+      search.best_sq = distance_sq[i];
+      search.best.point = node.point[i];
+      search.best.from_query = Eigen::Vector3f(node.x[i], node.y[i], node.z[i]) - query;
     }
   }
 }
 
-// Shell by shell of voxels, each voxel only when it can hold something nearer.
-KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m) const {
-  Hit best;
-  const Cell centre = VoxelOf(query_map);
-  const auto is_far = [](std::int32_t v) { return std::abs(v) >= kCoordinateLimit; };
-  if (std::any_of(centre.begin(), centre.end(), is_far)) return best;
-  auto best_sq = static_cast<float>(radius_m * radius_m);
-  SearchVoxel(centre, query_map, best_sq, best);
-  const Vector3 local = inverse_voxel_ * query_map - Vector3(centre[0], centre[1], centre[2]);
-  // Distance from the query to the voxels `step` away along an axis, in voxels.
-  const auto gap = [&](std::size_t axis, int step) {
-    const double at = local[static_cast<Eigen::Index>(axis)];
-    return step > 0 ? step - at : (step < 0 ? at - step - 1.0 : 0.0);
+// All voxels within so many voxels of the query's own, block by block, each only when it can hold
+// something nearer.
+void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
+  Cell low, high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = search.voxel[i] - reach_voxels;
+    high[i] = search.voxel[i] + reach_voxels;
+  }
+  const auto gap_sq = [&](std::size_t axis, std::int32_t voxel) {
+    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] + kMaxReach)];
   };
-  const double voxel_sq = options_.voxel_m * options_.voxel_m;
-  const int reach = std::min(static_cast<int>(std::ceil(radius_m * inverse_voxel_)), kMaxReach);
-  for (int shell = 1; shell <= reach; ++shell) {
-    const double nearest_side = std::min(local.minCoeff(), 1.0 - local.maxCoeff()) + shell - 1;
-    if (nearest_side > 0 && nearest_side * nearest_side * voxel_sq >= best_sq) break;
-    for (int z = -shell; z <= shell; ++z) {
-      const double gap_z = gap(2, z);
-      for (int y = -shell; y <= shell; ++y) {
-        const double gap_y = gap(1, y);
-        const double gap_yz_sq = gap_z * gap_z + gap_y * gap_y;
-        if (gap_yz_sq * voxel_sq >= best_sq) continue;
-        const bool is_face = std::abs(z) == shell || std::abs(y) == shell;
-        for (int x = -shell; x <= shell; x += is_face ? 1 : 2 * shell) {
-          const double gap_x = gap(0, x);
-          if ((gap_yz_sq + gap_x * gap_x) * voxel_sq >= best_sq) continue;
-          SearchVoxel({centre[0] + x, centre[1] + y, centre[2] + z}, query_map, best_sq, best);
+  const auto is_outside = [&](std::size_t axis, std::int32_t voxel) {
+    return voxel < low[axis] || voxel > high[axis];
+  };
+  for (std::int32_t z = low[2] >> 2; z <= high[2] >> 2; ++z) {
+    for (std::int32_t y = low[1] >> 2; y <= high[1] >> 2; ++y) {
+      for (std::int32_t x = low[0] >> 2; x <= high[0] >> 2; ++x) {
+        const std::int32_t number = index_.Find(PackVoxel(x, y, z));
+        if (number == VoxelIndex::kNone) continue;
+        const Block& block = blocks_[ToIndex(number)];
+        const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
+        for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
+          const int i = std::countr_zero(bits);
+          const Cell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
+          if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) {
+            continue;
+          }
+          if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
+            SearchVoxel(block, ToIndex(i), query, search);
+          }
         }
       }
     }
   }
-  return best;
+}
+
+KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,
+                                          std::int32_t near) const {
+  Search search{query_map, VoxelOf(query_map), {}, static_cast<float>(radius_m * radius_m), {}};
+  if (!IsInRange(search.voxel)) return search.best;
+  if (near != kNone) {
+    const Point& point = points_[ToIndex(near)];
+    const Vector3 local = query_map - CornerOf(blocks_[ToIndex(point.block)]);
+    const Eigen::Vector3f from_query = point.shape.position - local.cast<float>();
+    if (from_query.squaredNorm() < search.best_sq) {
+      search.best_sq = from_query.squaredNorm();
+      search.best = {near, from_query};
+    }
+  }
+  double nearest_side = 1.0;  // of the query's voxel, in voxels
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double at =
+        inverse_voxel_ * query_map[static_cast<Eigen::Index>(axis)] - search.voxel[axis];
+    nearest_side = std::min({nearest_side, at, 1.0 - at});
+    for (int offset = -kMaxReach; offset <= kMaxReach; ++offset) {
+      const double gap = offset > 0 ? offset - at : (offset < 0 ? at - offset - 1.0 : 0.0);
+      search.gap_sq[axis][ToIndex(offset + kMaxReach)] =
+          static_cast<float>(gap * gap * options_.voxel_m * options_.voxel_m);
+    }
+  }
+  const int reach = std::min(static_cast<int>(std::ceil(radius_m * inverse_voxel_)), kMaxReach);
+  for (const int shells : {0, 1, reach}) {  // what is found near makes the rest of the search short
+    SearchAround(search, std::min(shells, reach));
+    const double searched_m = options_.voxel_m * (shells + nearest_side);
+    if (searched_m > 0.0 && search.best_sq <= searched_m * searched_m) break;
+  }
+  return search.best;
 }
 
 int KeyframeMap::CountAt(const Vector3& point_map) const {
   const Cell cell = VoxelOf(point_map);
-  const auto is_far = [](std::int32_t v) { return std::abs(v) >= kCoordinateLimit; };
-  if (std::any_of(cell.begin(), cell.end(), is_far)) return 0;
-  const std::int32_t voxel = index_.Find(PackVoxel(cell[0], cell[1], cell[2]));
-  if (voxel == VoxelIndex::kNone) return 0;
+  if (!IsInRange(cell)) return 0;
+  const std::int32_t number = index_.Find(PackVoxel(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2));
+  if (number == VoxelIndex::kNone) return 0;
+  const Block& block = blocks_[ToIndex(number)];
+  const std::int32_t voxel = VoxelInBlock(cell);
+  if (!(block.occupied >> voxel & 1)) return 0;
   int count = 0;
-  for (std::int32_t at = first_node_[ToIndex(voxel)]; at != kNone; at = nodes_[ToIndex(at)].next) {
+  for (std::int32_t at = block.first_node[ToIndex(voxel)]; at != kNone;
+       at = nodes_[ToIndex(at)].next) {
     count += nodes_[ToIndex(at)].count;
   }
   return count;
@@ -302,7 +365,7 @@ KeyframeMap::Nearest KeyframeMap::NearestKeyframe(const Vector3& place_map) cons
 }
 
 std::size_t KeyframeMap::memory_bytes() const {
-  return index_.memory_bytes() + first_node_.capacity() * sizeof(std::int32_t) +
+  return index_.memory_bytes() + blocks_.capacity() * sizeof(Block) +
          nodes_.capacity() * sizeof(Node) + points_.capacity() * (sizeof(Point) + 4);
 }
 

@@ -24,8 +24,12 @@ constexpr double kMinSearch_m = 0.7;      // the map's own resolution: keyframes
 constexpr double kSearchPerRange = 0.05;  // apart, two beams where these spread more
 constexpr double kIndexVoxel_m = 0.5;
 constexpr double kClusterVoxel_m = 1.0;  // points of one such voxel share the errors of its shapes
-constexpr double kMaxLastStep = 5e-3;    // m, rad
-constexpr double kOpennessKeep = 0.9;    // share of the old value in each scan's smoothing
+constexpr std::int32_t kUnknown = -1;
+constexpr std::int32_t kNowhere = -2;
+constexpr double kStill_m = 5e-3;      // neighbours are kept while no point within ...
+constexpr double kLever_m = 20.0;      // ... this range has moved farther
+constexpr double kMaxLastStep = 5e-3;  // m, rad
+constexpr double kOpennessKeep = 0.9;  // share of the old value in each scan's smoothing
 
 KeyframeMapOptions MapOptions(const GicpOptions& options) {
   return {kIndexVoxel_m, options.max_points, options.max_distance_m, options.num_near_keyframes,
@@ -82,19 +86,38 @@ void GicpMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   map_.Add(points, T_map_imu);
 }
 
-void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
-  pairs_.clear();
+void GicpMatcher::MovePairs(const Pose& T_map_imu) {
+  for (Pair& pair : pairs_) {
+    const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
+    pair.offset -= (T_map_imu * point - paired_at_ * point).cast<float>();
+  }
   paired_at_ = T_map_imu;
+}
+
+void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
+  const bool is_first = near_.empty();
+  const Pose motion = sought_at_.Inverse() * T_map_imu;
+  if (!is_first &&
+      motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() < kStill_m) {
+    MovePairs(T_map_imu);
+    return;
+  }
+  if (is_first) near_.assign(source_.size(), kUnknown);
+  pairs_.clear();
+  paired_at_ = sought_at_ = T_map_imu;
   const Matrix3 rotation = T_map_imu.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < source_.size(); ++i) {
+    if (near_[i] == kNowhere) continue;
     const Vector3 point_imu = source_[i].position.cast<double>();
     const double range = point_imu.norm();
     const double search =
         kSearchSigmas * radius.StdAt(range) + std::max(kMinSearch_m, kSearchPerRange * range);
     const KeyframeMap::Hit hit =
-        map_.FindNearest(rotation * point_imu + T_map_imu.translation, search);
-    if (hit.point < 0) continue;
-    pairs_.push_back({static_cast<std::int32_t>(i), hit.point, hit.from_query});
+        map_.FindNearest(rotation * point_imu + T_map_imu.translation, search, near_[i]);
+    near_[i] = hit.point;
+    if (hit.point >= 0) pairs_.push_back({static_cast<std::int32_t>(i), hit.point, hit.from_query});
+    // The first search reaches as far as the guess may be off: where it finds nothing is nothing.
+    if (hit.point < 0 && is_first) near_[i] = kNowhere;
   }
 }
 
@@ -221,6 +244,7 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   source_.clear();
   for (const Eigen::Vector3f& point : input.points_imu) source_.push_back(shapes_->At(point));
   map_.ChooseSubmap(input.T_map_imu_guess.translation);
+  near_.clear();
 
   Pose T_map_imu = input.T_map_imu_guess;
   SearchRadius radius(input.guess_cov);

@@ -242,6 +242,38 @@ TEST(ConfigFiles, OthersAreCompleteWhenGivenAlone) {
   EXPECT_FALSE(LoadOptions({Config("kitti_odometry.yaml")}, {}).options.pipeline.use_imu);
 }
 
+TEST(ConfigFiles, MethodsAreCompleteWithARig) {
+  struct File {
+    std::string name;
+    MatchMethod method;
+    bool uses_imu;
+  };
+  for (const File& file : {File{"methods/ndt.yaml", MatchMethod::kNdt, true},
+                           File{"methods/loam.yaml", MatchMethod::kLoam, true},
+                           File{"methods/gicp.yaml", MatchMethod::kGicp, true},
+                           File{"loosely_lio.yaml", MatchMethod::kNdt, true},
+                           File{"ndt_lo.yaml", MatchMethod::kNdt, false},
+                           File{"dlo.yaml", MatchMethod::kGicp, false}}) {
+    const LoadResult result = LoadOptions({Config("ulhk.yaml"), Config(file.name)}, {});
+    EXPECT_THAT(result.faults, IsEmpty()) << file.name;
+    EXPECT_EQ(result.options.pipeline.method, file.method) << file.name;
+    EXPECT_EQ(result.options.pipeline.use_imu, file.uses_imu) << file.name;
+  }
+}
+
+// What they write down is what the defaults are: they explain, and choose nothing but the method.
+TEST(ConfigFiles, MethodsHoldTheDefaultsOfTheirOptions) {
+  Options expected = LoadOptions({Config("ulhk.yaml")}, {}).options;
+  for (const auto& [name, method] : {std::pair{"methods/ndt.yaml", MatchMethod::kNdt},
+                                     std::pair{"methods/loam.yaml", MatchMethod::kLoam},
+                                     std::pair{"methods/gicp.yaml", MatchMethod::kGicp},
+                                     std::pair{"loosely_lio.yaml", MatchMethod::kNdt}}) {
+    expected.pipeline.method = method;
+    EXPECT_EQ(PrintOptions(LoadOptions({Config("ulhk.yaml"), Config(name)}, {}).options),
+              PrintOptions(expected));
+  }
+}
+
 // The calibration's own matrix maps imu to velodyne: R p_imu + T. The lidar's origin in imu is
 // then -R' T.
 TEST(ConfigFiles, KittiRawHoldsTheInverseOfTheDatasetsCalibration) {

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 # Every registration method over one log, with and without the IMU: one Markdown table and one
 # picture.
-#   tools/bench/compare.sh LOG TRUTH [--config FILE ...] [--out DIR]
+#   tools/bench/compare.sh LOG TRUTH [--config FILE ...] [--duration S] [--out DIR]
 # The rig comes from the given configurations, by default from config.yaml beside LOG, as lio-sim
 # leaves it. Needs tools/setup.sh. Leaves out/compare/NAME/{table.md,paths.png} and each run, NAME
 # that of LOG's folder.
@@ -13,10 +13,11 @@ usage() {
   sed -n '4,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
-log='' truth='' out='' configs=()
+log='' truth='' out='' configs=() cut=()
 while (($#)); do
   case $1 in
     --config) configs+=(--config "${2:?--config needs a file}") && shift ;;
+    --duration) cut=(--duration "${2:?--duration needs seconds}") && shift ;;
     --out) out=${2:?--out needs a folder} && shift ;;
     -*) usage ;;
     *) if [[ -z $log ]]; then log=$1; elif [[ -z $truth ]]; then truth=$1; else usage; fi ;;
@@ -38,7 +39,7 @@ for method in ndt loam gicp; do
     run=$method && [[ $use_imu == true ]] || run=$method-lidar
     dir=$out/$run && rm -rf "$dir" && mkdir -p "$dir"
     "$repo/build/bin/lio-replay" "${configs[@]}" --config "$repo/config/methods/$method.yaml" \
-      --set "pipeline.use_imu=$use_imu" "$log" --out "$dir" 2>"$dir/replay.log" ||
+      --set "pipeline.use_imu=$use_imu" "${cut[@]}" "$log" --out "$dir" 2>"$dir/replay.log" ||
       { echo "compare.sh: $run failed: $(tail -n 1 "$dir/replay.log")" >&2 && continue; }
     "$repo/build/bin/lio-eval" "$truth" "$dir/trajectory.tum" --json "$dir/eval.json" \
       >"$dir/eval.txt" || continue

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 // A bounded map of keyframes: the points of chosen scans, each with its shape, in one voxel index.
 // A submap is a choice of keyframes: searching it passes over the points of all others, so that
-// choosing anew costs nothing. Positions are kept relative to their voxel. Not safe for concurrent
-// use while changing.
+// choosing anew costs nothing. Voxels lie in blocks of 4 x 4 x 4, so that a search passes over
+// empty space 64 voxels at a time; positions are kept relative to their block. Not safe for
+// concurrent use while changing.
 #pragma once
 
 #include <array>
@@ -40,11 +41,13 @@ class KeyframeMap {
   void ChooseSubmap(const Vector3& place_map);
 
   struct Hit {
-    std::int32_t point = -1;     // for shape(); -1: none within the radius
-    Eigen::Vector3f from_query;  // map axes
+    std::int32_t point = -1;  // for shape(); -1: none within the radius
+    Eigen::Vector3f from_query = Eigen::Vector3f::Zero();  // map axes
   };
-  Hit FindNearest(const Vector3& query_map, double radius_m) const;
-  // Shape in the map's frame; its position is not set.
+  // `near`: a point of the submap that may be the nearest, as it was a moment ago; -1: none known.
+  // The better it is the shorter the search; the result is the same but for ties.
+  Hit FindNearest(const Vector3& query_map, double radius_m, std::int32_t near = -1) const;
+  // Shape in the map's frame; its position is from the corner of its block.
   const ShapedPoint& shape(std::int32_t point) const { return points_[ToIndex(point)].shape; }
 
   // Points of the submap's and other keyframes in the voxel around it.
@@ -65,19 +68,27 @@ class KeyframeMap {
  private:
   static constexpr int kNodeSize = 8;
   static constexpr std::int32_t kNone = -1;
-  using Cell = std::array<std::int32_t, 3>;
+  static constexpr int kEdge = 4;  // voxels of a block's edge
+  static constexpr int kVoxels = kEdge * kEdge * kEdge;
+  using Cell = std::array<std::int32_t, 3>;  // coordinates of a voxel or a block
 
   // Some points of one voxel, in a chain.
   struct Node {
-    std::array<float, kNodeSize> x{}, y{}, z{};  // from the voxel's centre
+    std::array<float, kNodeSize> x{}, y{}, z{};  // from the block's corner
     std::array<std::int32_t, kNodeSize> point{};
     std::array<std::int32_t, kNodeSize> keyframe{};
     std::int32_t count = 0;
     std::int32_t next = kNone;
   };
+  struct Block {
+    std::uint64_t occupied = 0;  // a bit a voxel: x + 4 y + 16 z
+    Cell at{};                   // in blocks
+    std::array<std::int32_t, kVoxels> first_node;
+  };
   struct Point {
     ShapedPoint shape;
-    std::int32_t voxel = kNone;
+    std::int32_t block = kNone;
+    std::int32_t voxel = 0;  // of the block
   };
   struct Keyframe {
     Pose T_map_kf;
@@ -87,20 +98,24 @@ class KeyframeMap {
     bool is_chosen = false;
   };
 
+  struct Search;
+
   static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
   Cell VoxelOf(const Vector3& point_map) const;
-  Vector3 CentreOf(const Cell& voxel) const;
+  Vector3 CornerOf(const Block& block) const;
   std::int32_t AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
-  void SearchVoxel(const Cell& voxel, const Vector3& query_map, float& best_sq, Hit& best) const;
+  void SearchAround(Search& search, int reach_voxels) const;
+  void SearchVoxel(const Block& block, std::size_t voxel, const Eigen::Vector3f& query,
+                   Search& search) const;
   std::vector<std::int32_t> HullKeyframes() const;
 
   KeyframeMapOptions options_;
   double inverse_voxel_;
-  VoxelIndex index_;
-  std::vector<std::int32_t> first_node_;  // by voxel
+  VoxelIndex index_;  // of blocks
+  std::vector<Block> blocks_;
   std::vector<Node> nodes_;
   std::vector<std::int32_t> free_nodes_;
   std::vector<Point> points_;

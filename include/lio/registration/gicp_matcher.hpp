@@ -62,7 +62,9 @@ class GicpMatcher final : public ScanMatcher {
     float tilt_var = 0.f;                                 // of b toward either side [rad^2]
   };
 
+  // Pairs every point anew, or moves the pairs along where the pose has hardly changed.
   void Associate(const Pose& T_map_imu, const SearchRadius& radius);
+  void MovePairs(const Pose& T_map_imu);
   Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float reach_var) const;
   MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, ClusterScores* scores);
   bool IsKeyframe(const Pose& T_map_imu) const;
@@ -74,8 +76,10 @@ class GicpMatcher final : public ScanMatcher {
   KeyframeMap map_;
   std::unique_ptr<ScanShapes> shapes_;
   std::vector<ShapedPoint> source_;  // the scan's points that are matched
+  std::vector<std::int32_t> near_;   // each one's last neighbour; kUnknown, kNowhere
   std::vector<Pair> pairs_;          // of the current iteration, in the points' order
-  Pose paired_at_;
+  Pose paired_at_;                   // where the pairs' offsets hold
+  Pose sought_at_;                   // where their neighbours were sought
   ClusterScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
