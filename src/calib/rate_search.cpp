@@ -81,7 +81,7 @@ RateMatch RateSearch::At(double offset_s) const {
   match.gyro_rate_rms_radps = std::sqrt(gyro_sq / match.num_turns);
   const double size = std::sqrt(gyro_sq * lidar_sq);
   if (size > 0) match.correlation = svd.singularValues().dot(signs) / size;
-  const Vector3 sizes = svd.singularValues();
+  const Vector3& sizes = svd.singularValues();
   if (sizes.x() > 0) match.second_axis_ratio = sizes.y() / sizes.x();
   return match;
 }

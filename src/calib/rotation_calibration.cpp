@@ -125,6 +125,7 @@ RotationCalibrationResult CalibrateRotation(std::span<const ImuSample> samples,
   RotationCalibrationResult result;
   const std::vector<SweepTurn> all = MakeTurns(sweeps);
   std::vector<LidarTurn> turns;
+  turns.reserve(all.size());
   for (const SweepTurn& turn : all) turns.push_back({turn.from, turn.to, LogSo3(turn.R_from_to)});
   const RateMatch match = RateSearch(samples, turns).Run(options.max_offset_s);
   result.why_not = SearchProblem(match, options);

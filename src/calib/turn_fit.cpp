@@ -145,6 +145,7 @@ std::vector<Vector3> Residuals(std::span<const ImuSample> samples, std::span<con
 void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>& residuals,
                    RotationCalibration& state) {
   std::vector<double> sizes;
+  sizes.reserve(residuals.size());
   for (const Vector3& residual : residuals) sizes.push_back(residual.norm());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
