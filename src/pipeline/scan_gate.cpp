@@ -27,7 +27,11 @@ void ScanGate::Add(Sweep sweep) {
 }
 
 void ScanGate::LetIn(Sweep sweep) {
-  if (last_end_ && sweep.start - *last_end_ > kScanGap) ++counters_->num_scan_gaps;
+  if (last_end_ && sweep.start - *last_end_ > kScanGap) {
+    ++counters_->num_scan_gaps;
+    // Stamps that step ahead of the inertial stream do not make that silent.
+    if (imu_silent_at_) imu_silent_at_ = *imu_silent_at_ + (sweep.start - *last_end_);
+  }
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
   waiting_.push_back(std::make_shared<const Sweep>(std::move(sweep)));

@@ -98,6 +98,16 @@ TEST(ScanGate, SilentImuDoesNotHoldTheLidarBackForEver) {
   EXPECT_EQ(g.counters.num_scans_without_imu, 30);
 }
 
+TEST(ScanGate, StampsThatStepAheadDoNotMakeTheImuSilent) {
+  Gate g;
+  g.gate.Add(SweepEnding(0.1));
+  ASSERT_NE(g.gate.Open(StampAt(0.11)), nullptr);
+  g.gate.Add(SweepEnding(1.7));
+  EXPECT_EQ(g.gate.Open(StampAt(0.11)), nullptr);
+  EXPECT_EQ(g.gate.Open(StampAt(0.12)), nullptr);
+  EXPECT_EQ(g.counters.num_scans_without_imu, 0);
+}
+
 TEST(ScanGate, ImuThatLagsButComesIsWaitedFor) {
   Gate g;
   for (int i = 1; i <= 50; ++i) {  // always three seconds behind
