@@ -81,8 +81,9 @@ std::string SearchProblem(const RateMatch& match, const RotationCalibrationOptio
   }
   if (match.correlation < kMinCorrelation) {
     return Text(
-        "turn rates of lidar and gyro do not agree at any offset within %.2f s (correlation "
-        "%.2f): are the clocks further apart, or the gyro's rates not in rad/s?",
+        "turn rates of lidar and gyro do not agree at any offset within %.2f s (correlation %.2f): "
+        "are the clocks further apart, the gyro's rates not in rad/s, or did lidar-only odometry "
+        "lose its way?",
         options.max_offset_s, match.correlation);
   }
   if (std::abs(match.offset_s) > options.max_offset_s - 0.005) {

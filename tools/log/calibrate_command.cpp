@@ -254,7 +254,10 @@ int RunCalibrate(const CalibrateArguments& arguments) {
     pass = ReadLog(arguments, options, number, &path);
     result = Calibrate(arguments, pass);
   }
-  if (!result.found) return Refuse(arguments, "not calibrated: " + result.why_not);
+  if (!result.found) {
+    return Refuse(arguments, fmt::format("not calibrated: {} ({} sweeps matched, {} not)",
+                                         result.why_not, pass.sweeps.size(), pass.num_unmatched));
+  }
   Print(*result.found, options, pass);
   if (!arguments.json_file.empty()) WriteJson(arguments.json_file, *result.found, options);
   if (!arguments.rig_file.empty()) {
