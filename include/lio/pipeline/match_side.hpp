@@ -49,8 +49,8 @@ struct MatchOutcome {
 
 struct InsertTask {
   std::vector<Eigen::Vector3f> points_imu;
-  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
   std::optional<Pose> T_map_imu;      // absent: do not insert
+  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
 };
 
 class MatchSide {
