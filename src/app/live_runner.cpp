@@ -36,6 +36,7 @@ std::vector<Eigen::Vector3f> Decimate(const std::vector<Eigen::Vector3f>& points
 
 LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live)
     : live_(live),
+      publishes_features_(options.pipeline.publish_features),
       bus_(bus),
       publisher_(bus, live_.channels),
       board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes),
@@ -117,6 +118,9 @@ void LiveRunner::Handle(Arrival<ScanChunk>& arrival) {
 void LiveRunner::Handle(MatchOutcome& outcome) {
   has_job_out_ = false;
   T_map_points_ = outcome.match.T_map_imu;
+  if (publishes_features_ && outcome.features) {
+    output_worker_.Put(FeatureCloudTask{outcome.sweep, outcome.features});
+  }
   InsertTask insert = odometry_.FinishJob(std::move(outcome));
   if (insert.T_map_imu) T_map_points_ = *insert.T_map_imu;
   points_imu_ = insert.points_imu;

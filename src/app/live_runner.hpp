@@ -79,6 +79,7 @@ class LiveRunner {
   RunStats Stats() const;
 
   const LiveOptions live_;
+  const bool publishes_features_;
   Bus& bus_;
   std::optional<RunWriter> writer_;
   Publisher publisher_;

@@ -4,11 +4,13 @@
 
 #include <utility>
 
+#include "lio/io/beam_table.hpp"
+
 namespace lio {
 
 MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
                          std::function<void(MatchOutcome)> deliver)
-    : match_side_(options, clock),
+    : match_side_(options, clock, BeamElevations(options.rig.lidar.model)),
       collects_map_(collects_map),
       deliver_(std::move(deliver)),
       thread_([this] { Run(); }) {}

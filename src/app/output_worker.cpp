@@ -61,6 +61,12 @@ void OutputWorker::Put(FullCloudTask cloud) {
   put_.notify_one();
 }
 
+void OutputWorker::Put(FeatureCloudTask features) {
+  const std::lock_guard lock(mutex_);
+  tasks_.features = std::move(features);
+  put_.notify_one();
+}
+
 void OutputWorker::AnnounceStatus() {
   const std::lock_guard lock(mutex_);
   tasks_.status = true;
@@ -87,6 +93,7 @@ void OutputWorker::Do(const Tasks& tasks) {
   for (const Output& row : tasks.rows) writer_->Write(row);
   if (tasks.cloud) publisher_.Publish(*tasks.cloud);
   if (tasks.full_cloud) PublishFull(*tasks.full_cloud);
+  if (tasks.features) PublishFeatures(*tasks.features);
   if (tasks.status) publisher_.Publish(compose_(), version_);
 }
 
@@ -94,6 +101,16 @@ void OutputWorker::PublishFull(const FullCloudTask& task) {
   for (const ScanChunk& chunk : RegisterFullCloud(task, T_imu_lidar_)) {
     publisher_.PublishFull(chunk);
     std::this_thread::sleep_for(kChunkPause);
+  }
+}
+
+void OutputWorker::PublishFeatures(const FeatureCloudTask& task) {
+  for (std::size_t i = 0; i < kNumFeatureSets; ++i) {
+    const auto set = static_cast<FeatureSet>(i);
+    for (const ScanChunk& chunk : FeatureCloud(task, set)) {
+      publisher_.PublishFeatures(set, chunk);
+      std::this_thread::sleep_for(kChunkPause);
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/feature_clouds.hpp"
 #include "app/full_cloud.hpp"
 #include "app/publisher.hpp"
 #include "lio/io/run_writer.hpp"
@@ -33,6 +34,7 @@ class OutputWorker {
   void PutRow(Output row);
   void Put(RegisteredCloud cloud);
   void Put(FullCloudTask cloud);
+  void Put(FeatureCloudTask features);
   void AnnounceStatus();  // now, not at the next second
   // Writes and sends what is there, and a last status; then ends.
   void Finish();
@@ -44,14 +46,16 @@ class OutputWorker {
     std::deque<Output> rows;
     std::optional<RegisteredCloud> cloud;
     std::optional<FullCloudTask> full_cloud;
+    std::optional<FeatureCloudTask> features;
     bool status = false;
 
-    bool empty() const { return rows.empty() && !cloud && !full_cloud && !status; }
+    bool empty() const { return rows.empty() && !cloud && !full_cloud && !features && !status; }
   };
 
   void Run();
   void Do(const Tasks& tasks);
   void PublishFull(const FullCloudTask& task);
+  void PublishFeatures(const FeatureCloudTask& task);
 
   Publisher& publisher_;
   RunWriter* writer_;

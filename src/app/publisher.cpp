@@ -33,4 +33,8 @@ void Publisher::PublishFull(const ScanChunk& chunk) {
   Send(channels_.cloud_full, EncodeChunk(chunk));
 }
 
+void Publisher::PublishFeatures(FeatureSet set, const ScanChunk& chunk) {
+  Send(channels_.features[static_cast<std::size_t>(set)], EncodeChunk(chunk));
+}
+
 }  // namespace lio

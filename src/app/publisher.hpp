@@ -26,6 +26,9 @@ class Publisher {
   // A part of LIO_CLOUD_FULL, registered already.
   void PublishFull(const ScanChunk& chunk);
 
+  // A part of one of LOAM's sets.
+  void PublishFeatures(FeatureSet set, const ScanChunk& chunk);
+
   static constexpr std::size_t kMaxCloudPoints =
       3000;  // 60 kB: one datagram, and Java's lcm-spy lives
 

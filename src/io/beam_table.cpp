@@ -79,4 +79,8 @@ fs::path ConfigDirectory() {
   return LIO_SOURCE_CONFIG_DIR;
 }
 
+std::vector<double> BeamElevations(const std::string& model) {
+  return model == "generic" ? std::vector<double>{} : LoadBeamTable(model).elevation_rad;
+}
+
 }  // namespace lio

@@ -16,7 +16,9 @@ Channels::Channels(const std::string& prefix)
       registration(prefix + "REG"),
       status(prefix + "STATUS"),
       cloud(prefix + "CLOUD"),
-      cloud_full(prefix + "CLOUD_FULL") {}
+      cloud_full(prefix + "CLOUD_FULL"),
+      features{prefix + "CORNER_SHARP", prefix + "CORNER_LESS_SHARP", prefix + "SURF_FLAT",
+               prefix + "SURF_LESS_FLAT", prefix + "REMOVED"} {}
 
 std::int64_t InputCounters::TotalRefused() const {
   return std::accumulate(num_refused.begin(), num_refused.end(), std::int64_t{0});

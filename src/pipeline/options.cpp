@@ -104,6 +104,9 @@ void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
                       "is required with an IMU: give translation_m and rotation_wxyz, or set "
                       "pipeline.use_imu to false"});
   }
+  if (o.pipeline.publish_features && o.pipeline.method != MatchMethod::kLoam) {
+    faults.push_back({"pipeline.publish_features", "needs pipeline.method: loam"});
+  }
   if (o.rig.lidar.own_vehicle_box) CheckBox(*o.rig.lidar.own_vehicle_box, faults);
   if (o.rig.lidar.min_range_m >= o.rig.lidar.max_range_m) {
     faults.push_back({"rig.lidar.min_range_m", "must be below rig.lidar.max_range_m"});

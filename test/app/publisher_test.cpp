@@ -55,6 +55,14 @@ TEST_F(PublisherTest, InertialSamplesHaveAChannelOfTheirOwn) {
   EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM_IMU"));
 }
 
+TEST_F(PublisherTest, EachFeatureSetHasAChannelOfItsOwn) {
+  for (std::size_t i = 0; i < kNumFeatureSets; ++i) {
+    publisher_.PublishFeatures(static_cast<FeatureSet>(i), ScanChunk{});
+  }
+  EXPECT_THAT(bus_.channels, ElementsAre("LIO_CORNER_SHARP", "LIO_CORNER_LESS_SHARP",
+                                         "LIO_SURF_FLAT", "LIO_SURF_LESS_FLAT", "LIO_REMOVED"));
+}
+
 TEST_F(PublisherTest, NoticesAreNotMessages) {
   publisher_.Publish(Output(Notice{}));
   EXPECT_THAT(bus_.channels, IsEmpty());

@@ -71,6 +71,14 @@ TEST(Options, NonFiniteTranslationIsRefused) {
   EXPECT_THAT(Validate(options), UnorderedElementsAre(FaultOf("rig.T_imu_lidar.translation_m")));
 }
 
+TEST(Options, FeaturesCannotBePublishedByAMethodThatHasNone) {
+  Options options = Usable();
+  options.pipeline.publish_features = true;
+  EXPECT_THAT(Validate(options), UnorderedElementsAre(FaultOf("pipeline.publish_features")));
+  options.pipeline.method = MatchMethod::kLoam;
+  EXPECT_THAT(Validate(options), IsEmpty());
+}
+
 TEST(Options, ContradictionsBetweenFieldsAreFound) {
   Options options = Usable();
   options.rig.lidar.min_range_m = options.rig.lidar.max_range_m = 50;

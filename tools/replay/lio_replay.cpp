@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lio/io/beam_table.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/log_input.hpp"
@@ -75,7 +76,7 @@ class Replay {
   Replay(const Options& options, bool writes_map, RunWriter& writer)
       : writer_(writer),
         odometry_(options, ThreadCpuNs),
-        match_side_(options, ThreadCpuNs),
+        match_side_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
         writes_map_(writes_map) {}
 
   void Run(LogInput& input) {

@@ -25,6 +25,9 @@ struct BeamTable {
 // fault when the file is no beam table.
 BeamTable LoadBeamTable(const std::string& model);
 
+// The table's elevations; none of model "generic". Throws as LoadBeamTable.
+std::vector<double> BeamElevations(const std::string& model);
+
 // Where configuration files live: the environment's LIO_CONFIG_DIR, else the folder beside the
 // program (../../config, ../config, ../share/liod/config), else the source tree's.
 std::filesystem::path ConfigDirectory();

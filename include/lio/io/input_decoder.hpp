@@ -14,12 +14,17 @@ namespace lio {
 
 inline constexpr const char* kDefaultChannelPrefix = "LIO_";
 
+// Which of LOAM's sets a cloud holds; the order of Channels::features.
+enum class FeatureSet { kCornerSharp, kCornerLessSharp, kSurfFlat, kSurfLessFlat, kRemoved };
+inline constexpr std::size_t kNumFeatureSets = 5;
+
 struct Channels {
   explicit Channels(const std::string& prefix = kDefaultChannelPrefix);
 
   std::string imu, scan, command;                                        // in
   std::string odometry, odometry_imu_rate, state, registration, status;  // out
   std::string cloud, cloud_full;
+  std::array<std::string, kNumFeatureSets> features;  // by FeatureSet
 };
 
 // What was refused before the estimator saw it. Zero everywhere on a clean log.

@@ -105,6 +105,8 @@ void VisitFields(Visitor& visit, MaybeConst<PipelineOptions> auto& o) {
         "an incomplete sweep is closed when the IMU is this far past its end [s]", Range{0, 1});
   visit("max_queued_scans", o.max_queued_scans,
         "live only: with more waiting scans the oldest is dropped", Range{1, 1000});
+  visit("publish_features", o.publish_features,
+        "live, method loam: LIO_CORNER_SHARP and the other sets of each scan");
 }
 
 template <class Visitor>
