@@ -101,7 +101,7 @@ void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
     ++num_inserted_;
     keyframes_.Accept(T_map_lidar);
-    matching_.Insert({std::move(outcome.points_imu), std::move(outcome.tags), T_map_lidar});
+    matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});
   }
   last_found_ = middle;
   found_.push_back({middle, starts_map ? T_map_lidar : outcome.match.T_map_imu});
