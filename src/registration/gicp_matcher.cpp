@@ -24,6 +24,7 @@ constexpr double kMinSearch_m = 0.7;      // the map's own resolution: keyframes
 constexpr double kSearchPerRange = 0.05;  // apart, two beams where these spread more
 constexpr double kIndexVoxel_m = 0.5;
 constexpr double kClusterVoxel_m = 1.0;  // points of one such voxel share the errors of its shapes
+constexpr int kFarOffIterationFactor = 3;
 constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
 constexpr double kStill_m = 5e-3;      // neighbours are kept while no point within ...
@@ -117,7 +118,7 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
     near_[i] = hit.point;
     if (hit.point >= 0) pairs_.push_back({static_cast<std::int32_t>(i), hit.point, hit.from_query});
     // The first search reaches as far as the guess may be off: where it finds nothing is nothing.
-    if (hit.point < 0 && is_first) near_[i] = kNowhere;
+    if (hit.point < 0 && is_first && !is_far_off_) near_[i] = kNowhere;
   }
 }
 
@@ -245,11 +246,14 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   for (const Eigen::Vector3f& point : input.points_imu) source_.push_back(shapes_->At(point));
   map_.ChooseSubmap(input.T_map_imu_guess.translation);
   near_.clear();
+  is_far_off_ = input.is_far_off;
 
   Pose T_map_imu = input.T_map_imu_guess;
   SearchRadius radius(input.guess_cov);
   result.status = MatchStatus::kMaxIterations;
-  for (result.iterations = 1; result.iterations <= options_.max_iterations; ++result.iterations) {
+  const int max_iterations =
+      options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1);
+  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
     Associate(T_map_imu, radius);
     const MatchSums sums = Linearize(T_map_imu, radius, nullptr);
     if (sums.num_matched < kMinMatched) break;

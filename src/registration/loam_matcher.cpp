@@ -16,6 +16,7 @@ constexpr std::size_t kMinMatched = 50;
 constexpr double kSearchSigmas = 3.0;
 constexpr double kLeavesPerSearch = 2.5;  // neighbours are this many leaves off at the most
 constexpr double kGate_m = 0.3;           // residuals beyond, and beyond the reach, do not count
+constexpr int kFarOffRoundFactor = 3;
 constexpr int kFullRounds = 4;  // later ones go halfway: two sets of neighbours may alternate
 constexpr double kMaxLastStep = 5e-3;  // m, rad
 
@@ -132,14 +133,16 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
   Pose T_map_imu = input.T_map_imu_guess;
   SearchRadius radius(input.guess_cov);
   result.status = MatchStatus::kMaxIterations;
-  for (result.iterations = 1; result.iterations <= options_.max_rounds; ++result.iterations) {
+  const int factor = input.is_far_off ? kFarOffRoundFactor : 1;
+  const int max_rounds = factor * options_.max_rounds;
+  for (result.iterations = 1; result.iterations <= max_rounds; ++result.iterations) {
     Associate(input, T_map_imu, radius);
     if (terms_->size() < kMinMatched) break;
     const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
     const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
     const Pose solved = terms_->Solve(input.points_imu, {}, T_map_imu);
     Vector6 step = KeepHeldDirections(split, LogSe3(T_map_imu.Inverse() * solved));
-    if (result.iterations > kFullRounds) step *= 0.5;
+    if (result.iterations > factor * kFullRounds) step *= 0.5;
     if (!step.allFinite()) {
       result.status = MatchStatus::kDiverged;
       return result;

@@ -80,6 +80,7 @@ class GicpMatcher final : public ScanMatcher {
   std::vector<Pair> pairs_;          // of the current iteration, in the points' order
   Pose paired_at_;                   // where the pairs' offsets hold
   Pose sought_at_;                   // where their neighbours were sought
+  bool is_far_off_ = false;          // the guess may be
   ClusterScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
