@@ -16,6 +16,11 @@ constexpr std::size_t kInitialSlots = 1u << 12;
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.12;
 constexpr double kMaxNormalStd_rad = 0.05;
+// Upright things: height and width are standard deviations; what is seen of a trunk depends on the
+// side it is seen from.
+constexpr double kMinHeightPerVoxel = 0.15;
+constexpr double kMaxUprightWidthPerVoxel = 0.2;
+constexpr double kMinUprightStd_m = 0.06;
 // Sums change little with each point once a cell is well filled: reshape it at this growth.
 constexpr double kReshapeGrowth = 1.1;
 constexpr std::size_t kFarCellsWalk = 64;  // the walk for far cells takes this many scans
@@ -172,6 +177,12 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
+  if (!ShapePlane(cov, sums.num_points, patch) && !ShapeUpright(cov, patch)) {
+    patch.thickness_var = 0.f;
+  }
+}
+
+bool GaussianMap::ShapePlane(const Matrix3& cov, double num_points, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
@@ -180,15 +191,38 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   const double min_width = kMinWidthPerVoxel * options_.voxel_m;
   const bool is_plane =
       variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
-      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1];
-  if (!is_plane) {
-    patch.thickness_var = 0.f;
-    return;
-  }
+      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * num_points * variance[1];
+  if (!is_plane) return false;
+  patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
   patch.normal = eigen.eigenvectors().col(0).cast<float>();
   patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
   patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
+  return true;
+}
+
+// What stands up is seen in the same place from everywhere, as rings on the ground are not. It must
+// be compact: what fills the cell is only cut out by the cell.
+bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
+  const double min_height = kMinHeightPerVoxel * options_.voxel_m;
+  if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
+  const Vector3 level1 = up_map_.unitOrthogonal();
+  const Vector3 level2 = up_map_.cross(level1);
+  Eigen::Matrix<double, 3, 2> level;
+  level << level1, level2;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(level.transpose() * cov * level);
+  const double max_width = kMaxUprightWidthPerVoxel * options_.voxel_m;
+  if (eigen.eigenvalues()[1] > max_width * max_width) return false;
+  const Eigen::Vector2d variance =
+      eigen.eigenvalues().cwiseMax(kMinUprightStd_m * kMinUprightStd_m);
+  const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
+  patch.kind = SurfacePatch::Kind::kUpright;
+  patch.thickness_var = static_cast<float>(variance[0]);
+  patch.normal = axes.col(0).cast<float>();
+  patch.tangent1_per_std = (axes.col(1) / std::sqrt(variance[1])).cast<float>();
+  patch.tangent2_per_std.setZero();
+  return true;
 }
 
 void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& centre_map) {

@@ -97,8 +97,8 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
   std::int64_t begin = Now();
   const std::vector<FeatureTag> tags = Pick(reduced.tags, reduced.to_match);
   std::vector<Eigen::Vector3f> to_match = Pick(outcome.points_imu, reduced.to_match);
-  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov, job.refine_deskew,
-                   tags,     outcome.points_imu};
+  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov,  job.refine_deskew,
+                   tags,     outcome.points_imu,  job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
   time(Stage::kMatch, begin);
@@ -111,8 +111,8 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     time(Stage::kDeskew, begin);
     begin = Now();
     to_match = Pick(outcome.points_imu, reduced.to_match);
-    outcome.match = matcher_->Match(
-        {to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, tags, outcome.points_imu});
+    outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, tags,
+                                     outcome.points_imu, job.shift_std_m});
     time(Stage::kMatch, begin);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
@@ -136,6 +136,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   };
   if (job.clear_map) {
     matcher_->Clear();
+    matcher_->SetUp(job.up_map);
     velocity_search_ = {};
     last_found_.reset();
   }

@@ -58,7 +58,8 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
     const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);
     const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
-    if (velocity_std_mps * job.since_last_fix_s > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
+    job.shift_std_m = velocity_std_mps * job.since_last_fix_s;
+    if (job.shift_std_m > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
   }
   return job;
 }

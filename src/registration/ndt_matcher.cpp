@@ -11,6 +11,10 @@ namespace {
 constexpr int kMinMatched = 50;
 constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
 constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
+// What is seen of an upright thing depends on the side it is seen from: its cell is off by this.
+constexpr double kSideStd_m = 0.15;
+constexpr double kMaxShiftStd_m = 0.02;  // a better known shift does without upright things
+constexpr std::int32_t kNoSlot = -1;
 constexpr float kMaxLever = 4.f;       // cap of a^2/l, where a patch is extrapolated
 constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene of outliers
 constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, each iteration
@@ -46,6 +50,20 @@ double InitialReach(const Matrix6& guess_cov) {
 }  // namespace
 
 struct NdtMatcher::System {
+  // Gives the row's gradient.
+  Vector6f Add(const Vector6f& jacobian, const Row& row, const Term& term) {
+    const Matrix6f row_information = row.weight * jacobian * jacobian.transpose();
+    const Vector6f row_gradient = (row.weight * row.distance) * jacobian;
+    information += row_information.cast<double>();
+    // d(w d)/dd: less than w, for the kernel gives way.
+    curvature_sum += row.weight * (1.f - 4.f * term.kernel * term.distance_sq / kKernelWidthSq);
+    information_sum += row.weight;
+    gradient += row_gradient.cast<double>();
+    weight_sum += term.kernel * term.kernel;
+    residual_sq_sum += term.kernel * term.kernel * row.distance * row.distance;
+    return row_gradient;
+  }
+
   Matrix6 information = Matrix6::Zero();  // with the weights held
   Matrix6 feigned = Matrix6::Zero();      // information that the normals' noise alone would show
   Vector6 gradient = Vector6::Zero();
@@ -58,14 +76,51 @@ struct NdtMatcher::System {
 
 // Gradients summed per cell: the parts of the score whose errors are independent.
 struct NdtMatcher::Scores {
-  std::vector<Vector6f> by_cell;  // indexed like cells, of which only `cells` are in use
-  std::vector<std::int32_t> cells;
+  struct Cell {
+    Vector6f gradient = Vector6f::Zero();
+    // What the gradient changes by when an upright cell is off by a metre, along its two
+    // directions.
+    std::array<Vector6f, 2> per_metre{Vector6f::Zero(), Vector6f::Zero()};
+  };
+
+  Cell& Of(std::int32_t cell) {
+    std::int32_t& slot = slots[static_cast<std::size_t>(cell)];
+    if (slot == kNoSlot) {
+      slot = static_cast<std::int32_t>(cells.size());
+      cells.emplace_back();
+    }
+    return cells[static_cast<std::size_t>(slot)];
+  }
+  Matrix6 Covariance() const;
+
+  std::vector<std::int32_t>& slots;  // by the map's cell: index in cells
+  std::vector<Cell> cells;
 };
+
+// With the usual correction for so few cells as six parameters count.
+Matrix6 NdtMatcher::Scores::Covariance() const {
+  Matrix6 scores = Matrix6::Zero();
+  Matrix6 sides = Matrix6::Zero();
+  for (const Cell& cell : cells) {
+    const Vector6 gradient = cell.gradient.cast<double>();
+    scores += gradient * gradient.transpose();
+    for (const Vector6f& per_metre : cell.per_metre) {
+      const Vector6 side = per_metre.cast<double>();
+      sides += side * side.transpose();
+    }
+  }
+  const auto num = static_cast<double>(cells.size());
+  return num / std::max(1.0, num - 6.0) * scores + kSideStd_m * kSideStd_m * sides;
+}
 
 NdtMatcher::NdtMatcher(const NdtOptions& options) : options_(options), map_(options) {}
 
 void NdtMatcher::Clear() {
   map_ = GaussianMap(options_);
+}
+
+void NdtMatcher::SetUp(const Vector3& up_map) {
+  map_.SetUp(GridFromMap().rotation * up_map);
 }
 
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
@@ -79,7 +134,8 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   map_.Insert(points_grid, T_grid_imu.translation);
 }
 
-void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu) {
+void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
+                           bool with_upright) {
   for (const Pair& pair : pairs_) cell_counts_[static_cast<std::size_t>(pair.cell)] = 0;
   pairs_.clear();
   paired_at_ = T_grid_imu;
@@ -91,12 +147,18 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
     if (hit.cell == GaussianMap::kNoCell) continue;
     const SurfacePatch& patch = map_.patch(hit.cell);
     if (patch.thickness_var <= 0.f) continue;
+    if (patch.kind == SurfacePatch::Kind::kUpright && !with_upright) continue;
     pairs_.push_back({static_cast<std::int32_t>(i), hit.cell, hit.local - patch.mean});
     ++cell_counts_[static_cast<std::size_t>(hit.cell)];
   }
 }
 
 NdtMatcher::Term NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
+  return map_.patch(pair.cell).kind == SurfacePatch::Kind::kPlane ? PlaneTerm(pair, reach_var)
+                                                                  : UprightTerm(pair, reach_var);
+}
+
+NdtMatcher::Term NdtMatcher::PlaneTerm(const Pair& pair, float reach_var) const {
   const SurfacePatch& patch = map_.patch(pair.cell);
   const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
   const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
@@ -105,10 +167,35 @@ NdtMatcher::Term NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
   const float variance =
       patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
   Term term;
-  term.distance = patch.normal.dot(pair.from_mean);
-  term.distance_sq = term.distance * term.distance / variance;
+  Row& row = term.rows[0];
+  row.direction = patch.normal;
+  row.distance = patch.normal.dot(pair.from_mean);
+  term.distance_sq = row.distance * row.distance / variance;
   term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
-  term.weight = term.kernel * term.kernel / variance;
+  row.weight = term.kernel * term.kernel / variance;
+  return term;
+}
+
+NdtMatcher::Term NdtMatcher::UprightTerm(const Pair& pair, float reach_var) const {
+  const SurfacePatch& patch = map_.patch(pair.cell);
+  const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
+  const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
+  const float across_std = 1.f / patch.tangent1_per_std.norm();
+  Term term;
+  term.num_rows = 2;
+  term.rows[0].direction = patch.normal;
+  term.rows[1].direction = across_std * patch.tangent1_per_std;
+  const std::array<float, 2> variance{patch.thickness_var * shared + reach_var,
+                                      across_std * across_std * shared + reach_var};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Row& row = term.rows[i];
+    row.distance = row.direction.dot(pair.from_mean);
+    term.distance_sq += row.distance * row.distance / variance[i];
+  }
+  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
+  for (std::size_t i = 0; i < 2; ++i) {
+    term.rows[i].weight = term.kernel * term.kernel / variance[i];
+  }
   return term;
 }
 
@@ -120,8 +207,11 @@ double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) cons
     if (term.distance_sq > kGateSq) continue;
     const Vector3 point = input.points_imu[static_cast<std::size_t>(pair.point)].cast<double>();
     const Vector3 moved = T_grid_imu * point - paired_at_ * point;
-    const double distance = term.distance + map_.patch(pair.cell).normal.cast<double>().dot(moved);
-    cost += 0.5 * term.weight * distance * distance;
+    for (int i = 0; i < term.num_rows; ++i) {
+      const Row& row = term.rows[static_cast<std::size_t>(i)];
+      const double distance = row.distance + row.direction.cast<double>().dot(moved);
+      cost += 0.5 * row.weight * distance * distance;
+    }
   }
   return cost;
 }
@@ -132,36 +222,28 @@ NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points
   System system;
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
   for (const Pair& pair : pairs_) {
-    const SurfacePatch& patch = map_.patch(pair.cell);
     const Term term = TermOf(pair, reach_var);
     if (term.distance_sq > kGateSq) continue;
-    const float distance = term.distance;
-    const float distance_sq = term.distance_sq;
-    const float kernel = term.kernel;
-    const float weight = term.weight;
     const Eigen::Vector3f& point = points[static_cast<std::size_t>(pair.point)];
-    const Vector6f row = JacobianRow(point, to_imu * patch.normal);
-    const Vector6f tangent1 = JacobianRow(point, to_imu * patch.tangent1_per_std);
-    const Vector6f tangent2 = JacobianRow(point, to_imu * patch.tangent2_per_std);
-    const float feigned = weight * patch.thickness_var / patch.num_points;
-    const Matrix6f information = weight * row * row.transpose();
-    const Matrix6f noise =
-        feigned * (tangent1 * tangent1.transpose() + tangent2 * tangent2.transpose());
-    const Vector6f gradient = (weight * distance) * row;
-    system.information += information.cast<double>();
-    // d(w d)/dd: less than w, for the kernel gives way.
-    system.curvature_sum += weight * (1.f - 4.f * kernel * distance_sq / kKernelWidthSq);
-    system.information_sum += weight;
-    system.feigned += noise.cast<double>();
-    system.gradient += gradient.cast<double>();
-    system.weight_sum += kernel * kernel;
-    system.residual_sq_sum += kernel * kernel * distance * distance;
-    ++system.num_matched;
-    if (scores != nullptr) {
-      Vector6f& score = scores->by_cell[static_cast<std::size_t>(pair.cell)];
-      if (score.isZero(0.f)) scores->cells.push_back(pair.cell);
-      score += gradient;
+    const SurfacePatch& patch = map_.patch(pair.cell);
+    if (patch.kind == SurfacePatch::Kind::kPlane) {
+      const Vector6f tangent1 = JacobianRow(point, to_imu * patch.tangent1_per_std);
+      const Vector6f tangent2 = JacobianRow(point, to_imu * patch.tangent2_per_std);
+      const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
+      const Matrix6f noise =
+          feigned * (tangent1 * tangent1.transpose() + tangent2 * tangent2.transpose());
+      system.feigned += noise.cast<double>();
     }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
+      const Row& row = term.rows[i];
+      const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
+      const Vector6f gradient = system.Add(jacobian, row, term);
+      if (scores == nullptr) continue;
+      Scores::Cell& cell = scores->Of(pair.cell);
+      cell.gradient += gradient;
+      if (term.num_rows == 2) cell.per_metre[i] += row.weight * jacobian;
+    }
+    ++system.num_matched;
   }
   return system;
 }
@@ -180,10 +262,11 @@ double NdtMatcher::NewContentShare() const {
 }
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
-  Associate(input.points_imu, T_grid_imu);
-  Scores scores;
-  scores.by_cell.assign(map_.cell_capacity(), Vector6f::Zero());
+  Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
+  score_slots_.resize(map_.cell_capacity(), kNoSlot);
+  Scores scores{score_slots_, {}};
   const System system = Linearize(input.points_imu, T_grid_imu, 0.f, &scores);
+  for (const Pair& pair : pairs_) score_slots_[static_cast<std::size_t>(pair.cell)] = kNoSlot;
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = system.num_matched;
   result.new_content_share = NewContentShare();
@@ -192,16 +275,10 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     return;
   }
   const DirectionSplit split = SplitDirections(system.information, system.feigned);
-  Matrix6 score_cov = Matrix6::Zero();
-  for (const std::int32_t cell : scores.cells) {
-    const Vector6 score = scores.by_cell[static_cast<std::size_t>(cell)].cast<double>();
-    score_cov += score * score.transpose();
-  }
-  const auto num_cells = static_cast<double>(scores.cells.size());
   // The sandwich wants the robust cost's own curvature, which is less than the information.
   const double curvature =
       std::clamp(system.curvature_sum / system.information_sum, kMinCurvature, 1.0);
-  score_cov *= num_cells / std::max(1.0, num_cells - 6.0) / (curvature * curvature);
+  const Matrix6 score_cov = scores.Covariance() / (curvature * curvature);
   // The residual step at hand costs nothing, and the iteration stopped at a finite one.
   const Vector6 last_step = StepInHeldDirections(split, system.gradient);
   if (last_step.norm() < kMaxLastStep) {
@@ -230,7 +307,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   while (result.iterations < max_iterations) {
     ++result.iterations;
     if (reach < kMinReach_m) reach = 0.0;
-    Associate(input.points_imu, T_grid_imu);
+    Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
     const System system =
         Linearize(input.points_imu, T_grid_imu, static_cast<float>(reach * reach), nullptr);
     if (system.num_matched < kMinMatched) break;

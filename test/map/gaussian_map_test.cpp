@@ -50,6 +50,50 @@ std::vector<Vector3> PlanePoints(const Vector3& origin, const Vector3& normal, i
   return points;
 }
 
+// Points of a post of that radius through the middle of a voxel, leaning by `lean`.
+std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double lean_rad) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> height(-0.45, 0.45);
+  std::uniform_real_distribution<double> turn(-3.14, 3.14);
+  const Quaternion R = ExpSo3(Vector3(lean_rad, 0, 0));
+  std::vector<Vector3> points;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = turn(random);
+    points.push_back(centre + R * Vector3(radius_m * std::cos(angle), radius_m * std::sin(angle),
+                                          height(random)));
+  }
+  return points;
+}
+
+TEST(GaussianMap, PostsAreUprightAndHoldInTwoLevelDirections) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 4, 1);
+  map.Insert(PostPoints(centre, 0.15, 0.1), Vector3::Zero());
+  const SurfacePatch& patch = PatchAt(map, centre);
+  ASSERT_GT(patch.thickness_var, 0.f);
+  EXPECT_EQ(patch.kind, SurfacePatch::Kind::kUpright);
+  EXPECT_NEAR(patch.normal.z(), 0.f, 1e-5f);
+  EXPECT_NEAR(patch.tangent1_per_std.z(), 0.f, 1e-5f);
+  EXPECT_NEAR(patch.normal.dot(patch.tangent1_per_std), 0.f, 1e-4f);
+  EXPECT_NEAR(std::sqrt(patch.thickness_var), 0.1, 0.03);
+}
+
+TEST(GaussianMap, UprightGoesByTheGivenUp) {
+  GaussianMap map(TestOptions());
+  map.SetUp(Vector3::UnitX());
+  const Vector3 centre = CentreOf(0, 0, 0);
+  map.Insert(PostPoints(centre, 0.1, 0.0), Vector3::Zero());
+  EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f) << "lies on its side";
+}
+
+// What fills the cell says nothing of where it is.
+TEST(GaussianMap, BushesWiderThanTheCellDoNotCount) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(0, 0, 0);
+  map.Insert(PostPoints(centre, 0.4, 0.0), Vector3::Zero());
+  EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
+}
+
 TEST(GaussianMap, RefusesOptionsOutOfRange) {
   const auto broken = [](auto change) {
     NdtOptions options = TestOptions();

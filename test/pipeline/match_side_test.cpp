@@ -97,24 +97,34 @@ TEST(MatchSide, JobMayClearTheMap) {
 // A constant-velocity guess that is off by 2 m/s smears the scan by 20 cm; deskewing again along
 // what was found takes the smear out.
 TEST(MatchSide, DeskewIsRefinedWhenTheMotionIsOnlyGuessed) {
-  const auto error_m = [](bool refine) {
+  const auto outcome_of = [](double velocity_error_mps, bool refine) {
     MatchSide side(test::DriveRig());
     FillMap(side);
     MatchJob job = JobFor(SweepFrom(1.0));
     job.refine_deskew = refine;
     job.since_last_fix_s = 0.1;
-    const Vector6 velocity_error = 2.0 * Vector6::Unit(0);
+    const Vector6 velocity_error = velocity_error_mps * Vector6::Unit(0);
     for (StampedPose& pose : job.T_any_imu) {
       const double since_s = SecondsBetween(job.sweep->middle(), pose.stamp) + 0.1;
       pose.pose = pose.pose * ExpSe3(since_s * velocity_error);
     }
     job.T_map_imu_guess = job.T_map_imu_guess * ExpSe3(0.1 * velocity_error);
-    const MatchOutcome outcome = side.Run(job);
+    MatchOutcome outcome = side.Run(job);
     EXPECT_TRUE(outcome.match.IsUsable());
-    return ErrorOf(outcome);
+    return outcome;
   };
-  EXPECT_LT(error_m(true), 0.02);
-  EXPECT_LT(error_m(true), 0.7 * error_m(false));
+  const MatchOutcome refined = outcome_of(2.0, true);
+  EXPECT_LT(ErrorOf(refined), 0.005);
+  const std::vector<Eigen::Vector3f> truth = outcome_of(0.0, false).points_imu;
+  const auto smear_m = [&](const std::vector<Eigen::Vector3f>& points) {
+    double sum_sq = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sum_sq += static_cast<double>((points[i] - truth.at(i)).squaredNorm());
+    }
+    return std::sqrt(sum_sq / static_cast<double>(points.size()));
+  };
+  EXPECT_LT(smear_m(refined.points_imu), 0.005);
+  EXPECT_GT(smear_m(outcome_of(2.0, false).points_imu), 0.05);
 }
 
 TEST(MatchSide, SweepWithoutAFinitePointIsRefusedNotFatal) {

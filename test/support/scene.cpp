@@ -115,6 +115,17 @@ Scene Corridor() {
   return {-kImuHeight_m, {{{0, 4.5, 0}, half_size}, {{0, -4.5, 0}, half_size}}};
 }
 
+Scene RoadWithPosts() {
+  std::mt19937_64 random(9);
+  std::vector<Box> boxes;
+  for (double x = -60.0; x < 200.0; x += Uniform(random, 2.0, 5.0)) {
+    const double y = Uniform(random, 4.0, 12.0);
+    const double y_signed = Uniform(random, -1.0, 1.0) < 0 ? -y : y;
+    boxes.push_back({{x, y_signed, 1.0}, {0.12, 0.12, 2.0}, Uniform(random, 0, 1.5)});
+  }
+  return {-kImuHeight_m, boxes};
+}
+
 Lidar TestLidar() {
   Lidar lidar;
   constexpr int kBeams = 20;

@@ -46,6 +46,9 @@ Scene Street();
 // Two plain walls along x without an end, 4 m to either side, and the ground.
 Scene Corridor();
 
+// Open ground with posts in no order beside the road.
+Scene RoadWithPosts();
+
 struct Lidar {
   std::vector<double> elevations_rad;
   int num_azimuths = 300;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // A bounded map of surface patches: hashed voxels, each with the running mean and covariance of the
-// points that fell into it, and from them, where its shape is known, a plane.
+// points that fell into it, and from them, where its shape is known, a plane or something that
+// stands up: a pole, a trunk, a bush.
 //
 // A cell counts only when its shape is known: cells filled from a standing vehicle hold single scan
 // rings, which look like lines and hold the vehicle back by metres when it drives off
@@ -21,6 +22,9 @@ namespace lio {
 
 // What matching reads of a cell. Vectors in the map's frame, `mean` from the voxel's centre.
 struct SurfacePatch {
+  // kUpright holds in two level directions: along `normal`, and along tangent1_per_std, which is
+  // its direction over its standard deviation.
+  enum class Kind : std::int32_t { kPlane, kUpright } kind = Kind::kPlane;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   float thickness_var = 0.f;  // variance along the normal, floored; 0: the cell does not count
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
@@ -45,6 +49,8 @@ class GaussianMap {
   bool IsFrozen(std::int32_t cell) const {
     return IsFrozen(sums_[ToIndex(cell)], patches_[ToIndex(cell)]);
   }
+
+  void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
   // Adds a scan; then drops what is too far from `centre_map` and, beyond the cap, the cells that
   // were not added to for longest.
@@ -78,6 +84,8 @@ class GaussianMap {
   std::int32_t FindOrAdd(VoxelKey key);
   void AddPoint(Sums& sums, const Vector3& local) const;
   void UpdatePatch(std::int32_t cell);
+  bool ShapePlane(const Matrix3& cov, double num_points, SurfacePatch& patch) const;
+  bool ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
   void Touch(std::int32_t cell);
   void Unlink(std::int32_t cell);
@@ -90,6 +98,7 @@ class GaussianMap {
 
   NdtOptions options_;
   double inverse_voxel_;
+  Vector3 up_map_ = Vector3::UnitZ();
   std::vector<Slot> slots_;  // open addressing, linear probing, a power of two
   std::vector<SurfacePatch> patches_;
   std::vector<Sums> sums_;

@@ -31,6 +31,7 @@ struct MatchJob {
   // of the scans since clear_map, and nothing is matched.
   enum class Seek { kNothing, kShift, kVelocity } seek = Seek::kNothing;
   Vector3 up_map = Vector3::UnitZ();  // about; for seeking
+  double shift_std_m = 1.0;           // of the guessed shift since the last scan that was found
   double since_last_fix_s = 0.1;      // how long the guess has run free at the sweep's middle
   std::int64_t filter_ns = 0;         // CPU time the filter spent since the job before
 };

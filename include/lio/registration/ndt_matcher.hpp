@@ -15,6 +15,8 @@
 // that lay on a voxel face would be split between two cells by its noise.
 #pragma once
 
+#include <array>
+
 #include "lio/map/gaussian_map.hpp"
 #include "lio/registration/ndt_options.hpp"
 #include "lio/registration/scan_matcher.hpp"
@@ -30,6 +32,7 @@ class NdtMatcher final : public ScanMatcher {
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   double HeldCost(const MatchInput& input, const Pose& T_map_imu) const override;
   void Clear() override;
+  void SetUp(const Vector3& up_map) override;
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
@@ -39,18 +42,26 @@ class NdtMatcher final : public ScanMatcher {
     std::int32_t cell = 0;
     Eigen::Vector3f from_mean;  // of the patch, grid axes
   };
-  // What a pair adds to the cost.
+  struct Row {
+    Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // grid axes
+    float distance = 0.f;                                 // m
+    float weight = 0.f;                                   // 1 / m^2
+  };
+  // What a pair adds to the cost: one row for a plane, two for what stands up.
   struct Term {
-    float distance = 0.f;     // m
+    std::array<Row, 2> rows;
+    int num_rows = 1;
     float distance_sq = 0.f;  // in its variance
     float kernel = 0.f;       // Geman-McClure's root weight
-    float weight = 0.f;       // 1 / m^2
   };
   struct System;
   struct Scores;
 
-  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu);
+  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
+                 bool with_upright);
   Term TermOf(const Pair& pair, float reach_var) const;
+  Term PlaneTerm(const Pair& pair, float reach_var) const;
+  Term UprightTerm(const Pair& pair, float reach_var) const;
   System Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, float reach_var,
                    Scores* scores) const;
   double NewContentShare() const;
@@ -60,6 +71,7 @@ class NdtMatcher final : public ScanMatcher {
   GaussianMap map_;
   std::vector<Pair> pairs_;                // of the current iteration, in the points' order
   Pose paired_at_;                         // T_grid_imu of the pairs
+  std::vector<std::int32_t> score_slots_;  // scratch by cell
   std::vector<std::int32_t> cell_counts_;  // this scan's points by cell; zero between scans
 };
 

@@ -23,7 +23,7 @@ struct ScanView {
 };
 
 struct MatchInput {
-  std::span<const Eigen::Vector3f> points_imu;  // to be matched
+  std::span<const Eigen::Vector3f> points_imu;
   Pose T_map_imu_guess;
   // Right error of the guess, [translation; rotation]: sets how far correspondences are sought. It
   // is not a prior: it stays out of the cost.
@@ -31,6 +31,9 @@ struct MatchInput {
   bool is_far_off = false;                // the guess may be: take more iterations before giving up
   std::span<const FeatureTag> tags = {};  // of points_imu
   std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to see shapes in
+  // Standard deviation of the guessed shift since the last scan. Things that look different from
+  // each side (trunks, bushes) are left out where it is known better than they can tell.
+  double shift_std_m = 1.0;
 };
 
 struct MatchResult {
@@ -58,6 +61,8 @@ class ScanMatcher {
   virtual MatchResult Match(const MatchInput& input) = 0;
   virtual void Insert(const ScanView& scan, const Pose& T_map_imu) = 0;
   virtual void Clear() = 0;
+  // Up in the map, to some 10 deg; before the first Insert().
+  virtual void SetUp(const Vector3& /*up_map*/) {}
   // The cost at a pose with the correspondences and weights of the last Match, which had this
   // input, held; its second derivative at the solution is the information. For tests and diagnosis.
   virtual double HeldCost(const MatchInput& input, const Pose& T_map_imu) const = 0;
