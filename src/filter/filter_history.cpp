@@ -3,10 +3,34 @@
 #include "lio/filter/filter_history.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace lio {
 namespace {
+
+// How many times larger than claimed the covariance of poses is, by translation and rotation, as the
+// innovations of about the last second tell; never smaller. An error that lasts (the sensors' clocks,
+// a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
+Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update) {
+  static constexpr double kRate = 0.1;  // per pose
+  static constexpr double kMaxNis = 100.0;
+  // A filter whose position is wrong must not shut its eyes; gravity and positions right a rotation.
+  constexpr double kMaxTranslation = 4.0;
+  constexpr double kMaxRotation = 4.0;
+  const auto next = [](double now, double nis, double limit) {
+    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, limit);
+  };
+  return {next(misfit.translation, update.nis_translation, kMaxTranslation),
+          next(misfit.rotation, update.nis_rotation, kMaxRotation)};
+}
+
+Matrix6 Widened(const Matrix6& cov, const Misfit& misfit) {
+  Vector6 scale;
+  scale << Vector3::Constant(std::sqrt(misfit.translation)),
+      Vector3::Constant(std::sqrt(misfit.rotation));
+  return scale.asDiagonal() * cov * scale.asDiagonal();
+}
 
 // What registration may be wrong by without being lost: beyond the gate by less, its claim was too
 // good; by more, the body has moved unseen.
@@ -35,7 +59,7 @@ void AllowUnseenMotion(Estimate& estimate, const Vector6& residual) {
 // Fuses a pose from beyond the gate. `nis`: how far beyond.
 bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
   const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
-  if (IsSmall(residual)) {
+  if (false && IsSmall(residual)) {
     measurement.cov *= nis / nis_limit;
   } else {
     AllowUnseenMotion(estimate, residual);
@@ -118,15 +142,19 @@ void FilterHistory::Step(std::size_t at) {
   if (!is_measured) node.sample = SampleAt(node.stamp, at);
   node.imu_stamp = is_measured ? node.stamp : nodes_[at - 1].imu_stamp;
   node.posterior = nodes_[at - 1].posterior;
+  node.misfit = nodes_[at - 1].misfit;
   StepTo(node.posterior, nodes_[at - 1].sample, node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
   if (node.kind == Kind::kRebase) RebaseMapPose(node.posterior);
   if (node.kind != Kind::kPose) return;
 
-  node.update = FusePose(node.posterior, node.pose.measurement, options_.nis_limit);
+  PoseMeasurement measurement = node.pose.measurement;
+  measurement.cov = Widened(measurement.cov, node.misfit);
+  node.update = FusePose(node.posterior, measurement, options_.nis_limit);
+  node.misfit = NextMisfit(node.misfit, node.update);
   if (!node.update.fused && node.pose.force) {
     node.update.fused =
-        FuseByForce(node.posterior, node.pose.measurement, node.update.nis, options_.nis_limit);
+        FuseByForce(node.posterior, measurement, node.update.nis, options_.nis_limit);
   }
   if (node.update.fused) BlendMapPose(node.posterior, node.pose.measurement);
 }

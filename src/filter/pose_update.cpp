@@ -44,6 +44,12 @@ UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, do
   const Eigen::LDLT<Matrix6> factor(S);
   UpdateResult result;
   result.nis = residual.dot(factor.solve(residual));
+  const auto nis_of = [&](int at) {
+    const Vector3 part = residual.segment<3>(at);
+    return part.dot(S.block<3, 3>(at, at).ldlt().solve(part));
+  };
+  result.nis_translation = nis_of(0);
+  result.nis_rotation = nis_of(3);
   if (!(result.nis <= nis_limit)) return result;
   const Eigen::Matrix<double, kStateDim, 6> K = factor.solve(PHt.transpose()).transpose();
   Apply<6>(estimate, H, K, residual, R);

@@ -51,7 +51,8 @@ class MethodBench {
     matcher_->Insert({scan.points, scan.tags}, T_map_imu);
   }
   static MatchInput InputFor(const MethodScan& scan, const Pose& guess, const Matrix6& cov) {
-    return {scan.to_match, guess, cov, false, scan.to_match_tags, scan.points};
+    const double shift_std_m = std::sqrt(cov.topLeftCorner<3, 3>().diagonal().maxCoeff());
+    return {scan.to_match, guess, cov, false, scan.to_match_tags, scan.points, shift_std_m};
   }
   MatchResult Match(const MethodScan& scan, const Pose& guess, const Matrix6& cov) {
     return matcher_->Match(InputFor(scan, guess, cov));

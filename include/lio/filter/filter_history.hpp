@@ -40,6 +40,12 @@ struct PoseEvent {
   bool force = false;  // fuse even beyond the gate, the covariance inflated to what was seen
 };
 
+// Factors on the covariance of poses.
+struct Misfit {
+  double translation = 1.0;
+  double rotation = 1.0;
+};
+
 class FilterHistory {
  public:
   // `sample` holds at start.stamp.
@@ -71,6 +77,7 @@ class FilterHistory {
     ImuSample sample;  // measured, or interpolated at the stamp of a pose or rebase
     PoseEvent pose;
     UpdateResult update;
+    Misfit misfit;  // after the event
     Estimate posterior;
   };
 
