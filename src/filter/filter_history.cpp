@@ -9,20 +9,18 @@
 namespace lio {
 namespace {
 
-// How many times larger than claimed the covariance of poses is, by translation and rotation, as the
-// innovations of about the last second tell; never smaller. An error that lasts (the sensors' clocks,
-// a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
+// How many times larger than claimed the covariance of poses is, by translation and rotation, as
+// the innovations of about the last second tell; never smaller. An error that lasts (the sensors'
+// clocks, a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
 Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update) {
   static constexpr double kRate = 0.1;  // per pose
   static constexpr double kMaxNis = 100.0;
-  // A filter whose position is wrong must not shut its eyes; gravity and positions right a rotation.
-  constexpr double kMaxTranslation = 4.0;
-  constexpr double kMaxRotation = 4.0;
-  const auto next = [](double now, double nis, double limit) {
-    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, limit);
+  static constexpr double kMaxMisfit = 9.0;  // a filter that is wrong must not shut its eyes
+  const auto next = [](double now, double nis) {
+    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, kMaxMisfit);
   };
-  return {next(misfit.translation, update.nis_translation, kMaxTranslation),
-          next(misfit.rotation, update.nis_rotation, kMaxRotation)};
+  return {next(misfit.translation, update.nis_translation),
+          next(misfit.rotation, update.nis_rotation)};
 }
 
 Matrix6 Widened(const Matrix6& cov, const Misfit& misfit) {
@@ -59,7 +57,7 @@ void AllowUnseenMotion(Estimate& estimate, const Vector6& residual) {
 // Fuses a pose from beyond the gate. `nis`: how far beyond.
 bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
   const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
-  if (false && IsSmall(residual)) {
+  if (IsSmall(residual)) {
     measurement.cov *= nis / nis_limit;
   } else {
     AllowUnseenMotion(estimate, residual);

@@ -118,7 +118,7 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
   }
-  if (job.is_map_young && feeds_young_map_) {
+  if (job.clear_map && feeds_young_map_) {
     begin = Now();
     const std::vector<ScanPoint> dense = DensePoints(*job.sweep, filter_);
     outcome.points_imu = Deskew(dense, sweep_times, motion, T_imu_lidar_);

@@ -135,7 +135,6 @@ class Odometry::Impl {
   SweepPtr in_flight_;          // the sweep whose job is out
   bool is_first_scan_ = true;   // of the running phase
   std::int64_t last_seq_ = -1;  // the last scan that was fused
-  int num_inserted_ = 0;        // scans in the map since it was cleared
   int num_gated_in_a_row_ = 0;
   int num_unmatched_in_a_row_ = 0;
   std::optional<Timestamp> last_fused_;  // end of the last sweep that was fused

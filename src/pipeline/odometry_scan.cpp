@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kLost_s = 2.0;          // no accepted match for this long
 constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
-constexpr int kYoungMap = 5;             // scans
 constexpr double kSeekStd_m = 0.7;     // a shift since the last scan less sure than this is sought
 constexpr int kMinPointsToGrow = 200;  // a scan of fewer points tells nothing of the map
 
@@ -35,7 +34,6 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
     }
     AdvanceScout(in_flight_->end);
   }
-  if (is_first) num_inserted_ = 0;
   MatchJob job = MakeJob(in_flight_, is_first);
   job.filter_ns = filter_ns_ + Now() - begin;
   filter_ns_ = 0;
@@ -51,7 +49,6 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.T_map_imu_guess = predicted.state.T_map_imu;
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
-  job.is_map_young = clear_map || num_inserted_ < kYoungMap;
   job.refine_deskew = scout_.has_value();
   job.up_map = UpInMap();
   if (last_found_) {
@@ -86,7 +83,6 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
       history_->KeepFrom(ready_.empty() ? std::nullopt : std::optional(ready_.front()->start));
     }
   }
-  if (insert.T_map_imu) ++num_inserted_;
   insert.points_imu = std::move(outcome.points_imu);
   insert.tags = std::move(outcome.tags);
   return insert;

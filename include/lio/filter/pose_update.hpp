@@ -21,8 +21,8 @@ struct PoseMeasurement {
 };
 
 struct UpdateResult {
-  bool fused = false;  // false: gated, and the estimate is untouched
-  double nis = 0.0;    // normalised innovation squared, 6 degrees of freedom
+  bool fused = false;            // false: gated, and the estimate is untouched
+  double nis = 0.0;              // normalised innovation squared, 6 degrees of freedom
   double nis_translation = 0.0;  // of each half on its own, 3 degrees of freedom
   double nis_rotation = 0.0;
 };

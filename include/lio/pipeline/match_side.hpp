@@ -24,8 +24,7 @@ struct MatchJob {
   StampedPoses T_any_imu;  // covers the sweep
   Pose T_map_imu_guess;    // at the sweep's middle
   Matrix6 guess_cov = Matrix6::Zero();
-  bool clear_map = false;      // forget everything first: the estimator starts anew
-  bool is_map_young = false;   // insert all that is seen, not a thinned scan
+  bool clear_map = false;      // forget everything first; this scan is inserted unthinned
   bool refine_deskew = false;  // match, deskew again along what was found, match again
   // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
   // of the scans since clear_map, and nothing is matched.
