@@ -12,7 +12,6 @@ constexpr Duration kWait{300'000'000};  // a sweep still open so long after its 
 // How far a known path may be off.
 constexpr double kPathStd_m = 0.05;
 constexpr double kPathStd_rad = 0.005;
-constexpr int kYoungMap = 5;  // scans; until then all that is seen goes in
 
 Options LidarAsBody(Options options) {
   options.rig.T_imu_lidar = Pose::Identity();
@@ -89,7 +88,6 @@ Pose ScanPoses::TellScout(Timestamp middle, const MatchResult& match) {
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   const Timestamp middle = sweep->middle();
   MatchJob job = path_ != nullptr ? JobAlongPath(std::move(sweep)) : JobByScout(std::move(sweep));
-  job.is_map_young = num_inserted_ < kYoungMap;
   MatchOutcome outcome = matching_.Run(job);
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   if (!outcome.match.IsUsable() && !starts_map) {
@@ -99,7 +97,6 @@ void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   const Pose T_map_lidar =
       path_ != nullptr ? outcome.match.T_map_imu : TellScout(middle, outcome.match);
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
-    ++num_inserted_;
     keyframes_.Accept(T_map_lidar);
     matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});
   }

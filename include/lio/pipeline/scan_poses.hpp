@@ -48,7 +48,6 @@ class ScanPoses {
   std::optional<Timestamp> last_found_;
   StampedPoses found_;
   int num_unmatched_ = 0;
-  int num_inserted_ = 0;
 };
 
 }  // namespace lio
