@@ -22,7 +22,7 @@ MatchJob EmptyJob(std::int32_t scan_seq) {
 }
 
 InsertTask SomePoints() {
-  return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, {}, Pose::Identity()};
+  return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, Pose::Identity()};
 }
 
 TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {

@@ -214,8 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
                     {&Counters::num_matches_rejected},
                     0.3,
                     1},
-        Expectation{
-            "wrong_extrinsic", "wrong_extrinsic:yaw_deg=1", {}, 0.5, 2}),
+        Expectation{"wrong_extrinsic", "wrong_extrinsic:yaw_deg=1", {}, 0.5, 2}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {

@@ -62,7 +62,7 @@ TEST(LioSim, EndsWithTheRightCodeAndOneLineThatHelps) {
            {{"--scenario", "hall", "--fault", "hole", "--out", file}, 2, "imu_gap"},
            {{"--scenario", "hall", "--lidar", "hdl33", "--out", file}, 3, "hdl32e"},
            {{"--scenario", "hall", "--imu", "best", "--out", file}, 3, "xsens_mti10"},
-           {{"--scenario", "hall", "--duration", "1", "--out", file}, 5, "file"}}) {
+           {{"--scenario", "hall", "--duration", "1", "--out", file}, 2, "file"}}) {
     const auto result = Simulate(c.arguments);
     EXPECT_EQ(result.exit_code, c.exit_code) << result.err;
     EXPECT_NE(result.err.find(c.word), std::string::npos) << result.err;
