@@ -58,5 +58,16 @@ TEST(DensePoints, SamplesALargeSweepWhateverTheOrder) {
   }
 }
 
+TEST(DensePoints, SamplesALargeCloudWithoutTimesOrRings) {
+  Sweep sweep = RandomSweep(120'000);
+  for (LidarPoint& point : sweep.points) {
+    point.t_offset_ns = 0;
+    point.ring = 0;
+  }
+  const std::vector<ScanPoint> points = DensePoints(sweep, PointFilter{LidarRig{}});
+  EXPECT_GT(points.size(), 28'000u);
+  EXPECT_LT(points.size(), 36'000u);
+}
+
 }  // namespace
 }  // namespace lio
