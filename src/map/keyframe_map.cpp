@@ -279,26 +279,22 @@ void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
   const auto is_outside = [&](std::size_t axis, std::int32_t voxel) {
     return voxel < low[axis] || voxel > high[axis];
   };
-  for (std::int32_t z = low[2] >> 2; z <= high[2] >> 2; ++z) {
-    for (std::int32_t y = low[1] >> 2; y <= high[1] >> 2; ++y) {
-      for (std::int32_t x = low[0] >> 2; x <= high[0] >> 2; ++x) {
-        const std::int32_t number = index_.Find(PackVoxel(x, y, z));
-        if (number == VoxelIndex::kNone) continue;
-        const Block& block = blocks_[ToIndex(number)];
-        const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
-        for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
-          const int i = std::countr_zero(bits);
-          const Cell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
-          if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) {
-            continue;
-          }
-          if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
-            SearchVoxel(block, ToIndex(i), query, search);
-          }
-        }
+  const auto search_block = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::int32_t number = index_.Find(PackVoxel(x, y, z));
+    if (number == VoxelIndex::kNone) return;
+    const Block& block = blocks_[ToIndex(number)];
+    const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
+    for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
+      const Cell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
+      if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) continue;
+      if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
+        SearchVoxel(block, ToIndex(i), query, search);
       }
     }
-  }
+  };
+  ForEachVoxel({low[0] >> 2, low[1] >> 2, low[2] >> 2}, {high[0] >> 2, high[1] >> 2, high[2] >> 2},
+               search_block);
 }
 
 KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,

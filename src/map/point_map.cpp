@@ -99,24 +99,20 @@ void PointMap::SearchAround(Search& search, int reach_voxels) const {
     return kAxisMasks.of[axis][ToIndex(std::max(low[axis] - corner, 0))]
                         [ToIndex(std::min(high[axis] - corner, kEdge - 1))];
   };
-  for (std::int32_t z = low[2] >> 2; z <= high[2] >> 2; ++z) {
-    const std::uint64_t mask_z = mask_along(2, z);
-    for (std::int32_t y = low[1] >> 2; y <= high[1] >> 2; ++y) {
-      const std::uint64_t mask_yz = mask_z & mask_along(1, y);
-      for (std::int32_t x = low[0] >> 2; x <= high[0] >> 2; ++x) {
-        const std::int32_t number = index_.Find(PackVoxel(x, y, z));
-        if (number == VoxelIndex::kNone) continue;
-        const Block& block = blocks_[ToIndex(number)];
-        const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
-        for (std::uint64_t bits = block.occupied & mask_yz & mask_along(0, x); bits != 0;
-             bits &= bits - 1) {
-          const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-          const Eigen::Vector3f from_query = block.mean[i].head<3>() - query;
-          search.Offer({from_query, from_query.squaredNorm(), block.mean[i].w(), number});
-        }
-      }
+  const auto search_block = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::int32_t number = index_.Find(PackVoxel(x, y, z));
+    if (number == VoxelIndex::kNone) return;
+    const Block& block = blocks_[ToIndex(number)];
+    const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
+    const std::uint64_t mask = mask_along(0, x) & mask_along(1, y) & mask_along(2, z);
+    for (std::uint64_t bits = block.occupied & mask; bits != 0; bits &= bits - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+      const Eigen::Vector3f from_query = block.mean[i].head<3>() - query;
+      search.Offer({from_query, from_query.squaredNorm(), block.mean[i].w(), number});
     }
-  }
+  };
+  ForEachVoxel({low[0] >> 2, low[1] >> 2, low[2] >> 2}, {high[0] >> 2, high[1] >> 2, high[2] >> 2},
+               search_block);
 }
 
 PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,

@@ -34,20 +34,18 @@ void RingGrid::Add(const Eigen::Vector3f& point, std::uint16_t ring) {
 
 template <class Visit>
 void RingGrid::ForEachNear(const Eigen::Vector3f& query, float radius_m, const Visit& visit) const {
-  const auto low = [&](float v) { return Cell((v - radius_m) / kVoxel_m); };
-  const auto high = [&](float v) { return Cell((v + radius_m) / kVoxel_m); };
-  for (std::int32_t z = low(query.z()); z <= high(query.z()); ++z) {
-    for (std::int32_t y = low(query.y()); y <= high(query.y()); ++y) {
-      for (std::int32_t x = low(query.x()); x <= high(query.x()); ++x) {
-        const std::int32_t voxel = index_.Find(PackVoxel(x, y, z));
-        if (voxel == VoxelIndex::kNone) continue;
-        for (std::int32_t i = first_[static_cast<std::size_t>(voxel)]; i >= 0;
-             i = points_[static_cast<std::size_t>(i)].next) {
-          visit(i, voxel, points_[static_cast<std::size_t>(i)]);
-        }
-      }
+  const auto cells_at = [&](float offset_m) {
+    const auto along = [&](float v) { return Cell((v + offset_m) / kVoxel_m); };
+    return std::array<std::int32_t, 3>{along(query.x()), along(query.y()), along(query.z())};
+  };
+  ForEachVoxel(cells_at(-radius_m), cells_at(radius_m), [&](auto x, auto y, auto z) {
+    const std::int32_t voxel = index_.Find(PackVoxel(x, y, z));
+    if (voxel == VoxelIndex::kNone) return;
+    std::int32_t i = first_[static_cast<std::size_t>(voxel)];
+    for (; i >= 0; i = points_[static_cast<std::size_t>(i)].next) {
+      visit(i, voxel, points_[static_cast<std::size_t>(i)]);
     }
-  }
+  });
 }
 
 RingGrid::Found RingGrid::Search(const Eigen::Vector3f& query, float radius_m,

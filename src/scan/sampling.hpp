@@ -25,12 +25,15 @@ inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
 // in each voxel of the thinning grid.
 inline constexpr std::size_t kMaxSampled = 32000;
 
-// A number in 0..65535 that depends on nothing but the point: also where clouds tell neither when
-// nor by which beam it was measured.
+// A number in 0..65535 that depends on nothing but when and by which beam the point was measured;
+// where a cloud tells neither, on its place.
 inline std::uint32_t Sample(const LidarPoint& point) {
-  const std::uint32_t place = std::bit_cast<std::uint32_t>(point.x_m) * 0x27D4EB2Fu;
-  const std::uint32_t when = point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u);
-  const std::uint32_t mixed = (when ^ (place ^ (place >> 15))) * 0x85EBCA6Bu;
+  std::uint32_t name = point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u);
+  if (point.t_offset_ns == 0 && point.ring == 0) {
+    const std::uint32_t place = std::bit_cast<std::uint32_t>(point.x_m) * 0x27D4EB2Fu;
+    name ^= place ^ (place >> 15);
+  }
+  const std::uint32_t mixed = name * 0x85EBCA6Bu;
   return (mixed ^ (mixed >> 15)) * 0xC2B2AE35u >> 16;
 }
 

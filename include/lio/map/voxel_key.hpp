@@ -3,6 +3,7 @@
 // Integer names of voxels: three signed 21-bit coordinates packed into 64 bits, and a hash of them.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -29,6 +30,17 @@ inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
 // to the low end, which tables take.
 inline std::uint64_t HashVoxel(VoxelKey key) {
   return __builtin_bswap64(key * 0x9E3779B97F4A7C15ull);
+}
+
+// visit(x, y, z) for all voxels from `low` to `high`, both included, x fastest.
+template <class Visit>
+void ForEachVoxel(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& high,
+                  const Visit& visit) {
+  for (std::int32_t z = low[2]; z <= high[2]; ++z) {
+    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+      for (std::int32_t x = low[0]; x <= high[0]; ++x) visit(x, y, z);
+    }
+  }
 }
 
 }  // namespace lio
