@@ -25,8 +25,8 @@ fail_usage() {
   exit 2
 }
 
-# A demo may be late, but not lossy: a stalled moment of a busy machine drops no scans.
-settings=(--set pipeline.max_queued_scans=100)
+# A demo may be late, but not lossy: a busy machine drops no scans.
+settings=(--set pipeline.max_queued_scans=1000)
 input="" given_truth="" speed="" out=out/demo given_configs=()
 while (($#)); do
   case $1 in

@@ -44,7 +44,13 @@ until grep -qs listening "$out/liod.log"; do
 done
 
 lcm-logplayer --speed="$speed" "$log" >/dev/null
-sleep 0.5 # the last sweep is matched; nothing else comes
+# Nothing else comes: liod is done when it idles, on a busy machine some time after the player.
+ticks() { awk '{ print $14 + $15 }' "/proc/$liod/stat"; }
+for _ in {1..240}; do
+  before=$(ticks)
+  sleep 0.5
+  (($(ticks) - before > 2)) || break
+done
 trap - EXIT
 kill -TERM "$liod"
 wait "$liod"
