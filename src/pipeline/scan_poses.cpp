@@ -88,6 +88,7 @@ Pose ScanPoses::TellScout(Timestamp middle, const MatchResult& match) {
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   const Timestamp middle = sweep->middle();
   MatchJob job = path_ != nullptr ? JobAlongPath(std::move(sweep)) : JobByScout(std::move(sweep));
+  job.clear_map = !last_found_;  // the first scan makes the map
   MatchOutcome outcome = matching_.Run(job);
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   if (!outcome.match.IsUsable() && !starts_map) {
