@@ -10,7 +10,6 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kInitialSlots = 1u << 12;
 // A patch is a plane when it is this much thinner than wide, wide enough in both directions (as a
 // share of the voxel) and its normal is known this well [rad]. From the ring-lock experiments.
 constexpr double kMaxThicknessRatio = 0.1;
@@ -37,7 +36,7 @@ bool IsInRange(const Vector3& scaled) {
 }  // namespace
 
 GaussianMap::GaussianMap(const NdtOptions& options)
-    : options_(options), inverse_voxel_(1.0 / options.voxel_m), slots_(kInitialSlots) {
+    : options_(options), inverse_voxel_(1.0 / options.voxel_m) {
   if (!(options.voxel_m > 0) || options.min_cell_points < 3 ||
       options.max_cell_points <= options.min_cell_points || options.max_cells < 1) {
     throw std::invalid_argument("GaussianMap: voxel_m, cell points or max_cells out of range");
@@ -53,13 +52,6 @@ Vector3 GaussianMap::CentreOf(VoxelKey key) const {
   return options_.voxel_m * (Vector3(coordinate(42), coordinate(21), coordinate(0)).array() + 0.5);
 }
 
-std::size_t GaussianMap::SlotOf(VoxelKey key) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t at = HashVoxel(key) & mask;
-  while (slots_[at].cell != kNoCell && slots_[at].key != key) at = (at + 1) & mask;
-  return at;
-}
-
 GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
   const Vector3 scaled = inverse_voxel_ * point_map;
   if (!IsInRange(scaled)) return {kNoCell, Eigen::Vector3f::Zero()};
@@ -67,81 +59,23 @@ GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
   const std::int32_t y = Floor(scaled.y());
   const std::int32_t z = Floor(scaled.z());
   const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
-  return {slots_[SlotOf(PackVoxel(x, y, z))].cell, (options_.voxel_m * from_centre).cast<float>()};
-}
-
-void GaussianMap::Grow() {
-  std::vector<Slot> old(slots_.size() * 2);
-  old.swap(slots_);
-  for (const Slot& slot : old) {
-    if (slot.cell != kNoCell) slots_[SlotOf(slot.key)] = slot;
-  }
+  return {index_.Find(PackVoxel(x, y, z)), (options_.voxel_m * from_centre).cast<float>()};
 }
 
 std::int32_t GaussianMap::FindOrAdd(VoxelKey key) {
-  const std::size_t at = SlotOf(key);
-  if (slots_[at].cell != kNoCell) return slots_[at].cell;
-  std::int32_t cell;
-  if (free_cells_.empty()) {
-    cell = static_cast<std::int32_t>(sums_.size());
-    sums_.emplace_back();
-    patches_.emplace_back();
-  } else {
-    cell = free_cells_.back();
-    free_cells_.pop_back();
-    sums_[ToIndex(cell)] = {};
-    patches_[ToIndex(cell)] = {};
+  const VoxelIndex::Added added = index_.FindOrAdd(key);
+  if (added.is_new) {
+    sums_.resize(index_.capacity());
+    patches_.resize(index_.capacity());
+    sums_[ToIndex(added.voxel)] = {};
+    patches_[ToIndex(added.voxel)] = {};
   }
-  sums_[ToIndex(cell)].key = key;
-  slots_[at] = {key, cell};
-  LinkNewest(cell);
-  if (++num_cells_ * 2 > slots_.size()) Grow();
-  return cell;
-}
-
-void GaussianMap::LinkNewest(std::int32_t cell) {
-  Sums& sums = sums_[ToIndex(cell)];
-  sums.older = newest_;
-  sums.newer = kNoCell;
-  if (newest_ != kNoCell) sums_[ToIndex(newest_)].newer = cell;
-  newest_ = cell;
-  if (oldest_ == kNoCell) oldest_ = cell;
-}
-
-void GaussianMap::Unlink(std::int32_t cell) {
-  const Sums& sums = sums_[ToIndex(cell)];
-  (sums.newer == kNoCell ? newest_ : sums_[ToIndex(sums.newer)].older) = sums.older;
-  (sums.older == kNoCell ? oldest_ : sums_[ToIndex(sums.older)].newer) = sums.newer;
-}
-
-void GaussianMap::Touch(std::int32_t cell) {
-  if (newest_ == cell) return;
-  Unlink(cell);
-  LinkNewest(cell);
-}
-
-// Removal from a table with linear probing: later entries of the run move up into the hole.
-void GaussianMap::EraseSlot(std::size_t at) {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t hole = at;
-  for (std::size_t next = (hole + 1) & mask; slots_[next].cell != kNoCell;
-       next = (next + 1) & mask) {
-    const std::size_t home = HashVoxel(slots_[next].key) & mask;
-    const bool stays = ((next - home) & mask) < ((next - hole) & mask);
-    if (stays) continue;
-    slots_[hole] = slots_[next];
-    hole = next;
-  }
-  slots_[hole] = {};
+  return added.voxel;
 }
 
 void GaussianMap::Remove(std::int32_t cell) {
-  EraseSlot(SlotOf(sums_[ToIndex(cell)].key));
-  Unlink(cell);
-  sums_[ToIndex(cell)].num_points = 0;
+  index_.Remove(cell);
   patches_[ToIndex(cell)] = {};
-  free_cells_.push_back(cell);
-  --num_cells_;
 }
 
 // Welford's update. A full cell whose shape is still unknown forgets slowly instead of freezing, or
@@ -238,7 +172,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& cen
     Sums& sums = sums_[ToIndex(cell)];
     if (sums.touched != scan_number_) {
       sums.touched = scan_number_;
-      Touch(cell);
+      index_.Touch(cell);
       if (IsFrozen(cell)) continue;
       touched_cells_.push_back(cell);
     } else if (IsFrozen(cell)) {
@@ -248,7 +182,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& cen
     AddPoint(sums, options_.voxel_m * from_centre);
   }
   for (const std::int32_t cell : touched_cells_) UpdatePatch(cell);
-  while (num_cells_ > static_cast<std::size_t>(options_.max_cells)) Remove(oldest_);
+  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(index_.oldest());
   DropFarCells(centre_map);
 }
 
@@ -258,16 +192,14 @@ void GaussianMap::DropFarCells(const Vector3& centre_map) {
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::size_t i = 0; i < num_to_visit; ++i) {
     if (++sweep_position_ >= sums_.size()) sweep_position_ = 0;
-    const Sums& sums = sums_[sweep_position_];
-    if (sums.num_points == 0) continue;
-    if ((CentreOf(sums.key) - centre_map).squaredNorm() > limit_sq) {
-      Remove(static_cast<std::int32_t>(sweep_position_));
-    }
+    const auto cell = static_cast<std::int32_t>(sweep_position_);
+    if (!index_.IsUsed(cell)) continue;
+    if ((CentreOf(index_.key(cell)) - centre_map).squaredNorm() > limit_sq) Remove(cell);
   }
 }
 
 std::size_t GaussianMap::memory_bytes() const {
-  return slots_.capacity() * sizeof(Slot) + patches_.capacity() * sizeof(SurfacePatch) +
+  return index_.memory_bytes() + patches_.capacity() * sizeof(SurfacePatch) +
          sums_.capacity() * sizeof(Sums);
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "lio/base/rotation.hpp"
-#include "lio/map/voxel_key.hpp"
+#include "lio/map/voxel_index.hpp"
 #include "lio/registration/ndt_options.hpp"
 
 namespace lio {
@@ -35,7 +35,7 @@ struct SurfacePatch {
 
 class GaussianMap {
  public:
-  static constexpr std::int32_t kNoCell = -1;
+  static constexpr std::int32_t kNoCell = VoxelIndex::kNone;
 
   // Throws std::invalid_argument when an option is out of its range.
   explicit GaussianMap(const NdtOptions& options);
@@ -56,7 +56,7 @@ class GaussianMap {
   // were not added to for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& centre_map);
 
-  std::size_t num_cells() const { return num_cells_; }
+  std::size_t num_cells() const { return index_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
   std::size_t cell_capacity() const { return patches_.size(); }
   std::size_t memory_bytes() const;
@@ -65,16 +65,9 @@ class GaussianMap {
   struct Sums {
     Vector3 mean = Vector3::Zero();                         // from the voxel's centre
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
-    VoxelKey key = 0;
     std::int32_t num_points = 0;
-    std::int32_t shaped_at = 0;    // num_points when the patch was last computed
-    std::int32_t newer = kNoCell;  // list by time of last insertion
-    std::int32_t older = kNoCell;
-    std::uint32_t touched = 0;  // number of the last scan that added to it
-  };
-  struct Slot {
-    VoxelKey key = 0;
-    std::int32_t cell = kNoCell;
+    std::int32_t shaped_at = 0;  // num_points when the patch was last computed
+    std::uint32_t touched = 0;   // number of the last scan that added to it
   };
 
   static std::size_t ToIndex(std::int32_t cell) { return static_cast<std::size_t>(cell); }
@@ -87,27 +80,17 @@ class GaussianMap {
   bool ShapePlane(const Matrix3& cov, double num_points, SurfacePatch& patch) const;
   bool ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
-  void Touch(std::int32_t cell);
-  void Unlink(std::int32_t cell);
-  void LinkNewest(std::int32_t cell);
-  void Grow();
-  void EraseSlot(std::size_t at);
-  std::size_t SlotOf(VoxelKey key) const;
   void DropFarCells(const Vector3& centre_map);
   Vector3 CentreOf(VoxelKey key) const;
 
   NdtOptions options_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
-  std::vector<Slot> slots_;  // open addressing, linear probing, a power of two
+  VoxelIndex index_;  // of cells
   std::vector<SurfacePatch> patches_;
   std::vector<Sums> sums_;
-  std::vector<std::int32_t> free_cells_;
   std::vector<std::int32_t> touched_cells_;  // scratch of Insert
-  std::size_t num_cells_ = 0;
-  std::int32_t newest_ = kNoCell;
-  std::int32_t oldest_ = kNoCell;
-  std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
+  std::size_t sweep_position_ = 0;           // where the walk over all cells for far ones goes on
   std::uint32_t scan_number_ = 0;
 };
 
