@@ -13,8 +13,7 @@ namespace lio {
 namespace {
 
 constexpr int kMinMatched = 50;
-constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
-constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
+constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
 // How far a surface is taken to reach, m^2: what counts against a pair whose surfaces are askew.
 constexpr float kTangentVar = 1.f;
 constexpr float kShapelessVar = 0.04f;  // m^2, of a point on no known surface: it may be an edge
@@ -146,8 +145,8 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
   term.distance = term.direction.dot(pair.offset);
   term.distance_sq = term.distance * term.distance / variance;
   if (term.distance_sq > kGateSq) return term;
-  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
-  term.weight = term.kernel * term.kernel / variance;
+  term.kernel = RobustKernel(term.distance_sq);
+  term.weight = term.kernel.weight() / variance;
   return term;
 }
 
@@ -164,20 +163,12 @@ MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radi
     if (term.weight == 0.f) continue;
     const Eigen::Vector3f normal = rotation.transpose() * term.direction;
     const Vector6f row = JacobianRow(point, normal);
-    sums.information.Add(row, term.weight);
+    // The distance falls as the point moves on.
+    const Vector6f score = sums.AddRow(row, -term.distance, term.weight, term.kernel);
     const Eigen::Vector3f tangent = normal.unitOrthogonal();
     for (const Eigen::Vector3f& axis : {tangent, Eigen::Vector3f(normal.cross(tangent))}) {
       sums.feigned.Add(JacobianRow(point, axis), term.weight * term.tilt_var);
     }
-    // The distance falls as the point moves on.
-    const Vector6f score = (-term.weight * term.distance) * row;
-    sums.gradient += score.cast<double>();
-    sums.curvature_sum +=
-        term.weight * (1.f - 4.f * term.kernel * term.distance_sq / kKernelWidthSq);
-    sums.information_sum += term.weight;
-    const float inlier = term.kernel * term.kernel;
-    sums.weight_sum += inlier;
-    sums.residual_sq_sum += inlier * term.distance * term.distance;
     ++sums.num_matched;
     if (scores == nullptr) continue;
     const Vector3 place = (T_map_imu * point.cast<double>()) / kClusterVoxel_m;
@@ -229,7 +220,7 @@ void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Vector6 last_step = Summarise(sums, scores_, result);
+  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
   // The residual step at hand costs nothing, and the iteration stopped at a finite one.
   if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
 }

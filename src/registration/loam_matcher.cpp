@@ -118,7 +118,7 @@ void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Vector6 last_step = Summarise(sums, scores_, result);
+  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
   // The residual step at hand costs nothing, and the rounds stopped at a finite one.
   if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
 }

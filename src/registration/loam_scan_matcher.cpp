@@ -134,7 +134,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
     }
   }
   const MatchSums sums = terms_->Linearize(points, T_last_imu, scores_);
-  const Vector6 last_step = Summarise(sums, scores_, result);
+  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
   if (sweep_ratios.empty() && last_step.norm() < kMaxLastStep) {
     result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
   }

@@ -31,17 +31,33 @@ void ClusterScores::Add(std::int32_t part, const Vector6f& score) {
   by_part_[i] += score;
 }
 
-Matrix6 ClusterScores::Covariance() const {
-  Matrix6 cov = Matrix6::Zero();
+Matrix6 ClusterScores::SumOfSquares() const {
+  Matrix6 sum = Matrix6::Zero();
   for (const std::int32_t part : parts_) {
     const Vector6 score = by_part_[static_cast<std::size_t>(part)].cast<double>();
-    cov += score * score.transpose();
+    sum += score * score.transpose();
   }
-  const auto num_parts = static_cast<double>(parts_.size());
-  return cov * (num_parts / std::max(1.0, num_parts - 6.0));
+  return sum;
 }
 
-Vector6 Summarise(const MatchSums& sums, const ClusterScores& scores, MatchResult& result) {
+Matrix6 ClusterScores::Covariance() const {
+  const auto num_parts = static_cast<double>(parts_.size());
+  return num_parts / std::max(1.0, num_parts - 6.0) * SumOfSquares();
+}
+
+Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
+                           const RobustKernel& kernel) {
+  const Vector6f row_gradient = (weight * residual_m) * row;
+  information.Add(row, weight);
+  gradient += row_gradient.cast<double>();
+  curvature_sum += weight * kernel.curvature();
+  information_sum += weight;
+  weight_sum += kernel.weight();
+  residual_sq_sum += kernel.weight() * residual_m * residual_m;
+  return row_gradient;
+}
+
+Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
   const DirectionSplit split = SplitDirections(result.information, sums.feigned.Full());
   // The sandwich wants the robust cost's own curvature, which is less than the information.
@@ -49,7 +65,7 @@ Vector6 Summarise(const MatchSums& sums, const ClusterScores& scores, MatchResul
       std::clamp(sums.curvature_sum / sums.information_sum, kMinCurvature, 1.0);
   result.eigenvalues = split.eigenvalues;
   result.weak_mask = split.weak_mask;
-  result.held_cov = CovarianceFromScores(split, scores.Covariance() / (curvature * curvature));
+  result.held_cov = CovarianceFromScores(split, score_cov / (curvature * curvature));
   result.cov = result.held_cov + WeakCovariance(split);
   result.residual_rms_m = std::sqrt(sums.residual_sq_sum / sums.weight_sum);
   if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {

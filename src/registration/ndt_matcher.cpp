@@ -9,16 +9,13 @@ namespace lio {
 namespace {
 
 constexpr int kMinMatched = 50;
-constexpr float kGateSq = 25.f;        // residuals beyond five sigma do not count
-constexpr float kKernelWidthSq = 8.f;  // Geman-McClure: w = 1 / (1 + d^2/8)^2
+constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
 // What is seen of an upright thing depends on the side it is seen from: its cell is off by this.
 constexpr double kSideStd_m = 0.15;
 constexpr double kMaxShiftStd_m = 0.02;  // a better known shift does without upright things
-constexpr std::int32_t kNoSlot = -1;
-constexpr float kMaxLever = 4.f;       // cap of a^2/l, where a patch is extrapolated
-constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene of outliers
-constexpr double kReachShrink = 0.3;   // of the reach's standard deviation, each iteration
-constexpr double kMinReach_m = 0.01;   // a smaller reach is none
+constexpr float kMaxLever = 4.f;         // cap of a^2/l, where a patch is extrapolated
+constexpr double kReachShrink = 0.3;     // of the reach's standard deviation, each iteration
+constexpr double kMinReach_m = 0.01;     // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
 constexpr double kMaxLastStep = 5e-3;  // m, rad
 constexpr int kFarOffIterationFactor = 5;
@@ -30,15 +27,6 @@ const Pose& GridFromMap() {
   return kRotation;
 }
 
-using Matrix6f = Eigen::Matrix<float, 6, 6>;
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-
-Vector6f JacobianRow(const Eigen::Vector3f& point_imu, const Eigen::Vector3f& direction_imu) {
-  Vector6f row;
-  row << direction_imu, point_imu.cross(direction_imu);
-  return row;
-}
-
 double InitialReach(const Matrix6& guess_cov) {
   const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
   const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
@@ -48,70 +36,6 @@ double InitialReach(const Matrix6& guess_cov) {
 }
 
 }  // namespace
-
-struct NdtMatcher::System {
-  // Gives the row's gradient.
-  Vector6f Add(const Vector6f& jacobian, const Row& row, const Term& term) {
-    const Matrix6f row_information = row.weight * jacobian * jacobian.transpose();
-    const Vector6f row_gradient = (row.weight * row.distance) * jacobian;
-    information += row_information.cast<double>();
-    // d(w d)/dd: less than w, for the kernel gives way.
-    curvature_sum += row.weight * (1.f - 4.f * term.kernel * term.distance_sq / kKernelWidthSq);
-    information_sum += row.weight;
-    gradient += row_gradient.cast<double>();
-    weight_sum += term.kernel * term.kernel;
-    residual_sq_sum += term.kernel * term.kernel * row.distance * row.distance;
-    return row_gradient;
-  }
-
-  Matrix6 information = Matrix6::Zero();  // with the weights held
-  Matrix6 feigned = Matrix6::Zero();      // information that the normals' noise alone would show
-  Vector6 gradient = Vector6::Zero();
-  double weight_sum = 0.0;
-  double curvature_sum = 0.0;    // of the robust cost along the normals, and the same ...
-  double information_sum = 0.0;  // ... with the weights held
-  double residual_sq_sum = 0.0;
-  int num_matched = 0;
-};
-
-// Gradients summed per cell: the parts of the score whose errors are independent.
-struct NdtMatcher::Scores {
-  struct Cell {
-    Vector6f gradient = Vector6f::Zero();
-    // What the gradient changes by when an upright cell is off by a metre, along its two
-    // directions.
-    std::array<Vector6f, 2> per_metre{Vector6f::Zero(), Vector6f::Zero()};
-  };
-
-  Cell& Of(std::int32_t cell) {
-    std::int32_t& slot = slots[static_cast<std::size_t>(cell)];
-    if (slot == kNoSlot) {
-      slot = static_cast<std::int32_t>(cells.size());
-      cells.emplace_back();
-    }
-    return cells[static_cast<std::size_t>(slot)];
-  }
-  Matrix6 Covariance() const;
-
-  std::vector<std::int32_t>& slots;  // by the map's cell: index in cells
-  std::vector<Cell> cells;
-};
-
-// With the usual correction for so few cells as six parameters count.
-Matrix6 NdtMatcher::Scores::Covariance() const {
-  Matrix6 scores = Matrix6::Zero();
-  Matrix6 sides = Matrix6::Zero();
-  for (const Cell& cell : cells) {
-    const Vector6 gradient = cell.gradient.cast<double>();
-    scores += gradient * gradient.transpose();
-    for (const Vector6f& per_metre : cell.per_metre) {
-      const Vector6 side = per_metre.cast<double>();
-      sides += side * side.transpose();
-    }
-  }
-  const auto num = static_cast<double>(cells.size());
-  return num / std::max(1.0, num - 6.0) * scores + kSideStd_m * kSideStd_m * sides;
-}
 
 NdtMatcher::NdtMatcher(const NdtOptions& options) : options_(options), map_(options) {}
 
@@ -171,8 +95,8 @@ NdtMatcher::Term NdtMatcher::PlaneTerm(const Pair& pair, float reach_var) const 
   row.direction = patch.normal;
   row.distance = patch.normal.dot(pair.from_mean);
   term.distance_sq = row.distance * row.distance / variance;
-  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
-  row.weight = term.kernel * term.kernel / variance;
+  term.kernel = RobustKernel(term.distance_sq);
+  row.weight = term.kernel.weight() / variance;
   return term;
 }
 
@@ -192,10 +116,8 @@ NdtMatcher::Term NdtMatcher::UprightTerm(const Pair& pair, float reach_var) cons
     row.distance = row.direction.dot(pair.from_mean);
     term.distance_sq += row.distance * row.distance / variance[i];
   }
-  term.kernel = 1.f / (1.f + term.distance_sq / kKernelWidthSq);
-  for (std::size_t i = 0; i < 2; ++i) {
-    term.rows[i].weight = term.kernel * term.kernel / variance[i];
-  }
+  term.kernel = RobustKernel(term.distance_sq);
+  for (std::size_t i = 0; i < 2; ++i) term.rows[i].weight = term.kernel.weight() / variance[i];
   return term;
 }
 
@@ -216,10 +138,9 @@ double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) cons
   return cost;
 }
 
-NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points,
-                                         const Pose& T_grid_imu, float reach_var,
-                                         Scores* scores) const {
-  System system;
+MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
+                                float reach_var, Scores* scores) const {
+  MatchSums sums;
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
   for (const Pair& pair : pairs_) {
     const Term term = TermOf(pair, reach_var);
@@ -227,25 +148,21 @@ NdtMatcher::System NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points
     const Eigen::Vector3f& point = points[static_cast<std::size_t>(pair.point)];
     const SurfacePatch& patch = map_.patch(pair.cell);
     if (patch.kind == SurfacePatch::Kind::kPlane) {
-      const Vector6f tangent1 = JacobianRow(point, to_imu * patch.tangent1_per_std);
-      const Vector6f tangent2 = JacobianRow(point, to_imu * patch.tangent2_per_std);
       const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
-      const Matrix6f noise =
-          feigned * (tangent1 * tangent1.transpose() + tangent2 * tangent2.transpose());
-      system.feigned += noise.cast<double>();
+      sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent1_per_std), feigned);
+      sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent2_per_std), feigned);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
       const Row& row = term.rows[i];
       const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
-      const Vector6f gradient = system.Add(jacobian, row, term);
+      const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
       if (scores == nullptr) continue;
-      Scores::Cell& cell = scores->Of(pair.cell);
-      cell.gradient += gradient;
-      if (term.num_rows == 2) cell.per_metre[i] += row.weight * jacobian;
+      scores->gradient.Add(pair.cell, gradient);
+      if (term.num_rows == 2) scores->per_metre[i].Add(pair.cell, row.weight * jacobian);
     }
-    ++system.num_matched;
+    ++sums.num_matched;
   }
-  return system;
+  return sums;
 }
 
 // Mean over the matched points of (points this scan adds to the cell) / (points in it after).
@@ -263,35 +180,23 @@ double NdtMatcher::NewContentShare() const {
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
-  score_slots_.resize(map_.cell_capacity(), kNoSlot);
-  Scores scores{score_slots_, {}};
-  const System system = Linearize(input.points_imu, T_grid_imu, 0.f, &scores);
-  for (const Pair& pair : pairs_) score_slots_[static_cast<std::size_t>(pair.cell)] = kNoSlot;
+  for (ClusterScores* scores : {&scores_.gradient, &scores_.per_metre[0], &scores_.per_metre[1]}) {
+    scores->Reset(map_.cell_capacity());
+  }
+  const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, &scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
-  result.num_matched = system.num_matched;
+  result.num_matched = sums.num_matched;
   result.new_content_share = NewContentShare();
-  if (system.num_matched < kMinMatched) {
+  if (sums.num_matched < kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const DirectionSplit split = SplitDirections(system.information, system.feigned);
-  // The sandwich wants the robust cost's own curvature, which is less than the information.
-  const double curvature =
-      std::clamp(system.curvature_sum / system.information_sum, kMinCurvature, 1.0);
-  const Matrix6 score_cov = scores.Covariance() / (curvature * curvature);
+  const Matrix6 sides = scores_.per_metre[0].SumOfSquares() + scores_.per_metre[1].SumOfSquares();
+  const Matrix6 score_cov = scores_.gradient.Covariance() + kSideStd_m * kSideStd_m * sides;
+  const Vector6 last_step = Summarise(sums, score_cov, result);
   // The residual step at hand costs nothing, and the iteration stopped at a finite one.
-  const Vector6 last_step = StepInHeldDirections(split, system.gradient);
   if (last_step.norm() < kMaxLastStep) {
     result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
-  }
-  result.information = system.information;
-  result.eigenvalues = split.eigenvalues;
-  result.weak_mask = split.weak_mask;
-  result.held_cov = CovarianceFromScores(split, score_cov);
-  result.cov = result.held_cov + WeakCovariance(split);
-  result.residual_rms_m = std::sqrt(system.residual_sq_sum / system.weight_sum);
-  if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {
-    result.status = MatchStatus::kDegenerate;
   }
 }
 
@@ -308,11 +213,11 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
     ++result.iterations;
     if (reach < kMinReach_m) reach = 0.0;
     Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
-    const System system =
+    const MatchSums sums =
         Linearize(input.points_imu, T_grid_imu, static_cast<float>(reach * reach), nullptr);
-    if (system.num_matched < kMinMatched) break;
-    const DirectionSplit split = SplitDirections(system.information, system.feigned);
-    const Vector6 step = StepInHeldDirections(split, system.gradient);
+    if (sums.num_matched < kMinMatched) break;
+    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    const Vector6 step = StepInHeldDirections(split, sums.gradient);
     if (!step.allFinite()) {
       result.status = MatchStatus::kDiverged;
       return result;

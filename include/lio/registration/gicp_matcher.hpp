@@ -57,9 +57,9 @@ class GicpMatcher final : public ScanMatcher {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // b
     float distance = 0.f;                                 // along it [m]
     float distance_sq = 0.f;                              // in its variance
-    float kernel = 0.f;                                   // Geman-McClure's root weight
-    float weight = 0.f;                                   // 1 / m^2; 0: no pair
-    float tilt_var = 0.f;                                 // of b toward either side [rad^2]
+    RobustKernel kernel;
+    float weight = 0.f;    // 1 / m^2; 0: no pair
+    float tilt_var = 0.f;  // of b toward either side [rad^2]
   };
 
   // Pairs every point anew, or moves the pairs along where the pose has hardly changed.

@@ -22,18 +22,34 @@ inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) 
   return row;
 }
 
-// The upper triangle alone is added to; symmetric when read.
+// Geman-McClure's kernel at a residual of so many sigmas, squared: w = 1 / (1 + d^2/8)^2.
+class RobustKernel {
+ public:
+  RobustKernel() = default;
+  explicit RobustKernel(float distance_sq) : root_(1.f / (1.f + distance_sq / kWidthSq)) {
+    // d(w d)/dd over w: less than one, for the kernel gives way.
+    curvature_ = 1.f - 4.f * root_ * distance_sq / kWidthSq;
+  }
+  float weight() const { return root_ * root_; }  // 1 for an inlier
+  float curvature() const { return curvature_; }
+
+ private:
+  static constexpr float kWidthSq = 8.f;
+
+  float root_ = 0.f;
+  float curvature_ = 0.f;
+};
+
+// The lower triangle alone is added to; symmetric when read.
 class TermSum {
  public:
   void Add(const Vector6f& row, float weight) {
     const Vector6f weighted = weight * row;
     for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) sum_(i, j) += static_cast<double>(weighted[i] * row[j]);
+      for (int j = 0; j <= i; ++j) sum_(i, j) += static_cast<double>(weighted[i] * row[j]);
     }
   }
-  // Of a matrix with a valid upper triangle.
-  void SetUpper(const Matrix6& upper) { sum_ = upper; }
-  Matrix6 Full() const { return sum_.selfadjointView<Eigen::Upper>(); }
+  Matrix6 Full() const { return sum_.selfadjointView<Eigen::Lower>(); }
 
  private:
   Matrix6 sum_ = Matrix6::Zero();
@@ -41,6 +57,9 @@ class TermSum {
 
 // Sums over terms, in the order they are added.
 struct MatchSums {
+  // One row of the problem, of this weight [1/m^2], the kernel's part included. Gives its gradient.
+  Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
+
   TermSum information;
   TermSum feigned;  // information that the noise of the map's directions alone would show
   Vector6 gradient = Vector6::Zero();
@@ -57,7 +76,9 @@ class ClusterScores {
   // `num_parts`: upper bound of the parts' numbers.
   void Reset(std::size_t num_parts);
   void Add(std::int32_t part, const Vector6f& score);
-  // Sum over parts of score score^T, corrected for the six estimated dimensions.
+  // Sum over parts of score score^T, ...
+  Matrix6 SumOfSquares() const;
+  // ... and corrected for the six estimated dimensions.
   Matrix6 Covariance() const;
 
  private:
@@ -66,8 +87,9 @@ class ClusterScores {
   std::vector<std::uint8_t> is_used_;
 };
 
-// Fills information, covariances, eigenvalues, weak directions and residual; turns kConverged into
-// kDegenerate where a direction is weak. Gives the step that is left, within the held directions.
-Vector6 Summarise(const MatchSums& sums, const ClusterScores& scores, MatchResult& result);
+// `score_cov`: of the whole gradient. Fills information, covariances, eigenvalues, weak directions
+// and residual; turns kConverged into kDegenerate where a direction is weak. Gives the step that is
+// left, within the held directions.
+Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result);
 
 }  // namespace lio

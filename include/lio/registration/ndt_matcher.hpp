@@ -18,9 +18,9 @@
 #include <array>
 
 #include "lio/map/gaussian_map.hpp"
+#include "lio/registration/match_summary.hpp"
 #include "lio/registration/ndt_options.hpp"
 #include "lio/registration/scan_matcher.hpp"
-#include "lio/registration/weak_directions.hpp"
 
 namespace lio {
 
@@ -52,26 +52,30 @@ class NdtMatcher final : public ScanMatcher {
     std::array<Row, 2> rows;
     int num_rows = 1;
     float distance_sq = 0.f;  // in its variance
-    float kernel = 0.f;       // Geman-McClure's root weight
+    RobustKernel kernel;
   };
-  struct System;
-  struct Scores;
+  // Scores by cell. Beside them what the gradient changes by when an upright cell is off by a
+  // metre, along its two directions.
+  struct Scores {
+    ClusterScores gradient;
+    std::array<ClusterScores, 2> per_metre;
+  };
 
   void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                  bool with_upright);
   Term TermOf(const Pair& pair, float reach_var) const;
   Term PlaneTerm(const Pair& pair, float reach_var) const;
   Term UprightTerm(const Pair& pair, float reach_var) const;
-  System Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, float reach_var,
-                   Scores* scores) const;
+  MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
+                      float reach_var, Scores* scores) const;
   double NewContentShare() const;
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
   GaussianMap map_;
-  std::vector<Pair> pairs_;                // of the current iteration, in the points' order
-  Pose paired_at_;                         // T_grid_imu of the pairs
-  std::vector<std::int32_t> score_slots_;  // scratch by cell
+  std::vector<Pair> pairs_;  // of the current iteration, in the points' order
+  Pose paired_at_;           // T_grid_imu of the pairs
+  Scores scores_;
   std::vector<std::int32_t> cell_counts_;  // this scan's points by cell; zero between scans
 };
 
