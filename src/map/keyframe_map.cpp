@@ -46,23 +46,15 @@ KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
   }
 }
 
-KeyframeMap::Cell KeyframeMap::VoxelOf(const Vector3& point_map) const {
-  const Vector3 scaled =
-      (inverse_voxel_ * point_map).cwiseMax(-kVoxelCoordinateLimit).cwiseMin(kVoxelCoordinateLimit);
-  return {static_cast<std::int32_t>(std::floor(scaled.x())),
-          static_cast<std::int32_t>(std::floor(scaled.y())),
-          static_cast<std::int32_t>(std::floor(scaled.z()))};
-}
-
 Vector3 KeyframeMap::CornerOf(const Block& block) const {
   return kEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
 }
 
 std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
                                    std::int32_t keyframe) {
-  const Cell cell = VoxelOf(position_map);
+  const VoxelCell cell = VoxelOf(inverse_voxel_ * position_map);
   if (!IsInRange(cell)) return kNone;
-  const Cell at{cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
+  const VoxelCell at{cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
   const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
   if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
   Block& block = blocks_[ToIndex(added.voxel)];
@@ -237,7 +229,7 @@ void KeyframeMap::ChooseSubmap(const Vector3& place_map) {
 
 struct KeyframeMap::Search {
   Vector3 query;
-  Cell voxel;
+  VoxelCell voxel;
   // Squared distance from the query to the voxels `offset` away along an axis [m^2].
   std::array<std::array<float, 2 * kMaxReach + 1>, 3> gap_sq;
   float best_sq;
@@ -268,7 +260,7 @@ void KeyframeMap::SearchVoxel(const Block& block, std::size_t voxel, const Eigen
 // All voxels within so many voxels of the query's own, block by block, each only when it can hold
 // something nearer.
 void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
-  Cell low, high;
+  VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = search.voxel[i] - reach_voxels;
     high[i] = search.voxel[i] + reach_voxels;
@@ -286,7 +278,7 @@ void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
     const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
     for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
       const int i = std::countr_zero(bits);
-      const Cell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
+      const VoxelCell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
       if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) continue;
       if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
         SearchVoxel(block, ToIndex(i), query, search);
@@ -299,7 +291,11 @@ void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
 
 KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,
                                           std::int32_t near) const {
-  Search search{query_map, VoxelOf(query_map), {}, static_cast<float>(radius_m * radius_m), {}};
+  Search search{query_map,
+                VoxelOf(inverse_voxel_ * query_map),
+                {},
+                static_cast<float>(radius_m * radius_m),
+                {}};
   if (!IsInRange(search.voxel)) return search.best;
   if (near != kNone) {
     const Point& point = points_[ToIndex(near)];
@@ -331,7 +327,7 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
 }
 
 int KeyframeMap::CountAt(const Vector3& point_map) const {
-  const Cell cell = VoxelOf(point_map);
+  const VoxelCell cell = VoxelOf(inverse_voxel_ * point_map);
   if (!IsInRange(cell)) return 0;
   const std::int32_t number = index_.Find(PackVoxel(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2));
   if (number == VoxelIndex::kNone) return 0;

@@ -38,7 +38,7 @@ constexpr int kMaxReach = 12;  // voxels: a search never goes farther
 
 struct PointMap::Search {
   Vector3 query;
-  Cell voxel;
+  VoxelCell voxel;
   int wanted;
   float max_distance_sq;
   Neighbours found;
@@ -68,18 +68,10 @@ PointMap::PointMap(const PointMapOptions& options)
   }
 }
 
-bool PointMap::IsInRange(const Cell& voxel) {
+bool PointMap::IsInRange(const VoxelCell& voxel) {
   return std::all_of(voxel.begin(), voxel.end(), [](std::int32_t v) {
     return std::abs(v) < kVoxelCoordinateLimit - 2 * kMaxReach;
   });
-}
-
-PointMap::Cell PointMap::VoxelOf(const Vector3& point_map) const {
-  const Vector3 scaled =
-      (inverse_voxel_ * point_map).cwiseMax(-kVoxelCoordinateLimit).cwiseMin(kVoxelCoordinateLimit);
-  return {static_cast<std::int32_t>(std::floor(scaled.x())),
-          static_cast<std::int32_t>(std::floor(scaled.y())),
-          static_cast<std::int32_t>(std::floor(scaled.z()))};
 }
 
 Vector3 PointMap::CornerOf(const Block& block) const {
@@ -89,7 +81,7 @@ Vector3 PointMap::CornerOf(const Block& block) const {
 // All voxels within so many voxels of the query's own, block by block.
 void PointMap::SearchAround(Search& search, int reach_voxels) const {
   search.found.count = 0;
-  Cell low, high;
+  VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = search.voxel[i] - reach_voxels;
     high[i] = search.voxel[i] + reach_voxels;
@@ -118,7 +110,7 @@ void PointMap::SearchAround(Search& search, int reach_voxels) const {
 PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,
                                            double radius_m) const {
   Search search{query_map,
-                VoxelOf(query_map),
+                VoxelOf(inverse_voxel_ * query_map),
                 std::min(wanted, kMaxNeighbours),
                 static_cast<float>(radius_m * radius_m),
                 {}};
@@ -130,7 +122,7 @@ PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,
 }
 
 PointMap::Content PointMap::ContentAt(const Vector3& point_map) const {
-  const Cell voxel = VoxelOf(point_map);
+  const VoxelCell voxel = VoxelOf(inverse_voxel_ * point_map);
   Content content;
   if (!IsInRange(voxel)) return content;
   content.key = PackVoxel(voxel[0], voxel[1], voxel[2]);
@@ -145,9 +137,9 @@ PointMap::Content PointMap::ContentAt(const Vector3& point_map) const {
 }
 
 void PointMap::AddPoint(const Vector3& point_map) {
-  const Cell voxel = VoxelOf(point_map);
+  const VoxelCell voxel = VoxelOf(inverse_voxel_ * point_map);
   if (!IsInRange(voxel)) return;
-  const Cell at{voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
+  const VoxelCell at{voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
   const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
   if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
   Block& block = blocks_[ToIndex(added.voxel)];

@@ -45,6 +45,10 @@ std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_im
   return levelled;
 }
 
+SweepTimes TimesOf(const Sweep& sweep) {
+  return {sweep.start, sweep.end, sweep.middle()};
+}
+
 Quaternion LevelOf(const Vector3& up_map) {
   return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
 }
@@ -59,6 +63,10 @@ MatchSide::MatchSide(const Options& options, ClockNs clock,
       filter_(options.rig.lidar),
       reducer_(MakeReducer(options, beam_elevations_rad)),
       matcher_(MakeMatcher(options)) {}
+
+void MatchSide::AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const {
+  outcome.stage_ns[static_cast<std::size_t>(stage)] += Now() - since_ns;
+}
 
 MatchInput MatchSide::SeekShift(const MatchJob& job, MatchInput input) const {
   if (!last_found_) return input;
@@ -90,10 +98,6 @@ void MatchSide::SeekVelocity(const MatchJob& job, MatchOutcome& outcome) {
 }
 
 void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome) {
-  StageTimes& times = outcome.stage_ns;
-  const auto time = [&](Stage stage, std::int64_t since) {
-    times[static_cast<std::size_t>(stage)] += Now() - since;
-  };
   std::int64_t begin = Now();
   const std::vector<FeatureTag> tags = Pick(reduced.tags, reduced.to_match);
   std::vector<Eigen::Vector3f> to_match = Pick(outcome.points_imu, reduced.to_match);
@@ -101,19 +105,19 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
                    tags,     outcome.points_imu,  job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
-  time(Stage::kMatch, begin);
-  const SweepTimes sweep_times{job.sweep->start, job.sweep->end, job.sweep->middle()};
+  AddTime(Stage::kMatch, begin, outcome);
+  const SweepTimes sweep_times = TimesOf(*job.sweep);
   StampedPoses motion = job.T_any_imu;
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
     motion = Bend(job, outcome.match.T_map_imu);
     outcome.points_imu = Deskew(reduced.points, sweep_times, motion, T_imu_lidar_);
-    time(Stage::kDeskew, begin);
+    AddTime(Stage::kDeskew, begin, outcome);
     begin = Now();
     to_match = Pick(outcome.points_imu, reduced.to_match);
     outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, tags,
                                      outcome.points_imu, job.shift_std_m});
-    time(Stage::kMatch, begin);
+    AddTime(Stage::kMatch, begin, outcome);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
@@ -122,7 +126,7 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     begin = Now();
     const std::vector<ScanPoint> dense = DensePoints(*job.sweep, filter_);
     outcome.points_imu = Deskew(dense, sweep_times, motion, T_imu_lidar_);
-    time(Stage::kDeskew, begin);
+    AddTime(Stage::kDeskew, begin, outcome);
   }
 }
 
@@ -130,10 +134,6 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   const Sweep& sweep = *job.sweep;
   MatchOutcome outcome;
   outcome.sweep = job.sweep;
-  StageTimes& times = outcome.stage_ns;
-  const auto time = [&](Stage stage, std::int64_t since) {
-    times[static_cast<std::size_t>(stage)] += Now() - since;
-  };
   if (job.clear_map) {
     matcher_->Clear();
     matcher_->SetUp(job.up_map);
@@ -145,12 +145,11 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   ReducedScan reduced = reducer_->Reduce(sweep);
   outcome.num_used = static_cast<int>(reduced.to_match.size());
   outcome.num_nonfinite = reduced.num_nonfinite;
-  time(Stage::kReduce, begin);
+  AddTime(Stage::kReduce, begin, outcome);
 
   begin = Now();
-  const SweepTimes sweep_times{sweep.start, sweep.end, sweep.middle()};
-  outcome.points_imu = Deskew(reduced.points, sweep_times, job.T_any_imu, T_imu_lidar_);
-  time(Stage::kDeskew, begin);
+  outcome.points_imu = Deskew(reduced.points, TimesOf(sweep), job.T_any_imu, T_imu_lidar_);
+  AddTime(Stage::kDeskew, begin, outcome);
 
   if (job.seek == MatchJob::Seek::kVelocity) {
     SeekVelocity(job, outcome);
@@ -159,6 +158,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
   }
   outcome.tags = std::move(reduced.tags);
   outcome.features = std::move(reduced.features);
+  StageTimes& times = outcome.stage_ns;
   times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;
   times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;
   times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;

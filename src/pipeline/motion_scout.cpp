@@ -86,6 +86,18 @@ void MotionScout::AdvanceTo(Timestamp stamp) {
   }
 }
 
+void MotionScout::Tell(Timestamp middle, const MatchResult& match) {
+  if (match.IsUsable()) {
+    PoseEvent event;
+    event.measurement.T_map_imu = match.T_map_imu;
+    event.measurement.cov = match.cov;
+    event.force = true;
+    history_.AddPose(middle, event);
+  } else if (match.status == MatchStatus::kEmptyMap) {
+    history_.AddRebase(middle);
+  }
+}
+
 void MotionScout::SetClock(Timestamp stamp) {
   Estimate estimate = history_.head();
   estimate.stamp = stamp;

@@ -144,8 +144,8 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   }
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
-  const bool is_gap =
-      jump_s >= 0.0 && jump_s < kMaxGap_s;  // else a clock was set, as messages go on
+  // Else a clock was set, for messages go on.
+  const bool is_gap = jump_s >= 0.0 && jump_s < kMaxGap_s;
   const double unknown_s = is_gap ? jump_s : std::clamp(jump_s, 0.1, kMaxGap_s);
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;

@@ -37,7 +37,6 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
   MatchJob job = MakeJob(in_flight_, is_first);
   job.filter_ns = filter_ns_ + Now() - begin;
   filter_ns_ = 0;
-  if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
   return job;
 }
 
@@ -58,6 +57,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
     job.shift_std_m = velocity_std_mps * job.since_last_fix_s;
     if (job.shift_std_m > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
   }
+  if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
   return job;
 }
 

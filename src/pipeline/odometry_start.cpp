@@ -116,15 +116,7 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
   }
   const Timestamp middle = outcome.sweep->middle();
   const bool is_matched = outcome.match.IsUsable();
-  PoseEvent event;
-  event.measurement.T_map_imu = outcome.match.T_map_imu;
-  event.measurement.cov = outcome.match.cov;
-  event.force = true;
-  if (is_matched) {
-    history().AddPose(middle, event);
-  } else if (outcome.match.status == MatchStatus::kEmptyMap) {
-    history().AddRebase(middle);
-  }
+  scout_->Tell(middle, outcome.match);
   const Estimate estimate = history().At(middle);
   const NavState& state = estimate.state;
   if (LargestStd(estimate, kMapPose) < kMaxInsertStd_m) insert.T_map_imu = state.T_map_imu;

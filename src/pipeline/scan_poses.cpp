@@ -72,17 +72,8 @@ MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
 
 // The pose to grow the map at: in the mean of what was matched and what was expected.
 Pose ScanPoses::TellScout(Timestamp middle, const MatchResult& match) {
-  FilterHistory& history = scout_->history();
-  if (match.IsUsable()) {
-    PoseEvent event;
-    event.measurement.T_map_imu = match.T_map_imu;
-    event.measurement.cov = match.cov;
-    event.force = true;
-    history.AddPose(middle, event);
-  } else {
-    history.AddRebase(middle);
-  }
-  return history.At(middle).state.T_map_imu;
+  scout_->Tell(middle, match);
+  return scout_->history().At(middle).state.T_map_imu;
 }
 
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {

@@ -32,6 +32,11 @@ struct Column {
   int num = 0;
 };
 
+bool IsInView(const Eigen::Vector2f& place) {
+  return place.cwiseAbs().maxCoeff() < kReach_m;
+}
+
+// Of a coordinate in view.
 int CellOf(float coordinate) {
   return static_cast<int>(std::floor((coordinate + kReach_m) / kCell_m));
 }
@@ -48,7 +53,7 @@ std::size_t IndexOf(int x, int y) {
 std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
   std::map<std::pair<int, int>, Column> columns;
   for (const Eigen::Vector3f& point : points) {
-    if (!(point.head<2>().cwiseAbs().maxCoeff() < kReach_m)) continue;
+    if (!IsInView(point.head<2>())) continue;
     const std::pair at(static_cast<int>(std::floor(point.x() / kColumn_m)),
                        static_cast<int>(std::floor(point.y() / kColumn_m)));
     Column& column = columns.try_emplace(at, Column{point.z(), point.z()}).first->second;
@@ -95,6 +100,7 @@ UprightView::UprightView(std::span<const Eigen::Vector3f> points)
 }
 
 bool UprightView::IsNear(const Eigen::Vector2f& place) const {
+  if (!IsInView(place)) return false;
   const int x = CellOf(place.x());
   const int y = CellOf(place.y());
   return IsInside(x, y) && near_[IndexOf(x, y)] != 0;
@@ -124,6 +130,7 @@ void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
 std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
   if (scans_.size() < 2) return {};
   const auto span_s = static_cast<float>(SecondsBetween(scans_.front().stamp, scans_.back().stamp));
+  if (!(span_s > 0.f)) return {};
   const auto best =
       static_cast<int>(std::max_element(scores_.begin(), scores_.end()) - scores_.begin());
   const int best_x = best % kNumSteps;

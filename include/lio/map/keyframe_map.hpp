@@ -70,7 +70,6 @@ class KeyframeMap {
   static constexpr std::int32_t kNone = -1;
   static constexpr int kEdge = 4;  // voxels of a block's edge
   static constexpr int kVoxels = kEdge * kEdge * kEdge;
-  using Cell = std::array<std::int32_t, 3>;  // coordinates of a voxel or a block
 
   // Some points of one voxel, in a chain.
   struct Node {
@@ -82,7 +81,7 @@ class KeyframeMap {
   };
   struct Block {
     std::uint64_t occupied = 0;  // a bit a voxel: x + 4 y + 16 z
-    Cell at{};                   // in blocks
+    VoxelCell at{};              // in blocks
     std::array<std::int32_t, kVoxels> first_node;
   };
   struct Point {
@@ -101,7 +100,6 @@ class KeyframeMap {
   struct Search;
 
   static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
-  Cell VoxelOf(const Vector3& point_map) const;
   Vector3 CornerOf(const Block& block) const;
   std::int32_t AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
                         std::int32_t keyframe);

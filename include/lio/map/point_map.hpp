@@ -65,18 +65,16 @@ class PointMap {
  private:
   static constexpr int kEdge = 4;  // voxels of a block's edge
   static constexpr int kVoxels = kEdge * kEdge * kEdge;
-  using Cell = std::array<std::int32_t, 3>;  // coordinates of a voxel or a block
 
   struct Block {
     std::uint64_t occupied = 0;                 // a bit a voxel: x + 4 y + 16 z
-    Cell at{};                                  // in blocks
+    VoxelCell at{};                             // in blocks
     std::array<Eigen::Vector4f, kVoxels> mean;  // from the block's corner [m]; their number
   };
   struct Search;
 
   static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
-  static bool IsInRange(const Cell& voxel);
-  Cell VoxelOf(const Vector3& point_map) const;
+  static bool IsInRange(const VoxelCell& voxel);
   Vector3 CornerOf(const Block& block) const;
   void SearchAround(Search& search, int reach_voxels) const;
   void AddPoint(const Vector3& point_map);

@@ -3,6 +3,8 @@
 // Integer names of voxels: three signed 21-bit coordinates packed into 64 bits, and a hash of them.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -17,6 +19,18 @@ inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| 
 inline std::int32_t FloorToInt(float x) {
   const auto truncated = static_cast<std::int32_t>(x);
   return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
+// Coordinates of a voxel.
+using VoxelCell = std::array<std::int32_t, 3>;
+
+// The voxel of a point given in voxels' edges; a far one is held at the limit.
+inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
+  const auto coordinate = [](double x) {
+    constexpr double kLimit = kVoxelCoordinateLimit;
+    return static_cast<std::int32_t>(std::floor(std::clamp(x, -kLimit, kLimit)));
+  };
+  return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
 
 inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -34,8 +48,7 @@ inline std::uint64_t HashVoxel(VoxelKey key) {
 
 // visit(x, y, z) for all voxels from `low` to `high`, both included, x fastest.
 template <class Visit>
-void ForEachVoxel(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& high,
-                  const Visit& visit) {
+void ForEachVoxel(const VoxelCell& low, const VoxelCell& high, const Visit& visit) {
   for (std::int32_t z = low[2]; z <= high[2]; ++z) {
     for (std::int32_t y = low[1]; y <= high[1]; ++y) {
       for (std::int32_t x = low[0]; x <= high[0]; ++x) visit(x, y, z);

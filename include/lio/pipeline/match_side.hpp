@@ -74,6 +74,7 @@ class MatchSide {
   };
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
+  void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
   void SeekVelocity(const MatchJob& job, MatchOutcome& outcome);
   void Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome);
   // The job's guess, bettered by the shift since the last scan.

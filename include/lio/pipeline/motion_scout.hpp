@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "lio/filter/filter_history.hpp"
+#include "lio/registration/scan_matcher.hpp"
 
 namespace lio {
 
@@ -32,6 +33,9 @@ class MotionScout {
   void AddRate(const ImuSample& sample);
   // Fills the time up to `stamp`; with a gyro its last rate holds.
   void AdvanceTo(Timestamp stamp);
+  // What matching found at the middle of a sweep. Not gated. A usable match moves the estimate; an
+  // empty map begins where the estimate stands.
+  void Tell(Timestamp middle, const MatchResult& match);
   // Goes on at another time, unsure of the velocity.
   void SetClock(Timestamp stamp);
   FilterHistory& history() { return history_; }
