@@ -15,6 +15,7 @@ namespace {
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.12;
 constexpr double kMaxNormalStd_rad = 0.05;
+constexpr float kMinSineOfView = 0.06f;  // between a plane and the beams that saw it
 // Upright things: height and width are standard deviations; what is seen of a trunk depends on the
 // side it is seen from.
 constexpr double kMinHeightPerVoxel = 0.15;
@@ -80,7 +81,7 @@ void GaussianMap::Remove(std::int32_t cell) {
 
 // Welford's update. A full cell whose shape is still unknown forgets slowly instead of freezing, or
 // a cell filled by single rings while parked would stay a line for ever.
-void GaussianMap::AddPoint(Sums& sums, const Vector3& local) const {
+void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const {
   if (sums.num_points >= options_.max_cell_points) {
     const double keep = 1.0 - 1.0 / options_.max_cell_points;
     for (double* sum : {&sums.xx, &sums.xy, &sums.xz, &sums.yy, &sums.yz, &sums.zz}) *sum *= keep;
@@ -88,6 +89,7 @@ void GaussianMap::AddPoint(Sums& sums, const Vector3& local) const {
   } else {
     ++sums.num_points;
   }
+  sums.view += (view - sums.view) / static_cast<float>(sums.num_points);
   const Vector3 before = local - sums.mean;
   sums.mean += before / sums.num_points;
   const Vector3 after = local - sums.mean;
@@ -111,25 +113,27 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
-  if (!ShapePlane(cov, sums.num_points, patch) && !ShapeUpright(cov, patch)) {
+  if (!ShapePlane(cov, sums, patch) && !ShapeUpright(cov, patch)) {
     patch.thickness_var = 0.f;
   }
 }
 
-bool GaussianMap::ShapePlane(const Matrix3& cov, double num_points, SurfacePatch& patch) const {
+bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
   const double thickness =
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
   const double min_width = kMinWidthPerVoxel * options_.voxel_m;
+  const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
   const bool is_plane =
       variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
-      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * num_points * variance[1];
+      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1] &&
+      std::abs(normal.dot(sums.view)) > kMinSineOfView * sums.view.norm();
   if (!is_plane) return false;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
-  patch.normal = eigen.eigenvectors().col(0).cast<float>();
+  patch.normal = normal;
   patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
   patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
   return true;
@@ -159,7 +163,7 @@ bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
   return true;
 }
 
-void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& centre_map) {
+void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map) {
   ++scan_number_;
   touched_cells_.clear();
   for (const Vector3& point : points_map) {
@@ -179,14 +183,15 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& cen
       continue;
     }
     const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
-    AddPoint(sums, options_.voxel_m * from_centre);
+    const Eigen::Vector3f view = (point - sensor_map).cast<float>().normalized();
+    AddPoint(sums, options_.voxel_m * from_centre, view);
   }
   for (const std::int32_t cell : touched_cells_) UpdatePatch(cell);
   while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(index_.oldest());
-  DropFarCells(centre_map);
+  DropFarCells(sensor_map);
 }
 
-void GaussianMap::DropFarCells(const Vector3& centre_map) {
+void GaussianMap::DropFarCells(const Vector3& sensor_map) {
   if (sums_.empty()) return;
   const std::size_t num_to_visit = sums_.size() / kFarCellsWalk + 1;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
@@ -194,7 +199,7 @@ void GaussianMap::DropFarCells(const Vector3& centre_map) {
     if (++sweep_position_ >= sums_.size()) sweep_position_ = 0;
     const auto cell = static_cast<std::int32_t>(sweep_position_);
     if (!index_.IsUsed(cell)) continue;
-    if ((CentreOf(index_.key(cell)) - centre_map).squaredNorm() > limit_sq) Remove(cell);
+    if ((CentreOf(index_.key(cell)) - sensor_map).squaredNorm() > limit_sq) Remove(cell);
   }
 }
 

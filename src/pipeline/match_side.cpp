@@ -169,7 +169,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
 void MatchSide::Insert(const InsertTask& task) {
   if (!task.T_map_imu) return;
   const std::int64_t begin = Now();
-  matcher_->Insert({task.points_imu, task.tags}, *task.T_map_imu);
+  matcher_->Insert({task.points_imu, task.tags, T_imu_lidar_.translation}, *task.T_map_imu);
   last_insert_ns_ = Now() - begin;
 }
 

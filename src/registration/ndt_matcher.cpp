@@ -55,7 +55,7 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   for (const Eigen::Vector3f& point : scan.points_imu) {
     points_grid.push_back(rotation * point.cast<double>() + T_grid_imu.translation);
   }
-  map_.Insert(points_grid, T_grid_imu.translation);
+  map_.Insert(points_grid, T_grid_imu * scan.sensor_imu);
 }
 
 void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,

@@ -65,6 +65,37 @@ std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double l
   return points;
 }
 
+// What a beam of this elevation, turning about the origin, leaves in a crown around `centre`.
+std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_rad) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> depth(-0.4, 0.4);
+  const double azimuth = std::atan2(centre.y(), centre.x());
+  const double range_m = centre.norm();
+  std::vector<Vector3> points;
+  for (int i = -6; i <= 6; ++i) {
+    const double at = azimuth + i * 0.0035;
+    const double r = range_m + depth(random);
+    points.push_back(r * Vector3(std::cos(elevation_rad) * std::cos(at),
+                                 std::cos(elevation_rad) * std::sin(at), std::sin(elevation_rad)));
+  }
+  return points;
+}
+
+TEST(GaussianMap, ARingThroughACrownIsNoPlane) {
+  const Vector3 centre = CentreOf(24, 17, 2);
+  const double elevation_rad = std::asin(centre.z() / centre.norm());
+  const std::vector<Vector3> ring = RingThroughCrown(centre, elevation_rad);
+  GaussianMap map(TestOptions());
+  map.Insert(ring, Vector3::Zero());
+  ASSERT_TRUE(Has(map, centre));
+  EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
+
+  // The same points, seen from above, are a piece of a surface.
+  GaussianMap from_above(TestOptions());
+  from_above.Insert(ring, centre + Vector3(5.0, 0.0, 5.0));
+  EXPECT_GT(PatchAt(from_above, centre).thickness_var, 0.f);
+}
+
 TEST(GaussianMap, PostsAreUprightAndHoldInTwoLevelDirections) {
   GaussianMap map(TestOptions());
   const Vector3 centre = CentreOf(3, 4, 1);

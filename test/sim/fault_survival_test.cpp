@@ -6,118 +6,19 @@
 #include <functional>
 #include <optional>
 
-#include "lio/io/log_input.hpp"
-#include "lio/io/options_yaml.hpp"
-#include "lio/io/trajectory_file.hpp"
-#include "lio/pipeline/match_side.hpp"
-#include "lio/pipeline/odometry.hpp"
-#include "lio/sim/recorder.hpp"
-#include "support/temp_dir.hpp"
+#include "support/simulated_run.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kDuration_s = 14.0;
 constexpr std::uint64_t kSeed = 5;
 
-// A walk over the campus, with what its folder holds.
-struct Walk {
-  std::vector<Message> messages;
-  StampedPoses truth;
-  Options options;
+using Walk = test::SimulatedLog;
+using Outcome = test::RunOutcome;
 
-  explicit Walk(const std::vector<Fault>& faults_of_the_world = {}) {
-    const test::TempDir dir;
-    ScenarioOptions scenario_options;
-    scenario_options.seed = kSeed;
-    scenario_options.duration_s = kDuration_s;
-    RecordOptions record;
-    record.lidar = LoadLidarModel("vlp16");
-    record.imu = LoadImuModel("xsens_mti10");
-    record.seed = kSeed;
-    record.faults = faults_of_the_world;
-    Record(MakeScenario("campus", scenario_options), record, dir.path(), {});
-    truth = ReadTrajectory(dir.path() / "truth.tum").poses;
-    options = LoadOptions({dir.path() / "config.yaml"}, {}).options;
-    LogInput input(dir.path() / "log.lcm", LogInputOptions());
-    std::int32_t seq = 0;
-    while (auto item = input.Next()) {
-      const Timestamp arrival{1000 * item->utime};
-      if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
-        messages.push_back({arrival, ImuMessage{*sample, seq++}});
-      } else {
-        messages.push_back({arrival, std::get<ScanChunk>(std::move(item->data))});
-      }
-    }
-  }
-};
-
-struct Outcome {
-  Counters counters;
-  TrackingStatus status = TrackingStatus::kInit;
-  int num_rows = 0;
-  double end_error_m = 0.0;    // of the motion from the first row to the last
-  double end_error_deg = 0.0;  // of the same
-};
-
-class Estimator {
- public:
-  explicit Estimator(const Options& options) : odometry_(options), match_side_(options) {}
-
-  void Take(Message message) {
-    if (const auto* imu = std::get_if<ImuMessage>(&message.body)) {
-      odometry_.AddImu(imu->sample);
-    } else {
-      odometry_.AddChunk(std::get<ScanChunk>(std::move(message.body)));
-    }
-    Match();
-  }
-
-  Outcome Finish(const StampedPoses& truth) {
-    odometry_.Flush();
-    Match();
-    Outcome outcome;
-    outcome.counters = odometry_.counters();
-    outcome.status = odometry_.status();
-    outcome.num_rows = static_cast<int>(rows_.size());
-    if (rows_.size() < 2) return outcome;
-    const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
-    const Pose expected =
-        TruthAt(truth, rows_.front().stamp).Inverse() * TruthAt(truth, rows_.back().stamp);
-    const Pose error = expected.Inverse() * motion;
-    outcome.end_error_m = error.translation.norm();
-    outcome.end_error_deg = LogSo3(error.rotation).norm() * 57.29578;
-    return outcome;
-  }
-
- private:
-  static Pose TruthAt(const StampedPoses& truth, Timestamp stamp) {
-    std::size_t k = 0;
-    while (k + 2 < truth.size() && truth[k + 1].stamp <= stamp) ++k;
-    const double span_s = SecondsBetween(truth[k].stamp, truth[k + 1].stamp);
-    return Interpolate(truth[k].pose, truth[k + 1].pose,
-                       SecondsBetween(truth[k].stamp, stamp) / span_s);
-  }
-  void Match() {
-    while (const auto job = odometry_.NextJob()) {
-      match_side_.Insert(odometry_.FinishJob(match_side_.Run(*job)));
-    }
-    for (const Output& output : odometry_.TakeOutputs()) {
-      const auto* scan = std::get_if<ScanOutput>(&output);
-      if (scan == nullptr || !scan->filter) continue;
-      const NavOutput& nav = scan->filter->nav;
-      if (!rows_.empty()) {
-        EXPECT_GT(nav.stamp, rows_.back().stamp);
-      }
-      EXPECT_TRUE(nav.T_world_imu.translation.allFinite());
-      rows_.push_back({nav.stamp, nav.T_world_imu});
-    }
-  }
-
-  Odometry odometry_;
-  MatchSide match_side_;
-  StampedPoses rows_;
-};
+test::DriveSpec CampusWalk(const std::vector<Fault>& faults_of_the_world = {}) {
+  return {"campus", "vlp16", 14.0, kSeed, faults_of_the_world};
+}
 
 Outcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
   std::vector<Fault> faults;
@@ -129,7 +30,7 @@ Outcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
   }
   Options options = walk.options;
   options.rig.T_imu_lidar = ClaimedExtrinsic(faults, *walk.options.rig.T_imu_lidar);
-  Estimator estimator(options);
+  test::RunningEstimator estimator(options);
   while (auto message = queue.PopBefore({INT64_MAX})) estimator.Take(std::move(*message));
   return estimator.Finish(walk.truth);
 }
@@ -145,7 +46,7 @@ struct Expectation {
 class FaultSurvival : public ::testing::TestWithParam<Expectation> {
  protected:
   static void SetUpTestSuite() {
-    walk_ = new Walk();
+    walk_ = new Walk(CampusWalk());
     clean_ = new Outcome(Replay(*walk_, {}));
   }
   static void TearDownTestSuite() {
@@ -233,7 +134,7 @@ TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {
 }
 
 TEST_F(FaultSurvival, DustIsSeenThrough) {
-  const Walk dusty({ParseFault("dust:start=6,duration=4,density=0.05")});
+  const Walk dusty(CampusWalk({ParseFault("dust:start=6,duration=4,density=0.05")}));
   const Outcome outcome = Replay(dusty, {});
   EXPECT_LE(outcome.status, TrackingStatus::kDegenerate);
   EXPECT_LT(outcome.end_error_m, 0.3);

@@ -6,8 +6,10 @@
 //
 // A cell counts only when its shape is known: cells filled from a standing vehicle hold single scan
 // rings, which look like lines and hold the vehicle back by metres when it drives off
-// (docs/filter.md, "ring lock"). Sums are kept relative to the voxel's centre, so that precision
-// does not depend on the distance from the origin. Not safe for concurrent use while inserting.
+// (docs/filter.md, "ring lock"). A ring that cuts through a tree's crown even looks like a plane:
+// it is the beam's own cone, which is seen edge-on, as no surface is. Sums are kept relative to the
+// voxel's centre, so that precision does not depend on the distance from the origin. Not safe for
+// concurrent use while inserting.
 #pragma once
 
 #include <cstdint>
@@ -52,9 +54,9 @@ class GaussianMap {
 
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
-  // Adds a scan; then drops what is too far from `centre_map` and, beyond the cap, the cells that
-  // were not added to for longest.
-  void Insert(std::span<const Vector3> points_map, const Vector3& centre_map);
+  // Adds a scan taken from `sensor_map`; then drops what is too far from there and, beyond the cap,
+  // the cells that were not added to for longest.
+  void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map);
 
   std::size_t num_cells() const { return index_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
@@ -65,6 +67,7 @@ class GaussianMap {
   struct Sums {
     Vector3 mean = Vector3::Zero();                         // from the voxel's centre
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
+    Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
     std::int32_t shaped_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
@@ -75,12 +78,12 @@ class GaussianMap {
     return sums.num_points >= options_.max_cell_points && patch.thickness_var > 0.f;
   }
   std::int32_t FindOrAdd(VoxelKey key);
-  void AddPoint(Sums& sums, const Vector3& local) const;
+  void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
-  bool ShapePlane(const Matrix3& cov, double num_points, SurfacePatch& patch) const;
+  bool ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   bool ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
-  void DropFarCells(const Vector3& centre_map);
+  void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
   NdtOptions options_;

@@ -20,6 +20,7 @@ namespace lio {
 struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
   std::span<const FeatureTag> tags = {};  // of each point; empty where the method needs none
+  Vector3 sensor_imu = Vector3::Zero();   // where the lidar stands
 };
 
 struct MatchInput {

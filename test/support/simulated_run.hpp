@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Runs of the estimator over simulated drives, message by message, and how far off they end.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lio/io/log_input.hpp"
+#include "lio/io/options_yaml.hpp"
+#include "lio/io/trajectory_file.hpp"
+#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/odometry.hpp"
+#include "lio/sim/recorder.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio::test {
+
+struct DriveSpec {
+  std::string scenario;
+  std::string lidar;
+  double duration_s = 10.0;
+  std::uint64_t seed = 1;
+  std::vector<sim::Fault> faults = {};  // of the world
+};
+
+// A simulated drive, with what lio-sim's folder holds.
+struct SimulatedLog {
+  std::vector<sim::Message> messages;
+  StampedPoses truth;
+  Options options;
+
+  explicit SimulatedLog(const DriveSpec& spec) {
+    const TempDir dir;
+    sim::ScenarioOptions scenario;
+    scenario.seed = spec.seed;
+    scenario.duration_s = spec.duration_s;
+    sim::RecordOptions record;
+    record.lidar = sim::LoadLidarModel(spec.lidar);
+    record.imu = sim::LoadImuModel("xsens_mti10");
+    record.seed = spec.seed;
+    record.faults = spec.faults;
+    sim::Record(sim::MakeScenario(spec.scenario, scenario), record, dir.path(), {});
+    truth = ReadTrajectory(dir.path() / "truth.tum").poses;
+    options = LoadOptions({dir.path() / "config.yaml"}, {}).options;
+    LogInput input(dir.path() / "log.lcm", LogInputOptions());
+    std::int32_t seq = 0;
+    while (auto item = input.Next()) {
+      const Timestamp arrival{1000 * item->utime};
+      if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
+        messages.push_back({arrival, sim::ImuMessage{*sample, seq++}});
+      } else {
+        messages.push_back({arrival, std::get<ScanChunk>(std::move(item->data))});
+      }
+    }
+  }
+};
+
+struct RunOutcome {
+  Counters counters;
+  TrackingStatus status = TrackingStatus::kInit;
+  int num_rows = 0;
+  double end_error_m = 0.0;    // of the motion from the first row to the last
+  double end_error_deg = 0.0;  // of the same
+};
+
+class RunningEstimator {
+ public:
+  explicit RunningEstimator(const Options& options) : odometry_(options), match_side_(options) {}
+
+  void Take(sim::Message message) {
+    if (const auto* imu = std::get_if<sim::ImuMessage>(&message.body)) {
+      odometry_.AddImu(imu->sample);
+    } else {
+      odometry_.AddChunk(std::get<ScanChunk>(std::move(message.body)));
+    }
+    Match();
+  }
+
+  RunOutcome Finish(const StampedPoses& truth) {
+    odometry_.Flush();
+    Match();
+    RunOutcome outcome;
+    outcome.counters = odometry_.counters();
+    outcome.status = odometry_.status();
+    outcome.num_rows = static_cast<int>(rows_.size());
+    if (rows_.size() < 2) return outcome;
+    const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
+    const Pose expected =
+        TruthAt(truth, rows_.front().stamp).Inverse() * TruthAt(truth, rows_.back().stamp);
+    const Pose error = expected.Inverse() * motion;
+    outcome.end_error_m = error.translation.norm();
+    outcome.end_error_deg = LogSo3(error.rotation).norm() * 57.29578;
+    return outcome;
+  }
+
+ private:
+  static Pose TruthAt(const StampedPoses& truth, Timestamp stamp) {
+    std::size_t k = 0;
+    while (k + 2 < truth.size() && truth[k + 1].stamp <= stamp) ++k;
+    const double span_s = SecondsBetween(truth[k].stamp, truth[k + 1].stamp);
+    return Interpolate(truth[k].pose, truth[k + 1].pose,
+                       SecondsBetween(truth[k].stamp, stamp) / span_s);
+  }
+  void Match() {
+    while (const auto job = odometry_.NextJob()) {
+      match_side_.Insert(odometry_.FinishJob(match_side_.Run(*job)));
+    }
+    for (const Output& output : odometry_.TakeOutputs()) {
+      const auto* scan = std::get_if<ScanOutput>(&output);
+      if (scan == nullptr || !scan->filter) continue;
+      const NavOutput& nav = scan->filter->nav;
+      if (!rows_.empty()) {
+        EXPECT_GT(nav.stamp, rows_.back().stamp);
+      }
+      EXPECT_TRUE(nav.T_world_imu.translation.allFinite());
+      rows_.push_back({nav.stamp, nav.T_world_imu});
+    }
+  }
+
+  Odometry odometry_;
+  MatchSide match_side_;
+  StampedPoses rows_;
+};
+
+}  // namespace lio::test
