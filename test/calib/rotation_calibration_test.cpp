@@ -8,18 +8,20 @@
 #include <Eigen/Cholesky>
 #include <random>
 
-#include "support/motion.hpp"
+#include "calib/sensor_pair.hpp"
 #include "support/random_state.hpp"
 
 namespace lio {
 namespace {
 
+using test::kExtrinsic;
+using test::kGyroBias;
+using test::Stand;
+using test::TurnAboutZ;
 using testing::HasSubstr;
 
 constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr double kOffset_s = -0.0312;
-const Vector3 kBias(0.004, -0.003, 0.006);
-const Quaternion kExtrinsic = ExpSo3(Vector3(0.3, -1.1, 2.0));
 
 // In the hands of somebody who walks and looks about.
 Pose Walk(double t_s) {
@@ -28,14 +30,6 @@ Pose Walk(double t_s) {
   const Vector3 look(0.1 * std::sin(0.9 * t_s), 0.15 * std::sin(1.3 * t_s + 0.4),
                      0.8 * std::sin(0.5 * t_s));
   return {ExpSo3(look) * ExpSo3(swing), Vector3::Zero()};
-}
-
-Pose TurnAboutZ(double t_s) {
-  return {ExpSo3(Vector3(0, 0, std::sin(2.0 * t_s))), Vector3::Zero()};
-}
-
-Pose Stand(double) {
-  return {};
 }
 
 struct Recording {
@@ -50,7 +44,8 @@ Recording Record(const test::Motion& motion, double span_s, double sweep_std_rad
   Recording recording;
   recording.samples = test::ExactSamples(motion, 0.0, span_s, 0.005);
   for (ImuSample& sample : recording.samples) {
-    sample.w_imu_radps += kBias + gyro_density / std::sqrt(0.005) * test::RandomVector<3>(random);
+    sample.w_imu_radps +=
+        kGyroBias + gyro_density / std::sqrt(0.005) * test::RandomVector<3>(random);
   }
   for (double t_s = 0.1; t_s < span_s - 0.1; t_s += 0.1) {
     const Quaternion R = motion(t_s + kOffset_s).rotation * kExtrinsic *
@@ -69,7 +64,7 @@ TEST(RotationCalibration, FindsOffsetRotationAndBiasOfExactTurns) {
   ASSERT_TRUE(result.found) << result.why_not;
   EXPECT_NEAR(result.found->offset_s, kOffset_s, 2e-5);
   EXPECT_LT(LogSo3(kExtrinsic.conjugate() * result.found->R_imu_lidar).norm(), 2e-4);
-  EXPECT_LT((result.found->gyro_bias_radps - kBias).norm(), 1e-5);
+  EXPECT_LT((result.found->gyro_bias_radps - kGyroBias).norm(), 1e-5);
   EXPECT_GT(result.found->correlation, 0.99);
 }
 
