@@ -17,8 +17,11 @@ bool ParseNumber(const YAML::Node& node, Number& value) {
   if (!IsUnquoted(node)) return false;
   std::string_view text = node.Scalar();
   if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
+  Number parsed{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  value = parsed;
+  return true;
 }
 
 template <int kSize>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // One YAML value into one option field, strictly: what is not exactly of the field's type is
-// refused with words. Each ParseValue returns what is wrong, empty when the value was taken;
-// ranges are not its business.
+// refused with words. Each ParseValue returns what is wrong, and leaves the value alone then; empty
+// when the value was taken. Ranges are not its business.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
