@@ -27,21 +27,20 @@ std::string Span(const StreamStats& stats) {
                      StampText(*stats.last_stamp()), stats.span_s());
 }
 
-void AddStream(Lines& lines, std::string_view name, const StreamStats& stats) {
+void AddStream(Lines& lines, const StreamStats& stats) {
   lines.Add("", "{}", Span(stats));
   lines.Add("",
             "received {:.1f} ms after the stamp on average; longest period {:.1f} ms, {} gaps, "
             "{} stamps not increasing",
             1e3 * stats.mean_delay_s(), 1e3 * stats.longest_gap_s(), stats.num_gaps(),
             stats.num_backwards());
-  static_cast<void>(name);
 }
 
 void AddLidar(Lines& lines, const RosbagReport& report) {
   lines.Add("lidar", "{}: {} sweeps at {:.3f} Hz, {:.0f} points each", report.topics.lidar,
             report.lidar.num(), report.lidar.rate_hz(),
             static_cast<double>(report.num_points) / static_cast<double>(report.lidar.num()));
-  AddStream(lines, "lidar", report.lidar);
+  AddStream(lines, report.lidar);
   lines.Add("", "fields {}", report.rules.fields);
   if (report.num_points_nonfinite + report.num_points_zero + report.num_empty > 0) {
     lines.Add("", "left out: {} points not finite, {} without return, {} clouds without points",
@@ -63,7 +62,7 @@ void AddImu(Lines& lines, const RosbagReport& report) {
   lines.Add("imu", "{}: {} samples at {:.2f} Hz", *report.topics.imu, report.imu.num(),
             report.imu.rate_hz());
   if (report.imu.num() == 0) return;
-  AddStream(lines, "imu", report.imu);
+  AddStream(lines, report.imu);
   lines.Add("", "mean |accel| {:.3f}, in the quietest second {:.3f}: {}",
             report.accelerometer.mean_mps2(), report.accelerometer.quiet_mean_mps2(),
             report.accelerometer.Suggestion());
