@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One suite over every bus that delivers. LCM's in-process transport stands for LCM here; its
-// multicast is tested with the daemon (test/integration).
+// One suite over every bus that delivers. LCM's in-process transport stands for LCM here; what
+// only one of them does: lcm_bus_test.cpp, memory_bus_test.cpp.
 #include "lio/io/bus.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 namespace lio {
 namespace {
@@ -100,55 +98,6 @@ INSTANTIATE_TEST_SUITE_P(Buses, BusTest,
                          ::testing::Values(BusKind{"Memory", [] { return OpenMemoryBus(); }},
                                            BusKind{"Lcm", [] { return OpenLcmBus("memq://"); }}),
                          [](const auto& kind) { return kind.param.name; });
-
-TEST(MemoryBus, AFullQueueLosesTheNewestMessageAsLcmDoes) {
-  const auto bus = OpenMemoryBus();
-  std::vector<std::uint8_t> heads;
-  bus->Subscribe("LIO_IMU", 2, [&](ByteView data, std::int64_t) { heads.push_back(data[0]); });
-  for (const std::uint8_t head : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
-    bus->Publish("LIO_IMU", Bytes{head});
-  }
-  while (bus->Receive(milliseconds(0)) == ReceiveResult::kMessage) {
-  }
-  EXPECT_THAT(heads, ElementsAre(1, 2));
-}
-
-TEST(NullBus, TakesEverythingAndDeliversNothing) {
-  const auto bus = OpenNullBus();
-  bus->Subscribe("LIO_IMU", 2, [](ByteView, std::int64_t) { FAIL(); });
-  EXPECT_TRUE(bus->Publish("LIO_IMU", Bytes{1}));
-  EXPECT_EQ(bus->Receive(milliseconds(0)), ReceiveResult::kClosed);
-}
-
-TEST(LcmBus, AnUnusableUrlSaysWhatAUrlIs) {
-  try {
-    OpenLcmBus("nonsense://somewhere");
-    FAIL();
-  } catch (const TransportError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("nonsense://somewhere"));
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("give a URL of udpm://"));
-  }
-}
-
-TEST(LcmBus, AMissingServerIsNamed) {
-  try {
-    OpenLcmBus("tcpq://127.0.0.1:1");  // nobody listens there
-    FAIL();
-  } catch (const TransportError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("TCPService"));
-  }
-}
-
-TEST(LcmBus, PortComesFromTheUrlOrTheEnvironmentOrTheDefault) {
-  EXPECT_EQ(UdpPort("udpm://239.255.76.67:7700?ttl=1"), 7700);
-  EXPECT_EQ(UdpPort("udpm://239.255.76.67"), 7667);
-  EXPECT_EQ(UdpPort("udpm://"), 7667);
-  EXPECT_EQ(UdpPort("memq://"), 0);
-  ::setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7701", 1);
-  EXPECT_EQ(UdpPort(""), 7701);
-  ::unsetenv("LCM_DEFAULT_URL");
-  EXPECT_EQ(UdpPort(""), 7667);
-}
 
 }  // namespace
 }  // namespace lio

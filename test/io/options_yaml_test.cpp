@@ -212,12 +212,6 @@ TEST_F(OptionsYaml, PrintedOptionsLoadAsTheSameValues) {
             first.options.rig.T_imu_lidar->rotation.coeffs());
 }
 
-TEST_F(OptionsYaml, PrintedLinesCarryMeaningUnitAndRange) {
-  EXPECT_THAT(PrintOptions(Options{}),
-              HasSubstr("  history_s: 3.0                       # how late a measurement may come "
-                        "[s]; 0.1 .. 60\n"));
-}
-
 // --- the files in config/ ---
 
 std::filesystem::path Config(const std::string& name) {

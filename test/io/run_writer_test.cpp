@@ -6,12 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "lio/io/options_yaml.hpp"
-#include "lio/io/pcd_file.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -175,27 +173,6 @@ TEST_F(RunWriterTest, EarlierRunsAreOverwritten) {
 TEST_F(RunWriterTest, WhatCannotBeWrittenIsNamed) {
   const auto file = folder_.Write("file", "");
   EXPECT_THROW(RunWriter(file / "out", Options{}), std::runtime_error);
-}
-
-TEST(PcdFile, PointsAreBinaryFloats) {
-  const test::TempDir folder;
-  const auto path = folder.path() / "map.pcd";
-  WritePcd(path, std::vector<Eigen::Vector3f>{{1.5F, 2, 3}, {4, 5, 6}});
-  const std::string text = test::ReadText(path);
-  EXPECT_THAT(text, HasSubstr("FIELDS x y z"));
-  EXPECT_THAT(text, HasSubstr("POINTS 2"));
-  const std::string body = text.substr(text.find("DATA binary\n") + 12);
-  float x = 0;
-  std::memcpy(&x, body.data(), sizeof(x));
-  EXPECT_EQ(x, 1.5F);
-}
-
-TEST(PcdFile, EmptyCloudsAndUnwritablePathsAreHandled) {
-  const test::TempDir folder;
-  WritePcd(folder.path() / "empty.pcd", {});
-  EXPECT_THAT(test::ReadText(folder.path() / "empty.pcd"), HasSubstr("POINTS 0"));
-  EXPECT_THROW(WritePcd(folder.path() / "no" / "map.pcd", std::vector<Eigen::Vector3f>{{1, 2, 3}}),
-               std::runtime_error);
 }
 
 }  // namespace
