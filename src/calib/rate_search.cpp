@@ -37,7 +37,9 @@ bool RateSearch::SumAt(double t_s, Sum& sum) const {
   const auto after = std::upper_bound(t_s_.begin(), t_s_.end(), t_s);
   if (after == t_s_.begin() || after == t_s_.end()) return false;
   const auto i = static_cast<std::size_t>(after - t_s_.begin());
-  const double fraction = (t_s - t_s_[i - 1]) / (t_s_[i] - t_s_[i - 1]);
+  const double step_s = t_s_[i] - t_s_[i - 1];
+  if (step_s > kMaxSampleGap_s) return false;
+  const double fraction = (t_s - t_s_[i - 1]) / step_s;
   sum.angle = sums_[i - 1].angle + fraction * (sums_[i].angle - sums_[i - 1].angle);
   sum.num_gaps = sums_[i].num_gaps;
   return true;

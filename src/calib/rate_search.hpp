@@ -42,7 +42,7 @@ class RateSearch {
     Vector3 angle;
     int num_gaps;
   };
-  bool SumAt(double t_s, Sum& sum) const;  // false outside the samples
+  bool SumAt(double t_s, Sum& sum) const;  // false outside the samples and in their holes
 
   std::span<const LidarTurn> turns_;
   Timestamp begin_;
