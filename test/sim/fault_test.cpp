@@ -244,32 +244,5 @@ TEST(Fault, SeveralFaultsAddUp) {
   EXPECT_NEAR(Seconds(std::get<ImuMessage>(after[0].body).sample.stamp), 3.5, 1e-9);
 }
 
-TEST(ParseFault, SaysWhatIsWrongAndWhatThereIs) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      ParseFault(text);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(message("imu_hole").find("imu_gap"), std::string::npos);
-  EXPECT_NE(message("imu_gap:begin=3").find("duration"), std::string::npos);
-  EXPECT_NE(message("imu_gap:start").find("key=value"), std::string::npos);
-  EXPECT_NE(message("imu_gap:start=soon").find("number"), std::string::npos);
-  EXPECT_NE(message("drop:channel=gps").find("lidar"), std::string::npos);
-  EXPECT_NE(message("imu_gap:channel=imu").find("no key"), std::string::npos);
-}
-
-TEST(ParseFault, EveryKindIsDescribedAndParsesByItsNameAlone) {
-  const std::string text = DescribeFaults();
-  for (const char* kind : {"imu_gap", "lidar_gap", "drop", "duplicate", "reorder", "chunk_loss",
-                           "stamp_jump", "clock_offset", "nan", "gyro_saturation", "empty_scan",
-                           "sparse_scan", "dust", "wrong_extrinsic"}) {
-    EXPECT_NE(text.find(kind), std::string::npos) << kind;
-    EXPECT_NO_THROW(ParseFault(kind)) << kind;
-  }
-}
-
 }  // namespace
 }  // namespace lio::sim

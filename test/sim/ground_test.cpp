@@ -101,9 +101,9 @@ TEST_F(GroundTest, PavingIsBesideTheRoadAndGrassBeyond) {
 TEST_F(GroundTest, TheKerbIsAStepThatIsSeenFromTheRoad) {
   const StillScene scene = Build(options_);
   const double height_m = terrain_.Height({15, 4}) + 0.06;
-  const Hit hit = scene.Cast({15, 0, height_m}, Vector3::UnitY());
+  const Hit hit = scene.Cast({15, 3.5, height_m}, Vector3::UnitY());
   EXPECT_EQ(hit.material, Material::kConcrete);
-  EXPECT_NEAR(hit.range_m, 4.0, 0.02);
+  EXPECT_NEAR(hit.range_m, 0.5, 0.02);
 }
 
 TEST_F(GroundTest, WithoutAKerbRoadAndVergeAreLevel) {

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/mesh_checks.hpp"
+
 namespace lio::sim {
 namespace {
+
+using test::CastOne;
 
 World WallAndMover() {
   World world;
@@ -19,14 +23,6 @@ World WallAndMover() {
                             return UprightPose({8.0 - 10.0 * t + 4.0 * t * t, 0.0, 0.0}, 0.0);
                           }});
   return world;
-}
-
-Hit CastOne(const Scene::Interval& interval, const Vector3f& from, const Vector3f& direction,
-            float time_ratio = 0.0f) {
-  const Ray ray{from, direction.normalized(), time_ratio};
-  Hit hit;
-  interval.Cast({&ray, 1}, 100.0f, {&hit, 1});
-  return hit;
 }
 
 TEST(Scene, FindsTheWallItsMaterialAndIncidence) {
