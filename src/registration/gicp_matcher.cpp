@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lio/registration/match_loop.hpp"
 #include "registration/scan_shapes.hpp"
 
 namespace lio {
@@ -240,29 +241,18 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   is_far_off_ = input.is_far_off;
 
   Pose T_map_imu = input.T_map_imu_guess;
-  SearchRadius radius(input.guess_cov);
-  result.status = MatchStatus::kMaxIterations;
-  const int max_iterations =
-      options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1);
-  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
-    Associate(T_map_imu, radius);
-    const MatchSums sums = Linearize(T_map_imu, radius, nullptr);
-    if (sums.num_matched < kMinMatched) break;
+  const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
+    Associate(pose, radius);
+    const MatchSums sums = Linearize(pose, radius, nullptr);
+    if (sums.num_matched < kMinMatched) return std::nullopt;
     const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-    const Vector6 step = StepInHeldDirections(split, sums.gradient);
-    if (!step.allFinite()) {
-      result.status = MatchStatus::kDiverged;
-      return result;
-    }
-    T_map_imu = T_map_imu * ExpSe3(step);
-    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
-        step.tail<3>().norm() < options_.converged_step_rad) {
-      result.status = MatchStatus::kConverged;
-      break;
-    }
-    radius.Shrink();
+    return StepInHeldDirections(split, sums.gradient);
+  };
+  const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
+                      options_.converged_step_m, options_.converged_step_rad};
+  if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_map_imu, result)) {
+    Finish(input, T_map_imu, result);
   }
-  Finish(input, T_map_imu, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lio/registration/match_loop.hpp"
 #include "registration/loam_terms.hpp"
 #include "registration/neighbour_shape.hpp"
 
@@ -131,31 +132,21 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     throw std::invalid_argument("LoamMatcher: every point needs a tag");
   }
   Pose T_map_imu = input.T_map_imu_guess;
-  SearchRadius radius(input.guess_cov);
-  result.status = MatchStatus::kMaxIterations;
   const int factor = input.is_far_off ? kFarOffRoundFactor : 1;
-  const int max_rounds = factor * options_.max_rounds;
-  for (result.iterations = 1; result.iterations <= max_rounds; ++result.iterations) {
-    Associate(input, T_map_imu, radius);
-    if (terms_->size() < kMinMatched) break;
-    const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+  const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
+    Associate(input, pose, radius);
+    if (terms_->size() < kMinMatched) return std::nullopt;
+    const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
     const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-    const Pose solved = terms_->Solve(input.points_imu, {}, T_map_imu);
-    Vector6 step = KeepHeldDirections(split, LogSe3(T_map_imu.Inverse() * solved));
-    if (result.iterations > factor * kFullRounds) step *= 0.5;
-    if (!step.allFinite()) {
-      result.status = MatchStatus::kDiverged;
-      return result;
-    }
-    T_map_imu = T_map_imu * ExpSe3(step);
-    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
-        step.tail<3>().norm() < options_.converged_step_rad) {
-      result.status = MatchStatus::kConverged;
-      break;
-    }
-    radius.Shrink();
+    const Pose solved = terms_->Solve(input.points_imu, {}, pose);
+    const double share = result.iterations > factor * kFullRounds ? 0.5 : 1.0;
+    return share * KeepHeldDirections(split, LogSe3(pose.Inverse() * solved));
+  };
+  const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,
+                      options_.converged_step_rad};
+  if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_map_imu, result)) {
+    Finish(input, T_map_imu, result);
   }
-  Finish(input, T_map_imu, result);
   return result;
 }
 

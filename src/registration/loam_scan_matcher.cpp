@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "lio/registration/match_loop.hpp"
 #include "registration/loam_terms.hpp"
 #include "registration/ring_grid.hpp"
 
@@ -154,31 +155,20 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
     throw std::invalid_argument("LoamScanMatcher: every point needs a tag, and a ratio if any");
   }
   Pose T_last_imu = T_map_last_.Inverse() * input.T_map_imu_guess;
-  SearchRadius radius(input.guess_cov);
-  result.status = MatchStatus::kMaxIterations;
-  for (result.iterations = 1; result.iterations <= options_.max_rounds; ++result.iterations) {
-    Associate(input, sweep_ratios, T_last_imu, radius);
-    if (terms_->size() < kMinMatched) break;
-    const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, T_last_imu);
-    Vector6 step = LogSe3(T_last_imu.Inverse() * solved);
-    if (sweep_ratios.empty()) {
-      const MatchSums sums = terms_->Linearize(input.points_imu, T_last_imu, scores_);
-      const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-      step = KeepHeldDirections(split, step);
-    }
-    if (!step.allFinite()) {
-      result.status = MatchStatus::kDiverged;
-      return result;
-    }
-    T_last_imu = T_last_imu * ExpSe3(step);
-    if (radius.IsExhausted() && step.head<3>().norm() < options_.converged_step_m &&
-        step.tail<3>().norm() < options_.converged_step_rad) {
-      result.status = MatchStatus::kConverged;
-      break;
-    }
-    radius.Shrink();
+  const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
+    Associate(input, sweep_ratios, pose, radius);
+    if (terms_->size() < kMinMatched) return std::nullopt;
+    const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, pose);
+    const Vector6 step = LogSe3(pose.Inverse() * solved);
+    if (!sweep_ratios.empty()) return step;
+    const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
+    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    return KeepHeldDirections(split, step);
+  };
+  const StopRule rule{options_.max_rounds, options_.converged_step_m, options_.converged_step_rad};
+  if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_last_imu, result)) {
+    Finish(input, sweep_ratios, T_last_imu, result);
   }
-  Finish(input, sweep_ratios, T_last_imu, result);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/registration/match_loop.hpp"
+
 namespace lio {
 namespace {
 
@@ -27,13 +29,25 @@ const Pose& GridFromMap() {
   return kRotation;
 }
 
-double InitialReach(const Matrix6& guess_cov) {
-  const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
-  const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  const double reach = std::sqrt(std::max(0.0, translation_var) +
-                                 std::max(0.0, rotation_var) * kReachLever_m * kReachLever_m);
-  return std::min(reach, kMaxReach_m);
-}
+// How far off the guess may be, one sigma, at a range of kReachLever_m.
+class Reach {
+ public:
+  explicit Reach(const Matrix6& guess_cov) {
+    const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
+    const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+    Set(std::min(std::sqrt(std::max(0.0, translation_var) +
+                           std::max(0.0, rotation_var) * kReachLever_m * kReachLever_m),
+                 kMaxReach_m));
+  }
+  float variance() const { return static_cast<float>(std_m_ * std_m_); }
+  void Shrink() { Set(kReachShrink * std_m_); }
+  bool IsExhausted() const { return std_m_ == 0.0; }
+
+ private:
+  void Set(double std_m) { std_m_ = std_m < kMinReach_m ? 0.0 : std_m; }
+
+  double std_m_ = 0.0;
+};
 
 }  // namespace
 
@@ -205,32 +219,18 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
-  double reach = InitialReach(input.guess_cov);
-  result.status = MatchStatus::kMaxIterations;
-  const int max_iterations =
-      options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1);
-  while (result.iterations < max_iterations) {
-    ++result.iterations;
-    if (reach < kMinReach_m) reach = 0.0;
-    Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
-    const MatchSums sums =
-        Linearize(input.points_imu, T_grid_imu, static_cast<float>(reach * reach), nullptr);
-    if (sums.num_matched < kMinMatched) break;
+  const auto step_at = [&](const Pose& pose, const Reach& reach) -> std::optional<Vector6> {
+    Associate(input.points_imu, pose, input.shift_std_m > kMaxShiftStd_m);
+    const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), nullptr);
+    if (sums.num_matched < kMinMatched) return std::nullopt;
     const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-    const Vector6 step = StepInHeldDirections(split, sums.gradient);
-    if (!step.allFinite()) {
-      result.status = MatchStatus::kDiverged;
-      return result;
-    }
-    T_grid_imu = T_grid_imu * ExpSe3(step);
-    if (reach == 0.0 && step.head<3>().norm() < options_.converged_step_m &&
-        step.tail<3>().norm() < options_.converged_step_rad) {
-      result.status = MatchStatus::kConverged;
-      break;
-    }
-    reach *= kReachShrink;
+    return StepInHeldDirections(split, sums.gradient);
+  };
+  const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
+                      options_.converged_step_m, options_.converged_step_rad};
+  if (StepUntilStill(rule, Reach(input.guess_cov), step_at, T_grid_imu, result)) {
+    Finish(input, T_grid_imu, result);
   }
-  Finish(input, T_grid_imu, result);
   return result;
 }
 
