@@ -3,15 +3,16 @@
 #include "lio/scan/reduce.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "lio/map/voxel_key.hpp"
 #include "scan/sampling.hpp"
 
 namespace lio {
 namespace {
 
 constexpr std::size_t kInitialSlots = 1u << 14;
+constexpr std::uint32_t kBitsPerWord = 64;
 
 struct Voxel {
   VoxelKey key;
@@ -31,6 +32,10 @@ Voxel VoxelOf(const LidarPoint& point, float inverse_voxel) {
   return {PackVoxel(ix, iy, iz), dx * dx + dy * dy + dz * dz};
 }
 
+std::uint32_t IndexOf(std::uint64_t choice) {
+  return static_cast<std::uint32_t>(choice);
+}
+
 }  // namespace
 
 ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
@@ -39,54 +44,79 @@ ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
       voxel_m_(static_cast<float>(options.voxel_m)),
       slots_(kInitialSlots) {}
 
-std::size_t ScanReducer::FillSlots(const Sweep& sweep, int& num_nonfinite) {
-  if (++epoch_ == 0) {  // wrapped: forget every slot
-    std::fill(slots_.begin(), slots_.end(), Slot{});
-    epoch_ = 1;
+// Whether a point is looked at cannot be foreseen, so nothing branches on it.
+void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
+  const std::uint32_t share = SampleShare(sweep.points.size());
+  candidates_.resize(sweep.points.size());
+  std::size_t num_candidates = 0;
+  num_nonfinite = 0;
+  for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
+    const LidarPoint& point = sweep.points[i];
+    const bool is_finite = IsFinite(point);
+    num_nonfinite += is_finite ? 0 : 1;
+    candidates_[num_candidates] = i;
+    num_candidates +=
+        static_cast<std::size_t>(is_finite & (Sample(point) < share) & filter_.IsInRange(point));
   }
+  candidates_.resize(num_candidates);
+}
+
+std::size_t ScanReducer::FillSlots(const Sweep& sweep) {
+  std::fill(slots_.begin(), slots_.end(), Slot{});
   const float inverse_voxel = 1.0f / voxel_m_;
   const std::size_t mask = slots_.size() - 1;
   std::size_t num_kept = 0;
-  num_nonfinite = 0;
-  const std::uint32_t share = SampleShare(sweep.points.size());
-  for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
+  for (const std::uint32_t i : candidates_) {
     const LidarPoint& point = sweep.points[i];
-    if (!IsFinite(point)) {
-      ++num_nonfinite;
-      continue;
-    }
-    if (Sample(point) >= share || !filter_.IsWanted(point)) continue;
+    if (filter_.IsOwnVehicle(point)) continue;
     const Voxel voxel = VoxelOf(point, inverse_voxel);
+    const std::uint64_t distance = std::bit_cast<std::uint32_t>(voxel.distance_sq);
+    const std::uint64_t choice = distance << 32 | i;
     std::size_t at = HashVoxel(voxel.key) & mask;
-    while (slots_[at].epoch == epoch_ && slots_[at].key != voxel.key) at = (at + 1) & mask;
+    while (slots_[at].key != voxel.key && slots_[at].key != kFreeSlot) at = (at + 1) & mask;
     Slot& slot = slots_[at];
-    if (slot.epoch != epoch_) {
-      slot = {voxel.key, epoch_, i, voxel.distance_sq};
+    if (slot.key == kFreeSlot) {
+      slot = {voxel.key, choice};
       if (++num_kept * 2 > slots_.size()) return kTableFull;
-    } else if (voxel.distance_sq < slot.distance_sq ||
-               (voxel.distance_sq == slot.distance_sq &&
-                Precedes(point, sweep.points[slot.index]))) {
-      slot.index = i;
-      slot.distance_sq = voxel.distance_sq;
+    } else if (slot.choice >> 32 == distance) [[unlikely]] {
+      if (Precedes(point, sweep.points[IndexOf(slot.choice)])) slot.choice = choice;
+    } else {
+      slot.choice = std::min(slot.choice, choice);
     }
   }
   return num_kept;
 }
 
+// Sweeps mostly come in order, so the chosen ones are listed in the sweep's order first.
+void ScanReducer::MarkChosen() {
+  is_chosen_.assign((candidates_.empty() ? 0 : candidates_.back() / kBitsPerWord) + 1, 0);
+  for (const Slot& slot : slots_) {
+    if (slot.key == kFreeSlot) continue;
+    const std::uint32_t index = IndexOf(slot.choice);
+    is_chosen_[index / kBitsPerWord] |= std::uint64_t{1} << (index % kBitsPerWord);
+  }
+}
+
 // By time, then ring: a key beside the index keeps the sort from chasing points all over the sweep.
 std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep,
-                                                           std::size_t num_kept) const {
+                                                           std::size_t num_kept) {
+  MarkChosen();
   std::vector<Chosen> chosen;
   chosen.reserve(num_kept);
-  for (const Slot& slot : slots_) {
-    if (slot.epoch != epoch_) continue;
-    const LidarPoint& point = sweep.points[slot.index];
-    const std::uint64_t key = (std::uint64_t{point.t_offset_ns} << 16) | point.ring;
-    chosen.push_back({key, slot.index});
+  for (std::uint32_t word = 0; word < is_chosen_.size(); ++word) {
+    for (std::uint64_t bits = is_chosen_[word]; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const std::uint32_t index = word * kBitsPerWord + bit;
+      const LidarPoint& point = sweep.points[index];
+      chosen.push_back({(std::uint64_t{point.t_offset_ns} << 16) | point.ring, index});
+    }
   }
-  std::sort(chosen.begin(), chosen.end(), [&](const Chosen& a, const Chosen& b) {
+  const auto precedes = [&](const Chosen& a, const Chosen& b) {
     return a.key != b.key ? a.key < b.key : Precedes(sweep.points[a.index], sweep.points[b.index]);
-  });
+  };
+  if (!std::is_sorted(chosen.begin(), chosen.end(), precedes)) {
+    std::sort(chosen.begin(), chosen.end(), precedes);
+  }
   return chosen;
 }
 
@@ -94,11 +124,13 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   ReducedScan result;
   result.num_raw = static_cast<int>(sweep.points.size());
   result.voxel_m = voxel_m_;
-  std::size_t num_kept = FillSlots(sweep, result.num_nonfinite);
+  FindCandidates(sweep, result.num_nonfinite);
+  std::size_t num_kept = FillSlots(sweep);
   while (num_kept == kTableFull) {
-    slots_.assign(slots_.size() * 4, Slot{});
-    num_kept = FillSlots(sweep, result.num_nonfinite);
+    slots_.resize(slots_.size() * 4);
+    num_kept = FillSlots(sweep);
   }
+  result.points.reserve(num_kept);
   for (const Chosen& chosen : SortedChoice(sweep, num_kept)) {
     const LidarPoint& point = sweep.points[chosen.index];
     result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});

@@ -23,12 +23,18 @@ class PointFilter {
         box_(rig.own_vehicle_box) {}
 
   // `point` is finite.
-  bool IsWanted(const LidarPoint& point) const {
+  bool IsWanted(const LidarPoint& point) const { return IsInRange(point) && !IsOwnVehicle(point); }
+
+  // Without a branch.
+  bool IsInRange(const LidarPoint& point) const {
     const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
-    if (range_sq < min_sq_ || range_sq > max_sq_) return false;
-    if (!box_) return true;
+    return (range_sq >= min_sq_) & (range_sq <= max_sq_);
+  }
+
+  bool IsOwnVehicle(const LidarPoint& point) const {
+    if (!box_) return false;
     const Vector3 p(point.x_m, point.y_m, point.z_m);
-    return !((p.array() >= box_->min_m.array()).all() && (p.array() <= box_->max_m.array()).all());
+    return (p.array() >= box_->min_m.array()).all() && (p.array() <= box_->max_m.array()).all();
   }
 
  private:

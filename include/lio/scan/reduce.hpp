@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lio/map/voxel_key.hpp"
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"
@@ -24,26 +25,30 @@ class ScanReducer final : public SweepReducer {
 
  private:
   struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t epoch = 0;
-    std::uint32_t index = 0;  // of the chosen point in the sweep
-    float distance_sq = 0.f;  // of it from the voxel's centre, in voxels
+    VoxelKey key = kFreeSlot;
+    // Of the chosen point: its distance from the voxel's centre, squared and in voxels, as a
+    // float's bits, which order as it does; below them its index in the sweep.
+    std::uint64_t choice = 0;
   };
   struct Chosen {
     std::uint64_t key = 0;  // time, then ring
     std::uint32_t index = 0;
   };
   static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
+  static constexpr VoxelKey kFreeSlot = ~VoxelKey{0};  // no voxel's: keys leave the top bit free
 
+  void FindCandidates(const Sweep& sweep, int& num_nonfinite);
   // Gives the number of voxels hit, or kTableFull.
-  std::size_t FillSlots(const Sweep& sweep, int& num_nonfinite);
-  std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept) const;
+  std::size_t FillSlots(const Sweep& sweep);
+  void MarkChosen();
+  std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept);
 
   ReduceOptions options_;
   PointFilter filter_;
   float voxel_m_;
-  std::uint32_t epoch_ = 0;
-  std::vector<Slot> slots_;  // open addressing, a power of two; slots of older epochs are free
+  std::vector<std::uint32_t> candidates_;  // indices of the points that are looked at
+  std::vector<Slot> slots_;                // open addressing, a power of two
+  std::vector<std::uint64_t> is_chosen_;   // a bit a point of the sweep
 };
 
 }  // namespace lio
