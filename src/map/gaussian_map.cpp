@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -23,11 +24,9 @@ constexpr double kMaxUprightWidthPerVoxel = 0.2;
 constexpr double kMinUprightStd_m = 0.06;
 // Sums change little with each point once a cell is well filled: reshape it at this growth.
 constexpr double kReshapeGrowth = 1.1;
-constexpr std::size_t kFarCellsWalk = 64;  // the walk for far cells takes this many scans
-
-std::int32_t Floor(double x) {
-  return static_cast<std::int32_t>(std::floor(x));
-}
+constexpr std::size_t kFetchedAhead = 16;    // points whose memory is asked for before it is needed
+constexpr VoxelKey kNoVoxel = ~VoxelKey{0};  // of no point: keys leave the top bit free
+constexpr std::size_t kFarCellsWalk = 64;    // the walk for far cells takes this many scans
 
 // Can a voxel be there? False also for what is not a number.
 bool IsInRange(const Vector3& scaled) {
@@ -53,14 +52,35 @@ Vector3 GaussianMap::CentreOf(VoxelKey key) const {
   return options_.voxel_m * (Vector3(coordinate(42), coordinate(21), coordinate(0)).array() + 0.5);
 }
 
-GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
+GaussianMap::Place GaussianMap::PlaceOf(const Vector3& point_map) const {
   const Vector3 scaled = inverse_voxel_ * point_map;
-  if (!IsInRange(scaled)) return {kNoCell, Eigen::Vector3f::Zero()};
-  const std::int32_t x = Floor(scaled.x());
-  const std::int32_t y = Floor(scaled.y());
-  const std::int32_t z = Floor(scaled.z());
+  if (!IsInRange(scaled)) return {kNoVoxel, Eigen::Vector3f::Zero()};
+  const std::int32_t x = FloorToInt(scaled.x());
+  const std::int32_t y = FloorToInt(scaled.y());
+  const std::int32_t z = FloorToInt(scaled.z());
   const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
-  return {index_.Find(PackVoxel(x, y, z)), (options_.voxel_m * from_centre).cast<float>()};
+  return {PackVoxel(x, y, z), (options_.voxel_m * from_centre).cast<float>()};
+}
+
+GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
+  const Place place = PlaceOf(point_map);
+  return {index_.Find(place.key), place.local};
+}
+
+void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const {
+  std::array<Place, kFetchedAhead> places;
+  for (std::size_t begin = 0; begin < points_map.size(); begin += kFetchedAhead) {
+    const std::size_t count = std::min(kFetchedAhead, points_map.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      places[i] = PlaceOf(points_map[begin + i]);
+      index_.Prefetch(places[i].key);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      Hit& hit = hits[begin + i];
+      hit = {index_.Find(places[i].key), places[i].local};
+      if (hit.cell != kNoCell) __builtin_prefetch(&patches_[ToIndex(hit.cell)]);
+    }
+  }
 }
 
 std::int32_t GaussianMap::FindOrAdd(VoxelKey key) {
@@ -113,9 +133,8 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
-  if (!ShapePlane(cov, sums, patch) && !ShapeUpright(cov, patch)) {
-    patch.thickness_var = 0.f;
-  }
+  sums.has_shape = ShapePlane(cov, sums, patch) || ShapeUpright(cov, patch);
+  if (!sums.has_shape) patch.thickness_var = 0.f;
 }
 
 bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
@@ -163,32 +182,56 @@ bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
   return true;
 }
 
-void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map) {
+void GaussianMap::FindCells() {
+  cells_.clear();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (i + kFetchedAhead < places_.size()) index_.Prefetch(places_[i + kFetchedAhead].key);
+    const VoxelKey key = places_[i].key;
+    cells_.push_back(key == kNoVoxel ? kNoCell : FindOrAdd(key));
+  }
+}
+
+void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
+                         const Workers& workers) {
+  places_.resize(points_map.size());
+  workers.ForEachBlock(points_map.size(), [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i) places_[i] = PlaceOf(points_map[i]);
+  });
+  FindCells();
+  AddPoints(points_map, sensor_map);
+  workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
+  });
+  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(index_.oldest());
+  DropFarCells(sensor_map);
+}
+
+// What AddPoints() wants of a cell.
+void GaussianMap::Prefetch(std::int32_t cell) const {
+  if (cell == kNoCell) return;
+  const auto* sums = reinterpret_cast<const char*>(&sums_[ToIndex(cell)]);
+  __builtin_prefetch(sums);
+  __builtin_prefetch(sums + sizeof(Sums) - 1);
+}
+
+void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& sensor_map) {
   ++scan_number_;
   touched_cells_.clear();
-  for (const Vector3& point : points_map) {
-    const Vector3 scaled = inverse_voxel_ * point;
-    if (!IsInRange(scaled)) continue;
-    const std::int32_t x = Floor(scaled.x());
-    const std::int32_t y = Floor(scaled.y());
-    const std::int32_t z = Floor(scaled.z());
-    const std::int32_t cell = FindOrAdd(PackVoxel(x, y, z));
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (i + kFetchedAhead < cells_.size()) Prefetch(cells_[i + kFetchedAhead]);
+    const std::int32_t cell = cells_[i];
+    if (cell == kNoCell) continue;
     Sums& sums = sums_[ToIndex(cell)];
+    const bool is_frozen = sums.has_shape && sums.num_points >= options_.max_cell_points;
     if (sums.touched != scan_number_) {
       sums.touched = scan_number_;
       index_.Touch(cell);
-      if (IsFrozen(cell)) continue;
-      touched_cells_.push_back(cell);
-    } else if (IsFrozen(cell)) {
-      continue;
+      if (!is_frozen) touched_cells_.push_back(cell);
     }
-    const Vector3 from_centre(scaled.x() - x - 0.5, scaled.y() - y - 0.5, scaled.z() - z - 0.5);
-    const Eigen::Vector3f view = (point - sensor_map).cast<float>().normalized();
-    AddPoint(sums, options_.voxel_m * from_centre, view);
+    if (is_frozen) continue;
+    const Eigen::Vector3f view = (points_map[i] - sensor_map).cast<float>().normalized();
+    AddPoint(sums, places_[i].local.cast<double>(), view);
   }
-  for (const std::int32_t cell : touched_cells_) UpdatePatch(cell);
-  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(index_.oldest());
-  DropFarCells(sensor_map);
 }
 
 void GaussianMap::DropFarCells(const Vector3& sensor_map) {

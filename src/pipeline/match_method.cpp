@@ -33,7 +33,7 @@ std::unique_ptr<ScanMatcher> MakeMatcher(const Options& options) {
     case MatchMethod::kNdt:
       break;
   }
-  return std::make_unique<NdtMatcher>(options.ndt);
+  return std::make_unique<NdtMatcher>(options.ndt, options.pipeline.num_threads);
 }
 
 }  // namespace lio

@@ -57,6 +57,17 @@ Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
   return row_gradient;
 }
 
+void MatchSums::operator+=(const MatchSums& other) {
+  information += other.information;
+  feigned += other.feigned;
+  gradient += other.gradient;
+  weight_sum += other.weight_sum;
+  residual_sq_sum += other.residual_sq_sum;
+  curvature_sum += other.curvature_sum;
+  information_sum += other.information_sum;
+  num_matched += other.num_matched;
+}
+
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
   const DirectionSplit split = SplitDirections(result.information, sums.feigned.Full());

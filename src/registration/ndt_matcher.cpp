@@ -3,6 +3,7 @@
 #include "lio/registration/ndt_matcher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lio/registration/match_loop.hpp"
@@ -51,7 +52,8 @@ class Reach {
 
 }  // namespace
 
-NdtMatcher::NdtMatcher(const NdtOptions& options) : options_(options), map_(options) {}
+NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
+    : options_(options), workers_(num_threads), map_(options) {}
 
 void NdtMatcher::Clear() {
   map_ = GaussianMap(options_);
@@ -64,31 +66,52 @@ void NdtMatcher::SetUp(const Vector3& up_map) {
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
-  std::vector<Vector3> points_grid;
-  points_grid.reserve(scan.points_imu.size());
-  for (const Eigen::Vector3f& point : scan.points_imu) {
-    points_grid.push_back(rotation * point.cast<double>() + T_grid_imu.translation);
-  }
-  map_.Insert(points_grid, T_grid_imu * scan.sensor_imu);
+  std::vector<Vector3> points_grid(scan.points_imu.size());
+  workers_.ForEachBlock(points_grid.size(), [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      points_grid[i] = rotation * scan.points_imu[i].cast<double>() + T_grid_imu.translation;
+    }
+  });
+  map_.Insert(points_grid, T_grid_imu * scan.sensor_imu, workers_);
 }
 
 void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                            bool with_upright) {
-  for (const Pair& pair : pairs_) cell_counts_[static_cast<std::size_t>(pair.cell)] = 0;
-  pairs_.clear();
+  pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
-  cell_counts_.resize(map_.cell_capacity(), 0);
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3 point_grid = rotation * points[i].cast<double>() + T_grid_imu.translation;
-    const GaussianMap::Hit hit = map_.Find(point_grid);
-    if (hit.cell == GaussianMap::kNoCell) continue;
-    const SurfacePatch& patch = map_.patch(hit.cell);
-    if (patch.thickness_var <= 0.f) continue;
-    if (patch.kind == SurfacePatch::Kind::kUpright && !with_upright) continue;
-    pairs_.push_back({static_cast<std::int32_t>(i), hit.cell, hit.local - patch.mean});
-    ++cell_counts_[static_cast<std::size_t>(hit.cell)];
+  workers_.ForEachBlock(points.size(), [&](const Block& block) {
+    std::array<Vector3, Workers::kBlockSize> points_grid;
+    std::array<GaussianMap::Hit, Workers::kBlockSize> hits;
+    const std::size_t count = block.end - block.begin;
+    for (std::size_t i = 0; i < count; ++i) {
+      points_grid[i] = rotation * points[block.begin + i].cast<double>() + T_grid_imu.translation;
+    }
+    map_.FindAll({points_grid.data(), count}, hits);
+    for (std::size_t i = 0; i < count; ++i) {
+      pairs_[block.begin + i] = PairOf(hits[i], with_upright);
+    }
+  });
+  CountByCell();
+}
+
+void NdtMatcher::CountByCell() {
+  ++count_number_;
+  cell_counts_.resize(map_.cell_capacity());
+  for (const Pair& pair : pairs_) {
+    if (pair.cell == GaussianMap::kNoCell) continue;
+    CellCount& cell = cell_counts_[static_cast<std::size_t>(pair.cell)];
+    cell.num_points = 1 + (cell.count_number == count_number_ ? cell.num_points : 0);
+    cell.count_number = count_number_;
   }
+}
+
+NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_upright) const {
+  if (hit.cell == GaussianMap::kNoCell) return {};
+  const SurfacePatch& patch = map_.patch(hit.cell);
+  if (patch.thickness_var <= 0.f) return {};
+  if (patch.kind == SurfacePatch::Kind::kUpright && !with_upright) return {};
+  return {hit.cell, hit.local - patch.mean};
 }
 
 NdtMatcher::Term NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
@@ -101,7 +124,7 @@ NdtMatcher::Term NdtMatcher::PlaneTerm(const Pair& pair, float reach_var) const 
   const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
   const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
   const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
-  const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
+  const auto num_here = static_cast<float>(CountOf(pair.cell));
   const float variance =
       patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
   Term term;
@@ -116,7 +139,7 @@ NdtMatcher::Term NdtMatcher::PlaneTerm(const Pair& pair, float reach_var) const 
 
 NdtMatcher::Term NdtMatcher::UprightTerm(const Pair& pair, float reach_var) const {
   const SurfacePatch& patch = map_.patch(pair.cell);
-  const auto num_here = static_cast<float>(cell_counts_[static_cast<std::size_t>(pair.cell)]);
+  const auto num_here = static_cast<float>(CountOf(pair.cell));
   const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
   const float across_std = 1.f / patch.tangent1_per_std.norm();
   Term term;
@@ -138,10 +161,11 @@ NdtMatcher::Term NdtMatcher::UprightTerm(const Pair& pair, float reach_var) cons
 double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   double cost = 0.0;
-  for (const Pair& pair : pairs_) {
-    const Term term = TermOf(pair, 0.f);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (pairs_[k].cell == GaussianMap::kNoCell) continue;
+    const Term term = TermOf(pairs_[k], 0.f);
     if (term.distance_sq > kGateSq) continue;
-    const Vector3 point = input.points_imu[static_cast<std::size_t>(pair.point)].cast<double>();
+    const Vector3 point = input.points_imu[k].cast<double>();
     const Vector3 moved = T_grid_imu * point - paired_at_ * point;
     for (int i = 0; i < term.num_rows; ++i) {
       const Row& row = term.rows[static_cast<std::size_t>(i)];
@@ -153,51 +177,82 @@ double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) cons
 }
 
 MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                                float reach_var, Scores* scores) const {
-  MatchSums sums;
+                                float reach_var, std::span<PointScore> scores) const {
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
-  for (const Pair& pair : pairs_) {
-    const Term term = TermOf(pair, reach_var);
-    if (term.distance_sq > kGateSq) continue;
-    const Eigen::Vector3f& point = points[static_cast<std::size_t>(pair.point)];
-    const SurfacePatch& patch = map_.patch(pair.cell);
-    if (patch.kind == SurfacePatch::Kind::kPlane) {
-      const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
-      sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent1_per_std), feigned);
-      sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent2_per_std), feigned);
+  return workers_.SumOverBlocks<MatchSums>(points.size(), [&](const Block& block) {
+    MatchSums sums;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      if (!scores.empty()) scores[i].num_rows = 0;
+      if (pairs_[i].cell == GaussianMap::kNoCell) continue;
+      const Term term = TermOf(pairs_[i], reach_var);
+      if (term.distance_sq > kGateSq) continue;
+      AddTerm(term, map_.patch(pairs_[i].cell), points[i], to_imu, sums,
+              scores.empty() ? nullptr : &scores[i]);
     }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
-      const Row& row = term.rows[i];
-      const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
-      const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
-      if (scores == nullptr) continue;
-      scores->gradient.Add(pair.cell, gradient);
-      if (term.num_rows == 2) scores->per_metre[i].Add(pair.cell, row.weight * jacobian);
-    }
-    ++sums.num_matched;
+    return sums;
+  });
+}
+
+void NdtMatcher::AddTerm(const Term& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
+                         const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score) {
+  if (patch.kind == SurfacePatch::Kind::kPlane) {
+    const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
+    sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent1_per_std), feigned);
+    sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent2_per_std), feigned);
   }
-  return sums;
+  ++sums.num_matched;
+  if (score != nullptr) score->num_rows = term.num_rows;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
+    const Row& row = term.rows[i];
+    const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
+    const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
+    if (score != nullptr) score->rows[i] = {gradient, row.weight * jacobian};
+  }
 }
 
 // Mean over the matched points of (points this scan adds to the cell) / (points in it after).
 double NdtMatcher::NewContentShare() const {
-  if (pairs_.empty()) return 1.0;
-  double sum = 0.0;
-  for (const Pair& pair : pairs_) {
-    if (map_.IsFrozen(pair.cell)) continue;
-    const double here = cell_counts_[static_cast<std::size_t>(pair.cell)];
-    const double before = static_cast<double>(map_.patch(pair.cell).num_points);
-    sum += here / (before + here);
+  struct Share {
+    double sum = 0.0;
+    std::size_t count = 0;
+    void operator+=(const Share& other) {
+      sum += other.sum;
+      count += other.count;
+    }
+  };
+  const auto share = workers_.SumOverBlocks<Share>(pairs_.size(), [&](const Block& block) {
+    Share sums;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const std::int32_t cell = pairs_[i].cell;
+      if (cell == GaussianMap::kNoCell) continue;
+      ++sums.count;
+      if (map_.IsFrozen(cell)) continue;
+      const double here = CountOf(cell);
+      sums.sum += here / (static_cast<double>(map_.patch(cell).num_points) + here);
+    }
+    return sums;
+  });
+  return share.count == 0 ? 1.0 : share.sum / static_cast<double>(share.count);
+}
+
+Matrix6 NdtMatcher::ScoreCovariance() {
+  gradients_.Reset(map_.cell_capacity());
+  for (ClusterScores& per_metre : per_metre_) per_metre.Reset(map_.cell_capacity());
+  for (std::size_t k = 0; k < scores_.size(); ++k) {
+    const auto num_rows = static_cast<std::size_t>(scores_[k].num_rows);
+    for (std::size_t i = 0; i < num_rows; ++i) {
+      gradients_.Add(pairs_[k].cell, scores_[k].rows[i].gradient);
+      if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, scores_[k].rows[i].per_metre);
+    }
   }
-  return sum / static_cast<double>(pairs_.size());
+  const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
+  return gradients_.Covariance() + kSideStd_m * kSideStd_m * sides;
 }
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
-  for (ClusterScores* scores : {&scores_.gradient, &scores_.per_metre[0], &scores_.per_metre[1]}) {
-    scores->Reset(map_.cell_capacity());
-  }
-  const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, &scores_);
+  scores_.resize(input.points_imu.size());
+  const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
   result.new_content_share = NewContentShare();
@@ -205,9 +260,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Matrix6 sides = scores_.per_metre[0].SumOfSquares() + scores_.per_metre[1].SumOfSquares();
-  const Matrix6 score_cov = scores_.gradient.Covariance() + kSideStd_m * kSideStd_m * sides;
-  const Vector6 last_step = Summarise(sums, score_cov, result);
+  const Vector6 last_step = Summarise(sums, ScoreCovariance(), result);
   // The residual step at hand costs nothing, and the iteration stopped at a finite one.
   if (last_step.norm() < kMaxLastStep) {
     result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
@@ -221,7 +274,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const Reach& reach) -> std::optional<Vector6> {
     Associate(input.points_imu, pose, input.shift_std_m > kMaxShiftStd_m);
-    const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), nullptr);
+    const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
     return StepInHeldDirections(split, sums.gradient);

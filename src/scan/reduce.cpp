@@ -53,10 +53,11 @@ void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
   for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
     const LidarPoint& point = sweep.points[i];
     const bool is_finite = IsFinite(point);
+    const bool is_sampled = Sample(point) < share;
+    const bool is_in_range = filter_.IsInRange(point);
     num_nonfinite += is_finite ? 0 : 1;
     candidates_[num_candidates] = i;
-    num_candidates +=
-        static_cast<std::size_t>(is_finite & (Sample(point) < share) & filter_.IsInRange(point));
+    num_candidates += static_cast<std::size_t>(is_finite & is_sampled & is_in_range);
   }
   candidates_.resize(num_candidates);
 }

@@ -215,6 +215,30 @@ TEST_P(MatcherContract, DoesNotDependOnTheOrderOfPoints) {
   EXPECT_EQ(results[0].cov, results[1].cov);
 }
 
+TEST_P(MatcherContract, DoesNotDependOnTheNumberOfThreads) {
+  const RayScene scene = test::StreetScene();
+  const std::vector<Sweep> sweeps = DriveSweeps(scene, 0.02);
+  const Sweep sweep = CastTurn(scene, Lidar(0.02), kTruth, 7).sweep;
+  const Pose guess = kTruth * ExpSe3(Tangent(0.03, -0.02, 0.01, 0.002, 0.001, -0.003));
+  const auto match_with = [&](int num_threads) {
+    Options options = test::MethodOptions(GetParam());
+    options.pipeline.num_threads = num_threads;
+    MethodBench bench(options);
+    GrowMap(bench, sweeps);
+    return bench.Match(bench.Reduce(sweep), guess, GuessCov(0.03, 0.003));
+  };
+  const MatchResult alone = match_with(1);
+  for (const int num_threads : {2, 3}) {
+    const MatchResult together = match_with(num_threads);  // to the last bit
+    EXPECT_EQ(together.T_map_imu.translation, alone.T_map_imu.translation) << num_threads;
+    EXPECT_EQ(together.T_map_imu.rotation.coeffs(), alone.T_map_imu.rotation.coeffs());
+    EXPECT_EQ(together.cov, alone.cov);
+    EXPECT_EQ(together.information, alone.information);
+    EXPECT_EQ(together.new_content_share, alone.new_content_share);
+    EXPECT_EQ(together.num_matched, alone.num_matched);
+  }
+}
+
 TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   const RayScene scene = test::StreetScene();
   MethodBench bench(GetParam());

@@ -144,6 +144,42 @@ TEST(GaussianMap, EmptyMapHasNothing) {
   EXPECT_FALSE(Has(map, Vector3::Zero()));
 }
 
+TEST(GaussianMap, FindingAllIsFindingEach) {
+  GaussianMap map(TestOptions());
+  std::vector<Vector3> points;
+  for (int i = 0; i < 100; ++i) points.push_back({0.37 * i, -0.21 * i, 0.05 * i});
+  map.Insert(points, Vector3::Zero());
+  points.push_back({1e30, 0.0, 0.0});
+  points.push_back({0.0, std::numeric_limits<double>::quiet_NaN(), 0.0});
+  points.push_back({500.0, 0.0, 0.0});
+  std::vector<GaussianMap::Hit> hits(points.size());
+  map.FindAll(points, hits);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(hits[i].cell, map.Find(points[i]).cell) << i;
+    EXPECT_EQ(hits[i].local, map.Find(points[i]).local) << i;
+    EXPECT_EQ(hits[i].cell != GaussianMap::kNoCell, i < 100) << i;
+  }
+}
+
+TEST(GaussianMap, MoreThreadsMakeTheSameMap) {
+  GaussianMap alone(TestOptions());
+  GaussianMap together(TestOptions());
+  const std::vector<Vector3> points = PlanePoints({0, 0, 0}, {0.1, 0.2, 1.0}, 3000);
+  for (const double shift : {0.0, 3.0, 6.0}) {
+    std::vector<Vector3> moved = points;
+    for (Vector3& point : moved) point += shift * (point + Vector3::UnitX());
+    alone.Insert(moved, Vector3::Zero());
+    together.Insert(moved, Vector3::Zero(), Workers(3));
+  }
+  ASSERT_EQ(alone.num_cells(), together.num_cells());
+  for (std::size_t i = 0; i < alone.cell_capacity(); ++i) {
+    const auto cell = static_cast<std::int32_t>(i);
+    EXPECT_EQ(alone.patch(cell).mean, together.patch(cell).mean);
+    EXPECT_EQ(alone.patch(cell).normal, together.patch(cell).normal);
+    EXPECT_EQ(alone.patch(cell).thickness_var, together.patch(cell).thickness_var);
+  }
+}
+
 TEST(GaussianMap, PointsAreFoundInTheirVoxelAlone) {
   GaussianMap map(TestOptions());
   map.Insert(std::vector<Vector3>{{0.2, -0.3, 0.9}}, Vector3::Zero());

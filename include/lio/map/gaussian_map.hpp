@@ -16,14 +16,16 @@
 #include <span>
 #include <vector>
 
+#include "lio/base/parallel.hpp"
 #include "lio/base/rotation.hpp"
 #include "lio/map/voxel_index.hpp"
 #include "lio/registration/ndt_options.hpp"
 
 namespace lio {
 
-// What matching reads of a cell. Vectors in the map's frame, `mean` from the voxel's centre.
-struct SurfacePatch {
+// What matching reads of a cell: one cache line. Vectors in the map's frame, `mean` from the
+// voxel's centre.
+struct alignas(64) SurfacePatch {
   // kUpright holds in two level directions: along `normal`, and along tangent1_per_std, which is
   // its direction over its standard deviation.
   enum class Kind : std::int32_t { kPlane, kUpright } kind = Kind::kPlane;
@@ -44,19 +46,24 @@ class GaussianMap {
 
   struct Hit {
     std::int32_t cell = kNoCell;  // index for patch(); kNoCell where the map is empty
-    Eigen::Vector3f local;        // the point from the voxel's centre
+    Eigen::Vector3f local = Eigen::Vector3f::Zero();  // the point from the voxel's centre
   };
   Hit Find(const Vector3& point_map) const;
+  // hits[i] = Find(points_map[i]) for all of them, several times faster: memory is fetched ahead.
+  void FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const;
   const SurfacePatch& patch(std::int32_t cell) const { return patches_[ToIndex(cell)]; }
   bool IsFrozen(std::int32_t cell) const {
-    return IsFrozen(sums_[ToIndex(cell)], patches_[ToIndex(cell)]);
+    const SurfacePatch& patch = patches_[ToIndex(cell)];
+    return patch.thickness_var > 0.f &&
+           patch.num_points >= static_cast<float>(options_.max_cell_points);
   }
 
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
   // Adds a scan taken from `sensor_map`; then drops what is too far from there and, beyond the cap,
   // the cells that were not added to for longest.
-  void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map);
+  void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
+              const Workers& workers = Workers(1));
 
   std::size_t num_cells() const { return index_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
@@ -64,6 +71,10 @@ class GaussianMap {
   std::size_t memory_bytes() const;
 
  private:
+  struct Place {
+    VoxelKey key = 0;       // kNoVoxel: out of range, or not a number
+    Eigen::Vector3f local;  // the point from the voxel's centre
+  };
   struct Sums {
     Vector3 mean = Vector3::Zero();                         // from the voxel's centre
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
@@ -71,13 +82,16 @@ class GaussianMap {
     std::int32_t num_points = 0;
     std::int32_t shaped_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
+    bool has_shape = false;      // the patch's thickness is known
   };
 
   static std::size_t ToIndex(std::int32_t cell) { return static_cast<std::size_t>(cell); }
-  bool IsFrozen(const Sums& sums, const SurfacePatch& patch) const {
-    return sums.num_points >= options_.max_cell_points && patch.thickness_var > 0.f;
-  }
+  Place PlaceOf(const Vector3& point_map) const;
   std::int32_t FindOrAdd(VoxelKey key);
+  // Finds or makes each place's cell.
+  void FindCells();
+  void AddPoints(std::span<const Vector3> points_map, const Vector3& sensor_map);
+  void Prefetch(std::int32_t cell) const;
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
   bool ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
@@ -92,8 +106,11 @@ class GaussianMap {
   VoxelIndex index_;  // of cells
   std::vector<SurfacePatch> patches_;
   std::vector<Sums> sums_;
-  std::vector<std::int32_t> touched_cells_;  // scratch of Insert
-  std::size_t sweep_position_ = 0;           // where the walk over all cells for far ones goes on
+  // Scratch of Insert.
+  std::vector<Place> places_;
+  std::vector<std::int32_t> cells_;  // of the places
+  std::vector<std::int32_t> touched_cells_;
+  std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
   std::uint32_t scan_number_ = 0;
 };
 

@@ -17,6 +17,10 @@ class VoxelIndex {
   static constexpr std::int32_t kNone = -1;
 
   std::int32_t Find(VoxelKey key) const { return slots_[SlotOf(key)].voxel; }
+  // Fetches what Find() and FindOrAdd() will look at.
+  void Prefetch(VoxelKey key) const {
+    __builtin_prefetch(&slots_[HashVoxel(key) & (slots_.size() - 1)]);
+  }
   // The voxel's number and whether it is new; a new one is the last touched.
   struct Added {
     std::int32_t voxel;

@@ -16,9 +16,10 @@ using VoxelKey = std::uint64_t;
 inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| is below this
 
 // floor() without the library call: exact for |x| < 2^31.
-inline std::int32_t FloorToInt(float x) {
+template <class Float>
+std::int32_t FloorToInt(Float x) {
   const auto truncated = static_cast<std::int32_t>(x);
-  return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+  return truncated - (x < static_cast<Float>(truncated) ? 1 : 0);
 }
 
 // Coordinates of a voxel.

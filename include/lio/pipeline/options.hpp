@@ -29,6 +29,7 @@ struct StartOptions {
 struct PipelineOptions {
   bool use_imu = true;  // false: lidar-only odometry by a constant-velocity guess
   MatchMethod method = MatchMethod::kNdt;
+  int num_threads = 1;  // matching may use so many; results do not depend on it
   double incomplete_sweep_wait_s =
       0.05;                  // an incomplete sweep is closed when the IMU is this far on
   int max_queued_scans = 5;  // live only: more waiting scans than this, and the oldest is dropped

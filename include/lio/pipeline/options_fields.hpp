@@ -101,6 +101,8 @@ template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<PipelineOptions> auto& o) {
   visit("use_imu", o.use_imu, "false: lidar-only odometry by a constant-velocity guess");
   visit("method", o.method, "registration of scans against the map");
+  visit("num_threads", o.num_threads,
+        "method ndt: threads that matching may use; results do not depend on it", Range{1, 64});
   visit("incomplete_sweep_wait_s", o.incomplete_sweep_wait_s,
         "an incomplete sweep is closed when the IMU is this far past its end [s]", Range{0, 1});
   visit("max_queued_scans", o.max_queued_scans,

@@ -49,6 +49,7 @@ class TermSum {
       for (int j = 0; j <= i; ++j) sum_(i, j) += static_cast<double>(weighted[i] * row[j]);
     }
   }
+  void operator+=(const TermSum& other) { sum_ += other.sum_; }
   Matrix6 Full() const { return sum_.selfadjointView<Eigen::Lower>(); }
 
  private:
@@ -59,6 +60,7 @@ class TermSum {
 struct MatchSums {
   // One row of the problem, of this weight [1/m^2], the kernel's part included. Gives its gradient.
   Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
+  void operator+=(const MatchSums& other);
 
   TermSum information;
   TermSum feigned;  // information that the noise of the map's directions alone would show

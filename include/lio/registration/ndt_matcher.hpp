@@ -17,6 +17,7 @@
 
 #include <array>
 
+#include "lio/base/parallel.hpp"
 #include "lio/map/gaussian_map.hpp"
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/ndt_options.hpp"
@@ -26,7 +27,8 @@ namespace lio {
 
 class NdtMatcher final : public ScanMatcher {
  public:
-  explicit NdtMatcher(const NdtOptions& options);
+  // The same results to the last bit on any number of threads.
+  explicit NdtMatcher(const NdtOptions& options, int num_threads = 1);
 
   MatchResult Match(const MatchInput& input) override;
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
@@ -36,11 +38,10 @@ class NdtMatcher final : public ScanMatcher {
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
-  // A point and the patch it is held against.
+  // The patch a point is held against.
   struct Pair {
-    std::int32_t point = 0;
-    std::int32_t cell = 0;
-    Eigen::Vector3f from_mean;  // of the patch, grid axes
+    std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
+    Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
   };
   struct Row {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // grid axes
@@ -54,29 +55,51 @@ class NdtMatcher final : public ScanMatcher {
     float distance_sq = 0.f;  // in its variance
     RobustKernel kernel;
   };
-  // Scores by cell. Beside them what the gradient changes by when an upright cell is off by a
-  // metre, along its two directions.
-  struct Scores {
-    ClusterScores gradient;
-    std::array<ClusterScores, 2> per_metre;
+  // What a point adds to its cell's score: for each row its gradient, and what that changes by when
+  // the cell is off by a metre along the row's direction.
+  struct PointScore {
+    struct OfRow {
+      Vector6f gradient;
+      Vector6f per_metre;
+    };
+    int num_rows = 0;  // 0: the point does not count
+    std::array<OfRow, 2> rows;
+  };
+
+  // How many of the scan's points a cell has.
+  struct CellCount {
+    std::int32_t num_points = 0;
+    std::int32_t count_number = 0;
   };
 
   void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                  bool with_upright);
+  void CountByCell();
+  std::int32_t CountOf(std::int32_t cell) const {
+    return cell_counts_[static_cast<std::size_t>(cell)].num_points;
+  }
+  Pair PairOf(const GaussianMap::Hit& hit, bool with_upright) const;
   Term TermOf(const Pair& pair, float reach_var) const;
   Term PlaneTerm(const Pair& pair, float reach_var) const;
   Term UprightTerm(const Pair& pair, float reach_var) const;
   MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                      float reach_var, Scores* scores) const;
+                      float reach_var, std::span<PointScore> scores) const;
+  static void AddTerm(const Term& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
+                      const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
+  Matrix6 ScoreCovariance();
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
+  Workers workers_;
   GaussianMap map_;
-  std::vector<Pair> pairs_;  // of the current iteration, in the points' order
-  Pose paired_at_;           // T_grid_imu of the pairs
-  Scores scores_;
-  std::vector<std::int32_t> cell_counts_;  // this scan's points by cell; zero between scans
+  std::vector<Pair> pairs_;                 // of the current iteration, one a point
+  Pose paired_at_;                          // T_grid_imu of the pairs
+  std::vector<PointScore> scores_;          // of the last match, one a point
+  ClusterScores gradients_;                 // by cell
+  std::array<ClusterScores, 2> per_metre_;  // by upright cell, along its two directions
+  std::vector<CellCount> cell_counts_;
+  std::int32_t count_number_ = 0;  // of the last count; older counts are void
 };
 
 }  // namespace lio
