@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace lio {
@@ -17,6 +18,10 @@ constexpr float kCell_m = 0.25f;      // of how near is near
 constexpr int kSide = 2 * static_cast<int>(kReach_m / kCell_m);
 constexpr std::size_t kMinPlaces = 20;
 constexpr std::size_t kMaxPlaces = 300;
+// What is part of a line, a wall or a rail, says nothing of the way along it.
+constexpr int kLineReach_m = 3;  // each way
+constexpr int kNumDirections = 24;
+constexpr std::size_t kMinAlone = 40;  // else lines must do, too
 
 constexpr float kStep_mps = 0.5f;
 constexpr int kMaxSteps = 90;  // 45 m/s each way
@@ -96,7 +101,25 @@ UprightView::UprightView(std::span<const Eigen::Vector3f> points)
       }
     }
   }
-  places_ = Choose(places);
+  std::vector<Eigen::Vector2f> alone;
+  for (const Eigen::Vector2f& place : places) {
+    if (!IsOnLine(place)) alone.push_back(place);
+  }
+  places_ = Choose(alone.size() < kMinAlone ? places : alone);
+}
+
+bool UprightView::IsOnLine(const Eigen::Vector2f& place) const {
+  for (int i = 0; i < kNumDirections; ++i) {
+    const float angle_rad = static_cast<float>(i) * std::numbers::pi_v<float> / kNumDirections;
+    const Eigen::Vector2f metre(std::cos(angle_rad), std::sin(angle_rad));
+    int reach_m = 0;
+    while (reach_m < kLineReach_m && IsNear(place + (reach_m + 1) * metre) &&
+           IsNear(place - (reach_m + 1) * metre)) {
+      ++reach_m;
+    }
+    if (reach_m == kLineReach_m) return true;
+  }
+  return false;
 }
 
 bool UprightView::IsNear(const Eigen::Vector2f& place) const {

@@ -27,12 +27,16 @@ class UprightView {
  public:
   explicit UprightView(std::span<const Eigen::Vector3f> points);
 
-  // One point a column, at most a few hundred, evenly chosen.
+  // One point a column, at most a few hundred, evenly chosen; none of a line, a wall or a rail,
+  // unless there is little else.
   const std::vector<Eigen::Vector2f>& places() const { return places_; }
   // Does something stand within about a quarter of a metre of there?
   bool IsNear(const Eigen::Vector2f& place) const;
 
  private:
+  // Do things stand in a row to both sides of there?
+  bool IsOnLine(const Eigen::Vector2f& place) const;
+
   std::vector<Eigen::Vector2f> places_;
   std::vector<std::uint8_t> near_;  // by cell of a square around the origin
 };
