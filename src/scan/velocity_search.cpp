@@ -28,7 +28,7 @@ constexpr int kMaxSteps = 90;  // 45 m/s each way
 constexpr int kNumSteps = 2 * kMaxSteps + 1;
 constexpr float kPeakWidth_m = 1.f;  // what is farther from the best shift must fit worse ...
 constexpr double kClearly = 2.0;     // ... by so many roots of the best score
-constexpr double kFlatTop = 0.95;
+constexpr double kFlatTop = 0.88;
 
 struct Column {
   float low = 0.f;
