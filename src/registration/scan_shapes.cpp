@@ -17,7 +17,8 @@ constexpr double kMinPoints = 6.0;
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.3;
 constexpr double kMaxNormalStd_rad = 0.1;
-constexpr float kOverlapVoxels = 2.f;  // points so near to the next level's range count there too
+constexpr float kMinSineOfView = 0.06f;  // between a surface and the beam, else it is its cone
+constexpr float kOverlapVoxels = 2.f;    // points so near to the next level's range count there too
 
 VoxelKey KeyAt(const Eigen::Vector3f& point, float inverse_voxel, int dx, int dy, int dz) {
   return PackVoxel(FloorToInt(point.x() * inverse_voxel) + dx,
@@ -111,7 +112,9 @@ ShapedPoint ScanShapes::At(const Eigen::Vector3f& point) const {
       std::max(variance[0], options_.surface_std_m * options_.surface_std_m);
   const double normal_var = thickness_var / (sum.count * variance[1]);
   if (normal_var > kMaxNormalStd_rad * kMaxNormalStd_rad) return shaped;
-  shaped.normal = eigen.eigenvectors().col(0).cast<float>();
+  const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
+  if (std::abs(normal.dot(point)) < kMinSineOfView * point.norm()) return shaped;
+  shaped.normal = normal;
   shaped.thickness_var = static_cast<float>(thickness_var);
   shaped.normal_var = static_cast<float>(normal_var);
   return shaped;
