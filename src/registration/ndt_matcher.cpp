@@ -7,16 +7,15 @@
 #include <cmath>
 
 #include "lio/registration/match_loop.hpp"
+#include "registration/ndt_term.hpp"
 
 namespace lio {
 namespace {
 
 constexpr int kMinMatched = 50;
-constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
 // What is seen of an upright thing depends on the side it is seen from: its cell is off by this.
 constexpr double kSideStd_m = 0.15;
 constexpr double kMaxShiftStd_m = 0.02;  // a better known shift does without upright things
-constexpr float kMaxLever = 4.f;         // cap of a^2/l, where a patch is extrapolated
 constexpr double kReachShrink = 0.3;     // of the reach's standard deviation, each iteration
 constexpr double kMinReach_m = 0.01;     // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
@@ -114,48 +113,9 @@ NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_uprig
   return {hit.cell, hit.local - patch.mean};
 }
 
-NdtMatcher::Term NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
-  return map_.patch(pair.cell).kind == SurfacePatch::Kind::kPlane ? PlaneTerm(pair, reach_var)
-                                                                  : UprightTerm(pair, reach_var);
-}
-
-NdtMatcher::Term NdtMatcher::PlaneTerm(const Pair& pair, float reach_var) const {
-  const SurfacePatch& patch = map_.patch(pair.cell);
-  const float a1 = patch.tangent1_per_std.dot(pair.from_mean);
-  const float a2 = patch.tangent2_per_std.dot(pair.from_mean);
-  const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
+NdtTerm NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
   const auto num_here = static_cast<float>(CountOf(pair.cell));
-  const float variance =
-      patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
-  Term term;
-  Row& row = term.rows[0];
-  row.direction = patch.normal;
-  row.distance = patch.normal.dot(pair.from_mean);
-  term.distance_sq = row.distance * row.distance / variance;
-  term.kernel = RobustKernel(term.distance_sq);
-  row.weight = term.kernel.weight() / variance;
-  return term;
-}
-
-NdtMatcher::Term NdtMatcher::UprightTerm(const Pair& pair, float reach_var) const {
-  const SurfacePatch& patch = map_.patch(pair.cell);
-  const auto num_here = static_cast<float>(CountOf(pair.cell));
-  const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
-  const float across_std = 1.f / patch.tangent1_per_std.norm();
-  Term term;
-  term.num_rows = 2;
-  term.rows[0].direction = patch.normal;
-  term.rows[1].direction = across_std * patch.tangent1_per_std;
-  const std::array<float, 2> variance{patch.thickness_var * shared + reach_var,
-                                      across_std * across_std * shared + reach_var};
-  for (std::size_t i = 0; i < 2; ++i) {
-    Row& row = term.rows[i];
-    row.distance = row.direction.dot(pair.from_mean);
-    term.distance_sq += row.distance * row.distance / variance[i];
-  }
-  term.kernel = RobustKernel(term.distance_sq);
-  for (std::size_t i = 0; i < 2; ++i) term.rows[i].weight = term.kernel.weight() / variance[i];
-  return term;
+  return MakeNdtTerm(map_.patch(pair.cell), pair.from_mean, num_here, reach_var);
 }
 
 double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
@@ -163,12 +123,12 @@ double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) cons
   double cost = 0.0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (pairs_[k].cell == GaussianMap::kNoCell) continue;
-    const Term term = TermOf(pairs_[k], 0.f);
-    if (term.distance_sq > kGateSq) continue;
+    const NdtTerm term = TermOf(pairs_[k], 0.f);
+    if (term.IsOutlier()) continue;
     const Vector3 point = input.points_imu[k].cast<double>();
     const Vector3 moved = T_grid_imu * point - paired_at_ * point;
     for (int i = 0; i < term.num_rows; ++i) {
-      const Row& row = term.rows[static_cast<std::size_t>(i)];
+      const NdtRow& row = term.rows[static_cast<std::size_t>(i)];
       const double distance = row.distance + row.direction.cast<double>().dot(moved);
       cost += 0.5 * row.weight * distance * distance;
     }
@@ -184,8 +144,8 @@ MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const P
     for (std::size_t i = block.begin; i < block.end; ++i) {
       if (!scores.empty()) scores[i].num_rows = 0;
       if (pairs_[i].cell == GaussianMap::kNoCell) continue;
-      const Term term = TermOf(pairs_[i], reach_var);
-      if (term.distance_sq > kGateSq) continue;
+      const NdtTerm term = TermOf(pairs_[i], reach_var);
+      if (term.IsOutlier()) continue;
       AddTerm(term, map_.patch(pairs_[i].cell), points[i], to_imu, sums,
               scores.empty() ? nullptr : &scores[i]);
     }
@@ -193,8 +153,9 @@ MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const P
   });
 }
 
-void NdtMatcher::AddTerm(const Term& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
-                         const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score) {
+void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
+                         const Eigen::Vector3f& point, const Eigen::Matrix3f& to_imu,
+                         MatchSums& sums, PointScore* score) {
   if (patch.kind == SurfacePatch::Kind::kPlane) {
     const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
     sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent1_per_std), feigned);
@@ -203,7 +164,7 @@ void NdtMatcher::AddTerm(const Term& term, const SurfacePatch& patch, const Eige
   ++sums.num_matched;
   if (score != nullptr) score->num_rows = term.num_rows;
   for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
-    const Row& row = term.rows[i];
+    const NdtRow& row = term.rows[i];
     const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
     if (score != nullptr) score->rows[i] = {gradient, row.weight * jacobian};

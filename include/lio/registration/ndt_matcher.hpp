@@ -25,6 +25,8 @@
 
 namespace lio {
 
+struct NdtTerm;
+
 class NdtMatcher final : public ScanMatcher {
  public:
   // The same results to the last bit on any number of threads.
@@ -43,18 +45,6 @@ class NdtMatcher final : public ScanMatcher {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
     Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
   };
-  struct Row {
-    Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // grid axes
-    float distance = 0.f;                                 // m
-    float weight = 0.f;                                   // 1 / m^2
-  };
-  // What a pair adds to the cost: one row for a plane, two for what stands up.
-  struct Term {
-    std::array<Row, 2> rows;
-    int num_rows = 1;
-    float distance_sq = 0.f;  // in its variance
-    RobustKernel kernel;
-  };
   // What a point adds to its cell's score: for each row its gradient, and what that changes by when
   // the cell is off by a metre along the row's direction.
   struct PointScore {
@@ -65,7 +55,6 @@ class NdtMatcher final : public ScanMatcher {
     int num_rows = 0;  // 0: the point does not count
     std::array<OfRow, 2> rows;
   };
-
   // How many of the scan's points a cell has.
   struct CellCount {
     std::int32_t num_points = 0;
@@ -79,12 +68,10 @@ class NdtMatcher final : public ScanMatcher {
     return cell_counts_[static_cast<std::size_t>(cell)].num_points;
   }
   Pair PairOf(const GaussianMap::Hit& hit, bool with_upright) const;
-  Term TermOf(const Pair& pair, float reach_var) const;
-  Term PlaneTerm(const Pair& pair, float reach_var) const;
-  Term UprightTerm(const Pair& pair, float reach_var) const;
+  NdtTerm TermOf(const Pair& pair, float reach_var) const;
   MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                       float reach_var, std::span<PointScore> scores) const;
-  static void AddTerm(const Term& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
+  static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
   Matrix6 ScoreCovariance();

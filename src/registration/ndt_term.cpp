@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "registration/ndt_term.hpp"
+
+#include <algorithm>
+
+namespace lio {
+namespace {
+
+constexpr float kMaxLever = 4.f;  // cap of a^2/l, where a patch is extrapolated
+
+NdtTerm PlaneTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                  float reach_var) {
+  const float a1 = patch.tangent1_per_std.dot(from_mean);
+  const float a2 = patch.tangent2_per_std.dot(from_mean);
+  const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
+  const float variance =
+      patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
+  NdtTerm term;
+  NdtRow& row = term.rows[0];
+  row.direction = patch.normal;
+  row.distance = patch.normal.dot(from_mean);
+  term.distance_sq = row.distance * row.distance / variance;
+  term.kernel = RobustKernel(term.distance_sq);
+  row.weight = term.kernel.weight() / variance;
+  return term;
+}
+
+NdtTerm UprightTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                    float reach_var) {
+  const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
+  const float across_std = 1.f / patch.tangent1_per_std.norm();
+  NdtTerm term;
+  term.num_rows = 2;
+  term.rows[0].direction = patch.normal;
+  term.rows[1].direction = across_std * patch.tangent1_per_std;
+  const std::array<float, 2> variance{patch.thickness_var * shared + reach_var,
+                                      across_std * across_std * shared + reach_var};
+  for (std::size_t i = 0; i < 2; ++i) {
+    NdtRow& row = term.rows[i];
+    row.distance = row.direction.dot(from_mean);
+    term.distance_sq += row.distance * row.distance / variance[i];
+  }
+  term.kernel = RobustKernel(term.distance_sq);
+  for (std::size_t i = 0; i < 2; ++i) term.rows[i].weight = term.kernel.weight() / variance[i];
+  return term;
+}
+
+}  // namespace
+
+NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                    float reach_var) {
+  return patch.kind == SurfacePatch::Kind::kPlane
+             ? PlaneTerm(patch, from_mean, num_here, reach_var)
+             : UprightTerm(patch, from_mean, num_here, reach_var);
+}
+
+}  // namespace lio

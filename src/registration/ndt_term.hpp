@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What one point adds to NDT's cost, held against the surface patch of its cell (ndt_matcher.hpp
+// has the formula).
+#pragma once
+
+#include <array>
+
+#include "lio/map/gaussian_map.hpp"
+#include "lio/registration/match_summary.hpp"
+
+namespace lio {
+
+struct NdtRow {
+  Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // axes of the patch
+  float distance = 0.f;                                 // m
+  float weight = 0.f;                                   // 1 / m^2
+};
+
+// One row for a plane, two for what stands up.
+struct NdtTerm {
+  std::array<NdtRow, 2> rows;
+  int num_rows = 1;
+  float distance_sq = 0.f;  // in its variance
+  RobustKernel kernel;
+
+  bool IsOutlier() const { return distance_sq > kGateSq; }
+
+ private:
+  static constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
+};
+
+// `num_here`: this scan's points in the cell; `reach_var`: of what the guess may be off [m^2].
+NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                    float reach_var);
+
+}  // namespace lio
