@@ -169,34 +169,6 @@ TEST(LoamFactors, ShortLinesAndNarrowTrianglesAreRefused) {
   EXPECT_EQ(MakeAutoPlaneByPoints(point, a, a + step, a + 2 * step), nullptr);
 }
 
-TEST(LoamFactors, ManifoldIsConsistent) {
-  const PoseManifold manifold;
-  Random random(9);
-  for (const Pose& pose : Poses()) {
-    const PoseBlock x = ToBlock(pose);
-    Vector6 delta;
-    delta << random.Point(2), random.Point(0.8);
-    PoseBlock y;
-    ASSERT_TRUE(manifold.Plus(x.data(), delta.data(), y.data()));
-    Vector6 back;
-    ASSERT_TRUE(manifold.Minus(y.data(), x.data(), back.data()));
-    EXPECT_LE((back - delta).norm(), 1e-12);
-
-    Eigen::Matrix<double, 7, 6, Eigen::RowMajor> plus;
-    Eigen::Matrix<double, 6, 7, Eigen::RowMajor> minus;
-    ASSERT_TRUE(manifold.PlusJacobian(x.data(), plus.data()));
-    ASSERT_TRUE(manifold.MinusJacobian(x.data(), minus.data()));
-    EXPECT_LE((minus * plus - Matrix6::Identity()).norm(), 1e-12);
-    const auto f = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
-      PoseBlock moved;
-      manifold.Plus(x.data(), d.data(), moved.data());
-      return Eigen::Map<const Eigen::Matrix<double, 7, 1>>(moved.data());
-    };
-    const Eigen::MatrixXd numeric = test::NumericJacobian(f, Eigen::VectorXd::Zero(6), 1e-6);
-    EXPECT_LE((plus - numeric).norm(), 1e-7);
-  }
-}
-
 // Points on three walls, a post and two marks, seen from elsewhere: the solver finds from where.
 TEST(LoamFactors, SolverFindsThePoseThatMadeThePoints) {
   Random random(11);

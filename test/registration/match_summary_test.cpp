@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/match_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/numeric_jacobian.hpp"
+#include "support/random_state.hpp"
+
+namespace lio {
+namespace {
+
+// --- a term
+
+TEST(JacobianRow, IsTheDerivativeByTheRightPerturbation) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20; ++i) {
+    const Vector3 p = 10.0 * test::RandomVector<3>(random);
+    const Vector3 n_map = test::RandomVector<3>(random).normalized();
+    const Pose T = ExpSe3(test::RandomVector<6>(random));
+    const auto along = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Constant(1, n_map.dot(T * ExpSe3(Vector6(d)) * p));
+    };
+    const Eigen::MatrixXd numeric = test::NumericJacobian(along, Vector6::Zero());
+    const Vector3 n_imu = T.rotation.conjugate() * n_map;
+    const Vector6f row = JacobianRow(p.cast<float>(), n_imu.cast<float>());
+    EXPECT_LT((row.cast<double>() - numeric.transpose()).norm(), 1e-5);
+  }
+}
+
+TEST(RobustKernel, WeighsByGemanAndMcClure) {
+  EXPECT_EQ(RobustKernel(0.f).weight(), 1.f);
+  EXPECT_EQ(RobustKernel(0.f).curvature(), 1.f);
+  EXPECT_FLOAT_EQ(RobustKernel(8.f).weight(), 0.25f);
+  EXPECT_FLOAT_EQ(RobustKernel(24.f).weight(), 1.f / 16.f);
+  EXPECT_EQ(RobustKernel().weight(), 0.f);
+}
+
+// The curvature is d(w d)/dd over w.
+TEST(RobustKernel, CurvatureIsThatOfTheRobustCost) {
+  for (const float d : {0.3f, 1.f, 1.6f, 3.f, 5.f}) {
+    const auto pull = [](float x) { return RobustKernel(x * x).weight() * x; };
+    const float slope = (pull(d + 1e-2f) - pull(d - 1e-2f)) / 2e-2f;
+    const RobustKernel kernel(d * d);
+    EXPECT_NEAR(kernel.curvature(), slope / kernel.weight(), 2e-3f) << d;
+  }
+}
+
+TEST(TermSum, SumsWeightedSquaresOfRows) {
+  Vector6f a, b;
+  a << 1, 2, 3, 4, 5, 6;
+  b << 0, 1, 0, -1, 0, 2;
+  TermSum sum;
+  sum.Add(a, 2.f);
+  sum.Add(b, 0.5f);
+  const Vector6 ad = a.cast<double>(), bd = b.cast<double>();
+  EXPECT_EQ(sum.Full(), Matrix6(2.0 * ad * ad.transpose() + 0.5 * bd * bd.transpose()));
+}
+
+TEST(MatchSums, ARowGoesIntoEverySum) {
+  Vector6f row;
+  row << 1, 0, 0, 0, 2, 0;
+  MatchSums sums;
+  const RobustKernel kernel(8.f);  // weight 1/4, curvature -1
+  const Vector6f gradient = sums.AddRow(row, 0.5f, 100.f, kernel);
+  Vector6 expected;
+  expected << 50, 0, 0, 0, 100, 0;  // weight times residual times row
+  EXPECT_EQ(gradient.cast<double>(), expected);
+  EXPECT_EQ(sums.gradient, expected);
+  EXPECT_EQ(sums.information.Full()(4, 0), 200.0);
+  EXPECT_EQ(sums.information.Full()(0, 4), 200.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(sums.weight_sum), 0.25f);
+  EXPECT_FLOAT_EQ(static_cast<float>(sums.residual_sq_sum), 0.25f * 0.25f);
+  EXPECT_FLOAT_EQ(static_cast<float>(sums.curvature_sum), -100.f);
+  EXPECT_FLOAT_EQ(static_cast<float>(sums.information_sum), 100.f);
+}
+
+// --- scores by part of the map
+
+Vector6f Score(float x) {
+  return x * Vector6f::Unit(0);
+}
+
+TEST(ClusterScores, TermsOfOnePartAddBeforeTheyAreSquared) {
+  ClusterScores scores;
+  scores.Reset(10);
+  scores.Add(3, Score(1.f));
+  scores.Add(7, Score(5.f));
+  scores.Add(3, Score(2.f));
+  EXPECT_EQ(scores.SumOfSquares()(0, 0), 9.0 + 25.0);
+  EXPECT_EQ(scores.SumOfSquares()(1, 1), 0.0);
+}
+
+// Ten parts and six estimated dimensions: 10 / 4. Six or fewer: as many parts as there are.
+TEST(ClusterScores, CovarianceMakesUpForTheEstimatedDimensions) {
+  ClusterScores scores;
+  scores.Reset(10);
+  for (int part = 0; part < 10; ++part) scores.Add(part, Score(1.f));
+  EXPECT_DOUBLE_EQ(scores.Covariance()(0, 0), 10.0 * 10.0 / 4.0);
+  scores.Reset(10);
+  for (int part = 0; part < 5; ++part) scores.Add(part, Score(1.f));
+  EXPECT_DOUBLE_EQ(scores.Covariance()(0, 0), 5.0 * 5.0);
+}
+
+TEST(ClusterScores, ResetForgetsAndMayGrowOrShrink) {
+  ClusterScores scores;
+  scores.Reset(4);
+  scores.Add(3, Score(1.f));
+  scores.Reset(100);
+  EXPECT_EQ(scores.SumOfSquares(), Matrix6(Matrix6::Zero()));
+  scores.Add(99, Score(2.f));
+  scores.Reset(4);
+  scores.Add(3, Score(3.f));
+  EXPECT_EQ(scores.SumOfSquares()(0, 0), 9.0);
+}
+
+// --- the summary
+
+// Three walls, 50 terms each, seen from 5 m: everything is held.
+MatchSums HeldSums(int num_axes, float residual_m) {
+  MatchSums sums;
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 50 * num_axes; ++i) {
+    const Eigen::Vector3f p = 5.f * test::RandomVector<3>(random).cast<float>();
+    const Eigen::Vector3f normal = Eigen::Vector3f::Unit(i % num_axes);
+    sums.AddRow(JacobianRow(p, normal), residual_m, 1000.f, RobustKernel(0.f));
+    for (int axis = 0; axis < 3; ++axis) {  // normals known to a hundredth
+      if (normal[axis] == 0.f) {
+        sums.feigned.Add(JacobianRow(p, Eigen::Vector3f::Unit(axis)), 1000.f * 1e-4f);
+      }
+    }
+    ++sums.num_matched;
+  }
+  return sums;
+}
+
+TEST(Summarise, CovarianceIsTheSandwichWhereAllIsHeld) {
+  const MatchSums sums = HeldSums(3, 0.02f);
+  MatchResult result;
+  result.status = MatchStatus::kConverged;
+  const Matrix6 score_cov = 3.0 * sums.information.Full();
+  const Vector6 step = Summarise(sums, score_cov, result);
+  EXPECT_EQ(result.information, sums.information.Full());
+  const Matrix6 inverse = sums.information.Full().inverse();
+  EXPECT_LT((result.cov - 3.0 * inverse).norm(), 1e-9 * result.cov.norm() + 1e-15);
+  EXPECT_LT((result.held_cov - result.cov).norm(), 1e-15);
+  EXPECT_LT((step + inverse * sums.gradient).norm(), 1e-9);
+  EXPECT_NEAR(result.residual_rms_m, 0.02, 1e-7);
+  EXPECT_EQ(result.weak_mask, 0u);
+  EXPECT_EQ(result.status, MatchStatus::kConverged);
+  EXPECT_GT(result.eigenvalues[0], 0.0);
+}
+
+// Half the curvature: four times the covariance. Less than 0.3 is taken for 0.3.
+TEST(Summarise, WhatTheKernelTakesOfTheCurvatureWidensTheCovariance) {
+  MatchSums sums = HeldSums(3, 0.02f);
+  const Matrix6 score_cov = sums.information.Full();
+  const auto variance_at = [&](double curvature) {
+    sums.curvature_sum = curvature * sums.information_sum;
+    MatchResult result;
+    Summarise(sums, score_cov, result);
+    return result.cov(0, 0);
+  };
+  EXPECT_NEAR(variance_at(0.5) / variance_at(1.0), 4.0, 1e-9);
+  EXPECT_NEAR(variance_at(-2.0) / variance_at(1.0), 1.0 / 0.09, 1e-9);
+  EXPECT_NEAR(variance_at(1.5) / variance_at(1.0), 1.0, 1e-9);
+}
+
+// Two walls: nothing holds along z.
+TEST(Summarise, ADirectionThatNothingHoldsIsWeak) {
+  const MatchSums sums = HeldSums(2, 0.02f);
+  MatchResult result;
+  result.status = MatchStatus::kConverged;
+  const Vector6 step = Summarise(sums, sums.information.Full(), result);
+  EXPECT_EQ(result.weak_mask, 1u);
+  EXPECT_EQ(result.status, MatchStatus::kDegenerate);
+  EXPECT_NEAR(std::sqrt(result.cov(2, 2)), 100.0, 0.1);
+  EXPECT_LT(std::sqrt(result.held_cov(2, 2)), 1e-6);
+  EXPECT_LT(std::sqrt(result.cov(0, 0)), 0.1);
+  EXPECT_NEAR(step[2], 0.0, 1e-9);
+}
+
+TEST(Summarise, OtherStatesThanConvergedAreKept) {
+  MatchResult result;
+  result.status = MatchStatus::kMaxIterations;
+  const MatchSums sums = HeldSums(2, 0.02f);
+  Summarise(sums, sums.information.Full(), result);
+  EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
+  EXPECT_NE(result.weak_mask, 0u);
+}
+
+}  // namespace
+}  // namespace lio
