@@ -47,7 +47,8 @@ TEST(MotionScout, ASoughtVelocityIsWhereItBegins) {
   options.sought_v_imu_mps = Vector3(20, 1, 0);
   const MotionScout scout(StampAt(0.0), options);
   EXPECT_EQ(scout.history().head().state.v_world_imu, Vector3(20, 1, 0));
-  EXPECT_DOUBLE_EQ(StdOf(scout.history().head(), kVel), 4.0);
+  EXPECT_LT(StdOf(scout.history().head(), kVel), 5.0);  // surer than of nothing, ...
+  EXPECT_GT(StdOf(scout.history().head(), kVel), 1.0);  // ... but only sought
 }
 
 // An earlier scout looked along y and drove that way: the new one's x.
@@ -72,11 +73,12 @@ TEST(MotionScout, GoesStraightOnWithGrowingDoubt) {
   ScoutOptions options;
   options.sought_v_imu_mps = Vector3(10, 0, 0);
   MotionScout scout(StampAt(0.0), options);
+  const double std_at_first = StdOf(scout.history().head(), kVel);
   scout.AdvanceTo(StampAt(4.0));
   const Estimate& head = scout.history().head();
   EXPECT_EQ(head.stamp, StampAt(4.0));
   EXPECT_LT((head.state.T_map_imu.translation - Vector3(40, 0, 0)).norm(), 1e-6);
-  EXPECT_NEAR(StdOf(head, kVel), std::hypot(4.0, 3.0), 1e-6);
+  EXPECT_NEAR(StdOf(head, kVel), std::hypot(std_at_first, 3.0), 1e-6);
   scout.AdvanceTo(StampAt(3.0));
   EXPECT_EQ(scout.history().head().stamp, StampAt(4.0)) << "never backwards";
 }

@@ -19,6 +19,7 @@ using test::ExpectStampsIncrease;
 using test::IsBetween;
 using test::kEnd_s;
 using test::LidarOnly;
+using test::MakeBlind;
 using test::Message;
 using test::Messages;
 using test::NumFused;
@@ -100,24 +101,6 @@ TEST(Odometry, NonFinitePointsAreLeftOut) {
   const RunResult run = RunOdometry(messages, test::DriveRig());
   EXPECT_GT(run.counters.num_points_nonfinite, 10000);
   EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).max_m, 0.08);
-}
-
-void MakeBlind(Message& message) {
-  for (LidarPoint& point : message.chunk.points) {
-    point.x_m = point.y_m = point.z_m = std::numeric_limits<float>::quiet_NaN();
-  }
-}
-
-TEST(Odometry, FirstSweepsWithoutAFinitePointAreSurvived) {
-  for (const Options& options : {test::DriveRig(), LidarOnly()}) {
-    Messages messages = StaticStartDrive();
-    for (Message& message : messages) {
-      if (IsBetween(message, -1.0, 0.35)) MakeBlind(message);
-    }
-    const RunResult run = RunOdometry(messages, options);
-    ASSERT_FALSE(run.scans.empty());
-    EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans, 1.0).max_m, 0.15);
-  }
 }
 
 // A second without one return while driving: the IMU carries on, and the map it comes back to is

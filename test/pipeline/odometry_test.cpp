@@ -19,7 +19,6 @@ using test::Bytes;
 using test::DriveOptions;
 using test::Driving;
 using test::ErrorAgainst;
-using test::ExpectClean;
 using test::ExpectStampsIncrease;
 using test::LidarOnly;
 using test::Message;
@@ -32,26 +31,11 @@ using test::SecondsOf;
 using test::SortedByArrival;
 using test::StampAt;
 using test::StaticStartDrive;
-using test::TrackError;
 using test::WithClockStep;
 using test::WithoutImu;
 using test::WithoutLidar;
 
 // --- the plain run
-
-TEST(Odometry, StaticStartTracksTheDrive) {
-  const RunResult run = RunOdometry(StaticStartDrive(), test::DriveRig());
-  ASSERT_FALSE(run.scans.empty());
-  ExpectClean(run.counters);
-  ExpectStampsIncrease(run);
-  EXPECT_TRUE(test::HasNotice(run, "at rest"));
-  EXPECT_LT(SecondsOf(run.scans.front().scan.stamp), 1.5) << "rows after 1.5 s of rest at most";
-  const TrackError error = ErrorAgainst(RestThenDrive(), run.scans);
-  EXPECT_LT(error.max_m, 0.06);
-  EXPECT_LT(error.max_rad, 0.005);
-  EXPECT_LT(error.max_tilt_rad, 0.009);  // half a degree
-  EXPECT_EQ(run.status, TrackingStatus::kOk);
-}
 
 TEST(Odometry, EveryScanAfterTheStartHasARow) {
   const RunResult run = RunOdometry(StaticStartDrive(), test::DriveRig());
@@ -78,22 +62,6 @@ TEST(Odometry, ImuRateOutputFollowsTheMotion) {
   }
   EXPECT_LT(worst_mps, 0.15);
   EXPECT_LT(worst_radps, 0.02);
-}
-
-TEST(Odometry, MovingStartTracksTheDrive) {
-  const RunResult run = RunOdometry(MovingStartDrive(), test::DriveRig());
-  ASSERT_FALSE(run.scans.empty());
-  EXPECT_TRUE(test::HasNotice(run, "in motion"));
-  ExpectStampsIncrease(run);
-  EXPECT_EQ(run.counters.num_restarts, 0);
-  EXPECT_LT(ErrorAgainst(Driving(), run.scans).max_m, 0.3);
-  const TrackError settled = ErrorAgainst(Driving(), run.scans, 3.0);
-  EXPECT_LT(settled.max_m, 0.1);
-  EXPECT_LT(settled.max_tilt_rad, 0.0175);  // a degree, after 3 s
-  const NavOutput& last = run.scans.back().filter->nav;
-  const test::MotionState truth = test::StateOf(Driving(), SecondsOf(last.stamp));
-  const Vector3 v_imu = last.T_world_imu.rotation.conjugate() * last.v_world_imu_mps;
-  EXPECT_LT((v_imu - truth.T_world_imu.rotation.conjugate() * truth.v_world_imu).norm(), 0.2);
 }
 
 TEST(Odometry, LidarAloneTracksTheDrive) {
@@ -230,26 +198,6 @@ TEST(Odometry, OverloadDropsTheOldestScansAndCountsThem) {
   EXPECT_GT(odometry.counters().num_scans_dropped, 10);
   EXPECT_GT(*seqs.rbegin(), 45) << "the newest scans are the ones that are kept";
   EXPECT_EQ(odometry.counters().num_imu_late, 0);
-}
-
-// --- ring lock (docs/filter.md): a map filled by a parked sensor shows single scan rings
-
-TEST(Odometry, ParkedStartDoesNotHoldTheVehicleBack) {
-  DriveOptions drive;
-  drive.motion = test::WindingDrive(4.0);
-  drive.to_s = 8.5;
-  const RunResult run = RunOdometry(SimulateDrive(test::Street(), drive), test::DriveRig());
-  EXPECT_LT(ErrorAgainst(drive.motion, run.scans).max_m, 0.05);
-  EXPECT_EQ(run.counters.num_gated, 0);
-}
-
-TEST(Odometry, ParkedStartInACorridorDoesNotHoldTheVehicleBack) {
-  DriveOptions drive;
-  drive.motion = test::StraightDrive(4.0);
-  drive.to_s = 7.5;
-  const RunResult run = RunOdometry(SimulateDrive(test::Corridor(), drive), test::DriveRig());
-  // Nothing holds the vehicle along the corridor but the IMU: centimetres a second squared.
-  EXPECT_LT(ErrorAgainst(drive.motion, run.scans).max_m, 0.4);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "support/simulated_drive.hpp"
 
@@ -86,6 +87,13 @@ inline Messages SortedByArrival(Messages messages) {
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
   return messages;
+}
+
+// Without one finite point.
+inline void MakeBlind(Message& message) {
+  for (LidarPoint& point : message.chunk.points) {
+    point.x_m = point.y_m = point.z_m = std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 inline void ExpectStampsIncrease(const RunResult& run) {
