@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The checks of form: clang-format, file length, licence tags, and clang-tidy over src/ (the checks
-# and why others are off: .clang-tidy). Needs what tools/setup.sh --tests installs and builds.
+# The checks of form: clang-format, file length, licence tags, a test for every source
+# (docs/testing.md), and clang-tidy over src/ (the checks and why others are off: .clang-tidy). Needs
+# what tools/setup.sh --tests installs and builds.
 #   tools/lint.sh          all of it
 #   tools/lint.sh --fast   without clang-tidy
 set -euo pipefail
@@ -25,6 +26,8 @@ done
 while read -r file; do
   complain "$file lacks the two SPDX lines"
 done < <(grep -L 'SPDX-License-Identifier: MIT' "${sources[@]}" "${scripts[@]}")
+
+/usr/bin/python3 tools/lint/tests.py || failed=1
 
 [[ ${1:-} == --fast ]] || /usr/bin/python3 tools/lint/tidy.py || failed=1
 ((failed == 0)) && echo "lint: ${#sources[@]} files in form"
