@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "registration/ndt_term.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lio {
+namespace {
+
+// A patch across z of 2 cm thickness, spread 0.5 m along x and 0.25 m along y.
+SurfacePatch Floor() {
+  SurfacePatch patch;
+  patch.kind = SurfacePatch::Kind::kPlane;
+  patch.normal = {0, 0, 1};
+  patch.thickness_var = 0.0004f;
+  patch.tangent1_per_std = {2, 0, 0};
+  patch.tangent2_per_std = {0, 4, 0};
+  patch.num_points = 40.f;
+  return patch;
+}
+
+// A post along z: 2 cm across along x, 5 cm along y.
+SurfacePatch Post() {
+  SurfacePatch patch = Floor();
+  patch.kind = SurfacePatch::Kind::kUpright;
+  patch.normal = {1, 0, 0};
+  patch.tangent1_per_std = {0, 20, 0};
+  return patch;
+}
+
+TEST(NdtTerm, APlaneIsHeldAlongItsNormal) {
+  const NdtTerm term = MakeNdtTerm(Floor(), {0, 0, 0.03f}, 0.f, 0.f);
+  ASSERT_EQ(term.num_rows, 1);
+  EXPECT_EQ(term.rows[0].direction, Eigen::Vector3f(0, 0, 1));
+  EXPECT_FLOAT_EQ(term.rows[0].distance, 0.03f);
+  EXPECT_FLOAT_EQ(term.distance_sq, 2.25f);  // 1.5 sigma
+  EXPECT_FLOAT_EQ(term.rows[0].weight, RobustKernel(2.25f).weight() / 0.0004f);
+}
+
+// The mean's own error counts, and the tilt's with the square of how many spreads away the point
+// lies: 10 points here to 40, one spread along x and two along y: 1 + (1 + 1 + 4) / 4.
+TEST(NdtTerm, FarFromItsMeanAPlaneIsLessSure) {
+  const NdtTerm term = MakeNdtTerm(Floor(), {0.5f, 0.5f, 0}, 10.f, 0.f);
+  EXPECT_FLOAT_EQ(term.rows[0].weight, 1.f / (0.0004f * 2.5f));
+  // Beyond two spreads it is not taken farther.
+  const NdtTerm beyond = MakeNdtTerm(Floor(), {5.f, 0.5f, 0}, 10.f, 0.f);
+  EXPECT_FLOAT_EQ(beyond.rows[0].weight, 1.f / (0.0004f * (1.f + (1.f + 4.f + 4.f) / 4.f)));
+}
+
+TEST(NdtTerm, WhatTheGuessMayBeOffWidensIt) {
+  const NdtTerm term = MakeNdtTerm(Floor(), {0, 0, 0.1f}, 0.f, 0.0096f);
+  EXPECT_FLOAT_EQ(term.distance_sq, 1.f);
+}
+
+TEST(NdtTerm, BeyondFiveSigmaItIsAnOutlier) {
+  EXPECT_FALSE(MakeNdtTerm(Floor(), {0, 0, 0.099f}, 0.f, 0.f).IsOutlier());
+  EXPECT_TRUE(MakeNdtTerm(Floor(), {0, 0, 0.101f}, 0.f, 0.f).IsOutlier());
+  EXPECT_TRUE(MakeNdtTerm(Floor(), {0, 0, -0.101f}, 0.f, 0.f).IsOutlier());
+}
+
+// Along x 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
+TEST(NdtTerm, WhatStandsUpIsHeldInTwoLevelDirections) {
+  const NdtTerm term = MakeNdtTerm(Post(), {0.02f, 0.1f, 3.f}, 0.f, 0.f);
+  ASSERT_EQ(term.num_rows, 2);
+  EXPECT_EQ(term.rows[0].direction, Eigen::Vector3f(1, 0, 0));
+  EXPECT_LT((term.rows[1].direction - Eigen::Vector3f(0, 1, 0)).norm(), 1e-6f);
+  EXPECT_FLOAT_EQ(term.rows[0].distance, 0.02f);
+  EXPECT_FLOAT_EQ(term.rows[1].distance, 0.1f);
+  EXPECT_NEAR(term.distance_sq, 5.f, 1e-4f);
+  const float weight = RobustKernel(5.f).weight();
+  EXPECT_NEAR(term.rows[0].weight, weight / 0.0004f, 0.1f);
+  EXPECT_NEAR(term.rows[1].weight, weight / 0.0025f, 0.1f);
+}
+
+TEST(NdtTerm, APostsMeanHasAnErrorOfItsOwn) {
+  const NdtTerm sure = MakeNdtTerm(Post(), {0, 0, 0}, 0.f, 0.f);
+  const NdtTerm shared = MakeNdtTerm(Post(), {0, 0, 0}, 40.f, 0.f);  // as many as the map has
+  EXPECT_FLOAT_EQ(shared.rows[0].weight, 0.5f * sure.rows[0].weight);
+  EXPECT_FLOAT_EQ(shared.rows[1].weight, 0.5f * sure.rows[1].weight);
+}
+
+}  // namespace
+}  // namespace lio
