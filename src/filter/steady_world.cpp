@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kUnknownTiltStd_rad = 0.0075;  // above this the start still finds its level
 constexpr double kSureInStd = 2.0;
-constexpr double kLevelled_rad = 0.001;  // turning ends here
-constexpr double kTurnPerScan_rad = 2e-4;
+constexpr double kTurnPerScan_rad = 5e-4;
 
 // Standard deviation of the larger tilt, about the world's horizontal axes.
 double TiltStd(const Estimate& estimate) {
@@ -35,10 +34,9 @@ void SteadyWorld::Update(const Estimate& estimate) {
   Vector3 turn = LogSo3(T_filter_map.rotation * T_world_map_->rotation.conjugate());
   turn.z() = 0.0;
   const double off = turn.norm();
-  if (off > std::max(kTolerance_rad, kSureInStd * tilt_std)) is_turning_ = true;
-  if (off < kLevelled_rad) is_turning_ = false;
-  if (!is_turning_) return;
-  const Vector3 step = std::min(1.0, kTurnPerScan_rad / off) * turn;
+  const double too_far = off - std::max(kTolerance_rad, kSureInStd * tilt_std);
+  if (too_far <= 0.0) return;
+  const Vector3 step = std::min(kTurnPerScan_rad, too_far) / off * turn;
   const Vector3 pivot = (*T_world_map_ * estimate.state.T_map_imu).translation;
   const Quaternion rotation = ExpSo3(step);
   T_world_map_ = Pose{rotation, pivot - rotation * pivot} * *T_world_map_;

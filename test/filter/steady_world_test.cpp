@@ -59,20 +59,20 @@ TEST(SteadyWorld, SmallChangesOfTheTiltDoNotBendThePath) {
   EXPECT_LT((after - before).norm(), 1e-9) << "the filter's own would have moved by 15 cm";
 }
 
-TEST(SteadyWorld, SureErrorOfTheTiltIsTurnedOutSlowlyAboutTheVehicle) {
+TEST(SteadyWorld, SureErrorOfTheTiltIsTurnedSlowlyAboutTheVehicleUntilItIsTolerable) {
   SteadyWorld world(Mode::kFromRest);
   world.Update(TiltedBy(0.0, kSure_rad));
-  const Estimate tilted = TiltedBy(0.01, kSure_rad);
+  const Estimate tilted = TiltedBy(0.02, kSure_rad);
   Vector3 last = world.Publish(tilted).T_world_imu.translation;
   for (int i = 0; i < 200; ++i) {
     const double before = TiltOf(world, tilted);
     world.Update(tilted);
-    EXPECT_LE(std::abs(TiltOf(world, tilted) - before), 3e-4) << "a scan";
+    EXPECT_LE(std::abs(TiltOf(world, tilted) - before), 5.1e-4) << "a scan";
     const Vector3 here = world.Publish(tilted).T_world_imu.translation;
     EXPECT_LT((here - last).norm(), 1e-9) << "the vehicle stays where it is";
     last = here;
   }
-  EXPECT_NEAR(TiltOf(world, tilted), 0.01, 1.1e-3);
+  EXPECT_NEAR(TiltOf(world, tilted), 0.02 - SteadyWorld::kTolerance_rad, 1e-6);
 }
 
 TEST(SteadyWorld, CovarianceSaysWhatTheStepCosts) {

@@ -19,7 +19,7 @@ namespace lio {
 
 class SteadyWorld {
  public:
-  static constexpr double kTolerance_rad = 0.0045;  // a quarter of a degree
+  static constexpr double kTolerance_rad = 0.0087;  // half a degree
 
   // kFromRest: level as well as it will be for long. kFromMotion: follows the filter until the tilt
   // is known. kFollow: the filter's own world at all times.
@@ -39,7 +39,6 @@ class SteadyWorld {
 
  private:
   Mode mode_;
-  bool is_turning_ = false;
   std::optional<Pose> T_world_map_;
 };
 
