@@ -29,7 +29,7 @@ using VoxelCell = std::array<std::int32_t, 3>;
 inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   const auto coordinate = [](double x) {
     constexpr double kLimit = kVoxelCoordinateLimit;
-    return static_cast<std::int32_t>(std::floor(std::clamp(x, -kLimit, kLimit)));
+    return FloorToInt(std::clamp(x, -kLimit, kLimit));
   };
   return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
