@@ -8,13 +8,20 @@ void Publisher::Send(const std::string& channel, const Bytes& bytes) {
   if (!bus_.Publish(channel, bytes)) ++num_failed_;
 }
 
+void Publisher::Send(const NavOutput& nav) {
+  const bool is_imu_rate = nav.source == OdometrySource::kImuPropagated;
+  Send(is_imu_rate ? channels_.odometry_imu_rate : channels_.odometry, EncodeOdometry(nav));
+  if (!nav.base) return;
+  Send(is_imu_rate ? channels_.odometry_base_imu_rate : channels_.odometry_base,
+       EncodeBaseOdometry(nav));
+}
+
 void Publisher::Publish(const Output& output) {
   if (const auto* nav = std::get_if<NavOutput>(&output)) {
-    const bool is_imu_rate = nav->source == OdometrySource::kImuPropagated;
-    Send(is_imu_rate ? channels_.odometry_imu_rate : channels_.odometry, EncodeOdometry(*nav));
+    Send(*nav);
   } else if (const auto* scan = std::get_if<ScanOutput>(&output)) {
     if (scan->filter) {
-      Send(channels_.odometry, EncodeOdometry(scan->filter->nav));
+      Send(scan->filter->nav);
       Send(channels_.state, EncodeFilterState(*scan->filter));
     }
     Send(channels_.registration, EncodeRegistration(scan->scan));

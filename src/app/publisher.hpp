@@ -35,6 +35,7 @@ class Publisher {
   std::int64_t num_failed() const { return num_failed_; }
 
  private:
+  void Send(const NavOutput& nav);
   void Send(const std::string& channel, const Bytes& bytes);
 
   Bus& bus_;

@@ -45,8 +45,7 @@ void SteadyWorld::Update(const Estimate& estimate) {
 SteadyWorld::Published SteadyWorld::Publish(const Estimate& estimate) const {
   const NavState& state = estimate.state;
   Published published;
-  published.pose_cov = PoseCov(estimate);
-  published.velocity_cov = estimate.cov.block<3, 3>(kVel, kVel);
+  published.cov = estimate.cov.topLeftCorner<kAccelBias, kAccelBias>();
   if (!T_world_map_) {
     published.T_world_imu = state.T_world_imu;
     published.v_world_imu = state.v_world_imu;
@@ -57,12 +56,11 @@ SteadyWorld::Published SteadyWorld::Publish(const Estimate& estimate) const {
   published.v_world_imu = turn * state.v_world_imu;
   // What is published differs from the best estimate by a known step: its mean square is the
   // variance plus the step's square.
-  Vector6 step;
+  Eigen::Matrix<double, kAccelBias, 1> step;
   step << state.T_world_imu.translation - published.T_world_imu.translation,
-      LogSo3(published.T_world_imu.rotation.conjugate() * state.T_world_imu.rotation);
-  published.pose_cov += step * step.transpose();
-  const Vector3 velocity_step = state.v_world_imu - published.v_world_imu;
-  published.velocity_cov += velocity_step * velocity_step.transpose();
+      LogSo3(published.T_world_imu.rotation.conjugate() * state.T_world_imu.rotation),
+      state.v_world_imu - published.v_world_imu, Vector3::Zero();
+  published.cov += step * step.transpose();
   return published;
 }
 

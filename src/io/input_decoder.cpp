@@ -15,6 +15,8 @@ Channels::Channels(const std::string& prefix)
       state(prefix + "STATE"),
       registration(prefix + "REG"),
       status(prefix + "STATUS"),
+      odometry_base(prefix + "ODOM_BASE"),
+      odometry_base_imu_rate(prefix + "ODOM_BASE_IMU"),
       cloud(prefix + "CLOUD"),
       cloud_full(prefix + "CLOUD_FULL"),
       features{prefix + "CORNER_SHARP", prefix + "CORNER_LESS_SHARP", prefix + "SURF_FLAT",

@@ -74,6 +74,16 @@ void StorePoint(const LidarPoint& point, std::size_t index, scan_t& message) {
   std::memcpy(message.points.data() + index * sizeof(LidarPoint), &point, sizeof(LidarPoint));
 }
 
+// What holds whatever the frame is.
+odometry_t OdometryMessage(const NavOutput& nav) {
+  odometry_t message{};
+  message.utime = nav.stamp.Microseconds();
+  message.scan_seq = nav.scan_seq;
+  message.status = static_cast<std::int8_t>(nav.status);
+  message.source = static_cast<std::int8_t>(nav.source);
+  return message;
+}
+
 float Microseconds(const StageTimes& stage_ns, Stage stage) {
   return static_cast<float>(stage_ns[static_cast<std::size_t>(stage)]) / 1000.0F;
 }
@@ -181,11 +191,7 @@ Bytes EncodeCloud(const RegisteredCloud& cloud) {
 }
 
 Bytes EncodeOdometry(const NavOutput& nav) {
-  odometry_t message{};
-  message.utime = nav.stamp.Microseconds();
-  message.scan_seq = nav.scan_seq;
-  message.status = static_cast<std::int8_t>(nav.status);
-  message.source = static_cast<std::int8_t>(nav.source);
+  odometry_t message = OdometryMessage(nav);
   Copy(nav.T_world_imu.translation, message.pos);
   Copy(nav.T_world_imu.rotation, message.quat);
   Copy(nav.v_world_imu_mps, message.vel);
@@ -195,6 +201,21 @@ Bytes EncodeOdometry(const NavOutput& nav) {
   Copy(nav.T_map_imu.translation, message.map_pos);
   Copy(nav.T_map_imu.rotation, message.map_quat);
   Copy(nav.map_pose_cov, message.map_pose_cov);
+  return EncodeMessage(message);
+}
+
+Bytes EncodeBaseOdometry(const NavOutput& nav) {
+  const BaseMotion& base = nav.base.value();
+  odometry_t message = OdometryMessage(nav);
+  Copy(base.T_world_base.translation, message.pos);
+  Copy(base.T_world_base.rotation, message.quat);
+  Copy(base.v_world_base_mps, message.vel);
+  Copy(base.w_base_radps, message.rotation_rate);
+  Copy(base.pose_cov, message.pose_cov);
+  Copy(base.velocity_cov, message.vel_cov);
+  Copy(base.T_map_base.translation, message.map_pos);
+  Copy(base.T_map_base.rotation, message.map_quat);
+  Copy(base.map_pose_cov, message.map_pose_cov);
   return EncodeMessage(message);
 }
 

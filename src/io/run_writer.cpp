@@ -30,11 +30,11 @@ std::string Seconds(Timestamp stamp) {
   return fmt::format("{}.{:09}", stamp.ns / 1'000'000'000, stamp.ns % 1'000'000'000);
 }
 
-std::string TumRow(const NavOutput& nav) {
-  const Vector3& p = nav.T_world_imu.translation;
-  const Quaternion& q = nav.T_world_imu.rotation;
-  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
-                     Seconds(nav.stamp), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+std::string TumRow(Timestamp stamp, const Pose& pose) {
+  const Vector3& p = pose.translation;
+  const Quaternion& q = pose.rotation;
+  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n", Seconds(stamp),
+                     p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
 std::string CovarianceHeader() {
@@ -147,12 +147,13 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   if (error) {
     throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
   }
-  for (const char* stale : {"stats.json", "map.pcd"})
+  for (const char* stale : {"stats.json", "map.pcd", "trajectory_base.tum"})
     std::filesystem::remove(folder / stale, error);
   File options_file = Open("options.yaml");
   options_file.stream << PrintOptions(options);
   Close(options_file);
   trajectory_ = Open("trajectory.tum");
+  if (options.rig.T_base_imu) base_ = Open("trajectory_base.tum");
   imu_rate_ = Open("trajectory_imu_rate.tum");
   covariance_ = Open("covariance.csv");
   covariance_.stream << CovarianceHeader();
@@ -169,7 +170,7 @@ void RunWriter::Write(const Output& output) {
     return;
   }
   last_imu_rate_ = nav->stamp;
-  imu_rate_.stream << TumRow(*nav);
+  imu_rate_.stream << TumRow(nav->stamp, nav->T_world_imu);
 }
 
 void RunWriter::WriteScan(const ScanOutput& output) {
@@ -184,7 +185,8 @@ void RunWriter::WriteScan(const ScanOutput& output) {
     return;
   }
   last_scan_ = nav.stamp;
-  trajectory_.stream << TumRow(nav);
+  trajectory_.stream << TumRow(nav.stamp, nav.T_world_imu);
+  if (base_ && nav.base) base_->stream << TumRow(nav.stamp, nav.base->T_world_base);
   covariance_.stream << CovarianceRow(nav);
 }
 
@@ -217,6 +219,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
 
 void RunWriter::Finish(const RunStats& stats) {
   for (File* file : {&trajectory_, &covariance_, &imu_rate_, &registration_}) Close(*file);
+  if (base_) Close(*base_);
   WriteStats(stats);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The state machine behind Odometry, in three files: odometry.cpp takes data in, odometry_start.cpp
-// finds the first state, odometry_scan.cpp matches and fuses.
+// The state machine behind Odometry, in four files: odometry.cpp takes data in, odometry_start.cpp
+// finds the first state, odometry_scan.cpp matches and fuses, odometry_output.cpp tells the state.
 #pragma once
 
 #include <deque>
@@ -85,10 +85,13 @@ class Odometry::Impl {
   void FinishRunning(MatchOutcome& outcome, InsertTask& insert);
   Matrix6 DeskewCov(const Sweep& sweep);
   bool Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report);
+  void UpdateStatus(const MatchOutcome& outcome, bool fused);
+
+  // --- odometry_output.cpp
   FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
   NavOutput MakeNav(const Estimate& estimate) const;
+  double RateVariance(Timestamp stamp) const;
   void EmitImuRate();
-  void UpdateStatus(const MatchOutcome& outcome, bool fused);
 
   Options options_;
   ClockNs clock_;

@@ -196,43 +196,4 @@ void Odometry::Impl::UpdateStatus(const MatchOutcome& outcome, bool fused) {
   }
 }
 
-NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
-  NavOutput nav;
-  nav.stamp = estimate.stamp;
-  nav.scan_seq = last_seq_;
-  nav.status = status_;
-  const SteadyWorld::Published published = world_.Publish(estimate);
-  nav.T_world_imu = published.T_world_imu;
-  nav.pose_cov = published.pose_cov;
-  nav.v_world_imu_mps = published.v_world_imu;
-  nav.velocity_cov = published.velocity_cov;
-  nav.w_imu_radps = -estimate.state.gyro_bias;
-  if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(estimate.stamp).w_imu_radps;
-  nav.T_map_imu = estimate.state.T_map_imu;
-  nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
-  return nav;
-}
-
-FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
-                                              const ScanReport& report) const {
-  FilterReport filter;
-  filter.nav = MakeNav(estimate);
-  filter.gyro_bias_radps = estimate.state.gyro_bias;
-  filter.accel_bias_mps2 = estimate.state.accel_bias;
-  filter.g_world_mps2 = g_world_;
-  filter.nis = report.nis;
-  filter.nis_dof = report.fused ? 6 : 0;
-  filter.cov = estimate.cov;
-  return filter;
-}
-
-void Odometry::Impl::EmitImuRate() {
-  const Estimate& head = history_->head();
-  if (is_first_scan_ || (last_published_ && head.stamp <= *last_published_)) return;
-  last_published_ = head.stamp;
-  NavOutput nav = MakeNav(head);
-  nav.source = OdometrySource::kImuPropagated;
-  outputs_.emplace_back(nav);
-}
-
 }  // namespace lio

@@ -13,6 +13,7 @@
 
 #include "lio/io/event_log.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "lio/odometry_t.hpp"
 #include "support/replay_log.hpp"
 #include "support/temp_dir.hpp"
 
@@ -171,6 +172,55 @@ TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
   EXPECT_GE(num_messages[channels.status], 2);
   EXPECT_GE(num_messages[channels.cloud_full], 40 / kMaxCloudAge);
   EXPECT_GE(num_messages[channels.cloud], 4);  // due every fifth scan
+}
+
+// Of two messages of one instant: base's pose and motion are imu's, moved by hand.
+void ExpectMoved(const odometry_t& imu, const odometry_t& base, const Pose& T_base_imu) {
+  const auto pose_of = [](const odometry_t& m) {
+    return Pose{Quaternion(m.quat[0], m.quat[1], m.quat[2], m.quat[3]), Vector3(m.pos)};
+  };
+  const Pose expected = pose_of(imu) * T_base_imu.Inverse();
+  EXPECT_LT(LogSe3(expected.Inverse() * pose_of(base)).norm(), 1e-9);
+  const Vector3 w_imu(imu.rotation_rate);
+  EXPECT_LT((T_base_imu.rotation * w_imu - Vector3(base.rotation_rate)).norm(), 1e-12);
+  const Vector3 turning = w_imu.cross(T_base_imu.Inverse().translation);
+  const Vector3 velocity = Vector3(imu.vel) + pose_of(imu).rotation * turning;
+  EXPECT_LT((velocity - Vector3(base.vel)).norm(), 1e-12);
+  EXPECT_EQ(imu.scan_seq, base.scan_seq);
+  EXPECT_EQ(imu.source, base.source);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(base.pose_cov[i][i], 0.0);
+    EXPECT_GT(base.vel_cov[i][i], 0.0);
+  }
+}
+
+TEST_F(LiveRunnerTest, TheBaseFrameMovesWithTheImu) {
+  Options options = SceneOptions();
+  const Pose T_base_imu{ExpSo3(Vector3(0.1, -0.2, 0.7)), Vector3(1.5, -0.3, 0.8)};
+  options.rig.T_base_imu = T_base_imu;
+  std::map<std::string, std::map<std::int64_t, odometry_t>> by_channel;
+  for (const char* channel : {"LIO_ODOM", "LIO_ODOM_BASE", "LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU"}) {
+    bus_->Subscribe(channel, 100'000, [&of = by_channel[channel]](ByteView data, std::int64_t) {
+      odometry_t message{};
+      ASSERT_EQ(message.decode(data.data(), 0, static_cast<int>(data.size())),
+                static_cast<int>(data.size()));
+      of[message.utime] = message;
+    });
+  }
+  LiveRunner runner(*bus_, options, WithFiles());
+  Play(runner);
+  runner.Stop();
+  while (bus_->Receive(std::chrono::milliseconds(0)) == ReceiveResult::kMessage) {
+  }
+  for (const auto& [imu_channel, base_channel] :
+       {std::pair("LIO_ODOM", "LIO_ODOM_BASE"), std::pair("LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU")}) {
+    EXPECT_GT(by_channel[imu_channel].size(), 40u);
+    EXPECT_EQ(by_channel[imu_channel].size(), by_channel[base_channel].size());
+    for (const auto& [utime, imu] : by_channel[imu_channel]) {
+      ExpectMoved(imu, by_channel[base_channel].at(utime), T_base_imu);
+    }
+  }
+  EXPECT_EQ(NumLines("trajectory_base.tum"), NumLines("trajectory.tum"));
 }
 
 TEST_F(LiveRunnerTest, StoppingInTheMiddleLeavesCompleteFilesSoon) {

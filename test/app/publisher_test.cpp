@@ -55,6 +55,18 @@ TEST_F(PublisherTest, InertialSamplesHaveAChannelOfTheirOwn) {
   EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM_IMU"));
 }
 
+TEST_F(PublisherTest, TheBaseFrameHasChannelsOfItsOwn) {
+  ScanOutput scan;
+  scan.filter.emplace().nav.base.emplace();
+  publisher_.Publish(Output(scan));
+  NavOutput nav;
+  nav.source = OdometrySource::kImuPropagated;
+  nav.base.emplace();
+  publisher_.Publish(Output(nav));
+  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_BASE", "LIO_STATE", "LIO_REG",
+                                         "LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU"));
+}
+
 TEST_F(PublisherTest, EachFeatureSetHasAChannelOfItsOwn) {
   for (std::size_t i = 0; i < kNumFeatureSets; ++i) {
     publisher_.PublishFeatures(static_cast<FeatureSet>(i), ScanChunk{});

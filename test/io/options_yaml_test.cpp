@@ -55,6 +55,17 @@ TEST_F(OptionsYaml, ValuesOfEveryTypeAreTaken) {
   EXPECT_EQ(result.options.pipeline.max_queued_scans, 7);
 }
 
+TEST_F(OptionsYaml, ABaseFrameIsOptional) {
+  EXPECT_FALSE(Load(kRig).options.rig.T_base_imu);
+  const LoadResult result = Load(std::string(kRig) +
+                                 "  T_base_imu:\n"
+                                 "    translation_m: [1, 0, 0.5]\n"
+                                 "    rotation_wxyz: [0, 0, 0, 1]\n");
+  EXPECT_THAT(result.faults, IsEmpty());
+  ASSERT_TRUE(result.options.rig.T_base_imu);
+  EXPECT_EQ(result.options.rig.T_base_imu->translation, Vector3(1, 0, 0.5));
+}
+
 TEST_F(OptionsYaml, LaterFilesOverrideKeyByKeyAndSetsOverrideAll) {
   const auto first = dir_.Write("a.yaml", std::string(kRig) + "ndt: {voxel_m: 2, max_cells: 5000}");
   const auto second = dir_.Write("b.yaml", "ndt: {voxel_m: 3}\nrig: {gravity_mps2: 9.7}");

@@ -75,6 +75,21 @@ TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
   EXPECT_THAT(lines[1], StartsWith("1700000000.000000007,0.000000000000e+00,1.250000000000e-01,"));
 }
 
+TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
+  Options options;
+  options.rig.T_base_imu = Pose{Quaternion::Identity(), Vector3(1, 0, 0)};
+  ScanOutput scan = Scan(kStamp);
+  scan.filter->nav.base.emplace().T_world_base.translation = Vector3(0, -2, 3.25);
+  RunWriter writer(out_, options);
+  writer.Write(scan);
+  writer.Finish({});
+  EXPECT_THAT(Lines(out_ / "trajectory_base.tum"),
+              ElementsAre("1700000000.000000007 0.000000000 -2.000000000 3.250000000 "
+                          "0.000000000000 0.000000000000 0.000000000000 1.000000000000"));
+  RunWriter(out_, Options{}).Finish({});
+  EXPECT_FALSE(std::filesystem::exists(out_ / "trajectory_base.tum")) << "of an earlier run";
+}
+
 TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
   RunWriter writer(out_, Options{});
   ScanOutput waiting = Scan(kStamp);

@@ -121,6 +121,12 @@ TEST(Odometry, NothingComesOfNothing) {
 
 // --- the same answer whenever jobs are finished
 
+Options WithBase() {
+  Options options = test::DriveRig();
+  options.rig.T_base_imu = Pose{ExpSo3(Vector3(0, 0, 1)), Vector3(1, 0, 0.5)};
+  return options;
+}
+
 struct LagCase {
   const char* name;
   std::function<Messages()> messages;
@@ -143,6 +149,7 @@ std::vector<LagCase> LagCases() {
   };
   return {
       {"clean", [] { return StaticStartDrive(); }},
+      {"with a base frame", [] { return StaticStartDrive(); }, WithBase()},
       {"moving start", [] { return MovingStartDrive(); }},
       {"moving start, IMU long before", early_imu},
       {"lidar alone", [] { return StaticStartDrive(); }, LidarOnly()},

@@ -147,6 +147,10 @@ void AddFilter(const FilterReport& filter, ByteWriter& writer) {
   writer.Add(nav.velocity_cov);
   writer.Add(nav.w_imu_radps);
   writer.Add(nav.map_pose_cov);
+  if (nav.base) {
+    writer.Add(nav.base->T_world_base);
+    writer.Add(nav.base->velocity_cov);
+  }
   writer.Add(filter.gyro_bias_radps);
   writer.Add(filter.accel_bias_mps2);
   writer.Add(filter.g_world_mps2);

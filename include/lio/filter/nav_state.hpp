@@ -32,6 +32,8 @@ inline constexpr int kMapPose = 15;  // translation, then rotation
 inline constexpr int kStateDim = 21;
 
 using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
+// Of the first four blocks: position, rotation, velocity, gyro bias.
+using NavCov = Eigen::Matrix<double, kAccelBias, kAccelBias>;
 using ErrorMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 
 struct NavState {

@@ -32,8 +32,7 @@ class SteadyWorld {
   struct Published {
     Pose T_world_imu;
     Vector3 v_world_imu = Vector3::Zero();
-    Matrix6 pose_cov = Matrix6::Zero();  // position in world, right rotation error
-    Matrix3 velocity_cov = Matrix3::Zero();
+    NavCov cov = NavCov::Zero();
   };
   Published Publish(const Estimate& estimate) const;
 

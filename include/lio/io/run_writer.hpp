@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The files of one run, the same from lio-replay and from liod --out:
-//   trajectory.tum           a row a scan once started: t x y z qx qy qz qw, imu in world at sweep
-//   end covariance.csv           the same rows: t_s and the 6x6 of [position in world; right
-//   rotation] trajectory_imu_rate.tum  a row an inertial sample registration.csv         a row a
-//   scan: points, residual, information, status, stage times stats.json               counts,
-//   speed, memory, stage times options.yaml             the effective options map.pcd when asked
-//   for
+//   trajectory.tum: a row a scan once started, t x y z qx qy qz qw, imu in world at the sweep's end
+//   trajectory_base.tum: the same rows of base in world, with rig.T_base_imu
+//   covariance.csv: the same rows, t_s and the 6x6 of [position in world; right rotation] of imu
+//   trajectory_imu_rate.tum: a row an inertial sample
+//   registration.csv: a row a scan, of points, residual, information, status, stage times
+//   stats.json: counts, speed, memory, stage times
+//   options.yaml: the effective options
+//   map.pcd: when asked for
+//
 // Everything but times of computing is the same, byte for byte, for the same input.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -57,6 +61,7 @@ class RunWriter {
 
   std::filesystem::path folder_;
   File trajectory_;
+  std::optional<File> base_;
   File covariance_;
   File imu_rate_;
   File registration_;

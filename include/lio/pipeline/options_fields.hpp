@@ -55,7 +55,8 @@ inline constexpr double kMaxQuaternionNormError = 1e-3;  // nearer to 1 is round
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Pose> auto& o) {
-  visit("translation_m", o.translation, "origin of the lidar in imu, x y z [m]", Range{-100, 100});
+  visit("translation_m", o.translation, "origin of the second frame in the first, x y z [m]",
+        Range{-100, 100});
   visit("rotation_wxyz", o.rotation, "unit quaternion, w first");
 }
 
@@ -92,6 +93,8 @@ template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Rig> auto& o) {
   visit("T_imu_lidar", o.T_imu_lidar,
         "p_imu = T_imu_lidar * p_lidar; required when pipeline.use_imu");
+  visit("T_base_imu", o.T_base_imu,
+        "p_base = T_base_imu * p_imu; optional: gives LIO_ODOM_BASE as well");
   visit("lidar", o.lidar, "the lidar");
   visit("imu", o.imu, "the IMU: continuous-time densities, one number for the three axes");
   visit("gravity_mps2", o.gravity_mps2, "local gravity [m/s^2]", Range{1, 20});

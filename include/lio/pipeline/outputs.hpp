@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,17 @@ enum class TrackingStatus : std::int8_t {
 
 enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
 
+// What the state says of the rig's base frame. Covariances as in NavOutput, for base.
+struct BaseMotion {
+  Pose T_world_base;
+  Matrix6 pose_cov = Matrix6::Zero();
+  Vector3 v_world_base_mps = Vector3::Zero();  // of base's origin
+  Matrix3 velocity_cov = Matrix3::Zero();
+  Vector3 w_base_radps = Vector3::Zero();  // bias-corrected rate, in base
+  Pose T_map_base;
+  Matrix6 map_pose_cov = Matrix6::Zero();
+};
+
 // The state at one instant. Covariances: position and velocity in world, rotation error on the
 // right (R_true = R Exp(d)), order [position; rotation].
 struct NavOutput {
@@ -37,6 +49,7 @@ struct NavOutput {
   Vector3 w_imu_radps = Vector3::Zero();   // bias-corrected rate, in imu
   Pose T_map_imu;                          // smooth pose against the map
   Matrix6 map_pose_cov = Matrix6::Zero();  // right error [translation; rotation] of T_map_imu
+  std::optional<BaseMotion> base;          // with rig.T_base_imu
 };
 
 // The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel

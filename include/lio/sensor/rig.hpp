@@ -42,6 +42,8 @@ struct ImuRig {
 
 struct Rig {
   std::optional<Pose> T_imu_lidar;  // p_imu = T_imu_lidar * p_lidar; required with an IMU
+  // p_base = T_base_imu * p_imu: a frame of the vehicle to give the motion of as well.
+  std::optional<Pose> T_base_imu;
   LidarRig lidar;
   ImuRig imu;
   double gravity_mps2 = 9.80665;
