@@ -143,9 +143,23 @@ void FilterHistory::Step(std::size_t at) {
   node.misfit = nodes_[at - 1].misfit;
   StepTo(node.posterior, nodes_[at - 1].sample, node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
-  if (node.kind == Kind::kRebase) RebaseMapPose(node.posterior);
-  if (node.kind != Kind::kPose) return;
+  switch (node.kind) {
+    case Kind::kImu:
+      break;
+    case Kind::kPose:
+      Fuse(node);
+      break;
+    case Kind::kStandstill:
+      node.update =
+          FuseStandstill(node.posterior, node.standstill_var, options_.standstill_nis_limit);
+      break;
+    case Kind::kRebase:
+      RebaseMapPose(node.posterior);
+      break;
+  }
+}
 
+void FilterHistory::Fuse(Node& node) const {
   PoseMeasurement measurement = node.pose.measurement;
   measurement.cov = Widened(measurement.cov, node.misfit);
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
@@ -195,6 +209,16 @@ EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, Upd
   return update.fused ? EventOutcome::kApplied : EventOutcome::kGated;
 }
 
+EventOutcome FilterHistory::AddStandstill(Timestamp stamp, double variance) {
+  if (const auto refused = Refuse(stamp, Kind::kStandstill)) return *refused;
+  Node node;
+  node.stamp = stamp;
+  node.kind = Kind::kStandstill;
+  node.standstill_var = variance;
+  const bool is_fused = nodes_[Insert(std::move(node))].update.fused;
+  return is_fused ? EventOutcome::kApplied : EventOutcome::kGated;
+}
+
 EventOutcome FilterHistory::AddRebase(Timestamp stamp) {
   if (const auto refused = Refuse(stamp, Kind::kRebase)) return *refused;
   Node node;
@@ -225,6 +249,14 @@ StampedPoses FilterHistory::Trajectory(Timestamp from, Timestamp to) const {
   }
   if (to > poses.back().stamp) poses.push_back({to, At(to).state.T_world_imu});
   return poses;
+}
+
+std::vector<ImuSample> FilterHistory::SamplesBetween(Timestamp from, Timestamp to) const {
+  std::vector<ImuSample> samples;
+  for (std::size_t at = FirstAfter(from); at < nodes_.size() && nodes_[at].stamp <= to; ++at) {
+    if (nodes_[at].kind == Kind::kImu) samples.push_back(nodes_[at].sample);
+  }
+  return samples;
 }
 
 void FilterHistory::Trim() {

@@ -57,6 +57,22 @@ UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, do
   return result;
 }
 
+UpdateResult FuseStandstill(Estimate& estimate, double variance, double nis_limit) {
+  Eigen::Matrix<double, 3, kStateDim> H = Eigen::Matrix<double, 3, kStateDim>::Zero();
+  H.middleCols<3>(kVel).setIdentity();
+  const Matrix3 R = variance * Matrix3::Identity();
+  const Vector3 residual = -estimate.state.v_world_imu;
+  const Eigen::LDLT<Matrix3> factor(estimate.cov.block<3, 3>(kVel, kVel) + R);
+  UpdateResult result;
+  result.nis = residual.dot(factor.solve(residual));
+  if (!(result.nis <= nis_limit)) return result;
+  const Eigen::Matrix<double, kStateDim, 3> K =
+      factor.solve(estimate.cov.middleRows<3>(kVel)).transpose();
+  Apply<3>(estimate, H, K, residual, R);
+  result.fused = true;
+  return result;
+}
+
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   const double keep = 1.0 - measurement.new_content_share;
   ErrorMatrix& P = estimate.cov;

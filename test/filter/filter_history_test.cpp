@@ -115,6 +115,28 @@ TEST(FilterHistory, RebaseMakesTheMapPoseErrorZero) {
   EXPECT_LT(change, 1e-15);
 }
 
+TEST(FilterHistory, StandstillBringsTheVelocityToZeroAsFarAsItIsSure) {
+  FilterHistory history = StartedHistory();
+  AddImuUpTo(history, 0.5);
+  const Estimate before = history.head();
+  EXPECT_EQ(history.AddStandstill(StampAt(0.5), 1e6), EventOutcome::kApplied);
+  EXPECT_LT(Difference(history.head(), before), 1e-5) << "worth nothing";
+  EXPECT_EQ(history.AddStandstill(StampAt(0.5), 4.0), EventOutcome::kDuplicate);
+  EXPECT_EQ(history.AddStandstill(StampAt(0.4), 1e-4), EventOutcome::kGated)
+      << "at " << before.state.v_world_imu.norm() << " m/s";
+  EXPECT_EQ(history.AddStandstill(StampAt(-0.1), 1e-4), EventOutcome::kBeforeStart);
+}
+
+TEST(FilterHistory, SamplesBetweenAreTheMeasuredOnes) {
+  FilterHistory history = StartedHistory();
+  AddImuUpTo(history, 0.2);
+  history.AddPose(StampAt(0.11), PoseAt(0.11));
+  const std::vector<ImuSample> samples = history.SamplesBetween(StampAt(0.1), StampAt(0.16));
+  ASSERT_EQ(samples.size(), 3u);
+  EXPECT_EQ(samples.front().stamp, StampAt(0.12));
+  EXPECT_EQ(samples.back().stamp, StampAt(0.16));
+}
+
 TEST(FilterHistory, TrimmingDoesNotChangeTheHead) {
   HistoryOptions options = TestOptions();
   options.span_s = 0.3;

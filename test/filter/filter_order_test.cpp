@@ -21,7 +21,9 @@ using test::SampleAt;
 using test::StampAt;
 using test::StartedHistory;
 
-enum class Kind { kImu, kPose, kRebase };
+constexpr double kStandstillVar = 4.0;  // (m/s)^2: the tumbling body never rests
+
+enum class Kind { kImu, kPose, kStandstill, kRebase };
 struct Event {
   Kind kind = Kind::kImu;
   double t_s = 0;
@@ -34,14 +36,16 @@ EventOutcome Feed(FilterHistory& history, const Event& event) {
       return history.AddImu(SampleAt(event.t_s));
     case Kind::kPose:
       return history.AddPose(StampAt(event.t_s), event.pose);
+    case Kind::kStandstill:
+      return history.AddStandstill(StampAt(event.t_s), kStandstillVar);
     case Kind::kRebase:
       break;
   }
   return history.AddRebase(StampAt(event.t_s));
 }
 
-// A second and a half of samples, some lost; poses, one in eight far off, and rebases among them,
-// at stamps of their own or at a sample's. In order.
+// A second and a half of samples, some lost; poses, one in eight far off, standstills and rebases
+// among them, at stamps of their own or at a sample's. In order.
 std::vector<Event> RandomEvents() {
   std::vector<Event> events;
   for (int i = 1; i <= 75; ++i) {
@@ -58,6 +62,7 @@ std::vector<Event> RandomEvents() {
     event.measurement.new_content_share = 0.1;
     event.measurement.blend_cov = 1e-4 * Matrix6::Identity();
     events.push_back({Kind::kPose, t_s, event});
+    if (*rc::gen::inRange(0, 4) == 0) events.push_back({Kind::kStandstill, t_s, {}});
     if (*rc::gen::inRange(0, 6) == 0) events.push_back({Kind::kRebase, t_s, {}});
   }
   std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter over a window of time: every event (inertial sample, pose, rebase) with its posterior,
+// The filter over a window of time: every event (inertial sample, pose, standstill,
+// rebase) with its posterior,
 // ordered by stamp. An event that comes late is inserted at its own time and everything after it is
 // replayed, so the result does not depend on the order of arrival.
 //
-// Outcomes are values. Equal stamps: inertial samples first, then poses, then rebases.
+// Outcomes are values. Equal stamps: inertial samples first, then poses, standstills, rebases.
 #pragma once
 
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "lio/filter/pose_update.hpp"
 #include "lio/filter/process_model.hpp"
@@ -21,14 +23,15 @@ enum class EventOutcome {
   kTooOld,       // before the window
   kBeforeStart,  // before the state the filter started from
   kDuplicate,    // an event of the kind is already there at this stamp
-  kGated,        // a pose that was too far off to be believed
+  kGated,        // too far off to be believed
 };
 
 struct HistoryOptions {
   ProcessNoise noise;
   Vector3 g_world = Vector3(0, 0, -9.80665);
   double span_s = 3.0;
-  double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
+  double nis_limit = 22.46;             // 99.9 % of chi-square with 6 degrees of freedom
+  double standstill_nis_limit = 16.27;  // with 3
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
   double gap_accel_std_mps2 = 1.5;
@@ -54,6 +57,8 @@ class FilterHistory {
   EventOutcome AddImu(const ImuSample& sample);
   // `result`, when given, is filled under kApplied and kGated.
   EventOutcome AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result = nullptr);
+  // No velocity but for noise of `variance` an axis, (m/s)^2; gated like poses.
+  EventOutcome AddStandstill(Timestamp stamp, double variance);
   // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
   EventOutcome AddRebase(Timestamp stamp);
 
@@ -67,15 +72,18 @@ class FilterHistory {
   Estimate At(Timestamp stamp) const;
   // T_world_imu at every event strictly between the two stamps, and at both of them.
   StampedPoses Trajectory(Timestamp from, Timestamp to) const;
+  // Measured ones, with stamps after `from` up to `to`.
+  std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
  private:
-  enum class Kind { kImu, kPose, kRebase };
+  enum class Kind { kImu, kPose, kStandstill, kRebase };
   struct Node {
     Timestamp stamp;
     Timestamp imu_stamp;  // of the last measured sample up to here
     Kind kind = Kind::kImu;
-    ImuSample sample;  // measured, or interpolated at the stamp of a pose or rebase
+    ImuSample sample;  // measured, or interpolated at the stamp of another event
     PoseEvent pose;
+    double standstill_var = 0.0;  // (m/s)^2
     UpdateResult update;
     Misfit misfit;  // after the event
     Estimate posterior;
@@ -85,6 +93,7 @@ class FilterHistory {
   std::size_t Insert(Node node);  // replays; returns where it is
   void Replay(std::size_t from);
   void Step(std::size_t at);
+  void Fuse(Node& node) const;  // a pose
   void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to, bool is_in_gap) const;
   // Is `stamp`, just before the node of index `at`, in a gap between measured samples?
   bool IsInGap(Timestamp stamp, std::size_t at) const;

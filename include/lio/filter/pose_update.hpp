@@ -30,6 +30,10 @@ struct UpdateResult {
 // Gates at `nis_limit` (infinity: never).
 UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, double nis_limit);
 
+// Fuses a standstill: v_world_imu is zero but for noise of `variance` an axis, (m/s)^2. Gates at
+// `nis_limit`; the result's nis has 3 degrees of freedom.
+UpdateResult FuseStandstill(Estimate& estimate, double variance, double nis_limit);
+
 // Call when the scan goes into the map at the estimate's T_map_imu.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
