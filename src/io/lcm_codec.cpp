@@ -229,6 +229,8 @@ Bytes EncodeFilterState(const FilterReport& report) {
   Copy(report.gyro_bias_radps, message.gyro_bias);
   Copy(report.accel_bias_mps2, message.accel_bias);
   Copy(report.g_world_mps2, message.gravity);
+  message.clock_offset_s = report.clock_offset_s;
+  message.clock_offset_std_s = report.clock_offset_std_s;
   message.nis = report.nis;
   message.nis_dof = report.nis_dof;
   message.dim = static_cast<std::int32_t>(report.cov.rows());

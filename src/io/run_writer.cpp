@@ -116,6 +116,7 @@ Json CounterStats(const Counters& c) {
           {"num_points_nonfinite", c.num_points_nonfinite},
           {"num_matches_rejected", c.num_matches_rejected},
           {"num_gated", c.num_gated},
+          {"num_standstills", c.num_standstills},
           {"num_clock_jumps", c.num_clock_jumps},
           {"num_restarts", c.num_restarts}};
 }

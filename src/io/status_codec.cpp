@@ -34,6 +34,7 @@ void CopyCounters(const Counters& from, status_t& to) {
   to.scan_gaps = from.num_scan_gaps;
   to.matches_rejected = from.num_matches_rejected;
   to.gated = from.num_gated;
+  to.standstills = from.num_standstills;
   to.clock_jumps = from.num_clock_jumps;
   to.restarts = from.num_restarts;
 }

@@ -32,8 +32,10 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
       nis_limit_(ChiSquareQuantile6(options.filter.gate_probability)),
       use_imu_(options.pipeline.use_imu),
       world_(options.filter.steady_world ? SteadyWorld::Mode::kFromMotion
-                                         : SteadyWorld::Mode::kFollow) {
+                                         : SteadyWorld::Mode::kFollow),
+      standstill_(options.rig.imu) {
   const std::vector<OptionFault> faults = Validate(options);
+  if (options.filter.estimate_clock_offset && use_imu_) clock_offset_.emplace(options.rig.imu);
   if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
 }
 
@@ -163,10 +165,16 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   if (!is_gap) estimate.state = before;
   estimate.stamp = first.stamp;
   history_.emplace(history, estimate, first);
+  standstill_.Forget();
   last_published_.reset();
   char text[120];
   std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
   Say(first.stamp, Notice::Severity::kWarning, text);
+}
+
+void Odometry::Impl::AddRawChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.rig.lidar.clock_offset_s);
+  AddChunk(std::move(chunk), decode_ns);
 }
 
 void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
@@ -213,7 +221,9 @@ void Odometry::Impl::OpenGate() {
     while (SweepPtr sweep = gate_.Force()) ready_.push_back(std::move(sweep));
     return;
   }
-  while (SweepPtr sweep = gate_.Open(NewestImu())) Admit(std::move(sweep));
+  std::optional<Timestamp> passed = NewestImu();
+  if (passed) *passed = *passed - ClockMargin();
+  while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
 }
 
 void Odometry::Impl::Admit(SweepPtr sweep) {
@@ -223,19 +233,20 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
     return;
   }
   // From here on nothing may change what the scan was deskewed and predicted with.
+  const Timestamp until = sweep->end + ClockMargin();
   const auto bracket = std::lower_bound(
-      imu_.begin(), imu_.end(), sweep->end,
+      imu_.begin(), imu_.end(), until,
       [](const ImuSample& sample, Timestamp stamp) { return sample.stamp < stamp; });
   if (bracket == imu_.end()) {
     ImuSample held = imu_.back();
-    held.stamp = sweep->end;
+    held.stamp = until;
     imu_.push_back(held);
     if (history_) history_->AddImu(held);
     cut_ = held.stamp;
   } else {
     cut_ = bracket->stamp;
   }
-  if (history_ && ready_.empty()) history_->KeepFrom(sweep->start);
+  if (history_ && ready_.empty()) history_->KeepFrom(sweep->start - ClockMargin());
   ready_.push_back(std::move(sweep));
 }
 
@@ -260,7 +271,7 @@ void Odometry::AddImu(const ImuSample& sample) {
   impl_->AddImu(sample);
 }
 void Odometry::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
-  impl_->AddChunk(std::move(chunk), decode_ns);
+  impl_->AddRawChunk(std::move(chunk), decode_ns);
 }
 void Odometry::Flush() {
   impl_->Flush();

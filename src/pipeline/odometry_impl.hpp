@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The state machine behind Odometry, in four files: odometry.cpp takes data in, odometry_start.cpp
-// finds the first state, odometry_scan.cpp matches and fuses, odometry_output.cpp tells the state.
+// The state machine behind Odometry, in six files: odometry.cpp takes data in, odometry_start.cpp
+// finds the first state, odometry_scan.cpp matches and fuses, odometry_standstill.cpp and
+// odometry_clock.cpp look for rest and for the clocks' offset, odometry_output.cpp tells the state.
 #pragma once
 
 #include <deque>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "lio/calib/clock_offset.hpp"
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/steady_world.hpp"
 #include "lio/imu/imu_intake.hpp"
@@ -20,6 +22,7 @@
 #include "lio/pipeline/motion_scout.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/scan_gate.hpp"
+#include "lio/pipeline/standstill.hpp"
 #include "lio/scan/scan_assembler.hpp"
 
 namespace lio {
@@ -29,7 +32,8 @@ class Odometry::Impl {
   Impl(const Options& options, ClockNs clock);
 
   void AddImu(const ImuSample& sample);
-  void AddChunk(ScanChunk chunk, std::int64_t decode_ns);
+  void AddRawChunk(ScanChunk chunk, std::int64_t decode_ns);  // by the lidar's clock
+  void AddChunk(ScanChunk chunk, std::int64_t decode_ns);     // by the IMU's
   void Flush();
   std::optional<MatchJob> NextJob();
   InsertTask FinishJob(MatchOutcome outcome);
@@ -55,6 +59,10 @@ class Odometry::Impl {
   void Admit(SweepPtr sweep);
   void GoLidarOnly(const std::string& why);
   std::optional<Timestamp> NewestImu() const;
+  // How far a scan may still be moved in time before it is matched.
+  Duration ClockMargin() const {
+    return Duration::FromSeconds(clock_offset_ ? ClockOffset::kMax_s : 0.0);
+  }
   HistoryOptions MakeHistoryOptions() const;
   void Say(Timestamp stamp, Notice::Severity severity, std::string text);
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
@@ -86,6 +94,14 @@ class Odometry::Impl {
   Matrix6 DeskewCov(const Sweep& sweep);
   bool Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report);
   void UpdateStatus(const MatchOutcome& outcome, bool fused);
+
+  // --- odometry_standstill.cpp
+  void FuseStandstill(const MatchOutcome& outcome, bool is_fused);
+
+  // --- odometry_clock.cpp
+  // The sweep, its stamps moved by the offset between the clocks as known now.
+  SweepPtr MovedByClockOffset(const SweepPtr& sweep);
+  void FollowClockOffset(const MatchOutcome& outcome);
 
   // --- odometry_output.cpp
   FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
@@ -134,6 +150,11 @@ class Odometry::Impl {
   Vector3 g_world_ = Vector3::Zero();
   SteadyWorld world_;
 
+  std::optional<ClockOffset> clock_offset_;
+  double moved_by_s_ = 0.0;  // the stamps of the sweep in flight
+  bool has_told_clock_offset_ = false;
+  Standstill standstill_;
+  std::optional<Timestamp> last_standstill_;  // middle of the last sweep that was taken at rest
   KeyframePolicy keyframes_;
   SweepPtr in_flight_;          // the sweep whose job is out
   bool is_first_scan_ = true;   // of the running phase

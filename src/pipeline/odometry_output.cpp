@@ -45,6 +45,11 @@ FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
   filter.g_world_mps2 = g_world_;
+  filter.clock_offset_s = options_.rig.lidar.clock_offset_s;
+  if (clock_offset_) {
+    filter.clock_offset_s += clock_offset_->offset_s();
+    filter.clock_offset_std_s = clock_offset_->std_s();
+  }
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov;

@@ -11,7 +11,10 @@ namespace {
 
 constexpr double kLost_s = 2.0;          // no accepted match for this long
 constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
-constexpr double kSeekStd_m = 0.7;     // a shift since the last scan less sure than this is sought
+constexpr double kSeekStd_m = 0.7;  // a shift since the last scan less sure than this is sought
+// At rest the same beams meet the same cells, and errors last: over five seconds they come to one
+// to four times the variance that independent ones would have (docs/consistency.md).
+constexpr double kAlikeAtRest = 4.0;
 constexpr int kMinPointsToGrow = 200;  // a scan of fewer points tells nothing of the map
 
 }  // namespace
@@ -21,6 +24,7 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
   const std::size_t at = phase_ == Phase::kScouting ? scouted_.size() : 0;
   if (at >= ready_.size()) return std::nullopt;
   const std::int64_t begin = Now();
+  ready_[at] = MovedByClockOffset(ready_[at]);
   in_flight_ = ready_[at];
   const bool is_first = phase_ == Phase::kScouting ? scouted_.empty() : is_first_scan_;
   const bool needs_scout = phase_ == Phase::kScouting || !use_imu_;
@@ -80,7 +84,8 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
     FinishRunning(outcome, insert);
     ready_.pop_front();
     if (history_) {
-      history_->KeepFrom(ready_.empty() ? std::nullopt : std::optional(ready_.front()->start));
+      history_->KeepFrom(ready_.empty() ? std::nullopt
+                                        : std::optional(ready_.front()->start - ClockMargin()));
     }
   }
   insert.points_imu = std::move(outcome.points_imu);
@@ -111,6 +116,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
   event.measurement.T_map_imu = outcome.match.T_map_imu;
   event.measurement.cov =
       filter.registration_cov_scale * outcome.match.cov + DeskewCov(*outcome.sweep);
+  if (last_standstill_) event.measurement.cov *= kAlikeAtRest;
   event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
   event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
   event.force = num_gated_in_a_row_ >= filter.max_gated_in_a_row;
@@ -148,6 +154,8 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
   if (outcome.match.IsUsable()) report.fused = Fuse(outcome, is_keyframe, report);
+  FuseStandstill(outcome, report.fused);
+  if (clock_offset_) FollowClockOffset(outcome);
   num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
   // Where the map has nothing to match against, it is grown from where the filter stands.

@@ -72,6 +72,7 @@ class Calibrate(unittest.TestCase):
                          "--duration", "3", folder / "log.lcm", "--out",
                          support.WORK / "calibrate-replay")
         self.assertLess(angle_deg(times(inverse(truth), rotation_in(rig))), 0.2)
+        self.assertIn(f"clock_offset_s: {found['offset_s']:.6f}", rig.read_text())
 
     def test_parked_car_is_refused(self):
         folder = support.simulated("parked", "--duration", "8", "--lidar", "vlp16")

@@ -48,6 +48,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
                                           message.scan_gaps,
                                           message.matches_rejected,
                                           message.gated,
+                                          message.standstills,
                                           message.clock_jumps,
                                           message.restarts};
   EXPECT_EQ(arrived, std::set<std::int64_t>(values.begin(), values.end()));

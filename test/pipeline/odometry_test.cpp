@@ -127,6 +127,12 @@ Options WithBase() {
   return options;
 }
 
+Options WithClockOffset() {
+  Options options = test::DriveRig();
+  options.filter.estimate_clock_offset = true;
+  return options;
+}
+
 struct LagCase {
   const char* name;
   std::function<Messages()> messages;
@@ -150,6 +156,7 @@ std::vector<LagCase> LagCases() {
   return {
       {"clean", [] { return StaticStartDrive(); }},
       {"with a base frame", [] { return StaticStartDrive(); }, WithBase()},
+      {"with the clocks' offset", [] { return StaticStartDrive(); }, WithClockOffset()},
       {"moving start", [] { return MovingStartDrive(); }},
       {"moving start, IMU long before", early_imu},
       {"lidar alone", [] { return StaticStartDrive(); }, LidarOnly()},

@@ -165,14 +165,15 @@ void WriteRig(const std::string& file, const RotationCalibration& found, const P
   WriteText(file,
             fmt::format("# By lio-log calibrate: rotation to {:.4f} {:.4f} {:.4f} deg (1 sigma, "
                         "lidar's axes); translation as configured.\n"
-                        "# Clocks: add {:.6f} s to the lidar's stamps to have the IMU's, "
-                        "to {:.6f} s (1 sigma).\n"
+                        "# Clock offset to {:.6f} s (1 sigma).\n"
                         "rig:\n"
                         "  T_imu_lidar:  # p_imu = T_imu_lidar * p_lidar\n"
                         "    translation_m: [{:.9g}, {:.9g}, {:.9g}]\n"
-                        "    rotation_wxyz: [{:.10f}, {:.10f}, {:.10f}, {:.10f}]\n",
-                        std_deg.x(), std_deg.y(), std_deg.z(), found.offset_s, found.offset_std_s,
-                        t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()));
+                        "    rotation_wxyz: [{:.10f}, {:.10f}, {:.10f}, {:.10f}]\n"
+                        "  lidar:\n"
+                        "    clock_offset_s: {:.6f}  # added to the lidar's stamps\n",
+                        std_deg.x(), std_deg.y(), std_deg.z(), found.offset_std_s, t.x(), t.y(),
+                        t.z(), q.w(), q.x(), q.y(), q.z(), found.offset_s));
 }
 
 // Empty: go on. The rotation need not be configured, it is what is sought.

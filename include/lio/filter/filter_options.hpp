@@ -10,6 +10,8 @@ struct FilterOptions {
   double max_imu_gap_s = 0.5;       // longer gaps in the IMU stream are bridged with inflated noise
   double gate_probability = 0.999;  // a pose farther off than this quantile is not fused
   int max_gated_in_a_row = 1;       // then it is fused all the same, as a motion that was not seen
+  bool use_standstill = true;       // false: a parked vehicle is a slow one
+  bool estimate_clock_offset = false;   // between lidar and IMU, from turns
   double registration_cov_scale = 1.6;  // k of docs/filter.md; above 1 trusts matches less
   bool steady_world = true;      // false: published poses follow every change of the tilt estimate
   double map_walk_scale = 0.25;  // q of docs/filter.md: how far a map grown from scans drifts

@@ -71,6 +71,9 @@ void VisitFields(Visitor& visit, MaybeConst<LidarRig> auto& o) {
   visit("model", o.model, "beam table in config/lidars: hdl32e, vlp16, hdl64e, os1_64; or generic");
   visit("min_range_m", o.min_range_m, "nearer returns are dropped [m]", Range{0, 100});
   visit("max_range_m", o.max_range_m, "farther returns are dropped [m]", Range{1, 1000});
+  visit("clock_offset_s", o.clock_offset_s,
+        "added to the lidar's stamps to have the IMU's clock; lio-log calibrate finds it [s]",
+        Range{-10, 10});
   visit("own_vehicle_box", o.own_vehicle_box, "returns inside are the vehicle itself; optional");
 }
 
@@ -246,6 +249,10 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
         "a pose farther off than this quantile is not fused", Range{0.5, 0.999999999});
   visit("max_gated_in_a_row", o.max_gated_in_a_row,
         "then it is fused all the same, as a motion that was not seen", Range{1, 1000});
+  visit("use_standstill", o.use_standstill,
+        "a vehicle that stands still, to IMU and lidar together, has no velocity");
+  visit("estimate_clock_offset", o.estimate_clock_offset,
+        "follow what is left of the offset between lidar and IMU, up to 50 ms; 50 ms more latency");
   visit("registration_cov_scale", o.registration_cov_scale,
         "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
   visit("steady_world", o.steady_world,

@@ -59,6 +59,10 @@ struct FilterReport {
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();
   Vector3 g_world_mps2 = Vector3::Zero();
+  // To be added to the lidar's stamps, rig.lidar.clock_offset_s included; the standard deviation is
+  // zero unless it is estimated.
+  double clock_offset_s = 0.0;
+  double clock_offset_std_s = 0.0;
   double nis = 0.0;  // normalised innovation squared of the last update
   int nis_dof = 0;   // 0: no update
   Eigen::MatrixXd cov;
@@ -94,7 +98,7 @@ struct ScanReport {
   StageTimes stage_ns{};
 };
 
-// A count of everything that was lost, refused or odd. Zero everywhere on a clean log.
+// A count of everything that was lost, refused or odd: zero on a clean log. And of standstills.
 struct Counters {
   std::int64_t num_imu = 0;
   std::int64_t num_imu_nonfinite = 0;
@@ -116,6 +120,7 @@ struct Counters {
   std::int64_t num_scan_gaps = 0;
   std::int64_t num_matches_rejected = 0;
   std::int64_t num_gated = 0;
+  std::int64_t num_standstills = 0;  // scans taken at rest, and fused as such
   std::int64_t num_clock_jumps = 0;
   std::int64_t num_restarts = 0;
 };

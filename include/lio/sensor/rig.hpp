@@ -22,6 +22,7 @@ struct LidarRig {
   std::string model = "generic";  // a beam table in config/lidars/, or generic for none
   double min_range_m = 1.5;       // nearer returns are dropped: the sensor's housing, the roof
   double max_range_m = 120.0;     // farther returns are dropped
+  double clock_offset_s = 0.0;    // added to the lidar's stamps to have the IMU's clock
   std::optional<OwnVehicleBox> own_vehicle_box;
 };
 

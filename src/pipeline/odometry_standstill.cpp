@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+// A vehicle that is taken to stand still may move by this, unknown for as long as the detector
+// looks back: so many standstills in a row are one measurement.
+constexpr double kStandstillStd_mps = 0.01;
+constexpr double kStandstillCorrelation_s = Standstill::kWindow_s;
+
+}  // namespace
+
+// Measurements whose errors last for a time t tell, d apart, as much as independent ones of 2 t / d
+// times the variance.
+void Odometry::Impl::FuseStandstill(const MatchOutcome& outcome, bool is_fused) {
+  if (!use_imu_ || !options_.filter.use_standstill) return;
+  const Timestamp middle = outcome.sweep->middle();
+  if (!is_fused || outcome.match.weak_mask != 0) {
+    standstill_.Forget();
+    last_standstill_.reset();
+    return;
+  }
+  standstill_.Add({middle, outcome.match.T_map_imu.translation,
+                   history_->SamplesBetween(outcome.sweep->start, outcome.sweep->end)});
+  if (!standstill_.Holds(history_->At(middle), g_world_)) {
+    last_standstill_.reset();
+    return;
+  }
+  const double since_s = std::min(
+      last_standstill_ ? SecondsBetween(*last_standstill_, middle) : kStandstillCorrelation_s,
+      kStandstillCorrelation_s);
+  const double num_alike = std::max(1.0, 2.0 * kStandstillCorrelation_s / since_s);
+  const double variance = num_alike * kStandstillStd_mps * kStandstillStd_mps;
+  if (history_->AddStandstill(middle, variance) != EventOutcome::kApplied) return;
+  last_standstill_ = middle;
+  ++counters_.num_standstills;
+}
+
+}  // namespace lio

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The estimator while the vehicle stands still.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/faulty_drives.hpp"
+
+namespace lio {
+namespace {
+
+using test::DriveOptions;
+using test::Messages;
+using test::MovingStartDrive;
+using test::RunOdometry;
+using test::RunResult;
+using test::SecondsOf;
+
+TEST(Odometry, AtRestTheVelocityIsZeroAndItsCovarianceDoesNotCollapse) {
+  DriveOptions drive;
+  drive.motion = [](double) { return Pose::Identity(); };
+  drive.to_s = 12.0;
+  const RunResult run = RunOdometry(SimulateDrive(test::Street(), drive), test::DriveRig());
+  EXPECT_GT(run.counters.num_standstills, 80);
+  const NavOutput& start = run.scans.front().filter->nav;
+  for (const NavOutput& nav : run.navs) {
+    if (SecondsOf(nav.stamp) < 4.0) continue;
+    EXPECT_LT(nav.v_world_imu_mps.norm(), 0.01);
+    EXPECT_LT((nav.T_world_imu.translation - start.T_world_imu.translation).norm(), 0.02);
+  }
+  const auto velocity_std = [&](double t_s) {
+    for (const ScanOutput& scan : run.scans) {
+      if (SecondsOf(scan.scan.stamp) > t_s) {
+        return std::sqrt(scan.filter->nav.velocity_cov.trace() / 3.0);
+      }
+    }
+    return 0.0;
+  };
+  EXPECT_GT(velocity_std(11.0), 5e-4);
+  EXPECT_GT(velocity_std(11.0), 0.5 * velocity_std(6.0));
+}
+
+TEST(Odometry, InMotionNoStandstillIsFused) {
+  const RunResult run = RunOdometry(MovingStartDrive(), test::DriveRig());
+  EXPECT_EQ(run.counters.num_standstills, 0);
+}
+
+TEST(Odometry, StandstillEndsWhenTheVehicleDrivesOff) {
+  DriveOptions drive;
+  drive.motion = test::WindingDrive(4.0);
+  drive.to_s = 8.5;
+  const Messages messages = SimulateDrive(test::Street(), drive);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_GT(run.counters.num_standstills, 10);
+  EXPECT_LE(run.counters.num_standstills, 41) << "scans taken before it drives off";
+  Options without = test::DriveRig();
+  without.filter.use_standstill = false;
+  EXPECT_EQ(RunOdometry(messages, without).counters.num_standstills, 0);
+}
+
+}  // namespace
+}  // namespace lio

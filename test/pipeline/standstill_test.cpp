@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/standstill.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/smooth_motion.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kScan_s = 0.1;
+constexpr double kRate_hz = 100.0;
+constexpr int kEnough = 20;  // scans: two seconds
+
+ImuRig Rig() {
+  ImuRig rig;
+  rig.gyro_noise_density = 5e-4;
+  rig.accel_noise_density = 1e-3;
+  return rig;
+}
+
+// Biases and tilt are known as after a second of rest.
+Estimate KnownState() {
+  Estimate estimate;
+  estimate.cov.block<3, 3>(kRot, kRot) = 1e-8 * Matrix3::Identity();
+  estimate.cov.block<3, 3>(kGyroBias, kGyroBias) = 2.5e-7 * Matrix3::Identity();
+  estimate.cov.block<3, 3>(kAccelBias, kAccelBias) = 1e-6 * Matrix3::Identity();
+  return estimate;
+}
+
+const Vector3 kGravityWorld(0, 0, -test::kGravity);
+
+// What the scans and the IMU of a moving body show; the lidar may see another motion.
+bool HoldsAfter(int num_scans, const test::SmoothMotion& felt, const test::SmoothMotion& seen) {
+  std::mt19937_64 random(3);
+  const test::ImuErrors errors{Vector3::Zero(), Vector3::Zero(), Rig().gyro_noise_density,
+                               Rig().accel_noise_density};
+  Standstill standstill(Rig());
+  for (int k = 0; k < num_scans; ++k) {
+    const double middle_s = kScan_s * (k + 0.5);
+    standstill.Add(
+        {Timestamp{} + Duration::FromSeconds(middle_s),
+         seen.At(middle_s).T_world_imu.translation + test::NormalVector(random, 1e-3),
+         test::ReadImu(felt, kScan_s * k + 1e-3, kScan_s * (k + 1), kRate_hz, errors, random)});
+  }
+  return standstill.Holds(KnownState(), kGravityWorld);
+}
+
+bool HoldsAfter(int num_scans, const test::SmoothMotion& motion) {
+  return HoldsAfter(num_scans, motion, motion);
+}
+
+TEST(Standstill, RestIsSeenOnceTheWindowIsFull) {
+  const test::SmoothMotion rest;
+  EXPECT_FALSE(HoldsAfter(0, rest));
+  EXPECT_FALSE(HoldsAfter(14, rest));
+  EXPECT_TRUE(HoldsAfter(17, rest));
+  EXPECT_TRUE(HoldsAfter(300, rest));
+}
+
+TEST(Standstill, AnIdlingEngineIsRest) {
+  test::SmoothMotion idle;
+  idle.z.waves = {{1e-6, 160.0, 0.3}};     // 0.03 m/s^2 at 25 Hz
+  idle.roll.waves = {{2e-5, 160.0, 1.0}};  // 0.003 rad/s
+  EXPECT_TRUE(HoldsAfter(kEnough, idle));
+}
+
+TEST(Standstill, ASlowCreepIsNoRest) {
+  for (const double speed_mps : {0.02, 0.05, 0.5}) {
+    test::SmoothMotion creep;
+    creep.x.speed = speed_mps;
+    EXPECT_FALSE(HoldsAfter(kEnough, creep)) << speed_mps;
+  }
+}
+
+TEST(Standstill, ASmoothRideIsNoRestHoweverCalm) {
+  test::SmoothMotion cruise;
+  cruise.x.speed = 28.0;
+  EXPECT_FALSE(HoldsAfter(kEnough, cruise));
+  test::SmoothMotion lift;
+  lift.z.speed = 0.5;
+  EXPECT_FALSE(HoldsAfter(kEnough, lift));
+}
+
+// The rings of a parked sensor, or the walls of a lift, hold the lidar in place.
+TEST(Standstill, WhatTheImuFeelsIsNoRestThoughTheLidarSeesNone) {
+  const test::SmoothMotion rest;
+  test::SmoothMotion drives_off;
+  drives_off.x.accel = 0.1;
+  EXPECT_FALSE(HoldsAfter(kEnough, drives_off, rest));
+  test::SmoothMotion turns;
+  turns.yaw.speed = 0.01;
+  EXPECT_FALSE(HoldsAfter(kEnough, turns, rest));
+  test::SmoothMotion shakes;
+  shakes.z.waves = {{4e-4, 30.0, 0.0}};  // 0.36 m/s^2: a road
+  EXPECT_FALSE(HoldsAfter(kEnough, shakes, rest));
+}
+
+TEST(Standstill, ForgettingBeginsTheWindowAnew) {
+  Standstill standstill(Rig());
+  const auto add = [&](double t_s) {
+    ImuSample sample;
+    sample.f_imu_mps2 = -kGravityWorld;
+    std::vector<ImuSample> samples;
+    for (int i = 0; i < 10; ++i) {
+      sample.stamp = Timestamp{} + Duration::FromSeconds(t_s + 0.01 * i);
+      samples.push_back(sample);
+    }
+    standstill.Add({Timestamp{} + Duration::FromSeconds(t_s + 0.05), Vector3::Zero(), samples});
+  };
+  for (int k = 0; k < kEnough; ++k) add(kScan_s * k);
+  EXPECT_TRUE(standstill.Holds(KnownState(), kGravityWorld));
+  standstill.Forget();
+  add(kScan_s * kEnough);
+  EXPECT_FALSE(standstill.Holds(KnownState(), kGravityWorld));
+}
+
+}  // namespace
+}  // namespace lio
