@@ -104,7 +104,7 @@ TEST_P(RealPair, IsFoundFromIdentityBothWays) {
   const Pose gap = forward.T_target_source * backward.T_target_source;
   RecordProperty("error_mm", std::to_string(1e3 * error.translation.norm()));
   RecordProperty("gap_mm", std::to_string(1e3 * gap.translation.norm()));
-  // Wanted are 5 mm and 0.05 deg. Measured: NDT 5.9 mm, LOAM 7.5 mm and 0.11 deg, GICP 0.06 deg.
+  // Wanted are 5 mm and 0.05 deg. Measured: NDT 5.9 mm, LOAM 7.5 mm and 0.11 deg, GICP 5.3 mm.
   EXPECT_LT(gap.translation.norm(), 0.01);
   EXPECT_LT(DegreesOf(gap), 0.15);
 }
