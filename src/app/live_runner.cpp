@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -187,8 +188,8 @@ void LiveRunner::Emit(const Notice& notice) {
   if (notice.text == last_notice_ && since_s < kRepeatedNotice_s) return;
   last_notice_ = notice.text;
   last_notice_stamp_ = notice.stamp;
-  const bool is_warning = notice.severity == Notice::Severity::kWarning;
-  spdlog::log(is_warning ? spdlog::level::warn : spdlog::level::info, "{:.3f}: {}",
+  constexpr std::array kLevels{spdlog::level::info, spdlog::level::warn, spdlog::level::err};
+  spdlog::log(kLevels[static_cast<std::size_t>(notice.severity)], "{:.3f}: {}",
               static_cast<double>(notice.stamp.ns) * 1e-9, notice.text);
 }
 

@@ -8,7 +8,6 @@
 namespace lio {
 namespace {
 
-constexpr double kMaxRate_radps = 100.0;   // beyond any gyro
 constexpr double kMaxForce_mps2 = 2000.0;  // beyond any accelerometer (200 g)
 constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is a jump
 constexpr Duration kSameStretch{200'000'000};
@@ -26,7 +25,7 @@ bool ImuIntake::IsSane(const ImuSample& sample) {
     ++counters_->num_imu_nonfinite;
     return false;
   }
-  if (sample.w_imu_radps.norm() > kMaxRate_radps || sample.f_imu_mps2.norm() > kMaxForce_mps2) {
+  if (sample.w_imu_radps.norm() > max_rate_ || sample.f_imu_mps2.norm() > kMaxForce_mps2) {
     ++counters_->num_imu_out_of_range;
     return false;
   }

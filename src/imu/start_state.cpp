@@ -78,6 +78,26 @@ Quaternion LevelledRotation(const Vector3& up_imu) {
   return ExpSo3(Vector3(0, 0, -yaw)) * tilt;
 }
 
+void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
+  const auto yaw = [](const Pose& pose) {
+    const Vector3 forward = pose.rotation * Vector3::UnitX();
+    return std::atan2(forward.y(), forward.x());
+  };
+  NavState& state = estimate.state;
+  const Quaternion turn = ExpSo3(Vector3(0, 0, yaw(earlier.T_world_imu) - yaw(state.T_world_imu)));
+  state.v_world_imu = turn * state.v_world_imu;
+  const double since_s = SecondsBetween(earlier.stamp, estimate.stamp);
+  const Vector3 position =
+      earlier.T_world_imu.translation + 0.5 * since_s * (earlier.v_world_imu + state.v_world_imu);
+  const Pose placed{turn, position - turn * state.T_world_imu.translation};
+  state.T_world_imu = placed * state.T_world_imu;
+  state.T_map_imu = placed * state.T_map_imu;
+  ErrorMatrix by_turn = ErrorMatrix::Identity();
+  by_turn.block<3, 3>(kPos, kPos) = turn.toRotationMatrix();
+  by_turn.block<3, 3>(kVel, kVel) = turn.toRotationMatrix();
+  estimate.cov = by_turn * estimate.cov * by_turn.transpose();
+}
+
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity) {
   const Vector3 up = estimate.state.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
   const double tilt_deg = std::acos(std::clamp(up.z(), -1.0, 1.0)) * 180.0 / M_PI;

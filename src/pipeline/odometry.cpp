@@ -18,6 +18,13 @@ constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has
 constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
 constexpr Duration kStampSlack{20'000'000};
 
+// Of messages whose units may be any that the option allows.
+double MaxRateSent(ImuUnits units) {
+  ImuReading reading = ReadingOf(units);
+  reading.is_in_deg |= units == ImuUnits::kAutomatic;
+  return kMaxGyroRate_radps / reading.rate_scale();
+}
+
 std::string JoinFaults(const std::vector<OptionFault>& faults) {
   std::string text = "unusable options:";
   for (const OptionFault& fault : faults) text += " " + fault.key + ": " + fault.message + ";";
@@ -31,6 +38,9 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
       clock_(clock),
       nis_limit_(ChiSquareQuantile6(options.filter.gate_probability)),
       use_imu_(options.pipeline.use_imu),
+      reading_(ReadingOf(options.rig.imu.units)),
+      classifier_(reading_, options.rig),
+      intake_(counters_, MaxRateSent(options.rig.imu.units)),
       world_(options.filter.steady_world ? SteadyWorld::Mode::kFromMotion
                                          : SteadyWorld::Mode::kFollow),
       standstill_(options.rig.imu) {
@@ -60,7 +70,7 @@ std::optional<Timestamp> Odometry::Impl::NewestImu() const {
 }
 
 void Odometry::Impl::AddImu(const ImuSample& sample) {
-  if (!use_imu_) {
+  if (!use_imu_ || is_refused_) {
     ++counters_.num_imu;
     return;
   }
@@ -94,7 +104,7 @@ void Odometry::Impl::EndStretch() {
 
 void Odometry::Impl::ResumeAfterStretch() {
   const std::vector<ImuSample> samples = std::exchange(new_stretch_, {});
-  BeginNewStretch(samples.front());
+  BeginNewStretch(Understand(reading_, samples.front()));
   for (const ImuSample& sample : samples) Accept(sample);
   while (!held_.empty() && new_stretch_.empty()) {
     HeldMessage message = std::move(held_.front());
@@ -108,11 +118,14 @@ bool Odometry::Impl::HasWork() const {
   return in_flight_ || ready_.size() > (phase_ == Phase::kScouting ? scouted_.size() : 0);
 }
 
-void Odometry::Impl::Accept(const ImuSample& sample) {
-  if (cut_ && sample.stamp <= *cut_) {
+void Odometry::Impl::Accept(const ImuSample& sent) {
+  if (cut_ && sent.stamp <= *cut_) {
     ++counters_.num_imu_late;
     return;
   }
+  const std::optional<ImuSample> read = Read(sent);
+  if (!read) return;
+  const ImuSample& sample = *read;
   auto at = imu_.end();
   while (at != imu_.begin() && std::prev(at)->stamp > sample.stamp) --at;
   if (at != imu_.begin() && std::prev(at)->stamp == sample.stamp) {
@@ -178,6 +191,10 @@ void Odometry::Impl::AddRawChunk(ScanChunk chunk, std::int64_t decode_ns) {
 }
 
 void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  if (is_refused_) {
+    ++counters_.num_chunks;
+    return;
+  }
   if (!new_stretch_.empty()) {
     held_.push_back({{}, std::move(chunk), decode_ns});
     return;
@@ -192,7 +209,7 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 
 void Odometry::Impl::Flush() {
   is_flushed_ = true;
-  if (!new_stretch_.empty()) return;
+  if (is_refused_ || !new_stretch_.empty()) return;
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();

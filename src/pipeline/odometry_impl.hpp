@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The state machine behind Odometry, in six files: odometry.cpp takes data in, odometry_start.cpp
-// finds the first state, odometry_scan.cpp matches and fuses, odometry_standstill.cpp and
-// odometry_clock.cpp look for rest and for the clocks' offset, odometry_output.cpp tells the state.
+// The state machine behind Odometry, in seven files: odometry.cpp takes data in, odometry_start.cpp
+// finds the first state, odometry_reading.cpp what the inertial messages mean, odometry_scan.cpp
+// matches and fuses, odometry_standstill.cpp and odometry_clock.cpp look for rest and for the
+// clocks' offset, odometry_output.cpp tells the state.
 #pragma once
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "lio/calib/clock_offset.hpp"
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/steady_world.hpp"
+#include "lio/imu/imu_classifier.hpp"
 #include "lio/imu/imu_intake.hpp"
 #include "lio/imu/moving_start.hpp"
 #include "lio/imu/start_state.hpp"
@@ -82,9 +85,23 @@ class Odometry::Impl {
   bool HasMovedSince(std::size_t first, bool is_calm) const;
   bool IsVeryCalm(Timestamp stamp) const;
   void SayWaiting(Timestamp stamp, const std::string& text);
-  void StartFrom(const StartState& start, std::size_t first_sweep);
+  void StartFrom(StartState start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
   ImuSample SampleAt(Timestamp stamp) const;
+
+  // --- odometry_reading.cpp
+  std::optional<ImuSample> Read(const ImuSample& sent);
+  void TellClassifier(const StampedPose& T_map_imu);
+  bool JudgeWhileScouting(Timestamp stamp);
+  void JudgeWhileRunning(Timestamp stamp);
+  bool IsGyroMisleading(const ImuVerdict& verdict) const;
+  bool IsGyroWild(Timestamp stamp) const;
+  void ScoutWithoutGyro();
+  bool AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp);
+  std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
+  bool AcceptGravity(bool is_there, const std::string& evidence, Timestamp stamp);
+  void Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp);
+  void Refuse(Timestamp stamp, const std::string& why);
 
   // --- odometry_scan.cpp
   FilterHistory& history() { return scout_ ? scout_->history() : *history_; }
@@ -117,8 +134,15 @@ class Odometry::Impl {
   double nis_limit_;
 
   bool use_imu_;
-  ImuIntake intake_{counters_};
-  std::deque<ImuSample> imu_;           // accepted, by stamp, of the last seconds
+  ImuReading reading_;  // of all samples that come
+  ImuClassifier classifier_;
+  bool is_reading_settled_ = false;  // beyond doubt
+  bool is_refused_ = false;          // the configuration contradicts the data
+  std::optional<bool> has_gravity_in_motion_;
+  Timestamp classified_until_;
+  int num_poses_to_judge_ = 0;
+  ImuIntake intake_;
+  std::deque<ImuSample> imu_;           // accepted and read, by stamp, of the last seconds
   std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
   std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
   struct HeldMessage {
@@ -144,6 +168,13 @@ class Odometry::Impl {
   std::optional<NavState> glance_;  // the motion that the first scans showed
   bool scouts_with_gyro_ = true;
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about
+  struct Resumption {
+    Pose T_world_start;  // in the world that was published, in the axes that were believed
+    PassedPoint last_fix;
+  };
+  std::optional<Resumption> resumption_;  // a start made anew goes on from here
+  Pose T_world_start_;
+  PassedPoint last_fix_;  // as published, while the reading is unsettled
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU

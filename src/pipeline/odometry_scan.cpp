@@ -86,6 +86,7 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
     if (history_) {
       history_->KeepFrom(ready_.empty() ? std::nullopt
                                         : std::optional(ready_.front()->start - ClockMargin()));
+      JudgeWhileRunning(outcome.sweep->end);
     }
   }
   insert.points_imu = std::move(outcome.points_imu);
@@ -153,7 +154,10 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
 
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
-  if (outcome.match.IsUsable()) report.fused = Fuse(outcome, is_keyframe, report);
+  if (outcome.match.IsUsable()) {
+    TellClassifier({middle, outcome.match.T_map_imu});
+    report.fused = Fuse(outcome, is_keyframe, report);
+  }
   FuseStandstill(outcome, report.fused);
   if (clock_offset_) FollowClockOffset(outcome);
   num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
@@ -185,6 +189,10 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
         report.stage_ns[static_cast<std::size_t>(i)];
   }
   world_.Update(estimate);
+  if (report.fused) {
+    const SteadyWorld::Published published = world_.Publish(estimate);
+    last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
+  }
   const Estimate at_end = history().At(outcome.sweep->end);
   outputs_.emplace_back(ScanOutput{MakeFilterReport(at_end, report), report});
 }

@@ -77,6 +77,7 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
   if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(start).w_imu_radps;
   scout_.emplace(start, scouting);
+  classifier_.BeginMap(sweep.start);
   scout_up_map_ = MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
 }
 
@@ -123,6 +124,7 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
   scouted_.push_back(
       {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, outcome.match.cov},
        is_matched});
+  if (is_matched) TellClassifier({middle, outcome.match.T_map_imu});
   last_found_ = middle;
   if (!scouting_since_) scouting_since_ = outcome.sweep->start;
   if (!glance_ && scouted_.size() >= kMinGlance && HasMovedSince(0, false) &&
@@ -136,7 +138,7 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
     if (scouted_.size() >= kMaxGlance || IsLastScouted()) RunLidarOnly();
     return;
   }
-  TryStart(outcome.sweep->end);
+  if (!JudgeWhileScouting(outcome.sweep->end)) TryStart(outcome.sweep->end);
 }
 
 void Odometry::Impl::BeginScoutingAnew() {
@@ -187,6 +189,7 @@ void Odometry::Impl::TryStartAtRest(Timestamp begin, Timestamp stamp) {
   const bool is_calm = statistics.gyro_std_radps < options_.start.max_gyro_std_radps &&
                        statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
   if (is_calm || SecondsBetween(begin, stamp) >= kMaxRestWait_s) {
+    if (!AcceptForceAtRest(statistics.mean_f_mps2, stamp)) return;
     const std::size_t last = scouted_.size() - 1;
     StartFrom(StartAtRest(samples, ready_[last]->start, options_.rig), last);
     return;
@@ -213,8 +216,17 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
     if (scouted.is_matched) poses.push_back(scouted.pose);
   }
   const std::vector<ImuSample> samples = SamplesBetween(imu_.front().stamp, NewestImu().value());
-  const MovingStart moving = StartMoving(samples, poses, begin, options_.rig,
-                                         GravityPresent(Summarise(samples), options_.rig));
+  const Vector3 mean_f_mps2 = Summarise(samples).mean_f_mps2;
+  const std::optional<bool> has_gravity = GravityInMotion(mean_f_mps2);
+  const std::string seen = Text("%.2f m/s^2 in the mean", mean_f_mps2.norm());
+  MovingStart moving;
+  if (!has_gravity) {
+    moving.why_not = "the accelerometer reads " + seen + ": is it in g, or without gravity?";
+  } else if (!AcceptGravity(*has_gravity, seen, stamp)) {
+    return;
+  } else {
+    moving = StartMoving(samples, poses, begin, options_.rig, *has_gravity);
+  }
   if (moving.start) {
     StartFrom(*moving.start, 0);
     return;
@@ -227,7 +239,15 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
   BeginScoutingAnew();
 }
 
-void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep) {
+void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
+  if (resumption_) {
+    PlaceInWorld(resumption_->last_fix, start.estimate);
+    resumption_.reset();
+  }
+  const NavState& state = start.estimate.state;
+  T_world_start_ = state.T_world_imu;
+  last_fix_ = {start.estimate.stamp, state.T_world_imu, state.v_world_imu};
+  classifier_.BeginMap(start.estimate.stamp);
   ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
   BeginScoutingAnew();
   scouting_since_.reset();
@@ -236,6 +256,7 @@ void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep)
       start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;
   world_ = SteadyWorld(options_.filter.steady_world ? steady : SteadyWorld::Mode::kFollow);
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
+  history_->KeepFrom(start.estimate.stamp);
   for (const ImuSample& sample : imu_) {
     if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);
   }
@@ -244,7 +265,8 @@ void Odometry::Impl::StartFrom(const StartState& start, std::size_t first_sweep)
   keyframes_.Reset();
   last_fused_ = start.estimate.stamp;
   status_ = TrackingStatus::kOk;
-  Say(start.estimate.stamp, Notice::Severity::kInfo, start.how);
+  const std::string read_as = reading_ == ImuReading{} ? "" : "; " + Describe(reading_);
+  Say(start.estimate.stamp, Notice::Severity::kInfo, start.how + read_as);
 }
 
 }  // namespace lio

@@ -4,11 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lio::sim {
 namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;  // what "1 g" means on a data sheet
+
+// A sample as the variant's driver sends it.
+void Disguise(ImuVariant variant, const Vector3& g_imu, ImuSample& sample) {
+  Vector3& w = sample.w_imu_radps;
+  Vector3& f = sample.f_imu_mps2;
+  const bool is_in_g = variant == ImuVariant::kInG || variant == ImuVariant::kInGAndDeg;
+  const bool is_in_deg = variant == ImuVariant::kInDeg || variant == ImuVariant::kInGAndDeg;
+  if (variant == ImuVariant::kGravityRemoved) f += g_imu;
+  if (is_in_g) f /= kStandardGravity_mps2;
+  if (is_in_deg) w *= 180.0 / std::numbers::pi;
+  if (variant == ImuVariant::kZDown) {
+    w = Vector3(w.x(), -w.y(), -w.z());
+    f = Vector3(f.x(), -f.y(), -f.z());
+  } else if (variant == ImuVariant::kTurned) {
+    w = Vector3(-w.y(), w.x(), w.z());
+    f = Vector3(-f.y(), f.x(), f.z());
+  }
+}
 
 }  // namespace
 
@@ -61,11 +80,7 @@ SimulatedImu ImuSimulator::Sample(std::int64_t t_ns) {
   out.sample.f_imu_mps2 = accel_.Measure(f_imu);
   out.gyro_bias_radps = gyro_.bias();
   out.accel_bias_mps2 = accel_.bias();
-  if (setup_.variant == ImuVariant::kGravityRemoved) {
-    out.sample.f_imu_mps2 += R_imu_world * g_world;
-  } else if (setup_.variant == ImuVariant::kInG) {
-    out.sample.f_imu_mps2 /= kStandardGravity_mps2;
-  }
+  Disguise(setup_.variant, R_imu_world * g_world, out.sample);
   return out;
 }
 

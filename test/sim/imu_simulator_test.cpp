@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "lio/imu/imu_reading.hpp"
 #include "lio/sim/scenario.hpp"
 
 namespace lio::sim {
@@ -144,6 +145,31 @@ TEST(ImuSimulator, VariantsRemoveGravityOrReadInG) {
   setup.variant = ImuVariant::kInG;
   EXPECT_NEAR(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(), kGravity / 9.80665,
               1e-9);
+}
+
+TEST(ImuSimulator, VariantsAreWhatTheEstimatorReadsThemAs) {
+  const Scenario scenario = MakeScenario("campus", {1, 10.0, true});
+  const auto last = [&](ImuVariant variant) {
+    ImuSetup setup = SetupOf("ideal", 200.0);
+    setup.variant = variant;
+    return Samples(setup, *scenario.trajectory, 0.5).back().sample;
+  };
+  const Matrix3 z_down = Vector3(1, -1, -1).asDiagonal();
+  const Matrix3 turned = (Matrix3() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished();
+  const struct {
+    ImuVariant variant;
+    ImuReading reading;
+  } cases[] = {{ImuVariant::kInG, {true, false}},
+               {ImuVariant::kInDeg, {false, true}},
+               {ImuVariant::kInGAndDeg, {true, true}},
+               {ImuVariant::kZDown, {false, false, z_down}},
+               {ImuVariant::kTurned, {false, false, turned}}};
+  const ImuSample normal = last(ImuVariant::kNormal);
+  for (const auto& [variant, reading] : cases) {
+    const ImuSample read = Understand(reading, last(variant));
+    EXPECT_LT((read.w_imu_radps - normal.w_imu_radps).norm(), 1e-9) << Describe(reading);
+    EXPECT_LT((read.f_imu_mps2 - normal.f_imu_mps2).norm(), 1e-9) << Describe(reading);
+  }
 }
 
 // Allan deviation of white noise over tau: density / sqrt(tau), whatever the rate.

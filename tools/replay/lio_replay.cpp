@@ -43,7 +43,8 @@ constexpr const char* kExamples =
     "  lio-replay --config config/ulhk.yaml --set pipeline.use_imu=false drive.lcm --out "
     "out/lidar\n"
     "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log.";
+    "Exit codes: 0 done, 2 usage, 3 configuration (also one that the log's data contradict),\n"
+    "5 damaged, missing or unusable log.";
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.footer(kExamples);
@@ -85,6 +86,7 @@ class Replay {
     while (std::optional<InputItem> item = input.Next()) {
       bar.Update(item->position_bytes);
       Add(std::move(*item));
+      if (!refusal_.empty()) return;
     }
     odometry_.Flush();
     Match();
@@ -92,6 +94,8 @@ class Replay {
   }
 
   const Counters& counters() const { return odometry_.counters(); }
+  // Why the configuration cannot be right for the log; empty when it can.
+  const std::string& refusal() const { return refusal_; }
 
  private:
   void Add(InputItem item) {
@@ -116,6 +120,10 @@ class Replay {
     for (const Output& output : odometry_.TakeOutputs()) {
       writer_.Write(output);
       if (const auto* notice = std::get_if<Notice>(&output)) {
+        if (notice->severity == Notice::Severity::kError) {
+          refusal_ = notice->text;
+          continue;
+        }
         fmt::print(stderr, "lio-replay: {:.3f}: {}\n", static_cast<double>(notice->stamp.ns) * 1e-9,
                    notice->text);
       }
@@ -139,6 +147,7 @@ class Replay {
   MapCloud map_;
   bool writes_map_;
   std::int64_t decode_ns_ = 0;
+  std::string refusal_;
 };
 
 // What was wrong with the log, in one line; empty when nothing was.
@@ -188,6 +197,10 @@ int Main(int argc, char** argv) {
   options.pipeline.num_threads = num_threads;  // not in options.yaml: it changes no result
   Replay replay(options, arguments.writes_map, *writer);
   replay.Run(input);
+  if (!replay.refusal().empty()) {
+    fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
+    return kExitConfiguration;
+  }
   const std::string complaint = Complaint(input, replay.counters(), arguments);
   if (complaint.empty()) return kExitDone;
   fmt::print(stderr, "lio-replay: {}\n", complaint);

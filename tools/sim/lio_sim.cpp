@@ -28,7 +28,7 @@ struct Arguments {
   std::string lidar;
   std::string imu;
   std::optional<double> imu_rate_hz;
-  sim::ImuVariant imu_variant = sim::ImuVariant::kSpecificForce;
+  sim::ImuVariant imu_variant = sim::ImuVariant::kNormal;
   double latitude_deg = 22.3;  // Hong Kong
   double altitude_m = 0.0;
   std::vector<std::string> faults;
@@ -51,9 +51,13 @@ std::string ScenarioTable() {
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
-      {"normal", sim::ImuVariant::kSpecificForce},
+      {"normal", sim::ImuVariant::kNormal},
       {"gravity-removed", sim::ImuVariant::kGravityRemoved},
-      {"in-g", sim::ImuVariant::kInG}};
+      {"in-g", sim::ImuVariant::kInG},
+      {"in-deg", sim::ImuVariant::kInDeg},
+      {"in-g-and-deg", sim::ImuVariant::kInGAndDeg},
+      {"z-down", sim::ImuVariant::kZDown},
+      {"turned", sim::ImuVariant::kTurned}};
   app.add_flag("--list", arguments.lists, "print the scenarios' names, one a line");
   app.add_option("--scenario", arguments.scenario, "which place and drive");
   app.add_option("--out", arguments.folder, "folder to write into; made if it is not there");
@@ -70,7 +74,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--imu-rate", arguments.imu_rate_hz, "samples a second [Hz]")
       ->check(NumberWithin(100.0, 1000.0));
   app.add_option("--imu-variant", arguments.imu_variant,
-                 "what the accelerometer gives: normal, gravity-removed, in-g")
+                 "how its driver sends the readings: normal, gravity-removed, in-g, in-deg,\n"
+                 "in-g-and-deg, z-down (forward, right, down), turned (right, forward, up)")
       ->transform(CLI::CheckedTransformer(variants));
   app.add_option("--latitude", arguments.latitude_deg, "of the place, for its gravity [deg]")
       ->capture_default_str()

@@ -14,10 +14,14 @@
 
 namespace lio {
 
+inline constexpr double kMaxGyroRate_radps = 100.0;  // beyond any gyro
+
 class ImuIntake {
  public:
-  // Counts into `counters`, which outlives this.
-  explicit ImuIntake(Counters& counters) : counters_(&counters) {}
+  // Counts into `counters`, which outlives this. Rates beyond `max_rate`, in the samples' unit, are
+  // no gyro's.
+  explicit ImuIntake(Counters& counters, double max_rate = kMaxGyroRate_radps)
+      : counters_(&counters), max_rate_(max_rate) {}
 
   struct Result {
     std::vector<ImuSample> accepted;  // mostly one; several when a jump is confirmed
@@ -29,6 +33,7 @@ class ImuIntake {
   bool IsSane(const ImuSample& sample);
 
   Counters* counters_;
+  double max_rate_;
   std::optional<Timestamp> newest_;
   std::vector<ImuSample> suspects_;  // on a new stretch of time, not yet believed
 };

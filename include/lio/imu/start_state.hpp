@@ -39,6 +39,16 @@ struct StartState {
 // The vehicle stood still over all of `samples`; the state is for `stamp`.
 StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig);
 
+// Where the body was, and how fast.
+struct PassedPoint {
+  Timestamp stamp;
+  Pose T_world_imu;
+  Vector3 v_world_imu = Vector3::Zero();  // m/s
+};
+// Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
+// and from its position by the mean of both velocities.
+void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate);
+
 // The rotation from imu to world that takes `up_imu` to world's z, without turning about it more
 // than needed, and with the imu's x axis at yaw zero.
 Quaternion LevelledRotation(const Vector3& up_imu);

@@ -38,7 +38,8 @@ struct InsertTask;    // match_side.hpp
 
 // A human-readable event with a severity, e.g. why the start still waits.
 struct Notice {
-  enum class Severity { kInfo, kWarning };
+  // kError: the configuration contradicts the data, and all that follows is ignored.
+  enum class Severity { kInfo, kWarning, kError };
   Timestamp stamp;
   Severity severity = Severity::kInfo;
   std::string text;

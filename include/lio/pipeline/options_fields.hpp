@@ -32,6 +32,9 @@ inline constexpr std::array<std::string_view, 0> kEnumNames{};
 template <>
 inline constexpr std::array<std::string_view, 3> kEnumNames<MatchMethod>{"ndt", "loam", "gicp"};
 template <>
+inline constexpr std::array<std::string_view, 5> kEnumNames<ImuUnits>{"auto", "si", "g", "deg",
+                                                                      "g_deg"};
+template <>
 inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto", "present",
                                                                           "removed"};
 
@@ -89,6 +92,8 @@ void VisitFields(Visitor& visit, MaybeConst<ImuRig> auto& o) {
   visit("gyro_bias_std_radps", o.gyro_bias_std_radps, "turn-on bias, 1 sigma [rad/s]", Range{0, 1});
   visit("accel_bias_std_mps2", o.accel_bias_std_mps2, "turn-on bias, 1 sigma [m/s^2]",
         Range{0, 10});
+  visit("units", o.units,
+        "of its messages: m/s^2 or g, rad/s or deg/s; auto finds out, turned axes too");
   visit("gravity", o.gravity, "is gravity part of the accelerometer's reading; auto finds out");
 }
 

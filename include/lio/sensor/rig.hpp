@@ -26,6 +26,10 @@ struct LidarRig {
   std::optional<OwnVehicleBox> own_vehicle_box;
 };
 
+// Units of the inertial messages' specific force and rates; `automatic` finds units and axes out,
+// see imu/imu_classifier.hpp.
+enum class ImuUnits { kAutomatic, kSi, kG, kDeg, kGAndDeg };
+
 // Is gravity part of the accelerometer's reading? `automatic` decides from the mean at rest.
 enum class GravityInput { kAutomatic, kPresent, kRemoved };
 
@@ -38,6 +42,7 @@ struct ImuRig {
   double accel_bias_walk_density = 2.0e-4;  // m/s^3/sqrt(Hz)
   double gyro_bias_std_radps = 5.0e-3;      // turn-on bias before anything is known, 1 sigma
   double accel_bias_std_mps2 = 0.05;
+  ImuUnits units = ImuUnits::kAutomatic;
   GravityInput gravity = GravityInput::kAutomatic;
 };
 

@@ -21,19 +21,27 @@
 
 namespace lio::sim {
 
-// What the accelerometer's output means; see docs/simulator.md.
-enum class ImuVariant { kSpecificForce, kGravityRemoved, kInG };
+// What the driver makes of the unit's readings before it sends them; see docs/simulator.md.
+enum class ImuVariant {
+  kNormal,          // specific force in m/s^2, rates in rad/s, axes as the rig has them
+  kGravityRemoved,  // by the true attitude
+  kInG,             // 1 for 9.80665 m/s^2
+  kInDeg,           // rates in deg/s
+  kInGAndDeg,
+  kZDown,   // x forward, y right, z down, where the rig has x forward, y left, z up
+  kTurned,  // x right, y forward, z up
+};
 
 struct ImuSetup {
   ImuModel model;
-  ImuVariant variant = ImuVariant::kSpecificForce;
+  ImuVariant variant = ImuVariant::kNormal;
   double gravity_mps2 = 9.80665;
   std::uint64_t seed = 1;
 };
 
 // One instant: what was measured, and what is true.
 struct SimulatedImu {
-  ImuSample sample;  // stamp: trajectory time; not SI in the in-g variant
+  ImuSample sample;  // stamp: trajectory time; not SI in some variants
   Kinematics truth;
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();

@@ -24,7 +24,7 @@ struct RecordOptions {
   LidarModel lidar;
   LidarErrors lidar_errors;
   ImuModel imu;
-  ImuVariant imu_variant = ImuVariant::kSpecificForce;
+  ImuVariant imu_variant = ImuVariant::kNormal;
   double gravity_mps2 = 9.80665;
   std::vector<Fault> faults;
   std::uint64_t seed = 1;

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/imu_classifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kMinSteps = 8;
+// Of scores, in chi-square of a fit that is right: a reading worse than the best by the first no
+// longer counts, and the expected one is given up only when worse by the second.
+constexpr double kRefuted = 30.0;
+constexpr double kGivenUp = 60.0;
+constexpr double kLeaning = 20.0;     // for a quarter turn of the vertical that no rig speaks of
+constexpr double kMaxMisfitSq = 9.0;  // of the best reading; beyond that nothing can be said
+// Half of the last ten steps' turns read as more than this and this much more than seen: absurd.
+constexpr double kAbsurdTurn_rad = 0.03;
+constexpr double kAbsurdRatio = 5.0;
+constexpr double kMaxShift = 2.0;  // of clocks, in steps
+
+}  // namespace
+
+ImuClassifier::ImuClassifier(const ImuReading& expected, const Rig& rig)
+    : expected_(expected),
+      gravity_mps2_(rig.gravity_mps2),
+      lidar_axis_imu_(rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ()) {}
+
+void ImuClassifier::AddPose(const StampedPose& T_map_imu, std::vector<ImuSample> samples) {
+  for (ImuSample& sample : samples) sample = AsSent(expected_, sample);
+  evidence_.AddPose(T_map_imu, samples);
+}
+
+// Lidars stand upright rather than hang or lie: 0 for upright, 2 for hanging.
+double ImuClassifier::Lean(const ImuReading& reading) const {
+  Vector3 force_sum = Vector3::Zero();
+  for (const MotionEvidence::Step& step : evidence_.steps()) force_sum += step.f_sent;
+  if (force_sum.isZero()) return 0.0;
+  return 1.0 - lidar_axis_imu_.dot(reading.R_imu_sent * force_sum.normalized());
+}
+
+// Every way to read the messages, with its score: those of rates and forces add up. Another unit of
+// rates counts only where it is heard.
+std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
+  std::vector<Scored> all;
+  for (const Matrix3& R : QuarterTurns()) {
+    for (const bool is_in_deg : {false, true}) {
+      const ImuReading rates{false, is_in_deg, R};
+      if (is_in_deg == expected_.is_in_deg || IsGyroHeard(rates)) ScoreForces(rates, bends, all);
+    }
+  }
+  return all;
+}
+
+void ImuClassifier::ScoreForces(const ImuReading& rates, Bends bends,
+                                std::vector<Scored>& all) const {
+  const double rate_score = evidence_.RateScore(rates.R_imu_sent, rates.rate_scale());
+  const double leaning = kLeaning * std::max(0.0, Lean(rates) - Lean(expected_));
+  for (const bool is_in_g : {false, true}) {
+    const ImuReading reading{is_in_g, rates.is_in_deg, rates.R_imu_sent};
+    for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
+      const bool has_gravity = gravity_mps2 > 0.0;
+      const double force_score = MotionEvidence::ForceScore(bends, reading.R_imu_sent,
+                                                            reading.force_scale(), gravity_mps2);
+      all.push_back(
+          {reading, has_gravity, rate_score + force_score + (has_gravity ? leaning : 0.0)});
+    }
+  }
+}
+
+// The reading among `likely` that differs least from the expected one; absent when several do.
+std::optional<ImuReading> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
+  std::optional<ImuReading> least;
+  int least_changes = std::numeric_limits<int>::max();
+  bool is_only = false;
+  for (const Scored& scored : likely) {
+    const ImuReading& reading = scored.reading;
+    if (reading == least) continue;
+    const int changes = static_cast<int>(reading.is_in_g != expected_.is_in_g) +
+                        static_cast<int>(reading.is_in_deg != expected_.is_in_deg) +
+                        static_cast<int>(reading.R_imu_sent != expected_.R_imu_sent);
+    if (changes > least_changes) continue;
+    is_only = changes < least_changes;
+    least_changes = changes;
+    least = reading;
+  }
+  return is_only ? least : std::nullopt;
+}
+
+// Do the gyro's rates say anything of the turns? Noise and vibration of a vehicle at rest do not,
+// however small another unit makes them.
+bool ImuClassifier::IsGyroHeard(const ImuReading& reading) const {
+  return evidence_.RateScore(reading.R_imu_sent, 0.0) >
+         evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()) + kRefuted;
+}
+
+// With clocks as far off as they may be, the expected reading may be right all the same.
+double ImuClassifier::ExpectedScoreOfOtherClocks() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (double num_steps = -kMaxShift; num_steps <= kMaxShift; num_steps += 0.5) {
+    const MotionEvidence shifted = evidence_.Shifted(num_steps);
+    if (shifted.steps().empty()) continue;
+    const std::vector<MotionEvidence::Bend> bends = shifted.FindBends();
+    const double rate_score = shifted.RateScore(expected_.R_imu_sent, expected_.rate_scale());
+    // Fewer steps are left to contradict it.
+    const double share =
+        static_cast<double>(shifted.steps().size()) / static_cast<double>(evidence_.steps().size());
+    for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
+      const double force_score = MotionEvidence::ForceScore(bends, expected_.R_imu_sent,
+                                                            expected_.force_scale(), gravity_mps2);
+      least = std::min(least, (rate_score + force_score) / share);
+    }
+  }
+  return least;
+}
+
+ImuVerdict ImuClassifier::Judge() const {
+  using Finding = ImuVerdict::Finding;
+  ImuVerdict verdict;
+  verdict.reading = expected_;
+  const std::size_t num_steps = evidence_.steps().size();
+  if (num_steps < kMinSteps) return verdict;
+  const std::vector<MotionEvidence::Bend> bends = evidence_.FindBends();
+  std::vector<Scored> likely = ScoreAll(bends);
+  double best = std::numeric_limits<double>::infinity();
+  double expected = best;
+  for (const Scored& scored : likely) {
+    best = std::min(best, scored.score);
+    if (scored.reading == expected_) expected = std::min(expected, scored.score);
+  }
+  double num_terms = 3.0 * static_cast<double>(num_steps);
+  for (const MotionEvidence::Bend& bend : bends) num_terms += 3.0 * bend.weight;
+  const double scale = std::max(1.0, best / num_terms);
+  if (scale > kMaxMisfitSq) return verdict;
+  std::erase_if(likely, [&](const Scored& s) { return s.score > best + scale * kRefuted; });
+
+  const bool has_gravity = likely.front().has_gravity;
+  const auto all_agree = [&likely](const auto& is_so) {
+    return std::all_of(likely.begin(), likely.end(), is_so);
+  };
+  if (all_agree([&](const Scored& s) { return s.has_gravity == has_gravity; })) {
+    verdict.has_gravity = has_gravity;
+  }
+  if (all_agree([&](const Scored& s) { return s.reading == expected_; })) {
+    verdict.finding = Finding::kAsExpected;
+  } else if (const double limit = best + scale * kGivenUp;
+             expected > limit && ExpectedScoreOfOtherClocks() > limit) {
+    verdict.finding = Finding::kNotExpected;
+    const std::optional<ImuReading> found = LeastChange(likely);
+    if (found && verdict.has_gravity) {
+      verdict.finding = Finding::kOtherwise;
+      verdict.reading = *found;
+      verdict.evidence = Describe(*found, bends);
+    }
+  }
+  return verdict;
+}
+
+bool ImuClassifier::IsGyroAbsurd() const {
+  if (!HasMoved()) return false;
+  const std::vector<MotionEvidence::Step>& steps = evidence_.steps();
+  const auto num_absurd =
+      std::count_if(steps.end() - MotionEvidence::kRecentSteps, steps.end(), [&](const auto& step) {
+        const double read_rad = expected_.rate_scale() * step.span_s() * step.w_sent.norm();
+        return read_rad > kAbsurdTurn_rad && read_rad > kAbsurdRatio * step.turn_rad.norm();
+      });
+  return 2 * num_absurd >= MotionEvidence::kRecentSteps;
+}
+
+std::string ImuClassifier::Describe(const ImuReading& found, Bends bends) const {
+  const auto rate_error = [&](const ImuReading& reading) {
+    return evidence_.RateError_radps(evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()));
+  };
+  const auto force_error = [&](const ImuReading& reading) {
+    double score = std::numeric_limits<double>::infinity();
+    for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
+      score = std::min(score, MotionEvidence::ForceScore(bends, reading.R_imu_sent,
+                                                         reading.force_scale(), gravity_mps2));
+    }
+    return MotionEvidence::ForceError_mps2(bends, score);
+  };
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "against scan matching rates are off by %.3f rad/s and forces by %.2f m/s^2, "
+                "otherwise by %.3f and %.2f",
+                rate_error(found), force_error(found), rate_error(expected_),
+                force_error(expected_));
+  return text;
+}
+
+ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2) {
+  constexpr double kTolerance = 0.25;  // the bias and scale of poor units, vibration
+  const double in_metric = mean_f_sent.norm() / gravity_mps2;
+  const double in_g = ImuReading{true, false}.force_scale() * in_metric;
+  if (std::abs(in_metric - 1.0) < kTolerance) return ForceAtRest::kMetric;
+  if (std::abs(in_g - 1.0) < kTolerance) return ForceAtRest::kInG;
+  if (in_g < 0.5) return ForceAtRest::kWithoutGravity;
+  return ForceAtRest::kUnclear;
+}
+
+}  // namespace lio

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What the inertial messages' numbers mean: judged while scouting and, until it is beyond doubt,
+// while the filter runs.
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include "lio/pipeline/options_fields.hpp"
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::size_t kMinToJudge = 8;
+constexpr int kManyUnmatched = 5;
+constexpr Duration kWildSpan{500'000'000};
+constexpr double kWildRate_radps = 1.0;
+constexpr int kPosesPerVerdict = 5;
+
+bool HasSameRates(const ImuReading& a, const ImuReading& b) {
+  return a.is_in_deg == b.is_in_deg && a.R_imu_sent == b.R_imu_sent;
+}
+
+std::string FixOf(const ImuReading& found, const Rig& rig) {
+  std::string fix = "set rig.imu.units: auto";
+  if (found.R_imu_sent == Matrix3::Identity()) {
+    const auto units = static_cast<std::size_t>(UnitsOf(found));
+    return fix + " or " + std::string(kEnumNames<ImuUnits>[units]);
+  }
+  const Pose T_sent_imu{Quaternion(Matrix3(found.R_imu_sent.transpose())), Vector3::Zero()};
+  const Pose T = T_sent_imu * rig.T_imu_lidar.value_or(Pose{});
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ", or turn rig.T_imu_lidar: translation_m: [%.3f, %.3f, %.3f], rotation_wxyz: "
+                "[%.5f, %.5f, %.5f, %.5f]",
+                T.translation.x(), T.translation.y(), T.translation.z(), T.rotation.w(),
+                T.rotation.x(), T.rotation.y(), T.rotation.z());
+  return fix + text;
+}
+
+}  // namespace
+
+// A sample that came, in the units and axes that are believed; absent when no gyro can turn so fast
+// in them.
+std::optional<ImuSample> Odometry::Impl::Read(const ImuSample& sent) {
+  const ImuSample sample = Understand(reading_, sent);
+  if (sample.w_imu_radps.norm() <= kMaxGyroRate_radps) return sample;
+  ++counters_.num_imu_out_of_range;
+  return std::nullopt;
+}
+
+void Odometry::Impl::TellClassifier(const StampedPose& T_map_imu) {
+  if (is_reading_settled_ || !use_imu_) return;
+  const Timestamp since = std::exchange(classified_until_, T_map_imu.stamp);
+  classifier_.AddPose(T_map_imu, SamplesBetween(since, T_map_imu.stamp));
+  ++num_poses_to_judge_;
+}
+
+// True when what was scouted is of no use any more.
+bool Odometry::Impl::JudgeWhileScouting(Timestamp stamp) {
+  if (is_reading_settled_) return false;
+  const ImuVerdict verdict = classifier_.Judge();
+  has_gravity_in_motion_ = verdict.has_gravity;
+  if (scouts_with_gyro_ && IsGyroMisleading(verdict)) {
+    classifier_ = ImuClassifier(reading_, options_.rig);
+    ScoutWithoutGyro();
+    return true;
+  }
+  is_reading_settled_ = verdict.finding == ImuVerdict::Finding::kAsExpected;
+  if (verdict.finding != ImuVerdict::Finding::kOtherwise) return false;
+  Adopt(verdict.reading, verdict.evidence, stamp);
+  return true;
+}
+
+// Judged by poses that were scouted with it.
+bool Odometry::Impl::IsGyroMisleading(const ImuVerdict& verdict) const {
+  if (verdict.finding == ImuVerdict::Finding::kOtherwise) {
+    return !HasSameRates(verdict.reading, reading_);
+  }
+  const auto num_matched = std::count_if(scouted_.begin(), scouted_.end(),
+                                         [](const Scouted& s) { return s.is_matched; });
+  const bool few_are_matched =
+      scouted_.size() >= kMinToJudge && 2 * num_matched < std::ssize(scouted_);
+  return verdict.finding == ImuVerdict::Finding::kNotExpected || few_are_matched ||
+         classifier_.IsGyroAbsurd();
+}
+
+// The same sweeps again, their motion guessed by constant velocity.
+void Odometry::Impl::ScoutWithoutGyro() {
+  scouts_with_gyro_ = false;
+  BeginScoutingAnew();
+}
+
+// After a start at rest the first turns tell.
+void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
+  if (is_reading_settled_) return;
+  const bool is_wild = IsGyroWild(stamp);
+  if (num_poses_to_judge_ < kPosesPerVerdict && !is_wild) return;
+  num_poses_to_judge_ = 0;
+  const ImuVerdict::Finding finding = classifier_.Judge().finding;
+  is_reading_settled_ = finding == ImuVerdict::Finding::kAsExpected;
+  const bool is_unfit = classifier_.HasMoved() && (finding == ImuVerdict::Finding::kNotExpected ||
+                                                   finding == ImuVerdict::Finding::kOtherwise);
+  const bool is_useless = is_wild || classifier_.IsGyroAbsurd();
+  if (is_reading_settled_ || !(is_useless || is_unfit)) return;
+  Say(stamp, Notice::Severity::kWarning,
+      "scan matching and inertial unit disagree: the start begins anew to find out why");
+  ++counters_.num_restarts;
+  resumption_ = {T_world_start_, last_fix_};
+  history_.reset();
+  phase_ = Phase::kScouting;
+  status_ = TrackingStatus::kInit;
+  if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);
+  ScoutWithoutGyro();
+}
+
+// Nothing is matched any more, and the gyro reads more than a vehicle's turns.
+bool Odometry::Impl::IsGyroWild(Timestamp stamp) const {
+  if (num_unmatched_in_a_row_ < kManyUnmatched) return false;
+  const Vector3 bias = history_->head().state.gyro_bias;
+  double sum_sq = 0.0;
+  const std::vector<ImuSample> samples = SamplesBetween(stamp - kWildSpan, stamp);
+  for (const ImuSample& sample : samples) sum_sq += (sample.w_imu_radps - bias).squaredNorm();
+  return sum_sq > kWildRate_radps * kWildRate_radps * static_cast<double>(samples.size());
+}
+
+// The mean force over a rest: false when there cannot be a start from it.
+bool Odometry::Impl::AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp) {
+  ImuSample mean;
+  mean.f_imu_mps2 = mean_f_mps2;
+  const Vector3 sent = AsSent(reading_, mean).f_imu_mps2;
+  const ForceAtRest force = JudgeForceAtRest(sent, options_.rig.gravity_mps2);
+  char seen[80];
+  std::snprintf(seen, sizeof seen, "at rest the accelerometer reads %.2f", sent.norm());
+  if (force == ForceAtRest::kUnclear) {
+    SayWaiting(stamp, std::string(seen) + ", neither m/s^2 nor g nor without gravity: no start");
+    return false;
+  }
+  if (!AcceptGravity(force != ForceAtRest::kWithoutGravity, seen, stamp)) return false;
+  if (force == ForceAtRest::kWithoutGravity) return true;
+  ImuReading found = reading_;
+  found.is_in_g = force == ForceAtRest::kInG;
+  if (found == reading_) return true;
+  Adopt(found, seen, stamp);
+  return false;
+}
+
+// Is gravity in the forces of a drive? Absent where that is not clear.
+std::optional<bool> Odometry::Impl::GravityInMotion(const Vector3& mean_f_mps2) const {
+  if (mean_f_mps2.norm() > 0.5 * options_.rig.gravity_mps2) return true;
+  return has_gravity_in_motion_ == false ? has_gravity_in_motion_ : std::nullopt;
+}
+
+bool Odometry::Impl::AcceptGravity(bool is_there, const std::string& evidence, Timestamp stamp) {
+  const GravityInput expected = options_.rig.imu.gravity;
+  const GravityInput found = is_there ? GravityInput::kPresent : GravityInput::kRemoved;
+  if (expected == GravityInput::kAutomatic || expected == found) return true;
+  const auto name = [](GravityInput g) {
+    return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(g)]);
+  };
+  Refuse(stamp, "the accelerometer's gravity is " + name(found) + ", rig.imu.gravity says " +
+                    name(expected) + " (" + evidence + "): set rig.imu.gravity: auto or " +
+                    name(found));
+  return false;
+}
+
+// Reads all samples anew, those of the past seconds included, and begins the start anew with them.
+void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp) {
+  const Rig& rig = options_.rig;
+  const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
+  if (rig.imu.units != ImuUnits::kAutomatic) {
+    const auto units = static_cast<std::size_t>(rig.imu.units);
+    Refuse(stamp, what + ", rig.imu.units says " + std::string(kEnumNames<ImuUnits>[units]) + ": " +
+                      FixOf(found, rig));
+    return;
+  }
+  for (ImuSample& sample : imu_) sample = Understand(found, AsSent(reading_, sample));
+  if (resumption_) {  // what was published since the start was turned about it
+    const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
+    const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
+    const Pose& start = resumption_->T_world_start;
+    const Pose turn_world = start * turn * start.Inverse();
+    resumption_->last_fix.T_world_imu = turn_world * resumption_->last_fix.T_world_imu;
+    resumption_->last_fix.v_world_imu = turn_world.rotation * resumption_->last_fix.v_world_imu;
+  }
+  reading_ = found;
+  classifier_ = ImuClassifier(reading_, rig);
+  scouts_with_gyro_ = true;
+  Say(stamp, Notice::Severity::kWarning, what);
+  BeginScoutingAnew();
+}
+
+void Odometry::Impl::Refuse(Timestamp stamp, const std::string& why) {
+  is_refused_ = true;
+  ready_.clear();
+  BeginScoutingAnew();
+  Say(stamp, Notice::Severity::kError, why);
+}
+
+}  // namespace lio

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Inertial messages in other units and axes, through the whole estimator.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lio/imu/imu_reading.hpp"
+#include "support/faulty_drives.hpp"
+
+namespace lio {
+namespace {
+
+using test::ErrorAgainst;
+using test::Message;
+using test::Messages;
+using test::RunOdometry;
+using test::RunResult;
+using test::SecondsOf;
+
+const ImuReading kInG{true, false, Matrix3::Identity()};
+const ImuReading kInDeg{false, true, Matrix3::Identity()};
+const ImuReading kInBoth{true, true, Matrix3::Identity()};
+const ImuReading kZDown{false, false, Vector3(1, -1, -1).asDiagonal()};
+const ImuReading kTurned{
+    false, false, ExpSo3(Vector3(0, 0, 0.5 * M_PI)).toRotationMatrix().array().round().matrix()};
+
+// The same drive, its samples as another driver sends them.
+Messages SentAs(Messages messages, const ImuReading& reading) {
+  for (Message& message : messages) {
+    if (message.is_imu) message.sample = AsSent(reading, message.sample);
+  }
+  return messages;
+}
+
+Options WithUnits(ImuUnits units) {
+  Options options = test::DriveRig();
+  options.rig.imu.units = units;
+  return options;
+}
+
+const Notice* Refusal(const RunResult& run) {
+  const auto at = std::find_if(run.notices.begin(), run.notices.end(), [](const Notice& notice) {
+    return notice.severity == Notice::Severity::kError;
+  });
+  return at == run.notices.end() ? nullptr : &*at;
+}
+
+bool IsAnyCalled(const RunResult& run) {
+  return test::HasNotice(run, "inertial messages:") || test::HasNotice(run, "disagree");
+}
+
+void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuReading& reading) {
+  SCOPED_TRACE(Describe(reading));
+  EXPECT_TRUE(test::HasNotice(run, "inertial messages: " + Describe(reading)));
+  ASSERT_FALSE(run.scans.empty());
+  test::ExpectStampsIncrease(run);
+  EXPECT_EQ(run.scans.front().scan.scan_seq, 0);
+  EXPECT_LT(ErrorAgainst(test::Driving(), run.scans).max_m, 0.3);
+  const test::TrackError settled = ErrorAgainst(test::Driving(), run.scans, 3.0);
+  EXPECT_LT(settled.max_m, 0.1);
+  EXPECT_LT(settled.max_tilt_rad, 0.0175);
+  EXPECT_EQ(run.counters.num_imu_out_of_range, 0);
+}
+
+TEST(OdometryReading, AStartInMotionIsRightFromItsFirstRow) {
+  const Messages plain = test::MovingStartDrive(6.0);
+  for (const ImuReading& reading : {kInG, kInDeg, kInBoth, kZDown, kTurned}) {
+    ExpectTracksFromTheFirstRow(RunOdometry(SentAs(plain, reading), test::DriveRig()), reading);
+  }
+}
+
+TEST(OdometryReading, PlainMessagesCauseNoTalk) {
+  EXPECT_FALSE(IsAnyCalled(RunOdometry(test::MovingStartDrive(6.0), test::DriveRig())));
+  EXPECT_FALSE(IsAnyCalled(RunOdometry(test::StaticStartDrive(), test::DriveRig())));
+  EXPECT_EQ(Refusal(RunOdometry(test::StaticStartDrive(), WithUnits(ImuUnits::kSi))), nullptr);
+}
+
+TEST(OdometryReading, UnitsOfForceAreFoundAtRest) {
+  const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), kInG), test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(run, "inertial messages: accelerometer in g, gyro in rad/s"));
+  ASSERT_FALSE(run.scans.empty());
+  EXPECT_LT(SecondsOf(run.scans.front().scan.stamp), 1.5);
+  EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans).max_m, 0.06);
+}
+
+// After a start at rest, rates and axes show with the first motion: the start begins anew.
+TEST(OdometryReading, RatesAndAxesAreFoundAfterAStartAtRest) {
+  for (const ImuReading& reading : {kInDeg, kZDown, kTurned}) {
+    SCOPED_TRACE(Describe(reading));
+    const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), test::DriveRig());
+    EXPECT_TRUE(test::HasNotice(run, "inertial messages: " + Describe(reading)));
+    test::ExpectStampsIncrease(run);
+    EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans, 5.0).max_m, 0.15);
+    EXPECT_EQ(run.status, TrackingStatus::kOk);
+  }
+}
+
+TEST(OdometryReading, TheSameComesOutHoweverSlowMatchingIs) {
+  const Messages messages = SentAs(test::MovingStartDrive(4.0), kInDeg);
+  EXPECT_TRUE(test::Bytes(RunOdometry(messages, test::DriveRig()).scans) ==
+              test::Bytes(RunOdometry(messages, test::DriveRig(), 11).scans));
+}
+
+TEST(OdometryReading, StatedUnitsAreTaken) {
+  const struct {
+    ImuUnits units;
+    ImuReading reading;
+  } cases[] = {{ImuUnits::kG, kInG}, {ImuUnits::kDeg, kInDeg}, {ImuUnits::kGAndDeg, kInBoth}};
+  for (const auto& [units, reading] : cases) {
+    const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), WithUnits(units));
+    EXPECT_FALSE(IsAnyCalled(run)) << Describe(reading);
+    EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans).max_m, 0.06) << Describe(reading);
+  }
+}
+
+TEST(OdometryReading, UnitsOtherThanStatedAreRefusedWithTheFix) {
+  const struct {
+    ImuReading reading;
+    std::string fix;
+  } cases[] = {{kInG, "set rig.imu.units: auto or g"},
+               {kInDeg, "set rig.imu.units: auto or deg"},
+               {kInBoth, "set rig.imu.units: auto or g_deg"},
+               {kZDown, "or turn rig.T_imu_lidar: translation_m: ["},
+               {kTurned, "or turn rig.T_imu_lidar: translation_m: ["}};
+  const Messages plain = test::MovingStartDrive(5.0);
+  for (const auto& [reading, fix] : cases) {
+    SCOPED_TRACE(Describe(reading));
+    const RunResult run = RunOdometry(SentAs(plain, reading), WithUnits(ImuUnits::kSi));
+    const Notice* refusal = Refusal(run);
+    ASSERT_NE(refusal, nullptr);
+    EXPECT_NE(refusal->text.find(Describe(reading)), std::string::npos) << refusal->text;
+    EXPECT_NE(refusal->text.find(fix), std::string::npos) << refusal->text;
+    EXPECT_TRUE(run.scans.empty());
+    EXPECT_EQ(run.status, TrackingStatus::kInit);
+  }
+}
+
+TEST(OdometryReading, TheExtrinsicThatARefusalNamesIsRight) {
+  Options options = WithUnits(ImuUnits::kSi);
+  const Pose T_sent_imu{Quaternion(Matrix3(kTurned.R_imu_sent.transpose())), Vector3::Zero()};
+  options.rig.T_imu_lidar = T_sent_imu * *options.rig.T_imu_lidar;
+  const RunResult run = RunOdometry(SentAs(test::MovingStartDrive(5.0), kTurned), options);
+  EXPECT_EQ(Refusal(run), nullptr);
+  EXPECT_FALSE(run.scans.empty());
+}
+
+TEST(OdometryReading, GravityOtherThanStatedIsRefusedWithTheFix) {
+  test::DriveOptions drive;
+  drive.to_s = 5.0;
+  for (const bool starts_at_rest : {true, false}) {
+    drive.motion = starts_at_rest ? test::RestThenDrive() : test::Driving();
+    for (const bool is_removed : {true, false}) {
+      drive.g_world = is_removed ? Vector3::Zero() : test::kGravity;
+      Options options = test::DriveRig();
+      options.rig.imu.gravity = is_removed ? GravityInput::kPresent : GravityInput::kRemoved;
+      const RunResult run = RunOdometry(SimulateDrive(test::Street(), drive), options);
+      const Notice* refusal = Refusal(run);
+      ASSERT_NE(refusal, nullptr) << starts_at_rest << is_removed;
+      const std::string fix = is_removed ? "auto or removed" : "auto or present";
+      EXPECT_NE(refusal->text.find("set rig.imu.gravity: " + fix), std::string::npos)
+          << refusal->text;
+    }
+  }
+}
+
+TEST(OdometryReading, ForcesOfNoKnownUnitDoNotStart) {
+  Messages messages = test::StaticStartDrive();
+  for (Message& message : messages) message.sample.f_imu_mps2 *= 0.5;
+  messages.erase(std::remove_if(messages.begin(), messages.end(),
+                                [](const Message& m) { return SecondsOf(m.arrival) > 1.5; }),
+                 messages.end());
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(run, "neither m/s^2 nor g nor without gravity"));
+  EXPECT_TRUE(run.scans.empty());
+}
+
+// Rates beyond any gyro's are dropped in whatever unit they turn out to be.
+TEST(OdometryReading, ImpossibleRatesInDegreesAreDropped) {
+  Messages messages = SentAs(test::StaticStartDrive(), kInDeg);
+  for (Message& message : messages) {
+    const double t_s = SecondsOf(message.arrival);
+    if (message.is_imu && t_s > 3.005 && t_s < 3.015) message.sample.w_imu_radps.z() = 5800.0;
+    if (message.is_imu && t_s > 3.025 && t_s < 3.035) message.sample.w_imu_radps.z() = 1e6;
+  }
+  const RunResult run = RunOdometry(messages, WithUnits(ImuUnits::kDeg));
+  EXPECT_EQ(run.counters.num_imu_out_of_range, 2);
+  EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans).max_m, 0.06);
+}
+
+}  // namespace
+}  // namespace lio
