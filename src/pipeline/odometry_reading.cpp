@@ -110,6 +110,9 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
   ++counters_.num_restarts;
   resumption_ = {T_world_start_, last_fix_};
   history_.reset();
+  standstill_.Forget();
+  last_standstill_.reset();
+  if (clock_offset_) clock_offset_.emplace(options_.rig.imu);  // it was found with wrong rates
   phase_ = Phase::kScouting;
   status_ = TrackingStatus::kInit;
   if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);

@@ -256,7 +256,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
       start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;
   world_ = SteadyWorld(options_.filter.steady_world ? steady : SteadyWorld::Mode::kFollow);
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
-  history_->KeepFrom(start.estimate.stamp);
+  history_->KeepFrom(start.estimate.stamp - ClockMargin());
   for (const ImuSample& sample : imu_) {
     if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);
   }
