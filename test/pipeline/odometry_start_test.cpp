@@ -140,13 +140,16 @@ TEST(OdometryStart, InMotionRestIsAwaitedAsLongAsAskedFor) {
   EXPECT_TRUE(RunOdometry(Until(drive, 3.3), options).scans.empty());
 }
 
-// Rates in degrees a second do not fit what the lidar sees: no start, and a reason.
+// Rates in degrees a second, where the rig says radians, do not fit what the lidar sees: no start,
+// and a reason.
 TEST(OdometryStart, ARigThatDoesNotFitIsNotStartedWith) {
   Messages messages = MovingStartDrive(4.5);
   for (Message& message : messages) message.sample.w_imu_radps *= 180.0 / M_PI;
-  const RunResult run = RunOdometry(messages, test::DriveRig());
+  Options options = test::DriveRig();
+  options.rig.imu.units = ImuUnits::kSi;
+  const RunResult run = RunOdometry(messages, options);
   EXPECT_TRUE(run.scans.empty());
-  EXPECT_TRUE(HasNotice(run, "no start in motion yet: "));
+  EXPECT_TRUE(HasNotice(run, "set rig.imu.units: auto"));
 }
 
 // --- by the lidar alone
