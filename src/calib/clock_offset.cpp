@@ -6,7 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "lio/base/chi_square.hpp"
 #include "lio/imu/preintegration.hpp"
+#include "lio/imu/sample_lookup.hpp"
 
 namespace lio {
 namespace {
@@ -17,7 +19,6 @@ constexpr double kTurnStd_rad = 1e-3;          // besides what registration and 
 constexpr double kMinRateChangeInNoise = 6.0;  // ... nor does less than this of the gyro's noise
 constexpr double kWalk_s_per_sqrt_s = 2e-5;    // oscillators drift by 10 us a second
 constexpr double kMaxStd_s = 0.02;             // nobody's clocks are known worse
-constexpr double kMaxNis = 16.27;              // 99.9 %, 3 degrees of freedom
 constexpr double kKnownStd_s = 2e-3;           // from then on stamps are moved ...
 constexpr double kMaxStep_s = 2e-3;            // ... by so much more or less a scan
 
@@ -27,15 +28,6 @@ double MinRateChange(std::span<const ImuSample> samples, const ImuRig& imu) {
   const double noise_radps =
       imu.gyro_noise_density * std::sqrt(static_cast<double>(samples.size()) / span_s);
   return std::max(kMinRateChange_radps, kMinRateChangeInNoise * noise_radps);
-}
-
-Vector3 RateAt(std::span<const ImuSample> samples, Timestamp stamp) {
-  const auto after =
-      std::lower_bound(samples.begin(), samples.end(), stamp,
-                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
-  if (after == samples.end()) return samples.back().w_imu_radps;
-  if (after == samples.begin()) return samples.front().w_imu_radps;
-  return InterpolateSample(*std::prev(after), *after, stamp).w_imu_radps;
 }
 
 }  // namespace
@@ -72,9 +64,9 @@ void ClockOffset::Update(const Scan& scan) {
       Preintegrate(samples, last_->stamp, scan.stamp, {scan.gyro_bias, Vector3::Zero()}, noise);
   const Quaternion matched = last_->R_map_imu.conjugate() * scan.R_map_imu;
   const Vector3 residual = LogSo3(gyro.rotation.conjugate() * matched);
-  const Vector3 w = RateAt(samples, scan.stamp) - scan.gyro_bias;
+  const Vector3 w = SampleAt(samples, scan.stamp).w_imu_radps - scan.gyro_bias;
   const Vector3 w_last =
-      gyro.rotation.conjugate() * (RateAt(samples, last_->stamp) - scan.gyro_bias);
+      gyro.rotation.conjugate() * (SampleAt(samples, last_->stamp).w_imu_radps - scan.gyro_bias);
   const Vector3 h = w - w_last;
   if (h.norm() < MinRateChange(samples, imu_)) return;
 
@@ -84,7 +76,7 @@ void ClockOffset::Update(const Scan& scan) {
                           imu_.gyro_noise_density * imu_.gyro_noise_density * span_s;
   const Matrix3 S = var_s2_ * h * h.transpose() + turn_var * Matrix3::Identity();
   const Vector3 weighted = S.inverse() * innovation;
-  if (innovation.dot(weighted) > kMaxNis) return;
+  if (innovation.dot(weighted) > kChiSquare3At999) return;
   offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
   var_s2_ = 1.0 / (1.0 / var_s2_ + h.squaredNorm() / turn_var);
 }

@@ -9,6 +9,7 @@
 
 #include "calib/rate_search.hpp"
 #include "calib/turn_fit.hpp"
+#include "lio/imu/sample_lookup.hpp"
 
 namespace lio {
 namespace {
@@ -47,8 +48,7 @@ std::vector<SweepTurn> MakeTurns(std::span<const SweepRotation> sweeps) {
 }
 
 bool IsCovered(std::span<const ImuSample> samples, Timestamp from, Timestamp to) {
-  const auto is_before = [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; };
-  auto at = std::lower_bound(samples.begin(), samples.end(), from, is_before);
+  auto at = FirstNotBefore(samples, from);
   if (at == samples.begin()) return false;
   for (; at != samples.end(); ++at) {
     if (SecondsBetween(std::prev(at)->stamp, at->stamp) > kMaxSampleGap_s) return false;

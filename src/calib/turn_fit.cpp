@@ -11,6 +11,7 @@
 #include <map>
 
 #include "lio/imu/preintegration.hpp"
+#include "lio/imu/sample_lookup.hpp"
 
 namespace lio {
 namespace {
@@ -59,15 +60,6 @@ struct GyroTurn {
   Vector3 rate_from, rate_to;  // rad/s, bias-corrected: what an offset adds at both ends
 };
 
-Vector3 RateAt(std::span<const ImuSample> samples, Timestamp stamp) {
-  const auto after =
-      std::lower_bound(samples.begin(), samples.end(), stamp,
-                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
-  if (after == samples.begin()) return samples.front().w_imu_radps;
-  if (after == samples.end()) return samples.back().w_imu_radps;
-  return InterpolateSample(*std::prev(after), *after, stamp).w_imu_radps;
-}
-
 GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
                     const RotationCalibration& state) {
   const Duration offset = Duration::FromSeconds(state.offset_s);
@@ -76,8 +68,8 @@ GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
   const Preintegration sum =
       Preintegrate(samples, from, to, {state.gyro_bias_radps, Vector3::Zero()}, {});
   return {sum.rotation, sum.by_bias.block<3, 3>(3, 0),
-          RateAt(samples, from) - state.gyro_bias_radps,
-          RateAt(samples, to) - state.gyro_bias_radps};
+          SampleAt(samples, from).w_imu_radps - state.gyro_bias_radps,
+          SampleAt(samples, to).w_imu_radps - state.gyro_bias_radps};
 }
 
 // What the lidar's turn has beyond the gyro's, given the two sweeps' own errors.

@@ -251,9 +251,7 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
   }
   // From here on nothing may change what the scan was deskewed and predicted with.
   const Timestamp until = sweep->end + ClockMargin();
-  const auto bracket = std::lower_bound(
-      imu_.begin(), imu_.end(), until,
-      [](const ImuSample& sample, Timestamp stamp) { return sample.stamp < stamp; });
+  const auto bracket = FirstNotBefore(imu_, until);
   if (bracket == imu_.end()) {
     ImuSample held = imu_.back();
     held.stamp = until;

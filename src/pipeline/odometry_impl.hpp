@@ -19,6 +19,7 @@
 #include "lio/imu/imu_classifier.hpp"
 #include "lio/imu/imu_intake.hpp"
 #include "lio/imu/moving_start.hpp"
+#include "lio/imu/sample_lookup.hpp"
 #include "lio/imu/start_state.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "lio/pipeline/match_side.hpp"
@@ -87,7 +88,6 @@ class Odometry::Impl {
   void SayWaiting(Timestamp stamp, const std::string& text);
   void StartFrom(StartState start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
-  ImuSample SampleAt(Timestamp stamp) const;
 
   // --- odometry_reading.cpp
   std::optional<ImuSample> Read(const ImuSample& sent);

@@ -18,7 +18,7 @@ NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
   nav.v_world_imu_mps = published.v_world_imu;
   nav.velocity_cov = published.cov.block<3, 3>(kVel, kVel);
   nav.w_imu_radps = -estimate.state.gyro_bias;
-  if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(estimate.stamp).w_imu_radps;
+  if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(imu_, estimate.stamp).w_imu_radps;
   nav.T_map_imu = estimate.state.T_map_imu;
   nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
   if (options_.rig.T_base_imu) {
@@ -29,9 +29,7 @@ NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
 
 // Of the noise in the rate that is published: white noise of a density, over one sample.
 double Odometry::Impl::RateVariance(Timestamp stamp) const {
-  const auto after =
-      std::lower_bound(imu_.begin(), imu_.end(), stamp,
-                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
+  const auto after = FirstNotBefore(imu_, stamp);
   if (!history_ || after == imu_.begin() || after == imu_.end()) return 0.0;
   const double step_s = SecondsBetween(std::prev(after)->stamp, after->stamp);
   const double density = options_.rig.imu.gyro_noise_density;

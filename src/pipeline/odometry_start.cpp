@@ -62,20 +62,11 @@ std::vector<ImuSample> Odometry::Impl::SamplesBetween(Timestamp from, Timestamp 
   return samples;
 }
 
-ImuSample Odometry::Impl::SampleAt(Timestamp stamp) const {
-  const auto after =
-      std::lower_bound(imu_.begin(), imu_.end(), stamp,
-                       [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
-  if (after == imu_.end()) return InterpolateSample(imu_.back(), imu_.back(), stamp);
-  if (after == imu_.begin()) return InterpolateSample(*after, *after, stamp);
-  return InterpolateSample(*std::prev(after), *after, stamp);
-}
-
 void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   last_found_.reset();
   ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, sought_v_imu_mps_, glance_};
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
-  if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(start).w_imu_radps;
+  if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(imu_, start).w_imu_radps;
   scout_.emplace(start, scouting);
   classifier_.BeginMap(sweep.start);
   scout_up_map_ = MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
@@ -255,7 +246,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   const auto steady =
       start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;
   world_ = SteadyWorld(options_.filter.steady_world ? steady : SteadyWorld::Mode::kFollow);
-  history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(start.estimate.stamp));
+  history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(imu_, start.estimate.stamp));
   history_->KeepFrom(start.estimate.stamp - ClockMargin());
   for (const ImuSample& sample : imu_) {
     if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/sample_lookup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <vector>
+
+namespace lio {
+namespace {
+
+ImuSample Sample(std::int64_t stamp_ns, double rate_radps) {
+  ImuSample sample;
+  sample.stamp = Timestamp{stamp_ns};
+  sample.w_imu_radps = Vector3(rate_radps, 0, 0);
+  return sample;
+}
+
+const std::vector<ImuSample> kSamples = {Sample(100, 1.0), Sample(200, 3.0), Sample(300, 2.0)};
+
+TEST(SampleLookup, TheFirstNotBeforeIsAtTheStampOrAfterIt) {
+  EXPECT_EQ(FirstNotBefore(kSamples, Timestamp{50}), kSamples.begin());
+  EXPECT_EQ(FirstNotBefore(kSamples, Timestamp{200}), kSamples.begin() + 1);
+  EXPECT_EQ(FirstNotBefore(kSamples, Timestamp{201}), kSamples.begin() + 2);
+  EXPECT_EQ(FirstNotBefore(kSamples, Timestamp{301}), kSamples.end());
+}
+
+TEST(SampleLookup, BetweenSamplesItIsLinear) {
+  const ImuSample sample = SampleAt(kSamples, Timestamp{150});
+  EXPECT_EQ(sample.stamp, Timestamp{150});
+  EXPECT_DOUBLE_EQ(sample.w_imu_radps.x(), 2.0);
+  EXPECT_DOUBLE_EQ(SampleAt(kSamples, Timestamp{275}).w_imu_radps.x(), 2.25);
+}
+
+TEST(SampleLookup, OutsideTheNearestHolds) {
+  const std::deque<ImuSample> samples(kSamples.begin(), kSamples.end());
+  EXPECT_DOUBLE_EQ(SampleAt(samples, Timestamp{1}).w_imu_radps.x(), 1.0);
+  EXPECT_EQ(SampleAt(samples, Timestamp{1}).stamp, Timestamp{1});
+  EXPECT_DOUBLE_EQ(SampleAt(samples, Timestamp{999}).w_imu_radps.x(), 2.0);
+  EXPECT_EQ(SampleAt(samples, Timestamp{999}).stamp, Timestamp{999});
+}
+
+}  // namespace
+}  // namespace lio
