@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lio/map/edge_on.hpp"
+
 namespace lio {
 namespace {
 
@@ -16,7 +18,6 @@ namespace {
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.12;
 constexpr double kMaxNormalStd_rad = 0.05;
-constexpr float kMinSineOfView = 0.06f;  // between a plane and the beams that saw it
 // Upright things: height and width are standard deviations; what is seen of a trunk depends on the
 // side it is seen from.
 constexpr double kMinHeightPerVoxel = 0.15;
@@ -148,7 +149,7 @@ bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch&
   const bool is_plane =
       variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
       thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1] &&
-      std::abs(normal.dot(sums.view)) > kMinSineOfView * sums.view.norm();
+      !IsSeenEdgeOn(normal, sums.view);
   if (!is_plane) return false;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);

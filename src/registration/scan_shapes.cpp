@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lio/base/rotation.hpp"
+#include "lio/map/edge_on.hpp"
 
 namespace lio {
 namespace {
@@ -17,13 +18,11 @@ constexpr double kMinPoints = 6.0;
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.3;
 constexpr double kMaxNormalStd_rad = 0.1;
-constexpr float kMinSineOfView = 0.06f;  // between a surface and the beam, else it is its cone
-constexpr float kOverlapVoxels = 2.f;    // points so near to the next level's range count there too
+constexpr float kOverlapVoxels = 2.f;  // points so near to the next level's range count there too
 
-VoxelKey KeyAt(const Eigen::Vector3f& point, float inverse_voxel, int dx, int dy, int dz) {
-  return PackVoxel(FloorToInt(point.x() * inverse_voxel) + dx,
-                   FloorToInt(point.y() * inverse_voxel) + dy,
-                   FloorToInt(point.z() * inverse_voxel) + dz);
+VoxelCell CellAt(const Eigen::Vector3f& point, float inverse_voxel) {
+  return {FloorToInt(point.x() * inverse_voxel), FloorToInt(point.y() * inverse_voxel),
+          FloorToInt(point.z() * inverse_voxel)};
 }
 
 }  // namespace
@@ -35,7 +34,8 @@ std::size_t ScanShapes::LevelOf(float range_m) const {
 }
 
 void ScanShapes::AddTo(Level& level, const Eigen::Vector3f& point) {
-  const VoxelIndex::Added added = level.index.FindOrAdd(KeyAt(point, 1.f / level.voxel_m, 0, 0, 0));
+  const VoxelCell cell = CellAt(point, 1.f / level.voxel_m);
+  const VoxelIndex::Added added = level.index.FindOrAdd(PackVoxel(cell[0], cell[1], cell[2]));
   if (added.is_new) level.moments.emplace_back();
   Moments& m = level.moments[static_cast<std::size_t>(added.voxel)];
   const Vector3 p = point.cast<double>();
@@ -76,27 +76,25 @@ ShapedPoint ScanShapes::At(const Eigen::Vector3f& point) const {
   ShapedPoint shaped;
   shaped.position = point;
   const Level& level = levels_[LevelOf(point.norm())];
-  const float inverse_voxel = 1.f / level.voxel_m;
   Moments sum;
-  for (int dz = -1; dz <= 1; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const std::int32_t voxel = level.index.Find(KeyAt(point, inverse_voxel, dx, dy, dz));
-        if (voxel == VoxelIndex::kNone) continue;
-        const Moments& m = level.moments[static_cast<std::size_t>(voxel)];
-        sum.count += m.count;
-        sum.x += m.x;
-        sum.y += m.y;
-        sum.z += m.z;
-        sum.xx += m.xx;
-        sum.xy += m.xy;
-        sum.xz += m.xz;
-        sum.yy += m.yy;
-        sum.yz += m.yz;
-        sum.zz += m.zz;
-      }
-    }
-  }
+  const VoxelCell centre = CellAt(point, 1.f / level.voxel_m);
+  const auto add = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::int32_t voxel = level.index.Find(PackVoxel(x, y, z));
+    if (voxel == VoxelIndex::kNone) return;
+    const Moments& m = level.moments[static_cast<std::size_t>(voxel)];
+    sum.count += m.count;
+    sum.x += m.x;
+    sum.y += m.y;
+    sum.z += m.z;
+    sum.xx += m.xx;
+    sum.xy += m.xy;
+    sum.xz += m.xz;
+    sum.yy += m.yy;
+    sum.yz += m.yz;
+    sum.zz += m.zz;
+  };
+  ForEachVoxel({centre[0] - 1, centre[1] - 1, centre[2] - 1},
+               {centre[0] + 1, centre[1] + 1, centre[2] + 1}, add);
   if (sum.count < kMinPoints) return shaped;
   const Vector3 mean = Vector3(sum.x, sum.y, sum.z) / sum.count;
   Matrix3 cov;
@@ -113,7 +111,7 @@ ShapedPoint ScanShapes::At(const Eigen::Vector3f& point) const {
   const double normal_var = thickness_var / (sum.count * variance[1]);
   if (normal_var > kMaxNormalStd_rad * kMaxNormalStd_rad) return shaped;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
-  if (std::abs(normal.dot(point)) < kMinSineOfView * point.norm()) return shaped;
+  if (IsSeenEdgeOn(normal, point)) return shaped;
   shaped.normal = normal;
   shaped.thickness_var = static_cast<float>(thickness_var);
   shaped.normal_var = static_cast<float>(normal_var);
