@@ -14,7 +14,6 @@ namespace lio {
 namespace {
 
 constexpr int kMinMatched = 50;
-constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
 // How far a surface is taken to reach, m^2: what counts against a pair whose surfaces are askew.
 constexpr float kTangentVar = 1.f;
 constexpr float kShapelessVar = 0.04f;  // m^2, of a point on no known surface: it may be an edge
@@ -29,7 +28,6 @@ constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
 constexpr double kStill_m = 5e-3;      // neighbours are kept while no point within ...
 constexpr double kLever_m = 20.0;      // ... this range has moved farther
-constexpr double kMaxLastStep = 5e-3;  // m, rad
 constexpr double kOpennessKeep = 0.9;  // share of the old value in each scan's smoothing
 
 KeyframeMapOptions MapOptions(const GicpOptions& options) {
@@ -145,7 +143,7 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
   }
   term.distance = term.direction.dot(pair.offset);
   term.distance_sq = term.distance * term.distance / variance;
-  if (term.distance_sq > kGateSq) return term;
+  if (RobustKernel::IsOutlier(term.distance_sq)) return term;
   term.kernel = RobustKernel(term.distance_sq);
   term.weight = term.kernel.weight() / variance;
   return term;
@@ -221,9 +219,7 @@ void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
-  // The residual step at hand costs nothing, and the iteration stopped at a finite one.
-  if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
+  TakeLastStep(Summarise(sums, scores_.Covariance(), result), result);
 }
 
 MatchResult GicpMatcher::Match(const MatchInput& input) {
@@ -245,8 +241,7 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
     Associate(pose, radius);
     const MatchSums sums = Linearize(pose, radius, nullptr);
     if (sums.num_matched < kMinMatched) return std::nullopt;
-    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-    return StepInHeldDirections(split, sums.gradient);
+    return StepInHeldDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
                       options_.converged_step_m, options_.converged_step_rad};

@@ -19,7 +19,6 @@ constexpr double kLeavesPerSearch = 2.5;  // neighbours are this many leaves off
 constexpr double kGate_m = 0.3;           // residuals beyond, and beyond the reach, do not count
 constexpr int kFarOffRoundFactor = 3;
 constexpr int kFullRounds = 4;  // later ones go halfway: two sets of neighbours may alternate
-constexpr double kMaxLastStep = 5e-3;  // m, rad
 
 PointMapOptions MapOptions(const LoamOptions& options, double leaf_m) {
   return {leaf_m, options.max_leaf_points, options.max_leaves, options.max_distance_m};
@@ -119,9 +118,7 @@ void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
-  // The residual step at hand costs nothing, and the rounds stopped at a finite one.
-  if (last_step.norm() < kMaxLastStep) result.T_map_imu = T_map_imu * ExpSe3(last_step);
+  TakeLastStep(Summarise(sums, scores_.Covariance(), result), result);
 }
 
 MatchResult LoamMatcher::Match(const MatchInput& input) {
@@ -137,7 +134,7 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     Associate(input, pose, radius);
     if (terms_->size() < kMinMatched) return std::nullopt;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
-    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    const DirectionSplit split = SplitDirections(sums);
     const Pose solved = terms_->Solve(input.points_imu, {}, pose);
     const double share = result.iterations > factor * kFullRounds ? 0.5 : 1.0;
     return share * KeepHeldDirections(split, LogSe3(pose.Inverse() * solved));

@@ -19,7 +19,6 @@ constexpr double kSearchSigmas = 3.0;
 constexpr double kMinSearch_m = 1.0;      // neighbours on a scan are so far apart, ...
 constexpr double kSearchPerRange = 0.06;  // ... two beams where these spread more
 constexpr double kMaxSearch_m = 5.0;      // A-LOAM's limit
-constexpr double kMaxLastStep = 5e-3;     // m, rad
 constexpr float kMinAcross_m = 0.5f;      // of a line or a plane across rings
 constexpr float kMinBaseline_m = 1.f;     // of a plane along its ring: noise tilts shorter ones
 constexpr double kMinTriangle = 0.1;      // sine of the angle at which three points make a plane
@@ -136,9 +135,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
   }
   const MatchSums sums = terms_->Linearize(points, T_last_imu, scores_);
   const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
-  if (sweep_ratios.empty() && last_step.norm() < kMaxLastStep) {
-    result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
-  }
+  if (sweep_ratios.empty()) TakeLastStep(last_step, result);
 }
 
 MatchResult LoamScanMatcher::Match(const MatchInput& input) {
@@ -162,7 +159,7 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
     const Vector6 step = LogSe3(pose.Inverse() * solved);
     if (!sweep_ratios.empty()) return step;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
-    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
+    const DirectionSplit split = SplitDirections(sums);
     return KeepHeldDirections(split, step);
   };
   const StopRule rule{options_.max_rounds, options_.converged_step_m, options_.converged_step_rad};

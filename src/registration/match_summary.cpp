@@ -68,9 +68,13 @@ void MatchSums::operator+=(const MatchSums& other) {
   num_matched += other.num_matched;
 }
 
+DirectionSplit SplitDirections(const MatchSums& sums) {
+  return SplitDirections(sums.information.Full(), sums.feigned.Full());
+}
+
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
-  const DirectionSplit split = SplitDirections(result.information, sums.feigned.Full());
+  const DirectionSplit split = SplitDirections(sums);
   // The sandwich wants the robust cost's own curvature, which is less than the information.
   const double curvature =
       std::clamp(sums.curvature_sum / sums.information_sum, kMinCurvature, 1.0);
@@ -83,6 +87,11 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
     result.status = MatchStatus::kDegenerate;
   }
   return StepInHeldDirections(split, sums.gradient);
+}
+
+void TakeLastStep(const Vector6& step, MatchResult& result) {
+  constexpr double kMaxLastStep = 5e-3;  // m, rad
+  if (step.norm() < kMaxLastStep) result.T_map_imu = result.T_map_imu * ExpSe3(step);
 }
 
 }  // namespace lio

@@ -19,7 +19,6 @@ constexpr double kMaxShiftStd_m = 0.02;  // a better known shift does without up
 constexpr double kReachShrink = 0.3;     // of the reach's standard deviation, each iteration
 constexpr double kMinReach_m = 0.01;     // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
-constexpr double kMaxLastStep = 5e-3;  // m, rad
 constexpr int kFarOffIterationFactor = 5;
 constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
 
@@ -221,11 +220,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  const Vector6 last_step = Summarise(sums, ScoreCovariance(), result);
-  // The residual step at hand costs nothing, and the iteration stopped at a finite one.
-  if (last_step.norm() < kMaxLastStep) {
-    result.T_map_imu = result.T_map_imu * ExpSe3(last_step);
-  }
+  TakeLastStep(Summarise(sums, ScoreCovariance(), result), result);
 }
 
 MatchResult NdtMatcher::Match(const MatchInput& input) {
@@ -237,8 +232,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
     Associate(input.points_imu, pose, input.shift_std_m > kMaxShiftStd_m);
     const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
-    const DirectionSplit split = SplitDirections(sums.information.Full(), sums.feigned.Full());
-    return StepInHeldDirections(split, sums.gradient);
+    return StepInHeldDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
                       options_.converged_step_m, options_.converged_step_rad};

@@ -24,10 +24,7 @@ struct NdtTerm {
   float distance_sq = 0.f;  // in its variance
   RobustKernel kernel;
 
-  bool IsOutlier() const { return distance_sq > kGateSq; }
-
- private:
-  static constexpr float kGateSq = 25.f;  // residuals beyond five sigma do not count
+  bool IsOutlier() const { return RobustKernel::IsOutlier(distance_sq); }
 };
 
 // `num_here`: this scan's points in the cell; `reach_var`: of what the guess may be off [m^2].

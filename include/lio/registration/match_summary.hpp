@@ -33,6 +33,9 @@ class RobustKernel {
   float weight() const { return root_ * root_; }  // 1 for an inlier
   float curvature() const { return curvature_; }
 
+  // Beyond five sigma a residual does not count at all.
+  static bool IsOutlier(float distance_sq) { return distance_sq > 25.f; }
+
  private:
   static constexpr float kWidthSq = 8.f;
 
@@ -89,9 +92,15 @@ class ClusterScores {
   std::vector<std::uint8_t> is_used_;
 };
 
+DirectionSplit SplitDirections(const MatchSums& sums);
+
 // `score_cov`: of the whole gradient. Fills information, covariances, eigenvalues, weak directions
 // and residual; turns kConverged into kDegenerate where a direction is weak. Gives the step that is
 // left, within the held directions.
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result);
+
+// The step that Summarise() gave costs nothing, and iterations stop at a finite one: moves the
+// result by it unless it is no small one.
+void TakeLastStep(const Vector6& step, MatchResult& result);
 
 }  // namespace lio
