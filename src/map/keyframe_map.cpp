@@ -47,14 +47,14 @@ KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
 }
 
 Vector3 KeyframeMap::CornerOf(const Block& block) const {
-  return kEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
+  return kBlockEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
 }
 
 std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
                                    std::int32_t keyframe) {
   const VoxelCell cell = VoxelOf(inverse_voxel_ * position_map);
   if (!IsInRange(cell)) return kNone;
-  const VoxelCell at{cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
+  const VoxelCell at = BlockOf(cell);
   const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
   if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
   Block& block = blocks_[ToIndex(added.voxel)];
@@ -278,15 +278,15 @@ void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
     const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
     for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
       const int i = std::countr_zero(bits);
-      const VoxelCell voxel{kEdge * x + (i & 3), kEdge * y + (i >> 2 & 3), kEdge * z + (i >> 4)};
+      const VoxelCell voxel{kBlockEdge * x + (i & 3), kBlockEdge * y + (i >> 2 & 3),
+                            kBlockEdge * z + (i >> 4)};
       if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) continue;
       if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
         SearchVoxel(block, ToIndex(i), query, search);
       }
     }
   };
-  ForEachVoxel({low[0] >> 2, low[1] >> 2, low[2] >> 2}, {high[0] >> 2, high[1] >> 2, high[2] >> 2},
-               search_block);
+  ForEachVoxel(BlockOf(low), BlockOf(high), search_block);
 }
 
 KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,

@@ -75,7 +75,7 @@ bool PointMap::IsInRange(const VoxelCell& voxel) {
 }
 
 Vector3 PointMap::CornerOf(const Block& block) const {
-  return kEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
+  return kBlockEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
 }
 
 // All voxels within so many voxels of the query's own, block by block.
@@ -87,9 +87,9 @@ void PointMap::SearchAround(Search& search, int reach_voxels) const {
     high[i] = search.voxel[i] + reach_voxels;
   }
   const auto mask_along = [&](std::size_t axis, std::int32_t block) {
-    const std::int32_t corner = block * kEdge;
+    const std::int32_t corner = block * kBlockEdge;
     return kAxisMasks.of[axis][ToIndex(std::max(low[axis] - corner, 0))]
-                        [ToIndex(std::min(high[axis] - corner, kEdge - 1))];
+                        [ToIndex(std::min(high[axis] - corner, kBlockEdge - 1))];
   };
   const auto search_block = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
     const std::int32_t number = index_.Find(PackVoxel(x, y, z));
@@ -103,8 +103,7 @@ void PointMap::SearchAround(Search& search, int reach_voxels) const {
       search.Offer({from_query, from_query.squaredNorm(), block.mean[i].w(), number});
     }
   };
-  ForEachVoxel({low[0] >> 2, low[1] >> 2, low[2] >> 2}, {high[0] >> 2, high[1] >> 2, high[2] >> 2},
-               search_block);
+  ForEachVoxel(BlockOf(low), BlockOf(high), search_block);
 }
 
 PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,
@@ -139,7 +138,7 @@ PointMap::Content PointMap::ContentAt(const Vector3& point_map) const {
 void PointMap::AddPoint(const Vector3& point_map) {
   const VoxelCell voxel = VoxelOf(inverse_voxel_ * point_map);
   if (!IsInRange(voxel)) return;
-  const VoxelCell at{voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
+  const VoxelCell at = BlockOf(voxel);
   const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
   if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
   Block& block = blocks_[ToIndex(added.voxel)];
@@ -171,7 +170,7 @@ void PointMap::Remove(std::int32_t block) {
 void PointMap::Insert(std::span<const Vector3> points_map, const Vector3& centre_map) {
   for (const Vector3& point : points_map) AddPoint(point);
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
-  const Vector3 to_centre = Vector3::Constant(0.5 * kEdge * options_.voxel_m);
+  const Vector3 to_centre = Vector3::Constant(0.5 * kBlockEdge * options_.voxel_m);
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(blocks_.size()); ++i) {
     if (!index_.IsUsed(i)) continue;
     if ((CornerOf(blocks_[ToIndex(i)]) + to_centre - centre_map).squaredNorm() > limit_sq) {

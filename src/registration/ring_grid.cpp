@@ -36,7 +36,7 @@ template <class Visit>
 void RingGrid::ForEachNear(const Eigen::Vector3f& query, float radius_m, const Visit& visit) const {
   const auto cells_at = [&](float offset_m) {
     const auto along = [&](float v) { return Cell((v + offset_m) / kVoxel_m); };
-    return std::array<std::int32_t, 3>{along(query.x()), along(query.y()), along(query.z())};
+    return VoxelCell{along(query.x()), along(query.y()), along(query.z())};
   };
   ForEachVoxel(cells_at(-radius_m), cells_at(radius_m), [&](auto x, auto y, auto z) {
     const std::int32_t voxel = index_.Find(PackVoxel(x, y, z));

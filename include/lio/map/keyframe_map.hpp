@@ -68,8 +68,7 @@ class KeyframeMap {
  private:
   static constexpr int kNodeSize = 8;
   static constexpr std::int32_t kNone = -1;
-  static constexpr int kEdge = 4;  // voxels of a block's edge
-  static constexpr int kVoxels = kEdge * kEdge * kEdge;
+  static constexpr int kVoxels = kBlockEdge * kBlockEdge * kBlockEdge;
 
   // Some points of one voxel, in a chain.
   struct Node {

@@ -63,8 +63,7 @@ class PointMap {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr int kEdge = 4;  // voxels of a block's edge
-  static constexpr int kVoxels = kEdge * kEdge * kEdge;
+  static constexpr int kVoxels = kBlockEdge * kBlockEdge * kBlockEdge;
 
   struct Block {
     std::uint64_t occupied = 0;                 // a bit a voxel: x + 4 y + 16 z

@@ -34,6 +34,12 @@ inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
 
+// Of blocks of so many voxels along each edge.
+inline constexpr int kBlockEdge = 4;
+inline VoxelCell BlockOf(const VoxelCell& voxel) {
+  return {voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
+}
+
 inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
   constexpr std::uint64_t kMask = (1u << 21) - 1;
   return ((static_cast<std::uint64_t>(x + kVoxelCoordinateLimit) & kMask) << 42) |
