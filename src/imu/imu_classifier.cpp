@@ -22,6 +22,15 @@ constexpr double kAbsurdTurn_rad = 0.03;
 constexpr double kAbsurdRatio = 5.0;
 constexpr double kMaxShift = 2.0;  // of clocks, in steps
 
+// With gravity in the forces or without, whichever contradicts less.
+double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuReading& reading,
+                       double gravity_mps2) {
+  const auto score = [&](double g_mps2) {
+    return MotionEvidence::ForceScore(bends, reading.R_imu_sent, reading.force_scale(), g_mps2);
+  };
+  return std::min(score(0.0), score(gravity_mps2));
+}
+
 }  // namespace
 
 ImuClassifier::ImuClassifier(const ImuReading& expected, const Rig& rig)
@@ -108,11 +117,8 @@ double ImuClassifier::ExpectedScoreOfOtherClocks() const {
     // Fewer steps are left to contradict it.
     const double share =
         static_cast<double>(shifted.steps().size()) / static_cast<double>(evidence_.steps().size());
-    for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
-      const double force_score = MotionEvidence::ForceScore(bends, expected_.R_imu_sent,
-                                                            expected_.force_scale(), gravity_mps2);
-      least = std::min(least, (rate_score + force_score) / share);
-    }
+    const double force_score = LeastForceScore(bends, expected_, gravity_mps2_);
+    least = std::min(least, (rate_score + force_score) / share);
   }
   return least;
 }
@@ -175,12 +181,7 @@ std::string ImuClassifier::Describe(const ImuReading& found, Bends bends) const 
     return evidence_.RateError_radps(evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()));
   };
   const auto force_error = [&](const ImuReading& reading) {
-    double score = std::numeric_limits<double>::infinity();
-    for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
-      score = std::min(score, MotionEvidence::ForceScore(bends, reading.R_imu_sent,
-                                                         reading.force_scale(), gravity_mps2));
-    }
-    return MotionEvidence::ForceError_mps2(bends, score);
+    return MotionEvidence::ForceError_mps2(bends, LeastForceScore(bends, reading, gravity_mps2_));
   };
   char text[160];
   std::snprintf(text, sizeof text,
