@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/base/chi_square.hpp"
 #include "lio/imu/start_state.hpp"
 
 namespace lio {
@@ -19,7 +20,6 @@ constexpr double kTremble_mps2 = 0.08;
 constexpr double kMeanRateStd_radps = 5e-4;
 constexpr double kMeanForceStd_mps2 = 0.01;
 constexpr double kSpreadFactor = 1.5;  // of a spread that is only noise
-constexpr double kChiSquare3 = 16.27;  // 99.9 %, 3 degrees of freedom
 
 double LargestSpread(double density, double step_s, double tremble) {
   return kSpreadFactor * std::hypot(density / std::sqrt(step_s), tremble);
@@ -32,7 +32,7 @@ bool IsCalm(const ImuStatistics& seen, const ImuRig& imu) {
 }
 
 bool IsPlausible(const Vector3& residual, const Matrix3& cov) {
-  return residual.dot(cov.ldlt().solve(residual)) < kChiSquare3;
+  return residual.dot(cov.ldlt().solve(residual)) < kChiSquare3At999;
 }
 
 double MeanVariance(double density, double other_std, double span_s) {

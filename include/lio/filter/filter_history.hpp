@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "lio/base/chi_square.hpp"
 #include "lio/filter/pose_update.hpp"
 #include "lio/filter/process_model.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -30,8 +31,8 @@ struct HistoryOptions {
   ProcessNoise noise;
   Vector3 g_world = Vector3(0, 0, -9.80665);
   double span_s = 3.0;
-  double nis_limit = 22.46;             // 99.9 % of chi-square with 6 degrees of freedom
-  double standstill_nis_limit = 16.27;  // with 3
+  double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
+  double standstill_nis_limit = kChiSquare3At999;
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
   double gap_accel_std_mps2 = 1.5;
