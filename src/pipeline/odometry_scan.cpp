@@ -189,7 +189,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
         report.stage_ns[static_cast<std::size_t>(i)];
   }
   world_.Update(estimate);
-  if (report.fused) {
+  if (report.fused && !is_reading_settled_) {
     const SteadyWorld::Published published = world_.Publish(estimate);
     last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
   }
