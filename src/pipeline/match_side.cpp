@@ -32,6 +32,24 @@ std::vector<T> Pick(const std::vector<T>& values, const std::vector<std::uint32_
   return picked;
 }
 
+// When the picked points were seen.
+std::vector<float> AfterMiddle(const SweepTimes& times, const ReducedScan& reduced) {
+  const auto start_s = static_cast<float>(SecondsBetween(times.reference, times.start));
+  std::vector<float> after_middle_s;
+  after_middle_s.reserve(reduced.to_match.size());
+  for (const std::uint32_t i : reduced.to_match) {
+    after_middle_s.push_back(start_s + 1e-9f * static_cast<float>(reduced.points[i].t_offset_ns));
+  }
+  return after_middle_s;
+}
+
+// What the deskew took for the turn rate, put right by what the match says of it.
+TurnRate PutRight(const TurnRate& error, const StampedPoses& motion) {
+  const double span_s = SecondsBetween(motion.front().stamp, motion.back().stamp);
+  const Quaternion turn = motion.front().pose.rotation.conjugate() * motion.back().pose.rotation;
+  return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
+}
+
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
 constexpr std::size_t kMinScansToSeek = 3;
 
@@ -115,8 +133,12 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     AddTime(Stage::kDeskew, begin, outcome);
     begin = Now();
     to_match = Pick(outcome.points_imu, reduced.to_match);
+    const std::vector<float> after_middle_s = AfterMiddle(sweep_times, reduced);
     outcome.match = matcher_->Match({to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, tags,
-                                     outcome.points_imu, job.shift_std_m});
+                                     outcome.points_imu, job.shift_std_m, after_middle_s});
+    if (const auto& error = outcome.match.turn_rate_error; error && motion.size() > 1) {
+      outcome.turn_rate = PutRight(*error, motion);
+    }
     AddTime(Stage::kMatch, begin, outcome);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {

@@ -98,6 +98,19 @@ void MotionScout::Tell(Timestamp middle, const MatchResult& match) {
   }
 }
 
+Estimate MotionScout::AtEnd(Timestamp middle, Timestamp end,
+                            const std::optional<TurnRate>& shown) const {
+  if (!shown || has_gyro_) return history_.At(end);
+  Estimate estimate = history_.At(middle);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
+  H.middleCols<3>(kGyroBias) = -Matrix3::Identity();
+  FuseLinear(estimate, H, shown->w_imu_radps + estimate.state.gyro_bias, shown->cov);
+  Propagate(estimate, Rate(middle, Vector3::Zero()), Rate(end, Vector3::Zero()),
+            history_options_.noise, history_options_.g_world);
+  estimate.stamp = end;
+  return estimate;
+}
+
 void MotionScout::SetClock(Timestamp stamp) {
   Estimate estimate = history_.head();
   estimate.stamp = stamp;

@@ -193,7 +193,9 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     const SteadyWorld::Published published = world_.Publish(estimate);
     last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
   }
-  const Estimate at_end = history().At(outcome.sweep->end);
+  const Timestamp end = outcome.sweep->end;
+  const Estimate at_end =
+      scout_ && report.fused ? scout_->AtEnd(middle, end, outcome.turn_rate) : history().At(end);
   outputs_.emplace_back(ScanOutput{MakeFilterReport(at_end, report), report});
 }
 

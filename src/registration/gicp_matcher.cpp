@@ -150,7 +150,7 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
 }
 
 MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radius,
-                                 ClusterScores* scores) {
+                                 PoseScores* scores) {
   MatchSums sums;
   const Eigen::Matrix3f rotation = T_map_imu.rotation.toRotationMatrix().cast<float>();
   VoxelIndex clusters;

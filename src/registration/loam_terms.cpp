@@ -53,7 +53,7 @@ Pose LoamTerms::Solve(std::span<const Eigen::Vector3f> points_imu,
 }
 
 MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
-                               const Pose& T_target_imu, ClusterScores& scores) {
+                               const Pose& T_target_imu, PoseScores& scores) {
   MatchSums sums;
   const Matrix3 to_imu = T_target_imu.rotation.conjugate().toRotationMatrix();
   const auto row = [&](const Eigen::Vector3f& point, const Vector3& direction) {

@@ -50,7 +50,7 @@ class LoamTerms {
              const Pose& T_target_imu);
   // Sets the terms' weights. Information in units of 1 / surface variance.
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
-                      ClusterScores& scores);
+                      PoseScores& scores);
   // With those weights.
   double HeldCost(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu) const;
 

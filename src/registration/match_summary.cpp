@@ -12,39 +12,6 @@ constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene o
 
 }  // namespace
 
-void ClusterScores::Reset(std::size_t num_parts) {
-  for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
-  parts_.clear();
-  if (by_part_.size() < num_parts) {
-    by_part_.resize(num_parts);
-    is_used_.resize(num_parts, 0);
-  }
-}
-
-void ClusterScores::Add(std::int32_t part, const Vector6f& score) {
-  const auto i = static_cast<std::size_t>(part);
-  if (!is_used_[i]) {
-    is_used_[i] = 1;
-    by_part_[i].setZero();
-    parts_.push_back(part);
-  }
-  by_part_[i] += score;
-}
-
-Matrix6 ClusterScores::SumOfSquares() const {
-  Matrix6 sum = Matrix6::Zero();
-  for (const std::int32_t part : parts_) {
-    const Vector6 score = by_part_[static_cast<std::size_t>(part)].cast<double>();
-    sum += score * score.transpose();
-  }
-  return sum;
-}
-
-Matrix6 ClusterScores::Covariance() const {
-  const auto num_parts = static_cast<double>(parts_.size());
-  return num_parts / std::max(1.0, num_parts - 6.0) * SumOfSquares();
-}
-
 Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
                            const RobustKernel& kernel) {
   const Vector6f row_gradient = (weight * residual_m) * row;
@@ -68,6 +35,10 @@ void MatchSums::operator+=(const MatchSums& other) {
   num_matched += other.num_matched;
 }
 
+double MatchSums::curvature_ratio() const {
+  return std::clamp(curvature_sum / information_sum, kMinCurvature, 1.0);
+}
+
 DirectionSplit SplitDirections(const MatchSums& sums) {
   return SplitDirections(sums.information.Full(), sums.feigned.Full());
 }
@@ -76,8 +47,7 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   result.information = sums.information.Full();
   const DirectionSplit split = SplitDirections(sums);
   // The sandwich wants the robust cost's own curvature, which is less than the information.
-  const double curvature =
-      std::clamp(sums.curvature_sum / sums.information_sum, kMinCurvature, 1.0);
+  const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
   result.weak_mask = split.weak_mask;
   result.held_cov = CovarianceFromScores(split, score_cov / (curvature * curvature));

@@ -166,7 +166,7 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
     const NdtRow& row = term.rows[i];
     const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
-    if (score != nullptr) score->rows[i] = {gradient, row.weight * jacobian};
+    if (score != nullptr) score->rows[i] = {gradient, jacobian, row.distance, row.weight};
   }
 }
 
@@ -197,16 +197,28 @@ double NdtMatcher::NewContentShare() const {
 
 Matrix6 NdtMatcher::ScoreCovariance() {
   gradients_.Reset(map_.cell_capacity());
-  for (ClusterScores& per_metre : per_metre_) per_metre.Reset(map_.cell_capacity());
+  for (PoseScores& per_metre : per_metre_) per_metre.Reset(map_.cell_capacity());
   for (std::size_t k = 0; k < scores_.size(); ++k) {
     const auto num_rows = static_cast<std::size_t>(scores_[k].num_rows);
     for (std::size_t i = 0; i < num_rows; ++i) {
-      gradients_.Add(pairs_[k].cell, scores_[k].rows[i].gradient);
-      if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, scores_[k].rows[i].per_metre);
+      const PointScore::OfRow& row = scores_[k].rows[i];
+      gradients_.Add(pairs_[k].cell, row.gradient);
+      if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, row.weight * row.jacobian);
     }
   }
   const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
   return gradients_.Covariance() + kSideStd_m * kSideStd_m * sides;
+}
+
+TurnRate NdtMatcher::TurnRateError(std::span<const float> after_middle_s, double curvature_ratio) {
+  turn_.Reset(map_.cell_capacity());
+  for (std::size_t k = 0; k < scores_.size(); ++k) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(scores_[k].num_rows); ++i) {
+      const PointScore::OfRow& row = scores_[k].rows[i];
+      turn_.Add(pairs_[k].cell, row.jacobian, row.residual_m, row.weight, after_middle_s[k]);
+    }
+  }
+  return turn_.Solve(curvature_ratio);
 }
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
@@ -221,6 +233,9 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     return;
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(), result), result);
+  if (!input.after_middle_s.empty()) {
+    result.turn_rate_error = TurnRateError(input.after_middle_s, sums.curvature_ratio());
+  }
 }
 
 MatchResult NdtMatcher::Match(const MatchInput& input) {

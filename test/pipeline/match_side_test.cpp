@@ -94,6 +94,27 @@ TEST(MatchSide, JobMayClearTheMap) {
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
 }
 
+// The middle is guessed right, the turn rate wrong: only what is smeared tells of that.
+TEST(MatchSide, SweepShowsTheTurnRateThatTheGuessHasWrong) {
+  MatchSide side(test::DriveRig());
+  FillMap(side);
+  MatchJob job = JobFor(SweepFrom(1.0));
+  const Vector3 true_rate =
+      LogSo3(job.T_any_imu.front().pose.rotation.conjugate() * job.T_any_imu.back().pose.rotation) /
+      SecondsBetween(job.T_any_imu.front().stamp, job.T_any_imu.back().stamp);
+  const Vector3 rate_error(0.05, -0.08, 0.1);
+  for (StampedPose& pose : job.T_any_imu) {
+    const double after_middle_s = SecondsBetween(job.sweep->middle(), pose.stamp);
+    pose.pose.rotation = pose.pose.rotation * ExpSo3(after_middle_s * rate_error);
+  }
+  EXPECT_FALSE(side.Run(job).turn_rate) << "nobody asked";
+  job.refine_deskew = true;
+  const MatchOutcome outcome = side.Run(job);
+  ASSERT_TRUE(outcome.turn_rate);
+  EXPECT_LT((outcome.turn_rate->w_imu_radps - true_rate).norm(), 0.2 * rate_error.norm());
+  EXPECT_LT(outcome.turn_rate->cov.diagonal().cwiseSqrt().maxCoeff(), 0.05);
+}
+
 // A constant-velocity guess that is off by 2 m/s smears the scan by 20 cm; deskewing again along
 // what was found takes the smear out.
 TEST(MatchSide, DeskewIsRefinedWhenTheMotionIsOnlyGuessed) {

@@ -106,6 +106,23 @@ TEST(MotionScout, WithoutAGyroPosesTeachTheTurnRate) {
   EXPECT_LT(off.translation.norm(), 0.03);
 }
 
+TEST(MotionScout, ASweepsEndIsByTheTurnRateThatItShows) {
+  MotionScout scout(StampAt(0.0), {});
+  scout.AdvanceTo(StampAt(0.1));
+  PoseEvent event;
+  event.measurement.cov = 1e-6 * Matrix6::Identity();
+  ASSERT_EQ(scout.history().AddPose(StampAt(0.05), event), EventOutcome::kApplied);
+  const TurnRate shown{Vector3(0, 0, 0.4), 1e-6 * Matrix3::Identity()};
+  const Estimate plain = scout.AtEnd(StampAt(0.05), StampAt(0.1), {});
+  const Estimate turned = scout.AtEnd(StampAt(0.05), StampAt(0.1), shown);
+  EXPECT_EQ(turned.stamp, StampAt(0.1));
+  EXPECT_LT(LogSo3(plain.state.T_map_imu.rotation).norm(), 1e-9);
+  EXPECT_NEAR(LogSo3(turned.state.T_map_imu.rotation).z(), 0.4 * 0.05, 1e-3);
+  EXPECT_LT(StdOf(turned, kMapPose + 5), StdOf(plain, kMapPose + 5));
+  // The filter itself goes on as before.
+  EXPECT_EQ(scout.history().head().state.gyro_bias, Vector3(Vector3::Zero()));
+}
+
 TEST(MotionScout, AGyroTurnsItAndForcesDoNotMoveIt) {
   MotionScout scout(StampAt(0.0), WithGyro({0, 0, 0.2}));
   EXPECT_DOUBLE_EQ(StdOf(scout.history().head(), kGyroBias), 0.02);

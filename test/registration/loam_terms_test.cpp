@@ -61,7 +61,7 @@ class LoamTermsTest : public ::testing::Test {
   LoamOptions options_;
   LoamTerms terms_{options_};
   std::vector<Eigen::Vector3f> points_;
-  ClusterScores scores_;
+  PoseScores scores_;
 };
 
 // By central differences of the cost with weights held.

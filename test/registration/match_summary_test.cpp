@@ -78,45 +78,6 @@ TEST(MatchSums, ARowGoesIntoEverySum) {
   EXPECT_FLOAT_EQ(static_cast<float>(sums.information_sum), 100.f);
 }
 
-// --- scores by part of the map
-
-Vector6f Score(float x) {
-  return x * Vector6f::Unit(0);
-}
-
-TEST(ClusterScores, TermsOfOnePartAddBeforeTheyAreSquared) {
-  ClusterScores scores;
-  scores.Reset(10);
-  scores.Add(3, Score(1.f));
-  scores.Add(7, Score(5.f));
-  scores.Add(3, Score(2.f));
-  EXPECT_EQ(scores.SumOfSquares()(0, 0), 9.0 + 25.0);
-  EXPECT_EQ(scores.SumOfSquares()(1, 1), 0.0);
-}
-
-// Ten parts and six estimated dimensions: 10 / 4. Six or fewer: as many parts as there are.
-TEST(ClusterScores, CovarianceMakesUpForTheEstimatedDimensions) {
-  ClusterScores scores;
-  scores.Reset(10);
-  for (int part = 0; part < 10; ++part) scores.Add(part, Score(1.f));
-  EXPECT_DOUBLE_EQ(scores.Covariance()(0, 0), 10.0 * 10.0 / 4.0);
-  scores.Reset(10);
-  for (int part = 0; part < 5; ++part) scores.Add(part, Score(1.f));
-  EXPECT_DOUBLE_EQ(scores.Covariance()(0, 0), 5.0 * 5.0);
-}
-
-TEST(ClusterScores, ResetForgetsAndMayGrowOrShrink) {
-  ClusterScores scores;
-  scores.Reset(4);
-  scores.Add(3, Score(1.f));
-  scores.Reset(100);
-  EXPECT_EQ(scores.SumOfSquares(), Matrix6(Matrix6::Zero()));
-  scores.Add(99, Score(2.f));
-  scores.Reset(4);
-  scores.Add(3, Score(3.f));
-  EXPECT_EQ(scores.SumOfSquares()(0, 0), 9.0);
-}
-
 // --- the summary
 
 // Three walls, 50 terms each, seen from 5 m: everything is held.

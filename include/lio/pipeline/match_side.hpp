@@ -39,6 +39,7 @@ struct MatchOutcome {
   std::shared_ptr<const Sweep> sweep;
   MatchResult match;
   std::optional<Vector3> v_map_imu_mps;  // sought and found
+  std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refine_deskew
   int num_used = 0;
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle

@@ -36,6 +36,10 @@ class MotionScout {
   // What matching found at the middle of a sweep. Not gated. A usable match moves the estimate; an
   // empty map begins where the estimate stands.
   void Tell(Timestamp middle, const MatchResult& match);
+  // The estimate at the end of a sweep whose middle is the newest match's, by the turn rate that
+  // the sweep itself shows, if it does. The filter does without: what is systematic in that rate
+  // would go into the next sweeps' deskew and, with them, into the map, and grow.
+  Estimate AtEnd(Timestamp middle, Timestamp end, const std::optional<TurnRate>& shown) const;
   // Goes on at another time, unsure of the velocity.
   void SetClock(Timestamp stamp);
   FilterHistory& history() { return history_; }

@@ -66,7 +66,7 @@ class GicpMatcher final : public ScanMatcher {
   void Associate(const Pose& T_map_imu, const SearchRadius& radius);
   void MovePairs(const Pose& T_map_imu);
   Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float reach_var) const;
-  MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, ClusterScores* scores);
+  MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores);
   bool IsKeyframe(const Pose& T_map_imu) const;
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);
@@ -81,7 +81,7 @@ class GicpMatcher final : public ScanMatcher {
   Pose paired_at_;                   // where the pairs' offsets hold
   Pose sought_at_;                   // where their neighbours were sought
   bool is_far_off_ = false;          // the guess may be
-  ClusterScores scores_;
+  PoseScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
 

@@ -44,7 +44,7 @@ class LoamMatcher final : public ScanMatcher {
   PointMap edge_map_;
   PointMap surface_map_;
   std::unique_ptr<LoamTerms> terms_;  // of the current round
-  ClusterScores scores_;              // by block, the edge map's after the surface map's
+  PoseScores scores_;                 // by block, the edge map's after the surface map's
 };
 
 }  // namespace lio

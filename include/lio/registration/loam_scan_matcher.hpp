@@ -49,7 +49,7 @@ class LoamScanMatcher final : public ScanMatcher {
   std::unique_ptr<RingGrid> edges_;
   std::unique_ptr<RingGrid> surfaces_;
   std::unique_ptr<LoamTerms> terms_;  // of the current round
-  ClusterScores scores_;              // by part, the edges' after the surfaces'
+  PoseScores scores_;                 // by part, the edges' after the surfaces'
 };
 
 }  // namespace lio

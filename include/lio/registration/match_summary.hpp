@@ -5,8 +5,7 @@
 // a unit direction of the map and w a robust weight held constant.
 #pragma once
 
-#include <vector>
-
+#include "lio/registration/cluster_scores.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/registration/weak_directions.hpp"
 
@@ -64,6 +63,8 @@ struct MatchSums {
   // One row of the problem, of this weight [1/m^2], the kernel's part included. Gives its gradient.
   Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
   void operator+=(const MatchSums& other);
+  // The robust cost's own curvature over that of the one with weights held: below one.
+  double curvature_ratio() const;
 
   TermSum information;
   TermSum feigned;  // information that the noise of the map's directions alone would show
@@ -73,23 +74,6 @@ struct MatchSums {
   double curvature_sum = 0.0;    // of the robust cost, and ...
   double information_sum = 0.0;  // ... of the one with weights held
   int num_matched = 0;
-};
-
-// Scores (gradients) summed per part of the map: terms of one part share its errors.
-class ClusterScores {
- public:
-  // `num_parts`: upper bound of the parts' numbers.
-  void Reset(std::size_t num_parts);
-  void Add(std::int32_t part, const Vector6f& score);
-  // Sum over parts of score score^T, ...
-  Matrix6 SumOfSquares() const;
-  // ... and corrected for the six estimated dimensions.
-  Matrix6 Covariance() const;
-
- private:
-  std::vector<Vector6f> by_part_;
-  std::vector<std::int32_t> parts_;  // in use
-  std::vector<std::uint8_t> is_used_;
 };
 
 DirectionSplit SplitDirections(const MatchSums& sums);

@@ -22,6 +22,7 @@
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/ndt_options.hpp"
 #include "lio/registration/scan_matcher.hpp"
+#include "lio/registration/turn_sums.hpp"
 
 namespace lio {
 
@@ -45,12 +46,13 @@ class NdtMatcher final : public ScanMatcher {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
     Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
   };
-  // What a point adds to its cell's score: for each row its gradient, and what that changes by when
-  // the cell is off by a metre along the row's direction.
+  // What a point adds to the problem at the solution, row by row.
   struct PointScore {
     struct OfRow {
       Vector6f gradient;
-      Vector6f per_metre;
+      Vector6f jacobian;
+      float residual_m = 0.f;
+      float weight = 0.f;
     };
     int num_rows = 0;  // 0: the point does not count
     std::array<OfRow, 2> rows;
@@ -75,16 +77,18 @@ class NdtMatcher final : public ScanMatcher {
                       const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
   Matrix6 ScoreCovariance();
+  TurnRate TurnRateError(std::span<const float> after_middle_s, double curvature_ratio);
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
   Workers workers_;
   GaussianMap map_;
-  std::vector<Pair> pairs_;                 // of the current iteration, one a point
-  Pose paired_at_;                          // T_grid_imu of the pairs
-  std::vector<PointScore> scores_;          // of the last match, one a point
-  ClusterScores gradients_;                 // by cell
-  std::array<ClusterScores, 2> per_metre_;  // by upright cell, along its two directions
+  std::vector<Pair> pairs_;              // of the current iteration, one a point
+  Pose paired_at_;                       // T_grid_imu of the pairs
+  std::vector<PointScore> scores_;       // of the last match, one a point
+  PoseScores gradients_;                 // by cell
+  std::array<PoseScores, 2> per_metre_;  // by upright cell, a metre along its two directions
+  TurnSums turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // of the last count; older counts are void
 };

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct ScanView {
   Vector3 sensor_imu = Vector3::Zero();   // where the lidar stands
 };
 
+struct TurnRate {
+  Vector3 w_imu_radps = Vector3::Zero();
+  Matrix3 cov = Matrix3::Zero();
+};
+
 struct MatchInput {
   std::span<const Eigen::Vector3f> points_imu;
   Pose T_map_imu_guess;
@@ -35,6 +41,8 @@ struct MatchInput {
   // Standard deviation of the guessed shift since the last scan. Things that look different from
   // each side (trunks, bushes) are left out where it is known better than they can tell.
   double shift_std_m = 1.0;
+  // Of points_imu, when each was seen; only where the turn within the sweep is asked for.
+  std::span<const float> after_middle_s = {};
 };
 
 struct MatchResult {
@@ -48,6 +56,8 @@ struct MatchResult {
   int num_matched = 0;
   int iterations = 0;
   double residual_rms_m = 0.0;
+  // What the turn rate that the scan was deskewed by is off by; where asked for and the method can.
+  std::optional<TurnRate> turn_rate_error;
   double new_content_share = 1.0;  // of the matched cells after this scan is inserted: 0..1
 
   bool IsUsable() const {

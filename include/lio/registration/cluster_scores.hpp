@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Scores (gradients) summed per part of the map, whose terms share its errors: what the clustered
+// sandwich covariance is made of (docs/filter.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace lio {
+
+// Of a problem with so many estimated dimensions.
+template <int kDims>
+class ClusterScores {
+ public:
+  using Score = Eigen::Matrix<float, kDims, 1>;
+  using Square = Eigen::Matrix<double, kDims, kDims>;
+
+  // `num_parts`: upper bound of the parts' numbers.
+  void Reset(std::size_t num_parts) {
+    for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
+    parts_.clear();
+    if (by_part_.size() < num_parts) {
+      by_part_.resize(num_parts);
+      is_used_.assign(num_parts, 0);
+    }
+  }
+
+  void Add(std::int32_t part, const Score& score) {
+    const auto i = static_cast<std::size_t>(part);
+    if (!is_used_[i]) {
+      is_used_[i] = 1;
+      by_part_[i].setZero();
+      parts_.push_back(part);
+    }
+    by_part_[i] += score;
+  }
+
+  // Sum over parts of score score^T, ...
+  Square SumOfSquares() const {
+    Square sum = Square::Zero();
+    for (const std::int32_t part : parts_) {
+      const auto score = by_part_[static_cast<std::size_t>(part)].template cast<double>().eval();
+      sum += score * score.transpose();
+    }
+    return sum;
+  }
+
+  // ... and corrected for the estimated dimensions.
+  Square Covariance() const {
+    const auto num_parts = static_cast<double>(parts_.size());
+    return num_parts / std::max(1.0, num_parts - kDims) * SumOfSquares();
+  }
+
+ private:
+  std::vector<Score> by_part_;
+  std::vector<std::int32_t> parts_;  // in use
+  std::vector<std::uint8_t> is_used_;
+};
+
+using PoseScores = ClusterScores<6>;
+
+}  // namespace lio
