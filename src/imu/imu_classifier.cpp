@@ -38,11 +38,6 @@ ImuClassifier::ImuClassifier(const ImuReading& expected, const Rig& rig)
       gravity_mps2_(rig.gravity_mps2),
       lidar_axis_imu_(rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ()) {}
 
-void ImuClassifier::AddPose(const StampedPose& T_map_imu, std::vector<ImuSample> samples) {
-  for (ImuSample& sample : samples) sample = AsSent(expected_, sample);
-  evidence_.AddPose(T_map_imu, samples);
-}
-
 // Lidars stand upright rather than hang or lie: 0 for upright, 2 for hanging.
 double ImuClassifier::Lean(const ImuReading& reading) const {
   Vector3 force_sum = Vector3::Zero();

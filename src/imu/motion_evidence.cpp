@@ -18,9 +18,30 @@ constexpr double kGyroBiasStd_radps = 0.05;  // of the worst units
 constexpr double kBendBaseline_s = 0.5;      // between the positions of a second difference
 constexpr double kBendStd_mps2 = 0.15;       // 1 cm a position
 constexpr double kGravityStd_mps2 = 0.15;    // of a map's mean, by the sensor's bias
+constexpr double kSpikeRatio = 3.0;          // of a rate to the median of a step's
 
 double Square(double x) {
   return x * x;
+}
+
+// Without what is beyond any gyro in one unit and not its neighbours' kind in another: spikes.
+ImuSample MeanWithoutSpikes(std::span<const ImuSample> sent) {
+  std::vector<double> rates;
+  for (const ImuSample& sample : sent) rates.push_back(sample.w_imu_radps.norm());
+  const auto middle = rates.begin() + std::ssize(rates) / 2;
+  std::nth_element(rates.begin(), middle, rates.end());
+  const double limit = std::max(kMaxGyroRate_radps, kSpikeRatio * *middle);
+  ImuSample mean;
+  double num = 0.0;
+  for (const ImuSample& sample : sent) {
+    if (sample.w_imu_radps.norm() > limit) continue;
+    mean.w_imu_radps += sample.w_imu_radps;
+    mean.f_imu_mps2 += sample.f_imu_mps2;
+    num += 1.0;
+  }
+  mean.w_imu_radps /= num;
+  mean.f_imu_mps2 /= num;
+  return mean;
 }
 
 }  // namespace
@@ -56,11 +77,7 @@ void MotionEvidence::AddPose(const StampedPose& T_map_imu, std::span<const ImuSa
   const Quaternion& R_from = step.from.pose.rotation;
   const Quaternion& R_to = step.to.pose.rotation;
   step.turn_rad = LogSo3(R_from.conjugate() * R_to);
-  ImuSample mean;
-  for (const ImuSample& sample : sent) {
-    mean.w_imu_radps += sample.w_imu_radps / static_cast<double>(sent.size());
-    mean.f_imu_mps2 += sample.f_imu_mps2 / static_cast<double>(sent.size());
-  }
+  const ImuSample mean = MeanWithoutSpikes(sent);
   step.w_sent = mean.w_imu_radps;
   step.f_sent = mean.f_imu_mps2;
   step.R_map_imu = R_from.slerp(0.5, R_to).toRotationMatrix();

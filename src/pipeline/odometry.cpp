@@ -65,8 +65,8 @@ HistoryOptions Odometry::Impl::MakeHistoryOptions() const {
 }
 
 std::optional<Timestamp> Odometry::Impl::NewestImu() const {
-  if (imu_.empty()) return std::nullopt;
-  return imu_.back().stamp;
+  if (sent_.empty()) return std::nullopt;
+  return sent_.back().stamp;
 }
 
 void Odometry::Impl::AddImu(const ImuSample& sample) {
@@ -94,7 +94,7 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
 // that comes meanwhile waits: so it does not matter how fast jobs are finished.
 void Odometry::Impl::EndStretch() {
   const Timestamp first = new_stretch_.front().stamp;
-  const bool goes_back = first < imu_.back().stamp;
+  const bool goes_back = first < sent_.back().stamp;
   while (history_ && !gate_.empty() && (goes_back || gate_.oldest().end < first)) {
     ++counters_.num_scans_without_imu;
     Admit(gate_.Force());
@@ -123,29 +123,33 @@ void Odometry::Impl::Accept(const ImuSample& sent) {
     ++counters_.num_imu_late;
     return;
   }
-  const std::optional<ImuSample> read = Read(sent);
-  if (!read) return;
-  const ImuSample& sample = *read;
-  auto at = imu_.end();
-  while (at != imu_.begin() && std::prev(at)->stamp > sample.stamp) --at;
-  if (at != imu_.begin() && std::prev(at)->stamp == sample.stamp) {
+  if (!Keep(sent)) {
     ++counters_.num_imu_duplicate;
     return;
   }
-  const bool is_newest = at == imu_.end();
-  imu_.insert(at, sample);
-  const Timestamp newest = imu_.back().stamp;
-  while (SecondsBetween(imu_.front().stamp, newest) > kImuBuffer_s) imu_.pop_front();
-  if (history_) {
-    history_->AddImu(sample);
-    if (is_newest) EmitImuRate();
-  }
+  const Timestamp newest = sent_.back().stamp;
+  if (history_ && !imu_.empty() && imu_.back().stamp == newest) EmitImuRate();
   assembler_.CloseUpTo(newest - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
+}
+
+// As it came and, where it can be in the units that are believed, as it is read. False: there is
+// one of its stamp already.
+bool Odometry::Impl::Keep(const ImuSample& sent) {
+  if (!InsertByStamp(sent_, sent)) return false;
+  const Timestamp oldest = sent_.back().stamp - Duration::FromSeconds(kImuBuffer_s);
+  while (sent_.front().stamp < oldest) sent_.pop_front();
+  while (!imu_.empty() && imu_.front().stamp < oldest) imu_.pop_front();
+  const std::optional<ImuSample> sample = Read(sent);
+  if (!sample) return true;
+  InsertByStamp(imu_, *sample);
+  if (history_) history_->AddImu(*sample);
+  return true;
 }
 
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time.
 void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
+  sent_.clear();
   imu_.clear();
   cut_.reset();
   gate_.BeginNewStretch(first.stamp);
@@ -201,7 +205,7 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
   }
   const Timestamp stamp = chunk.stamp;
   assembler_.Add(std::move(chunk), decode_ns);
-  if (!use_imu_ || imu_.empty()) {
+  if (!use_imu_ || sent_.empty()) {
     assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
   }
   OpenGate();
@@ -213,13 +217,13 @@ void Odometry::Impl::Flush() {
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();
-  if (use_imu_ && imu_.empty() && !gate_.empty()) {
+  if (use_imu_ && sent_.empty() && !gate_.empty()) {
     GoLidarOnly("the log ended without inertial samples");
   }
   OpenGate();
   if (!use_imu_ && phase_ == Phase::kScouting && !in_flight_ && IsLastScouted()) RunLidarOnly();
   while (!gate_.empty()) {
-    if (gate_.oldest().start > imu_.back().stamp) ++counters_.num_scans_without_imu;
+    if (gate_.oldest().start > sent_.back().stamp) ++counters_.num_scans_without_imu;
     Admit(gate_.Force());
   }
 }
@@ -231,7 +235,7 @@ void Odometry::Impl::GoLidarOnly(const std::string& why) {
 
 void Odometry::Impl::OpenGate() {
   while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
-  if (use_imu_ && imu_.empty() && gate_.waiting_span_s() > kNoImuAtAll_s) {
+  if (use_imu_ && sent_.empty() && gate_.waiting_span_s() > kNoImuAtAll_s) {
     GoLidarOnly("no inertial samples come");
   }
   if (!use_imu_) {
@@ -244,19 +248,18 @@ void Odometry::Impl::OpenGate() {
 }
 
 void Odometry::Impl::Admit(SweepPtr sweep) {
-  const Timestamp earliest = history_ ? history_->start_stamp() : imu_.front().stamp;
+  const Timestamp earliest = history_ ? history_->start_stamp() : sent_.front().stamp;
   if (sweep->start + kStampSlack < earliest) {
     ++counters_.num_scans_without_imu;
     return;
   }
   // From here on nothing may change what the scan was deskewed and predicted with.
   const Timestamp until = sweep->end + ClockMargin();
-  const auto bracket = FirstNotBefore(imu_, until);
-  if (bracket == imu_.end()) {
-    ImuSample held = imu_.back();
+  const auto bracket = FirstNotBefore(sent_, until);
+  if (bracket == sent_.end()) {
+    ImuSample held = sent_.back();
     held.stamp = until;
-    imu_.push_back(held);
-    if (history_) history_->AddImu(held);
+    Keep(held);
     cut_ = held.stamp;
   } else {
     cut_ = bracket->stamp;

@@ -53,7 +53,8 @@ class Odometry::Impl {
   enum class Phase { kScouting, kRunning };
 
   // --- odometry.cpp: intake
-  void Accept(const ImuSample& sample);
+  void Accept(const ImuSample& sent);
+  bool Keep(const ImuSample& sent);
   void EndStretch();
   void ResumeAfterStretch();
   bool HasWork() const;
@@ -101,6 +102,7 @@ class Odometry::Impl {
   std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
   bool AcceptGravity(bool is_there, const std::string& evidence, Timestamp stamp);
   void Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp);
+  void ReadAnewAs(const ImuReading& found);
   void Refuse(Timestamp stamp, const std::string& why);
 
   // --- odometry_scan.cpp
@@ -142,7 +144,8 @@ class Odometry::Impl {
   Timestamp classified_until_;
   int num_poses_to_judge_ = 0;
   ImuIntake intake_;
-  std::deque<ImuSample> imu_;           // accepted and read, by stamp, of the last seconds
+  std::deque<ImuSample> sent_;          // accepted, as they came, by stamp, of the last seconds
+  std::deque<ImuSample> imu_;           // the same as they are read, but what no gyro can turn
   std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
   std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
   struct HeldMessage {

@@ -54,7 +54,11 @@ std::optional<ImuSample> Odometry::Impl::Read(const ImuSample& sent) {
 void Odometry::Impl::TellClassifier(const StampedPose& T_map_imu) {
   if (is_reading_settled_ || !use_imu_) return;
   const Timestamp since = std::exchange(classified_until_, T_map_imu.stamp);
-  classifier_.AddPose(T_map_imu, SamplesBetween(since, T_map_imu.stamp));
+  std::vector<ImuSample> sent;
+  for (const ImuSample& sample : sent_) {
+    if (sample.stamp >= since && sample.stamp <= T_map_imu.stamp) sent.push_back(sample);
+  }
+  classifier_.AddPose(T_map_imu, sent);
   ++num_poses_to_judge_;
 }
 
@@ -169,7 +173,7 @@ bool Odometry::Impl::AcceptGravity(bool is_there, const std::string& evidence, T
   return false;
 }
 
-// Reads all samples anew, those of the past seconds included, and begins the start anew with them.
+// Reads all samples so, those of the past seconds included, and begins the start anew with them.
 void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp) {
   const Rig& rig = options_.rig;
   const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
@@ -179,7 +183,6 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
                       FixOf(found, rig));
     return;
   }
-  for (ImuSample& sample : imu_) sample = Understand(found, AsSent(reading_, sample));
   if (resumption_) {  // what was published since the start was turned about it
     const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
     const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
@@ -188,11 +191,21 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
     resumption_->last_fix.T_world_imu = turn_world * resumption_->last_fix.T_world_imu;
     resumption_->last_fix.v_world_imu = turn_world.rotation * resumption_->last_fix.v_world_imu;
   }
-  reading_ = found;
+  ReadAnewAs(found);
   classifier_ = ImuClassifier(reading_, rig);
   scouts_with_gyro_ = true;
   Say(stamp, Notice::Severity::kWarning, what);
   BeginScoutingAnew();
+}
+
+// What could not be in the units that were believed until now comes back.
+void Odometry::Impl::ReadAnewAs(const ImuReading& found) {
+  counters_.num_imu_out_of_range -= std::ssize(sent_) - std::ssize(imu_);
+  imu_.clear();
+  reading_ = found;
+  for (const ImuSample& sent : sent_) {
+    if (const std::optional<ImuSample> sample = Read(sent)) imu_.push_back(*sample);
+  }
 }
 
 void Odometry::Impl::Refuse(Timestamp stamp, const std::string& why) {

@@ -66,7 +66,9 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   last_found_.reset();
   ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, sought_v_imu_mps_, glance_};
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
-  if (use_imu_ && scouts_with_gyro_) scouting.first_rate_radps = SampleAt(imu_, start).w_imu_radps;
+  if (use_imu_ && scouts_with_gyro_ && !imu_.empty()) {
+    scouting.first_rate_radps = SampleAt(imu_, start).w_imu_radps;
+  }
   scout_.emplace(start, scouting);
   classifier_.BeginMap(sweep.start);
   scout_up_map_ = MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
@@ -206,8 +208,8 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
   for (const Scouted& scouted : scouted_) {
     if (scouted.is_matched) poses.push_back(scouted.pose);
   }
-  const std::vector<ImuSample> samples = SamplesBetween(imu_.front().stamp, NewestImu().value());
-  const Vector3 mean_f_mps2 = Summarise(samples).mean_f_mps2;
+  const std::vector<ImuSample> samples(imu_.begin(), imu_.end());
+  const Vector3 mean_f_mps2 = Summarise(SamplesBetween(begin, stamp)).mean_f_mps2;
   const std::optional<bool> has_gravity = GravityInMotion(mean_f_mps2);
   const std::string seen = Text("%.2f m/s^2 in the mean", mean_f_mps2.norm());
   MovingStart moving;

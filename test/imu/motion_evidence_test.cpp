@@ -60,6 +60,20 @@ TEST(MotionEvidence, ABiasIsNoContradiction) {
   EXPECT_LT(evidence.RateScore(Matrix3::Identity(), 1.0), 3.0);
 }
 
+TEST(MotionEvidence, ASpikeIsNoRateInAnyUnit) {
+  MotionEvidence evidence;
+  evidence.BeginMap(StampAt(0.0));
+  const std::vector<ImuSample> still(10);
+  std::vector<ImuSample> spiked = still;
+  spiked[7].w_imu_radps.z() = 1000.0;
+  evidence.AddPose({StampAt(0.0), Pose{}}, still);
+  evidence.AddPose({StampAt(kStep_s), Pose{}}, spiked);
+  EXPECT_EQ(evidence.steps().back().w_sent, Vector3(Vector3::Zero()));
+  for (ImuSample& sample : spiked) sample.w_imu_radps.z() = 120.0;  // deg/s
+  evidence.AddPose({StampAt(2 * kStep_s), Pose{}}, spiked);
+  EXPECT_DOUBLE_EQ(evidence.steps().back().w_sent.z(), 120.0);
+}
+
 TEST(MotionEvidence, ShiftingUndoesAClockThatIsOff) {
   const MotionEvidence late = Exact(6.0, 0.15);
   const Matrix3 same = Matrix3::Identity();

@@ -41,5 +41,15 @@ TEST(SampleLookup, OutsideTheNearestHolds) {
   EXPECT_EQ(SampleAt(samples, Timestamp{999}).stamp, Timestamp{999});
 }
 
+TEST(SampleLookup, LateSamplesAreInsertedAndRepeatsAreNot) {
+  std::deque<ImuSample> samples(kSamples.begin(), kSamples.end());
+  EXPECT_TRUE(InsertByStamp(samples, Sample(250, 5.0)));
+  EXPECT_TRUE(InsertByStamp(samples, Sample(50, 4.0)));
+  EXPECT_FALSE(InsertByStamp(samples, Sample(200, 6.0)));
+  std::vector<std::int64_t> stamps_ns;
+  for (const ImuSample& sample : samples) stamps_ns.push_back(sample.stamp.ns);
+  EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{50, 100, 200, 250, 300}));
+}
+
 }  // namespace
 }  // namespace lio

@@ -175,6 +175,28 @@ TEST(OdometryReading, ForcesOfNoKnownUnitDoNotStart) {
   EXPECT_TRUE(run.scans.empty());
 }
 
+// A turn that would be beyond any gyro in rad/s: nothing depends on whether it came before it was
+// known to be in deg/s.
+TEST(OdometryReading, FastTurnsInDegreesAreKeptHoweverSlowMatchingIs) {
+  test::DriveOptions drive;
+  drive.motion = [](double t_s) {
+    const Pose spin{ExpSo3(Vector3(0, 0, 1.1 * (1.0 - std::cos(2.2 * t_s)))), Vector3::Zero()};
+    return test::Driving()(t_s) * spin;  // up to 140 deg/s
+  };
+  drive.to_s = 3.0;
+  const Messages messages = SentAs(SimulateDrive(test::Street(), drive), kInDeg);
+  const RunResult at_once = RunOdometry(messages, test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(at_once, "inertial messages: " + Describe(kInDeg)));
+  EXPECT_EQ(at_once.scans.front().scan.scan_seq, 0);
+  EXPECT_LT(ErrorAgainst(drive.motion, at_once.scans).max_m, 0.1);
+  EXPECT_EQ(at_once.counters.num_imu_out_of_range, 0);
+  for (const int lag : {1, 5, 20}) {
+    const RunResult slow = RunOdometry(messages, test::DriveRig(), lag);
+    EXPECT_EQ(slow.counters.num_imu_out_of_range, 0) << lag;
+    EXPECT_TRUE(test::Bytes(slow.scans) == test::Bytes(at_once.scans)) << lag;
+  }
+}
+
 // Rates beyond any gyro's are dropped in whatever unit they turn out to be.
 TEST(OdometryReading, ImpossibleRatesInDegreesAreDropped) {
   Messages messages = SentAs(test::StaticStartDrive(), kInDeg);

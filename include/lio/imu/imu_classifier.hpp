@@ -42,8 +42,10 @@ class ImuClassifier {
 
   // The poses to come are in another map, and tell anew of the time from `from` on.
   void BeginMap(Timestamp from) { evidence_.BeginMap(from); }
-  // A matched pose, later than the one before, and the samples since that, read as expected.
-  void AddPose(const StampedPose& T_map_imu, std::vector<ImuSample> samples);
+  // A matched pose, later than the one before, and the samples since that, as sent.
+  void AddPose(const StampedPose& T_map_imu, std::span<const ImuSample> sent) {
+    evidence_.AddPose(T_map_imu, sent);
+  }
 
   ImuVerdict Judge() const;
 

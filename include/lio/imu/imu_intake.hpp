@@ -9,12 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "lio/imu/imu_reading.hpp"
 #include "lio/pipeline/outputs.hpp"
-#include "lio/sensor/imu_sample.hpp"
 
 namespace lio {
-
-inline constexpr double kMaxGyroRate_radps = 100.0;  // beyond any gyro
 
 class ImuIntake {
  public:

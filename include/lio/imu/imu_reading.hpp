@@ -12,6 +12,8 @@
 
 namespace lio {
 
+inline constexpr double kMaxGyroRate_radps = 100.0;  // beyond any gyro
+
 struct ImuReading {
   bool is_in_g = false;    // else m/s^2
   bool is_in_deg = false;  // else rad/s

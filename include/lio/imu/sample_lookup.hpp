@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where an instant lies among inertial samples that are in order of time, and what they read there.
+// Inertial samples in order of time: where an instant lies among them, what they read there, and
+// keeping that order.
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <iterator>
 
 #include "lio/filter/process_model.hpp"
@@ -25,6 +27,15 @@ ImuSample SampleAt(const Samples& samples, Timestamp stamp) {
     return InterpolateSample(*std::prev(after), *std::prev(after), stamp);
   if (after == std::begin(samples)) return InterpolateSample(*after, *after, stamp);
   return InterpolateSample(*std::prev(after), *after, stamp);
+}
+
+// Most samples belong at the end. False: there is one of that stamp already.
+inline bool InsertByStamp(std::deque<ImuSample>& samples, const ImuSample& sample) {
+  auto at = samples.end();
+  while (at != samples.begin() && std::prev(at)->stamp > sample.stamp) --at;
+  if (at != samples.begin() && std::prev(at)->stamp == sample.stamp) return false;
+  samples.insert(at, sample);
+  return true;
 }
 
 }  // namespace lio
