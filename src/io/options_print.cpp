@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "lio/io/options_yaml.hpp"
 #include "lio/pipeline/options_fields.hpp"
@@ -52,8 +53,12 @@ std::string Choices(const T& /*field*/) {
 
 class Printer {
  public:
+  // `left_out` is the key of a value that is not printed, in whichever group.
+  explicit Printer(std::string_view left_out = {}) : left_out_(left_out) {}
+
   template <class T>
   void operator()(const char* key, const T& field, const char* meaning, Range range = {}) {
+    if (key == left_out_) return;
     if constexpr (kIsGroup<T>) {
       PrintGroup(key, field, meaning);
     } else {
@@ -87,16 +92,24 @@ class Printer {
     indent_ = outer;
   }
 
+  std::string_view left_out_;
   std::string text_;
   std::string indent_;
 };
 
+std::string Print(const Options& options, Printer printer) {
+  VisitFields(printer, options);
+  return "# Options of liod: value, meaning [unit]; valid range, ends included.\n" + printer.text();
+}
+
 }  // namespace
 
 std::string PrintOptions(const Options& options) {
-  Printer printer;
-  VisitFields(printer, options);
-  return "# Options of liod: value, meaning [unit]; valid range, ends included.\n" + printer.text();
+  return Print(options, Printer());
+}
+
+std::string PrintResultOptions(const Options& options) {
+  return Print(options, Printer("num_threads"));
 }
 
 }  // namespace lio

@@ -151,7 +151,7 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   for (const char* stale : {"stats.json", "map.pcd", "trajectory_base.tum"})
     std::filesystem::remove(folder / stale, error);
   File options_file = Open("options.yaml");
-  options_file.stream << PrintOptions(options);
+  options_file.stream << PrintResultOptions(options);
   Close(options_file);
   trajectory_ = Open("trajectory.tum");
   if (options.rig.T_base_imu) base_ = Open("trajectory_base.tum");

@@ -41,6 +41,14 @@ TEST(OptionsPrint, LinesCarryMeaningUnitAndRange) {
                         "[s]; 0.1 .. 60\n"));
 }
 
+TEST(OptionsPrint, OfAResultIsTheSameForAnyCountOfThreads) {
+  Options one;
+  Options three;
+  three.pipeline.num_threads = 3;
+  EXPECT_EQ(PrintResultOptions(one), PrintResultOptions(three));
+  EXPECT_EQ(Lines(PrintResultOptions(one)).size() + 1, Lines(PrintOptions(one)).size());
+}
+
 TEST(OptionsPrint, NamesSayWhichThereAre) {
   Options options;
   options.rig.imu.gravity = GravityInput::kRemoved;

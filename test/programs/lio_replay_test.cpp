@@ -55,7 +55,7 @@ TEST_F(LioReplayTest, TwiceAndOnMoreThreadsItWritesTheSameBytes) {
   ASSERT_EQ(Replay(kLog, "a", {"--map"}).exit_code, 0);
   ASSERT_EQ(Replay(kLog, "b", {"--map"}).exit_code, 0);
   ASSERT_EQ(Replay(kLog, "c", {"--map", "--threads", "2"}).exit_code, 0);
-  ASSERT_EQ(Replay(kLog, "d", {"--map", "--threads", "3"}).exit_code, 0);
+  ASSERT_EQ(Replay(kLog, "d", {"--map", "--set", "pipeline.num_threads=3"}).exit_code, 0);
   for (const std::string other : {"b", "c", "d"}) {
     for (const std::string name : {"trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
                                    "options.yaml", "map.pcd"}) {

@@ -184,8 +184,8 @@ int Main(int argc, char** argv) {
   input_options.start_s = arguments.start_s;
   input_options.duration_s = arguments.duration_s;
   input_options.clock = ThreadCpuNs;
-  const int num_threads = arguments.num_threads.value_or(options.pipeline.num_threads);
-  input_options.reads_ahead = num_threads > 1;
+  if (arguments.num_threads) options.pipeline.num_threads = *arguments.num_threads;
+  input_options.reads_ahead = options.pipeline.num_threads > 1;
   LogInput input(arguments.log, input_options);
   std::optional<RunWriter> writer;
   try {
@@ -194,7 +194,6 @@ int Main(int argc, char** argv) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;
   }
-  options.pipeline.num_threads = num_threads;  // not in options.yaml: it changes no result
   Replay replay(options, arguments.writes_map, *writer);
   replay.Run(input);
   if (!replay.refusal().empty()) {

@@ -30,4 +30,7 @@ LoadResult LoadOptions(const std::vector<std::filesystem::path>& files,
 // last bit. Optional groups that are absent are shown in comments.
 std::string PrintOptions(const Options& options);
 
+// The like without the count of threads, which changes no result.
+std::string PrintResultOptions(const Options& options);
+
 }  // namespace lio

@@ -7,7 +7,7 @@
 //   trajectory_imu_rate.tum: a row an inertial sample
 //   registration.csv: a row a scan, of points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times
-//   options.yaml: the effective options
+//   options.yaml: the effective options, but for the count of threads
 //   map.pcd: when asked for
 //
 // Everything but times of computing is the same, byte for byte, for the same input.
