@@ -26,11 +26,11 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libyaml-cp
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev clang-format clang-tidy)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
 
-with_tests=OFF
+with_tests=OFF with_spy=no
 while (($#)); do
   case $1 in
     --tests) with_tests=ON && packages+=("${test_packages[@]}") ;;
-    --spy) packages+=("${spy_packages[@]}") ;;
+    --spy) with_spy=yes && packages+=("${spy_packages[@]}") ;;
     -h | --help) usage && exit 0 ;;
     *) echo "tools/setup.sh: unknown argument $1; see tools/setup.sh --help" >&2 && exit 2 ;;
   esac
@@ -79,6 +79,9 @@ jobs=${LIO_JOBS:-$(nproc)}
 if [[ $with_tests == ON || ! -f build/CMakeCache.txt ]]; then
   echo "setup: configuring build/ (preset $preset)"
   cmake --preset "$preset" -DLIO_BUILD_TESTS=$with_tests --log-level=NOTICE >/dev/null
+elif [[ $with_spy == yes && ! -f build/share/liod/lio_types.jar ]]; then
+  echo "setup: configuring build/ again, for Java"
+  cmake build --log-level=NOTICE >/dev/null
 fi
 target=lio_programs
 [[ $with_tests == ON ]] && target=all

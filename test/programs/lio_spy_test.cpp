@@ -29,7 +29,7 @@ TEST(LioSpy, ArgumentsOfLcmSpyStandBehindTwoDashes) {
 TEST(LioSpy, WhatIsMissingIsNamedWithThePackageThatHasIt) {
   const auto result = test::RunProgram({kSpy}, {"LIO_JCHART2D_JAR=/nonexistent.jar", "DISPLAY="});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.err, ::testing::ContainsRegex("apt install|build again"));
+  EXPECT_THAT(result.err, ::testing::ContainsRegex("apt install|setup.sh --spy"));
 }
 
 }  // namespace
