@@ -14,12 +14,27 @@ namespace {
 // Where there is no index, topics are looked for in this much of the bag's beginning.
 constexpr double kTopicSearchSeconds = 30.0;
 
+bool HasScans(const std::vector<BagTopic>& topics) {
+  return std::any_of(topics.begin(), topics.end(), [](const BagTopic& topic) {
+    const bool is_scan =
+        topic.type == "sensor_msgs/PointCloud2" || topic.type.ends_with("/CustomMsg");
+    return is_scan && topic.num_messages > 0;
+  });
+}
+
 std::vector<BagTopic> FindTopics(const RosbagOptions& options) {
   const auto bag = OpenBag(options.input);
+  if (bag->knows_all_topics()) return bag->topics();
   BagMessage message;
-  bool searched = bag->knows_all_topics();
+  bool searched = false;
   while (!searched && bag->Next(message)) {
     searched = SecondsBetween(*bag->begin_time(), message.received) > kTopicSearchSeconds;
+  }
+  const BagDamage& damage = bag->damage();
+  if (damage.lost_bytes > 0 && !HasScans(bag->topics())) {
+    throw InputError(options.input.string() + ": damaged before its first scan, " +
+                     std::to_string(damage.lost_bytes) +
+                     " bytes lost; first: " + damage.first_reason);
   }
   return bag->topics();
 }

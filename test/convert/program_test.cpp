@@ -160,6 +160,15 @@ TEST_F(ConvertProgram, ACutBagIsConvertedUpToTheCutAndIs5) {
   EXPECT_GT(std::filesystem::file_size(dir_.path() / "o.lcm"), 100'000u);
 }
 
+TEST_F(ConvertProgram, ABagThatIsCutBeforeItsFirstScanSaysHowMuchIsLost) {
+  const std::string bytes = test::ReadText(WriteBag({"/points"}, 20));
+  dir_.Write("cut.bag", bytes.substr(0, 5000));
+  const ProgramResult result = Run({"rosbag", Path("cut.bag"), Path("o.lcm")});
+  ExpectOneLine(result, 5);
+  EXPECT_THAT(result.err, HasSubstr("cut.bag: damaged before its first scan, "));
+  EXPECT_THAT(result.err, HasSubstr("bytes lost; first: "));
+}
+
 TEST_F(ConvertProgram, ABagThatWasNeverClosedIsConvertedAndIs5) {
   const std::string bag = WriteBag({"/points"}, 20, {.with_index = false});
   const ProgramResult result = Run({"rosbag", bag, Path("o.lcm")});
