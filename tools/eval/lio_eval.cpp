@@ -23,7 +23,9 @@ Examples:
   lio-eval truth.tum out/trajectory.tum
   lio-eval truth.tum out/trajectory.tum --json out/eval.json --plot out/eval.png --map out/map.pcd
   lio-eval poses/05.txt mine.txt --align none
-  lio-eval consistency --help                     is the covariance honest?)";
+  lio-eval consistency --help                     is the covariance honest?
+
+Exit codes: 0 done, 2 usage, 3 no matplotlib for the pictures, 5 missing or unusable input.)";
 
 struct Arguments {
   std::string truth;

@@ -76,7 +76,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--imu-variant", arguments.imu_variant,
                  "how its driver sends the readings: normal, gravity-removed, in-g, in-deg,\n"
                  "in-g-and-deg, z-down (forward, right, down), turned (right, forward, up)")
-      ->transform(CLI::CheckedTransformer(variants));
+      ->transform(CLI::CheckedTransformer(variants).description(""))
+      ->type_name("NAME");
   app.add_option("--latitude", arguments.latitude_deg, "of the place, for its gravity [deg]")
       ->capture_default_str()
       ->check(NumberWithin(-90.0, 90.0));
