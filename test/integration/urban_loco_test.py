@@ -16,10 +16,13 @@ class UrbanLoco(unittest.TestCase):
                                 support.SOURCE / "config/default.yaml", "--config",
                                 support.RIGS / f"{name}.yaml")
         figures = support.evaluate(support.data_file(f"{name}.gt.tum"), folder)
-        shown = (figures["ape"]["position_m"]["rmse"], figures["tilt_deg"]["max"])
-        print("APE %.4f m, tilt at most %.3f deg" % shown)
-        self.assertLessEqual(shown[0], ape_bound_m)
-        self.assertLessEqual(shown[1], 0.5)
+        ape_m, tilt_deg = figures["ape"]["position_m"]["rmse"], figures["tilt_deg"]["max"]
+        end = figures["end"]
+        print(f"path {figures['path_length_m']:.1f} m, APE {ape_m:.4f} m, "
+              f"end {end['error_m']:.3f} m ({end['error_percent']:.2f} %), "
+              f"tilt at most {tilt_deg:.3f} deg")
+        self.assertLessEqual(ape_m, ape_bound_m)
+        self.assertLessEqual(tilt_deg, 0.5)
         # A static start takes at most 1.5 s; every scan after it has a row.
         num_scans = support.stats(folder)["num_scans"]
         self.assertGreaterEqual(figures["association"]["num_estimate"], num_scans - 16)
