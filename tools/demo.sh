@@ -71,7 +71,8 @@ if ((${#given_configs[@]})); then configs=("${given_configs[@]}"); fi
 
 words=()
 for config in "${configs[@]}"; do words+=(--config "$config"); done
-rm -rf "$out" && mkdir -p "$out"
+mkdir -p "$out"
+rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # of an earlier run; liod replaces the rest
 echo "demo: lcm-logplayer plays $log to liod at speed $speed"
 tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}"
 

@@ -64,6 +64,15 @@ convert_bag() {
   done
 }
 
+# KITTI gives out poses for the first half of its sequences only.
+convert_sequence() {
+  local sequence=$1 poses words=()
+  poses=$(dirname "$(dirname "$sequence")")/poses/$(basename "$sequence").txt
+  if [[ -f $poses ]]; then words=(--poses "$poses" --truth @/truth.tum); fi
+  convert "$sequence" kitti-odometry "$sequence" @/log.lcm "${words[@]}"
+  configs=(config/kitti_odometry.yaml)
+}
+
 find_input() {
   local input=${1%/}
   if [[ -f $input/log.lcm && -f $input/config.yaml ]]; then
@@ -73,8 +82,7 @@ find_input() {
       --imu-rate 100
     configs=(config/kitti_raw.yaml "$(dirname "$log")/rig.yaml")
   elif [[ -d $input/velodyne && -f $input/times.txt ]]; then
-    convert "$input" kitti-odometry "$input" @/log.lcm
-    configs=(config/kitti_odometry.yaml)
+    convert_sequence "$input"
   elif [[ -f $input/metadata.yaml ]]; then
     convert_bag "$input"
   elif [[ $(head -c 12 "$input" 2>/dev/null | tr -d '\0') == "#ROSBAG V2.0" ]]; then
