@@ -44,12 +44,17 @@ until grep -qs listening "$out/liod.log"; do
 done
 
 lcm-logplayer --speed="$speed" "$log" >/dev/null
-# Nothing else comes: liod is done when it idles, on a busy machine some time after the player.
-ticks() { awk '{ print $14 + $15 }' "/proc/$liod/stat"; }
-for _ in {1..240}; do
-  before=$(ticks)
-  sleep 0.5
-  (($(ticks) - before > 2)) || break
+# Nothing else comes: liod is done when for a second none of its threads works or waits for a core,
+# on a busy machine some time after the player. (Little CPU time is no sign: it may be starved.)
+works() {
+  cat /proc/"$liod"/task/*/stat 2>/dev/null |
+    awk '{ sub(/.*\) /, ""); if ($1 == "R" || $1 == "D") found = 1 } END { exit !found }'
+}
+quiet=0
+for _ in {1..1200}; do
+  if works; then quiet=0; else quiet=$((quiet + 1)); fi
+  ((quiet < 10)) || break
+  sleep 0.1
 done
 trap - EXIT
 kill -TERM "$liod"
