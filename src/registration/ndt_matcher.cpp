@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "lio/registration/known_shift.hpp"
 #include "lio/registration/match_loop.hpp"
 #include "registration/ndt_term.hpp"
 
@@ -15,17 +16,22 @@ namespace {
 constexpr int kMinMatched = 50;
 // What is seen of an upright thing depends on the side it is seen from: its cell is off by this.
 constexpr double kSideStd_m = 0.15;
-constexpr double kMaxShiftStd_m = 0.02;  // a better known shift does without upright things
-constexpr double kReachShrink = 0.3;     // of the reach's standard deviation, each iteration
-constexpr double kMinReach_m = 0.01;     // a smaller reach is none
+constexpr double kReachShrink = 0.3;  // of the reach's standard deviation, each iteration
+constexpr double kMinReach_m = 0.01;  // a smaller reach is none
 constexpr double kMaxReach_m = 2.0;
 constexpr int kFarOffIterationFactor = 5;
 constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
+constexpr double kCountsHold_m = 0.05;  // while no point within that range has moved farther
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
 const Pose& GridFromMap() {
   static const Pose kRotation{ExpSo3(Vector3(0.31, -0.23, 0.41)), Vector3(0.37, 0.41, 0.29)};
   return kRotation;
+}
+
+bool HasMoved(const Pose& from, const Pose& to) {
+  const Pose motion = from.Inverse() * to;
+  return motion.translation.norm() + kReachLever_m * LogSo3(motion.rotation).norm() > kCountsHold_m;
 }
 
 // How far off the guess may be, one sigma, at a range of kReachLever_m.
@@ -90,10 +96,11 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
       pairs_[block.begin + i] = PairOf(hits[i], with_upright);
     }
   });
-  CountByCell();
+  if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
 }
 
 void NdtMatcher::CountByCell() {
+  counted_at_ = paired_at_;
   ++count_number_;
   cell_counts_.resize(map_.cell_capacity());
   for (const Pair& pair : pairs_) {
@@ -222,7 +229,8 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> after_middle_s, double
 }
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
-  Associate(input.points_imu, T_grid_imu, input.shift_std_m > kMaxShiftStd_m);
+  counted_at_.reset();
+  Associate(input.points_imu, T_grid_imu, !IsShiftKnown(input));
   scores_.resize(input.points_imu.size());
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
@@ -242,9 +250,10 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   MatchResult result;
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
+  counted_at_.reset();
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const Reach& reach) -> std::optional<Vector6> {
-    Associate(input.points_imu, pose, input.shift_std_m > kMaxShiftStd_m);
+    Associate(input.points_imu, pose, !IsShiftKnown(input));
     const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInHeldDirections(SplitDirections(sums), sums.gradient);

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "lio/base/parallel.hpp"
 #include "lio/map/gaussian_map.hpp"
@@ -65,9 +66,12 @@ class NdtMatcher final : public ScanMatcher {
 
   void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                  bool with_upright);
+  // Serial, and counts only set weights: they are kept while the pose hardly moves.
   void CountByCell();
+  // At least the point that asks: it may have come to the cell since they were counted.
   std::int32_t CountOf(std::int32_t cell) const {
-    return cell_counts_[static_cast<std::size_t>(cell)].num_points;
+    const CellCount& count = cell_counts_[static_cast<std::size_t>(cell)];
+    return count.count_number == count_number_ ? count.num_points : 1;
   }
   Pair PairOf(const GaussianMap::Hit& hit, bool with_upright) const;
   NdtTerm TermOf(const Pair& pair, float reach_var) const;
@@ -85,6 +89,7 @@ class NdtMatcher final : public ScanMatcher {
   GaussianMap map_;
   std::vector<Pair> pairs_;              // of the current iteration, one a point
   Pose paired_at_;                       // T_grid_imu of the pairs
+  std::optional<Pose> counted_at_;       // T_grid_imu of the counts by cell
   std::vector<PointScore> scores_;       // of the last match, one a point
   PoseScores gradients_;                 // by cell
   std::array<PoseScores, 2> per_metre_;  // by upright cell, a metre along its two directions
