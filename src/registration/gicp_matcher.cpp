@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lio/registration/known_shift.hpp"
 #include "lio/registration/match_loop.hpp"
 #include "registration/scan_shapes.hpp"
 
@@ -126,6 +127,7 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
   const ShapedPoint& source = source_[static_cast<std::size_t>(pair.point)];
   const ShapedPoint& target = map_.shape(pair.target);
   Term term;
+  if (!source.HasShape() && !uses_shapeless_) return term;
   float variance = reach_var;
   if (source.HasShape()) {
     const Eigen::Vector3f normal = rotation * source.normal;
@@ -151,6 +153,16 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
 
 MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radius,
                                  PoseScores* scores) {
+  uses_shapeless_ = false;
+  const MatchSums sums = SumTerms(T_map_imu, radius, scores);
+  const bool is_held = sums.num_matched >= kMinMatched && SplitDirections(sums).weak_mask == 0;
+  if (is_held || !has_shapeless_) return sums;
+  uses_shapeless_ = true;
+  return SumTerms(T_map_imu, radius, scores);
+}
+
+MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radius,
+                                PoseScores* scores) const {
   MatchSums sums;
   const Eigen::Matrix3f rotation = T_map_imu.rotation.toRotationMatrix().cast<float>();
   VoxelIndex clusters;
@@ -178,12 +190,12 @@ MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radi
   return sums;
 }
 
-double GicpMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+double GicpMatcher::HeldCost(const MatchInput& /*input*/, const Pose& T_map_imu) const {
   const Eigen::Matrix3f rotation = paired_at_.rotation.toRotationMatrix().cast<float>();
   double cost = 0.0;
   for (const Pair& pair : pairs_) {
     const Term term = TermOf(pair, rotation, 0.f);
-    const Vector3 point = input.points_imu[static_cast<std::size_t>(pair.point)].cast<double>();
+    const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
     const Vector3 moved = T_map_imu * point - paired_at_ * point;
     const double distance = term.distance - term.direction.cast<double>().dot(moved);
     cost += 0.5 * term.weight * distance * distance;
@@ -230,8 +242,12 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   UpdateOpenness(scan);
   if (map_.num_keyframes() == 0) return result;
   shapes_->SetScan(scan);
+  has_shapeless_ = !IsShiftKnown(input);
   source_.clear();
-  for (const Eigen::Vector3f& point : input.points_imu) source_.push_back(shapes_->At(point));
+  for (const Eigen::Vector3f& point : input.points_imu) {
+    const ShapedPoint shaped = shapes_->At(point);
+    if (shaped.HasShape() || has_shapeless_) source_.push_back(shaped);
+  }
   map_.ChooseSubmap(input.T_map_imu_guess.translation);
   near_.clear();
   is_far_off_ = input.is_far_off;

@@ -89,6 +89,25 @@ class RealPair : public testing::TestWithParam<MatchMethod> {
   }
 };
 
+struct Agreement {
+  double distance_m;
+  double angle_deg;
+};
+
+// Wanted of all are 5 mm and 0.05 deg. Measured: NDT 5.9 mm and 0.03 deg, LOAM 7.5 mm and 0.11 deg,
+// GICP 3.6 mm and 0.04 deg.
+Agreement WantedOf(MatchMethod method) {
+  switch (method) {
+    case MatchMethod::kNdt:
+      return {0.01, 0.05};
+    case MatchMethod::kLoam:
+      return {0.01, 0.15};
+    case MatchMethod::kGicp:
+      break;
+  }
+  return {0.005, 0.05};
+}
+
 TEST_P(RealPair, IsFoundFromIdentityBothWays) {
   LIO_REQUIRE_SHARED_DATA(data, "registration_pairs.tar.xz");
   const std::filesystem::path folder = data / "pairs" / "hdl32e_small_gicp";
@@ -104,9 +123,9 @@ TEST_P(RealPair, IsFoundFromIdentityBothWays) {
   const Pose gap = forward.T_target_source * backward.T_target_source;
   RecordProperty("error_mm", std::to_string(1e3 * error.translation.norm()));
   RecordProperty("gap_mm", std::to_string(1e3 * gap.translation.norm()));
-  // Wanted are 5 mm and 0.05 deg. Measured: NDT 5.9 mm, LOAM 7.5 mm and 0.11 deg, GICP 5.3 mm.
-  EXPECT_LT(gap.translation.norm(), 0.01);
-  EXPECT_LT(DegreesOf(gap), 0.15);
+  const Agreement wanted = WantedOf(GetParam());
+  EXPECT_LT(gap.translation.norm(), wanted.distance_m);
+  EXPECT_LT(DegreesOf(gap), wanted.angle_deg);
 }
 
 std::string NameOf(const testing::TestParamInfo<MatchMethod>& info) {

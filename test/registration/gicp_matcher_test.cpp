@@ -95,6 +95,32 @@ TEST(GicpMatcher, BetweenKeyframesThereIsNoNewContent) {
   EXPECT_EQ(result.new_content_share, 0.0);
 }
 
+// Beams that hit a wall in the box, and so few of them that no surface shows.
+int NumMatchedWithStrayPoints(bool has_ends, double shift_std_m) {
+  std::vector<Eigen::Vector3f> box = BoxAround(4.f);
+  if (!has_ends) std::erase_if(box, [](const auto& p) { return std::abs(p.x()) == 4.f; });
+  std::vector<Eigen::Vector3f> map = box;
+  for (int i = 0; i < 400; ++i) {
+    map.emplace_back(1.f, 0.1f * static_cast<float>(i % 20) - 1.f,
+                     0.1f * static_cast<float>(i / 20) - 1.f);  // NOLINT(bugprone-integer-division)
+  }
+  std::vector<Eigen::Vector3f> scan = box;
+  for (const float y : {-0.8f, 0.f, 0.8f}) scan.emplace_back(1.05f, y, 0.f);
+  GicpMatcher matcher{GicpOptions{}};
+  matcher.Insert({map}, At(0));
+  MatchInput input;
+  input.points_imu = scan;
+  input.shift_std_m = shift_std_m;
+  return matcher.Match(input).num_matched;
+}
+
+TEST(GicpMatcher, PointsOfNoSurfaceCountOnlyWhereNothingElseHoldsThePose) {
+  const int num_in_box = NumMatchedWithStrayPoints(true, 0.01);
+  EXPECT_EQ(NumMatchedWithStrayPoints(true, 0.3), num_in_box);
+  const int num_in_corridor = NumMatchedWithStrayPoints(false, 0.01);
+  EXPECT_GE(NumMatchedWithStrayPoints(false, 0.3), num_in_corridor + 3);
+}
+
 TEST(GicpMatcher, ClearForgetsKeyframesAndOpenness) {
   GicpMatcher matcher{GicpOptions{}};
   const auto scan = BoxAround(5.f);

@@ -7,7 +7,9 @@
 // C a surface's thickness along its normal and 1 m^2 across, rho Geman-McClure's. b bisects the two
 // normals: the least eigenvector of C_q + R C_p R'. `reach` is what the guess may be off and
 // shrinks to nothing. Shapes are computed once, when a scan comes, and kept with its points in the
-// keyframes.
+// keyframes. Points of no known surface (single rings, edges, bushes) are held to the surface of
+// their neighbour, which shows a motion that is not there by centimetres: they count only where
+// surfaces leave a direction open and the shift is not known better.
 //
 // Which scans become keyframes depends on how far the vehicle has moved against how open the place
 // is. Insert() decides; what Match() says about new content takes it into account.
@@ -66,7 +68,9 @@ class GicpMatcher final : public ScanMatcher {
   void Associate(const Pose& T_map_imu, const SearchRadius& radius);
   void MovePairs(const Pose& T_map_imu);
   Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float reach_var) const;
+  // Of surfaces, and of all else where these do not hold the pose and the guess does not either.
   MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores);
+  MatchSums SumTerms(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores) const;
   bool IsKeyframe(const Pose& T_map_imu) const;
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);
@@ -81,6 +85,8 @@ class GicpMatcher final : public ScanMatcher {
   Pose paired_at_;                   // where the pairs' offsets hold
   Pose sought_at_;                   // where their neighbours were sought
   bool is_far_off_ = false;          // the guess may be
+  bool has_shapeless_ = false;       // source_ has points of no known shape, ...
+  bool uses_shapeless_ = false;      // ... which count
   PoseScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
