@@ -48,6 +48,14 @@ class LiodTest : public ::testing::Test {
            Out("ended") + "; exit $rc";
   }
 
+  // Plays a log to liod; what that said goes into the file said, its LIO_STATUS into status.lcm.
+  void PlayHearingStatus(const std::string& arguments, const std::string& log) const {
+    const auto result = RunAlone(Start(arguments) + "lcm-logger -q -f -c LIO_STATUS " +
+                                 Out("status.lcm") + " & logger=$!; sleep 0.2; lcm-logplayer " +
+                                 log + "; sleep 1; kill $logger; wait $logger; " + End());
+    EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  }
+
   test::TempDir folder_;
 };
 
@@ -87,6 +95,29 @@ TEST_F(LiodTest, GarbageIsCountedAndSurvived) {
   EXPECT_GT(stats["num_chunks_bad"], 0);
   EXPECT_EQ(stats["num_handler_faults"], 0);
   EXPECT_FALSE(File("live/trajectory.tum").empty());
+}
+
+TEST_F(LiodTest, UnitsThatItRecognisesAreInItsLogAndStatus) {
+  const auto made =
+      test::RunProgram({kBin + "/lio-sim", "--scenario", "street", "--lidar", "vlp16", "--duration",
+                        "3", "--imu-variant", "in-g", "--out", Out("in-g")});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  PlayHearingStatus("", Out("in-g") + "/log.lcm");
+  EXPECT_THAT(File("said"), HasSubstr("inertial messages: accelerometer in g, gyro in rad/s"));
+  EXPECT_THAT(File("status.lcm"), HasSubstr("started at rest"));
+  EXPECT_THAT(File("status.lcm"), HasSubstr("accelerometer in g, gyro in rad/s"));
+}
+
+TEST_F(LiodTest, WhatTheConfigurationSaysWronglyOfTheImuIsRefusedWithTheFix) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"rig.imu.units=g", "set rig.imu.units: auto or si"},
+      {"rig.imu.gravity=removed", "set rig.imu.gravity: auto or present"}};
+  for (const auto& [statement, fix] : cases) {
+    PlayHearingStatus("--out " + Out("live") + " --set " + statement, kScene + "/log.lcm");
+    EXPECT_THAT(File("said"), HasSubstr(fix));
+    EXPECT_THAT(File("status.lcm"), HasSubstr(fix));
+    EXPECT_EQ(File("live/trajectory.tum"), "") << statement;
+  }
 }
 
 TEST_F(LiodTest, SignalsEndItAtOnceWithoutInput) {
