@@ -118,7 +118,7 @@ double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   return least;
 }
 
-ImuVerdict ImuClassifier::Judge() const {
+ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   using Finding = ImuVerdict::Finding;
   ImuVerdict verdict;
   verdict.reading = expected_;
@@ -147,7 +147,7 @@ ImuVerdict ImuClassifier::Judge() const {
   }
   if (all_agree([&](const Scored& s) { return s.reading == expected_; })) {
     verdict.finding = Finding::kAsExpected;
-  } else if (const double limit = best + scale * kGivenUp;
+  } else if (const double limit = best + scale * (in_doubt ? kRefuted : kGivenUp);
              expected > limit && ExpectedScoreOfOtherClocks() > limit) {
     verdict.finding = Finding::kNotExpected;
     const std::optional<ImuReading> found = LeastChange(likely);
@@ -195,6 +195,29 @@ ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2) {
   if (std::abs(in_g - 1.0) < kTolerance) return ForceAtRest::kInG;
   if (in_g < 0.5) return ForceAtRest::kWithoutGravity;
   return ForceAtRest::kUnclear;
+}
+
+double RateNoise(std::span<const ImuSample> samples) {
+  Vector3 sum_sq = Vector3::Zero();
+  for (std::size_t i = 2; i < samples.size(); ++i) {
+    const Vector3 bend =
+        samples[i].w_imu_radps - 2.0 * samples[i - 1].w_imu_radps + samples[i - 2].w_imu_radps;
+    sum_sq += bend.cwiseAbs2() / 6.0;
+  }
+  return samples.size() < 3
+             ? 0.0
+             : std::sqrt(sum_sq.maxCoeff() / static_cast<double>(samples.size() - 2));
+}
+
+bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu) {
+  constexpr double kMinNoise_radps = 0.1;  // more than engines and hands shake at rest
+  constexpr double kMinShare = 0.4;        // of what the rig says, in deg/s
+  const double noise_radps = RateNoise(samples);
+  if (noise_radps < kMinNoise_radps) return false;
+  const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
+  const double rate_hz = static_cast<double>(samples.size() - 1) / span_s;
+  const double noise_if_deg_radps = ImuReading{false, true}.rate_scale() * noise_radps;
+  return noise_if_deg_radps > kMinShare * imu.gyro_noise_density * std::sqrt(rate_hz);
 }
 
 }  // namespace lio

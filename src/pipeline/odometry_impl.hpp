@@ -82,6 +82,7 @@ class Odometry::Impl {
   Vector3 UpInMap() const;  // about
   void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
+  void ForgetOldestScouted();
   void TryStartAtRest(Timestamp begin, Timestamp stamp);
   void TryStartInMotion(Timestamp stamp);
   bool HasMovedSince(std::size_t first, bool is_calm) const;
@@ -97,7 +98,11 @@ class Odometry::Impl {
   void JudgeWhileRunning(Timestamp stamp);
   bool IsGyroMisleading(const ImuVerdict& verdict) const;
   bool IsGyroWild(Timestamp stamp) const;
+  bool IsDoubtful() const;
+  bool IsInDoubt(Timestamp stamp) const;
   void ScoutWithoutGyro();
+  bool MayBeDegrees(std::span<const ImuSample> samples) const;
+  bool AcceptRatesAtRest(std::span<const ImuSample> samples, Timestamp stamp);
   bool AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp);
   std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
   bool AcceptGravity(bool is_there, const std::string& evidence, Timestamp stamp);
@@ -143,6 +148,8 @@ class Odometry::Impl {
   std::optional<bool> has_gravity_in_motion_;
   Timestamp classified_until_;
   int num_poses_to_judge_ = 0;
+  std::uint32_t gated_scans_ = 0;  // a bit a matched scan, the newest lowest
+  bool has_doubted_ = false;       // the start was begun anew with this reading
   ImuIntake intake_;
   std::deque<ImuSample> sent_;          // accepted, as they came, by stamp, of the last seconds
   std::deque<ImuSample> imu_;           // the same as they are read, but what no gyro can turn

@@ -3,6 +3,7 @@
 // What the inertial messages' numbers mean: judged while scouting and, until it is beyond doubt,
 // while the filter runs.
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <iterator>
 #include <utility>
@@ -18,6 +19,9 @@ constexpr int kManyUnmatched = 5;
 constexpr Duration kWildSpan{500'000'000};
 constexpr double kWildRate_radps = 1.0;
 constexpr int kPosesPerVerdict = 5;
+constexpr double kMaxDoubt_s = 10.0;
+constexpr std::uint32_t kLastScans = 0b11111;
+constexpr int kMaxGated = 2;  // of these
 
 bool HasSameRates(const ImuReading& a, const ImuReading& b) {
   return a.is_in_deg == b.is_in_deg && a.R_imu_sent == b.R_imu_sent;
@@ -65,7 +69,7 @@ void Odometry::Impl::TellClassifier(const StampedPose& T_map_imu) {
 // True when what was scouted is of no use any more.
 bool Odometry::Impl::JudgeWhileScouting(Timestamp stamp) {
   if (is_reading_settled_) return false;
-  const ImuVerdict verdict = classifier_.Judge();
+  const ImuVerdict verdict = classifier_.Judge(IsInDoubt(stamp));
   has_gravity_in_motion_ = verdict.has_gravity;
   if (scouts_with_gyro_ && IsGyroMisleading(verdict)) {
     classifier_ = ImuClassifier(reading_, options_.rig);
@@ -88,7 +92,8 @@ bool Odometry::Impl::IsGyroMisleading(const ImuVerdict& verdict) const {
   const bool few_are_matched =
       scouted_.size() >= kMinToJudge && 2 * num_matched < std::ssize(scouted_);
   return verdict.finding == ImuVerdict::Finding::kNotExpected || few_are_matched ||
-         classifier_.IsGyroAbsurd();
+         classifier_.IsGyroAbsurd() ||
+         MayBeDegrees(SamplesBetween(ready_.front()->start, scouted_.back().pose.stamp));
 }
 
 // The same sweeps again, their motion guessed by constant velocity.
@@ -101,14 +106,16 @@ void Odometry::Impl::ScoutWithoutGyro() {
 void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
   if (is_reading_settled_) return;
   const bool is_wild = IsGyroWild(stamp);
-  if (num_poses_to_judge_ < kPosesPerVerdict && !is_wild) return;
+  const bool is_doubtful = IsDoubtful();
+  if (num_poses_to_judge_ < kPosesPerVerdict && !is_wild && !is_doubtful) return;
   num_poses_to_judge_ = 0;
   const ImuVerdict::Finding finding = classifier_.Judge().finding;
   is_reading_settled_ = finding == ImuVerdict::Finding::kAsExpected;
   const bool is_unfit = classifier_.HasMoved() && (finding == ImuVerdict::Finding::kNotExpected ||
                                                    finding == ImuVerdict::Finding::kOtherwise);
   const bool is_useless = is_wild || classifier_.IsGyroAbsurd();
-  if (is_reading_settled_ || !(is_useless || is_unfit)) return;
+  if (is_reading_settled_ || !(is_useless || is_unfit || is_doubtful)) return;
+  has_doubted_ = true;
   Say(stamp, Notice::Severity::kWarning,
       "scan matching and inertial unit disagree: the start begins anew to find out why");
   ++counters_.num_restarts;
@@ -121,6 +128,18 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
   status_ = TrackingStatus::kInit;
   if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);
   ScoutWithoutGyro();
+}
+
+// The filter is sure of itself and refuses what scan matching saw, as it does soon after driving
+// off with a wrong reading. Told once: there may be other reasons.
+bool Odometry::Impl::IsDoubtful() const {
+  return !has_doubted_ && std::popcount(gated_scans_ & kLastScans) >= kMaxGated;
+}
+
+// A start would be wrong again as long as the doubts that ended the last one are not settled.
+bool Odometry::Impl::IsInDoubt(Timestamp stamp) const {
+  return resumption_ && !is_reading_settled_ && has_doubted_ &&
+         SecondsBetween(resumption_->last_fix.stamp, stamp) < kMaxDoubt_s;
 }
 
 // Nothing is matched any more, and the gyro reads more than a vehicle's turns.
@@ -150,6 +169,23 @@ bool Odometry::Impl::AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp sta
   ImuReading found = reading_;
   found.is_in_g = force == ForceAtRest::kInG;
   if (found == reading_) return true;
+  Adopt(found, seen, stamp);
+  return false;
+}
+
+bool Odometry::Impl::MayBeDegrees(std::span<const ImuSample> samples) const {
+  return options_.rig.imu.units == ImuUnits::kAutomatic && !reading_.is_in_deg &&
+         IsNoiseOfDegrees(samples, options_.rig.imu);
+}
+
+// The rates over a rest: false when the start begins anew. Should they be in rad/s all the same,
+// the drive tells.
+bool Odometry::Impl::AcceptRatesAtRest(std::span<const ImuSample> samples, Timestamp stamp) {
+  if (!MayBeDegrees(samples)) return true;
+  ImuReading found = reading_;
+  found.is_in_deg = true;
+  char seen[80];
+  std::snprintf(seen, sizeof seen, "at rest the gyro's noise is %.2f", RateNoise(samples));
   Adopt(found, seen, stamp);
   return false;
 }
@@ -194,6 +230,7 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
   ReadAnewAs(found);
   classifier_ = ImuClassifier(reading_, rig);
   scouts_with_gyro_ = true;
+  has_doubted_ = false;
   Say(stamp, Notice::Severity::kWarning, what);
   BeginScoutingAnew();
 }

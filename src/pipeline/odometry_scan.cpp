@@ -124,6 +124,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
   UpdateResult update;
   const EventOutcome fused = history().AddPose(outcome.sweep->middle(), event, &update);
   report.nis = update.nis;
+  gated_scans_ = gated_scans_ << 1 | (fused == EventOutcome::kGated ? 1U : 0U);
   if (fused == EventOutcome::kApplied) {
     num_gated_in_a_row_ = 0;
     return true;

@@ -163,6 +163,11 @@ void Odometry::Impl::SayWaiting(Timestamp stamp, const std::string& text) {
 }
 
 void Odometry::Impl::TryStart(Timestamp stamp) {
+  if (IsInDoubt(stamp)) {
+    SayWaiting(stamp, "in doubt of the inertial unit's units and axes: waiting for turns");
+    if (SecondsBetween(ready_.front()->start, stamp) > kMaxWindow_s) ForgetOldestScouted();
+    return;
+  }
   const bool is_calm = IsVeryCalm(stamp);
   std::size_t first_at_rest = scouted_.size() - 1;
   while (first_at_rest > 0 && !HasMovedSince(first_at_rest - 1, is_calm)) --first_at_rest;
@@ -183,6 +188,7 @@ void Odometry::Impl::TryStartAtRest(Timestamp begin, Timestamp stamp) {
                        statistics.accel_std_mps2 < options_.start.max_accel_std_mps2;
   if (is_calm || SecondsBetween(begin, stamp) >= kMaxRestWait_s) {
     if (!AcceptForceAtRest(statistics.mean_f_mps2, stamp)) return;
+    if (!AcceptRatesAtRest(samples, stamp)) return;
     const std::size_t last = scouted_.size() - 1;
     StartFrom(StartAtRest(samples, ready_[last]->start, options_.rig), last);
     return;
@@ -193,6 +199,11 @@ void Odometry::Impl::TryStartAtRest(Timestamp begin, Timestamp stamp) {
                   statistics.accel_std_mps2, options_.start.max_accel_std_mps2));
 }
 
+void Odometry::Impl::ForgetOldestScouted() {
+  ready_.pop_front();
+  scouted_.erase(scouted_.begin());
+}
+
 void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
   const Timestamp begin = ready_.front()->start;
   if (SecondsBetween(begin, stamp) < options_.start.moving_window_s) return;
@@ -200,8 +211,7 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
   if (waited_s < options_.start.wait_for_rest_s) {
     SayWaiting(stamp, Text("in motion: waiting for rest, %.0f s more",
                            options_.start.wait_for_rest_s - waited_s));
-    ready_.pop_front();
-    scouted_.erase(scouted_.begin());
+    ForgetOldestScouted();
     return;
   }
   std::vector<ScoutedPose> poses;
@@ -255,6 +265,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   }
   phase_ = Phase::kRunning;
   is_first_scan_ = true;
+  gated_scans_ = 0;
   keyframes_.Reset();
   last_fused_ = start.estimate.stamp;
   status_ = TrackingStatus::kOk;

@@ -178,6 +178,35 @@ TEST(ImuClassifier, DegreesAreAbsurdInMotionOnly) {
   }
 }
 
+// A lively turn, and white noise of a standard deviation.
+std::vector<ImuSample> NoisyTurn(double noise) {
+  std::mt19937_64 random(5);
+  std::vector<ImuSample> samples(200);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t_s = kImuStep_s * static_cast<double>(i);
+    samples[i].stamp = StampAt(t_s);
+    samples[i].w_imu_radps =
+        Vector3(0, std::sin(12.0 * t_s), 1.0) + noise * test::RandomVector<3>(random);
+  }
+  return samples;
+}
+
+TEST(RateNoise, IsToldWhateverTheMotion) {
+  EXPECT_LT(RateNoise(NoisyTurn(0.0)), 0.006);
+  EXPECT_NEAR(RateNoise(NoisyTurn(0.3)), 0.3, 0.05);
+  EXPECT_EQ(RateNoise({}), 0.0);
+}
+
+TEST(RateNoise, IsThatOfDegreesWhereTheRigSaysSo) {
+  ImuRig imu;
+  imu.gyro_noise_density = 5.2e-4;  // 0.0052 rad/s at 100 Hz, 0.3 deg/s
+  EXPECT_TRUE(IsNoiseOfDegrees(NoisyTurn(0.3), imu));
+  EXPECT_FALSE(IsNoiseOfDegrees(NoisyTurn(0.08), imu));  // shaken
+  EXPECT_FALSE(IsNoiseOfDegrees(NoisyTurn(0.0052), imu));
+  imu.gyro_noise_density = 2e-2;  // a poor gyro's 0.2 rad/s
+  EXPECT_FALSE(IsNoiseOfDegrees(NoisyTurn(0.3), imu));
+}
+
 TEST(ForceAtRest, TellsUnitsAndGravityByItsLength) {
   EXPECT_EQ(JudgeForceAtRest(Vector3(0, 1.0, 9.7), 9.8), ForceAtRest::kMetric);
   EXPECT_EQ(JudgeForceAtRest(Vector3(0, -0.7, -0.72), 9.8), ForceAtRest::kInG);

@@ -47,7 +47,8 @@ class ImuClassifier {
     evidence_.AddPose(T_map_imu, sent);
   }
 
-  ImuVerdict Judge() const;
+  // `in_doubt`: something else speaks against the expected reading too, so it is given up sooner.
+  ImuVerdict Judge(bool in_doubt = false) const;
 
   // While the body moved, lately, the rates as expected have been many times what scan matching
   // saw: whatever is wrong, they are of no help to it.
@@ -79,5 +80,10 @@ class ImuClassifier {
 // What a mean specific force, as sent, can only be when the vehicle stands still.
 enum class ForceAtRest { kMetric, kInG, kWithoutGravity, kUnclear };
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2);
+
+// The noise of rates [rad/s], whatever the motion: by their second differences, the worst axis'.
+double RateNoise(std::span<const ImuSample> samples);
+// Samples in rad/s whose noise only fits what the rig says of the gyro when they are in deg/s.
+bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu);
 
 }  // namespace lio
