@@ -26,10 +26,10 @@ inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
 inline constexpr std::size_t kMaxSampled = 32000;
 
 // A number in 0..65535 that depends on nothing but when and by which beam the point was measured;
-// where a cloud tells neither, on its place.
+// where a cloud does not tell when, on its place, too: else whole rings would be drawn.
 inline std::uint32_t Sample(const LidarPoint& point) {
   std::uint32_t name = point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u);
-  if (point.t_offset_ns == 0 && point.ring == 0) {
+  if (point.t_offset_ns == 0) {
     const std::uint32_t place = std::bit_cast<std::uint32_t>(point.x_m) * 0x27D4EB2Fu;
     name ^= place ^ (place >> 15);
   }

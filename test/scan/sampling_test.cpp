@@ -50,6 +50,10 @@ TEST(Sampling, TheShareIsKeptWithTimesAndWithoutAnything) {
   ExpectShareKept(kNum, [](std::size_t i) {  // times and rings
     return Point(static_cast<std::uint32_t>(i / 64) * 48'000, static_cast<std::uint16_t>(i % 64));
   });
+  for (std::uint16_t ring = 0; ring < 4; ++ring) {  // rings alone: of each as much
+    ExpectShareKept(kNum,
+                    [&](std::size_t i) { return Point(0, ring, 0.001f * static_cast<float>(i)); });
+  }
   ExpectShareKept(kNum, [](std::size_t i) {  // neither
     return Point(0, 0, 0.001f * static_cast<float>(i));
   });
@@ -57,9 +61,10 @@ TEST(Sampling, TheShareIsKeptWithTimesAndWithoutAnything) {
 
 // What is drawn does not hang on the place where a cloud has times, so that a moved cloud is
 // sampled alike.
-TEST(Sampling, PlaceCountsOnlyWhereNothingElseIsTold) {
+TEST(Sampling, PlaceCountsOnlyWhereNoTimeIsTold) {
   EXPECT_EQ(Sample(Point(5000, 3, 1)), Sample(Point(5000, 3, 2)));
   EXPECT_NE(Sample(Point(0, 0, 1)), Sample(Point(0, 0, 2)));
+  EXPECT_NE(Sample(Point(0, 3, 1)), Sample(Point(0, 3, 2)));
 }
 
 }  // namespace
