@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/imu_intake.hpp"
 
-#include <cstdlib>
 #include <utility>
 
 namespace lio {
@@ -13,10 +12,6 @@ constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is a jump
 constexpr Duration kSameStretch{200'000'000};
 constexpr Duration kGap{200'000'000};
 constexpr std::size_t kConfirmations = 5;
-
-Duration Abs(Duration d) {
-  return {std::abs(d.ns)};
-}
 
 }  // namespace
 

@@ -14,6 +14,9 @@ namespace lio {
 namespace {
 
 constexpr double kMaxGap_s = 3.0;
+constexpr double kHole_s = 0.15;           // between inertial samples
+constexpr double kMeanBeforeHole_s = 0.5;  // a step of a walker
+constexpr Duration kBridgeEdge{1'000'000};
 constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
 constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
 constexpr Duration kStampSlack{20'000'000};
@@ -95,6 +98,8 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
 void Odometry::Impl::EndStretch() {
   const Timestamp first = new_stretch_.front().stamp;
   const bool goes_back = first < sent_.back().stamp;
+  assembler_.CloseStretch(sent_.back().stamp, first);
+  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
   while (history_ && !gate_.empty() && (goes_back || gate_.oldest().end < first)) {
     ++counters_.num_scans_without_imu;
     Admit(gate_.Force());
@@ -123,6 +128,7 @@ void Odometry::Impl::Accept(const ImuSample& sent) {
     ++counters_.num_imu_late;
     return;
   }
+  if (sent_.empty() || sent.stamp > sent_.back().stamp) BridgeTo(sent.stamp);
   if (!Keep(sent)) {
     ++counters_.num_imu_duplicate;
     return;
@@ -146,11 +152,35 @@ bool Odometry::Impl::Keep(const ImuSample& sent) {
   return true;
 }
 
+// Across a hole in the stream neither its last sample holds nor a line to the next one: a walker's
+// steps would be taken for a turn and a push. What holds is the mean of the time before it.
+void Odometry::Impl::BridgeTo(Timestamp stamp) {
+  if (!sent_.empty() && SecondsBetween(sent_.back().stamp, stamp) > kHole_s) {
+    for (const Timestamp at : {sent_.back().stamp + kBridgeEdge, stamp - kBridgeEdge}) AddHeld(at);
+  }
+  mean_before_hole_.reset();
+}
+
+// What the unit would send at `stamp`, of which nothing came.
+void Odometry::Impl::AddHeld(Timestamp stamp) {
+  if (!mean_before_hole_) {
+    const Timestamp from = sent_.back().stamp - Duration::FromSeconds(kMeanBeforeHole_s);
+    const ImuStatistics before =
+        Summarise(std::vector<ImuSample>(FirstNotBefore(sent_, from), sent_.cend()));
+    mean_before_hole_ = sent_.back();
+    mean_before_hole_->w_imu_radps = before.mean_w_radps;
+    mean_before_hole_->f_imu_mps2 = before.mean_f_mps2;
+  }
+  mean_before_hole_->stamp = stamp;
+  Keep(*mean_before_hole_);
+}
+
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time.
 void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   sent_.clear();
   imu_.clear();
+  mean_before_hole_.reset();
   cut_.reset();
   gate_.BeginNewStretch(first.stamp);
   ready_.clear();
@@ -257,10 +287,8 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
   const Timestamp until = sweep->end + ClockMargin();
   const auto bracket = FirstNotBefore(sent_, until);
   if (bracket == sent_.end()) {
-    ImuSample held = sent_.back();
-    held.stamp = until;
-    Keep(held);
-    cut_ = held.stamp;
+    AddHeld(until);
+    cut_ = until;
   } else {
     cut_ = bracket->stamp;
   }

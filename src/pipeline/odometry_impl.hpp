@@ -55,6 +55,8 @@ class Odometry::Impl {
   // --- odometry.cpp: intake
   void Accept(const ImuSample& sent);
   bool Keep(const ImuSample& sent);
+  void BridgeTo(Timestamp stamp);
+  void AddHeld(Timestamp stamp);
   void EndStretch();
   void ResumeAfterStretch();
   bool HasWork() const;
@@ -88,6 +90,9 @@ class Odometry::Impl {
   bool HasMovedSince(std::size_t first, bool is_calm) const;
   bool IsVeryCalm(Timestamp stamp) const;
   void SayWaiting(Timestamp stamp, const std::string& text);
+  void StartAnew(Timestamp stamp, const std::string& why);
+  void StartAnewWhenLost(Timestamp stamp);
+  void TurnByGyro(const Estimate& now, PassedPoint& earlier) const;
   void StartFrom(StartState start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
@@ -151,8 +156,9 @@ class Odometry::Impl {
   std::uint32_t gated_scans_ = 0;  // a bit a matched scan, the newest lowest
   bool has_doubted_ = false;       // the start was begun anew with this reading
   ImuIntake intake_;
-  std::deque<ImuSample> sent_;          // accepted, as they came, by stamp, of the last seconds
-  std::deque<ImuSample> imu_;           // the same as they are read, but what no gyro can turn
+  std::deque<ImuSample> sent_;  // accepted, as they came, by stamp, of the last seconds
+  std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
+  std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one
   std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
   std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
   struct HeldMessage {
@@ -184,7 +190,7 @@ class Odometry::Impl {
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
   Pose T_world_start_;
-  PassedPoint last_fix_;  // as published, while the reading is unsettled
+  PassedPoint last_fix_;  // as published
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU
@@ -201,7 +207,7 @@ class Odometry::Impl {
   bool is_first_scan_ = true;   // of the running phase
   std::int64_t last_seq_ = -1;  // the last scan that was fused
   int num_gated_in_a_row_ = 0;
-  int num_unmatched_in_a_row_ = 0;
+  int num_unmatched_in_a_row_ = 0;       // of scans that see enough
   std::optional<Timestamp> last_fused_;  // end of the last sweep that was fused
   std::optional<Timestamp> last_found_;  // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published_;

@@ -116,16 +116,9 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
   const bool is_useless = is_wild || classifier_.IsGyroAbsurd();
   if (is_reading_settled_ || !(is_useless || is_unfit || is_doubtful)) return;
   has_doubted_ = true;
-  Say(stamp, Notice::Severity::kWarning,
-      "scan matching and inertial unit disagree: the start begins anew to find out why");
-  ++counters_.num_restarts;
-  resumption_ = {T_world_start_, last_fix_};
-  history_.reset();
-  standstill_.Forget();
-  last_standstill_.reset();
+  StartAnew(stamp,
+            "scan matching and inertial unit disagree: the start begins anew to find out why");
   if (clock_offset_) clock_offset_.emplace(options_.rig.imu);  // it was found with wrong rates
-  phase_ = Phase::kScouting;
-  status_ = TrackingStatus::kInit;
   if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);
   ScoutWithoutGyro();
 }

@@ -9,8 +9,9 @@
 namespace lio {
 namespace {
 
-constexpr double kLost_s = 2.0;          // no accepted match for this long
-constexpr int kMaxUnmatchedInARow = 10;  // then the map goes on from where the IMU says
+constexpr double kLost_s = 2.0;            // no accepted match for this long
+constexpr int kMaxUnmatchedInARow = 10;    // then the map goes on from where the IMU says
+constexpr double kUnsureTurn_rad = 0.005;  // the sweep may be bent by this: inertial samples lack
 constexpr double kSeekStd_m = 0.7;  // a shift since the last scan less sure than this is sought
 // At rest the same beams meet the same cells, and errors last: over five seconds they come to one
 // to four times the variance that independent ones would have (docs/consistency.md).
@@ -52,7 +53,8 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.T_map_imu_guess = predicted.state.T_map_imu;
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
-  job.refine_deskew = scout_.has_value();
+  const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
   job.up_map = UpInMap();
   if (last_found_) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
@@ -87,6 +89,7 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
       history_->KeepFrom(ready_.empty() ? std::nullopt
                                         : std::optional(ready_.front()->start - ClockMargin()));
       JudgeWhileRunning(outcome.sweep->end);
+      StartAnewWhenLost(outcome.sweep->end);
     }
   }
   insert.points_imu = std::move(outcome.points_imu);
@@ -161,12 +164,17 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   }
   FuseStandstill(outcome, report.fused);
   if (clock_offset_) FollowClockOffset(outcome);
-  num_unmatched_in_a_row_ = report.fused || starts_map ? 0 : num_unmatched_in_a_row_ + 1;
+  const bool sees_enough = outcome.num_used >= kMinPointsToGrow;
+  const bool is_sound = report.fused && num_unmatched_in_a_row_ == 0;
+  if (report.fused || starts_map) {
+    num_unmatched_in_a_row_ = 0;
+  } else if (sees_enough) {
+    ++num_unmatched_in_a_row_;
+  }
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
   // Where the map has nothing to match against, it is grown from where the filter stands.
-  const bool leaves_map =
-      outcome.num_used >= kMinPointsToGrow && (outcome.match.status == MatchStatus::kTooFewPoints ||
-                                               num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
+  const bool leaves_map = sees_enough && (outcome.match.status == MatchStatus::kTooFewPoints ||
+                                          num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
   if (starts_map || leaves_map) history().AddRebase(middle);
   const Estimate estimate = history().At(middle);
   const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);
@@ -190,7 +198,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
         report.stage_ns[static_cast<std::size_t>(i)];
   }
   world_.Update(estimate);
-  if (report.fused && !is_reading_settled_) {
+  if (is_sound) {
     const SteadyWorld::Published published = world_.Publish(estimate);
     last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "lio/imu/preintegration.hpp"
 #include "pipeline/odometry_impl.hpp"
 
 namespace lio {
@@ -28,6 +29,7 @@ constexpr std::size_t kMaxGlance = 8;
 constexpr std::size_t kMaxSought = 5;
 constexpr double kGlanceVelocityStd_mps = 1.0;
 // A scan whose place in the map is less sure would blur the map.
+constexpr int kUnmatchedWhenLost = 25;
 constexpr double kMaxInsertStd_m = 0.3;
 
 // Of three errors that belong together.
@@ -242,8 +244,40 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
   BeginScoutingAnew();
 }
 
+// What the body has turned since, as far as its samples are still here.
+void Odometry::Impl::TurnByGyro(const Estimate& now, PassedPoint& earlier) const {
+  const std::vector<ImuSample> samples = SamplesBetween(earlier.stamp, now.stamp);
+  if (samples.empty()) return;
+  const Biases biases{now.state.gyro_bias, now.state.accel_bias};
+  const Preintegration turn =
+      Preintegrate(samples, samples.front().stamp, samples.back().stamp, biases, {});
+  earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
+}
+
+// In the world that was published, from the last pose that was found.
+void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
+  Say(stamp, Notice::Severity::kWarning, why);
+  ++counters_.num_restarts;
+  resumption_ = {T_world_start_, last_fix_};
+  history_.reset();
+  standstill_.Forget();
+  last_standstill_.reset();
+  num_unmatched_in_a_row_ = 0;
+  phase_ = Phase::kScouting;
+  status_ = TrackingStatus::kInit;
+  BeginScoutingAnew();
+}
+
+// Scans that see enough and are found nowhere, for seconds: the state is wrong by more than
+// matching can mend.
+void Odometry::Impl::StartAnewWhenLost(Timestamp stamp) {
+  if (!history_ || num_unmatched_in_a_row_ < kUnmatchedWhenLost) return;
+  StartAnew(stamp, "lost among things to see: the start begins anew");
+}
+
 void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   if (resumption_) {
+    TurnByGyro(start.estimate, resumption_->last_fix);
     PlaceInWorld(resumption_->last_fix, start.estimate);
     resumption_.reset();
   }

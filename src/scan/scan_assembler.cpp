@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kMaxOffsetNs = 500'000'000;  // no lidar turns slower than twice a second
 constexpr Duration kMaxSweepSpan{500'000'000};
+constexpr Duration kApart{1'000'000'000};  // sweeps that follow each other are nearer
 constexpr std::size_t kMaxOpenSweeps = 2;
 constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
 
@@ -40,7 +41,7 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   const bool is_late = std::any_of(closed_names_.begin(), closed_names_.end(),
                                    [&](const SweepName& name) { return name.Names(chunk); });
   if (is_late) return nullptr;
-  if (open_.size() == kMaxOpenSweeps) CloseOldest();
+  if (open_.size() == kMaxOpenSweeps) CloseOneFor(chunk.stamp);
   Partial partial;
   partial.name = {chunk.scan_seq, chunk.sensor_id, chunk.stamp, chunk.stamp};
   partial.chunks.resize(static_cast<std::size_t>(chunk.chunk_count));
@@ -74,22 +75,36 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++partial->num_received;
   while (!open_.empty() &&
          open_.front().num_received == static_cast<int>(open_.front().chunks.size())) {
-    CloseOldest();
+    Close(0);
   }
 }
 
 void ScanAssembler::CloseUpTo(Timestamp stamp) {
   const auto end = [&](const SweepName& name) { return std::max(name.last, name.first + span_); };
-  while (!open_.empty() && end(open_.front().name) < stamp) CloseOldest();
+  while (!open_.empty() && end(open_.front().name) < stamp) Close(0);
 }
 
 void ScanAssembler::CloseAll() {
-  while (!open_.empty()) CloseOldest();
+  while (!open_.empty()) Close(0);
 }
 
-void ScanAssembler::CloseOldest() {
-  Partial partial = std::move(open_.front());
-  open_.pop_front();
+void ScanAssembler::CloseStretch(Timestamp end, Timestamp next_begin) {
+  for (std::size_t i = open_.size(); i-- > 0;) {
+    const Timestamp at = open_[i].name.first;
+    if (Abs(at - end) < Abs(at - next_begin)) Close(i);
+  }
+}
+
+// The oldest, unless stamps have jumped: what was left of before the jump will never be whole.
+void ScanAssembler::CloseOneFor(Timestamp stamp) {
+  const bool newest_is_apart = Abs(stamp - open_.back().name.first) > kApart;
+  const bool oldest_is_apart = Abs(stamp - open_.front().name.first) > kApart;
+  Close(newest_is_apart && !oldest_is_apart ? open_.size() - 1 : 0);
+}
+
+void ScanAssembler::Close(std::size_t at) {
+  Partial partial = std::move(open_[at]);
+  open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(at));
   Sweep sweep;
   sweep.start = partial.name.first;
   sweep.end = partial.name.last;

@@ -3,6 +3,7 @@
 // The estimator as a whole on drives with every kind of fault.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -246,6 +247,23 @@ TEST(Odometry, ClocksSteppedForthAndBackGoOn) {
   EXPECT_EQ(run.counters.num_restarts, 2);
   EXPECT_TRUE(run.scans.back().scan.fused);
   EXPECT_NEAR(SecondsOf(run.scans.back().scan.stamp), kEnd_s, 0.01);
+}
+
+// In the middle of sweeps, whose halves must not wait for a time that does not come.
+TEST(Odometry, ClocksSteppedBackForASecondGoOn) {
+  Messages messages = WithClockStep(StaticStartDrive(), 3.54, -2.0);
+  messages = WithClockStep(messages, 4.54, 2.0);
+  for (const bool use_imu : {true, false}) {
+    const RunResult run = RunOdometry(messages, use_imu ? test::DriveRig() : LidarOnly());
+    std::vector<ScanOutput> after;
+    for (const ScanOutput& output : run.scans) {
+      if (SecondsOf(output.scan.stamp) > 4.7) after.push_back(output);
+    }
+    ASSERT_GT(after.size(), 5u);
+    EXPECT_TRUE(std::all_of(after.begin(), after.end(), [](const auto& s) { return s.scan.fused; }))
+        << use_imu;
+    EXPECT_LT(ErrorAgainst(RestThenDrive(), after, 4.7).max_m, 0.15) << use_imu;
+  }
 }
 
 TEST(Odometry, OneWildStampOfEitherSensorIsSurvived) {

@@ -178,6 +178,7 @@ TEST(OdometryScan, RejectedMatchesLeaveThePredictionAndAreCounted) {
   EXPECT_LT(test::ErrorAgainst(test::RestThenDrive(), run.scans).end_m, 0.3);
 }
 
+// Half a second later the start begins anew.
 TEST(OdometryScan, AfterTwoSecondsWithoutAMatchItIsLostAndSaysSoOnce) {
   const AlteredRun run(3.5, Reject);
   for (const ScanOutput& row : run.Altered()) {
@@ -188,12 +189,15 @@ TEST(OdometryScan, AfterTwoSecondsWithoutAMatchItIsLostAndSaysSoOnce) {
       EXPECT_EQ(row.filter->nav.status, TrackingStatus::kLost);
     }
   }
-  EXPECT_EQ(run.status(), TrackingStatus::kLost);
-  EXPECT_EQ(std::count_if(run.notices.begin(), run.notices.end(),
-                          [](const Notice& notice) {
-                            return notice.text == "lost: no scan was matched for two seconds";
-                          }),
-            1);
+  EXPECT_EQ(run.status(), TrackingStatus::kInit);
+  EXPECT_EQ(run.counters().num_restarts, 1);
+  for (const char* text : {"lost: no scan was matched for two seconds",
+                           "lost among things to see: the start begins anew"}) {
+    EXPECT_EQ(std::count_if(run.notices.begin(), run.notices.end(),
+                            [&](const Notice& notice) { return notice.text == text; }),
+              1)
+        << text;
+  }
 }
 
 TEST(OdometryScan, WeakDirectionsAreToldAsDegenerate) {

@@ -237,6 +237,36 @@ TEST(ScanAssembler, SameNumberMuchLaterIsAnotherSweep) {
   EXPECT_EQ(sweeps[1].points.size(), 12u);
 }
 
+// Sweep 7 of which all but the first chunk are stamped 3 s too early, and what follows.
+ScanChunk SetBack(ScanChunk chunk) {
+  chunk.stamp = chunk.stamp - Duration{3'000'000'000};
+  return chunk;
+}
+
+TEST(ScanAssembler, SweepCutByAJumpBackDoesNotStayOpen) {
+  Assembly a;
+  a.Add(MakeChunk(7, 0));
+  for (int i = 1; i < kChunks; ++i) a.Add(SetBack(MakeChunk(7, i)));
+  EXPECT_TRUE(a.TakeAll().empty());
+  a.Add(SetBack(MakeChunk(8, 0)));
+  const std::vector<Sweep> sweeps = a.TakeAll();
+  ASSERT_EQ(sweeps.size(), 1u);
+  EXPECT_EQ(sweeps[0].start, MakeChunk(7, 0).stamp);
+  EXPECT_EQ(sweeps[0].num_missing_chunks, kChunks - 1);
+}
+
+TEST(ScanAssembler, StretchThatIsOverIsClosedAndNothingElse) {
+  Assembly a;
+  a.Add(MakeChunk(7, 0));
+  a.Add(SetBack(MakeChunk(7, 1)));
+  a.assembler.CloseStretch(MakeChunk(7, 1).stamp, SetBack(MakeChunk(7, 1)).stamp);
+  ASSERT_EQ(a.TakeAll().size(), 1u);
+  a.assembler.CloseAll();
+  const std::vector<Sweep> rest = a.TakeAll();
+  ASSERT_EQ(rest.size(), 1u);
+  EXPECT_EQ(rest[0].start, SetBack(MakeChunk(7, 1)).stamp);
+}
+
 TEST(ScanAssembler, SweepOfEmptyChunksIsAnEmptySweep) {
   Assembly a;
   for (ScanChunk chunk : MakeSweep(0)) {

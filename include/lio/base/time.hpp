@@ -25,6 +25,10 @@ struct Duration {
   friend constexpr Duration operator-(Duration a) { return {-a.ns}; }
 };
 
+constexpr Duration Abs(Duration d) {
+  return d < Duration{} ? -d : d;
+}
+
 // Sensor time since the epoch of the sensor's clock, UNIX time where the source has it.
 struct Timestamp {
   std::int64_t ns = 0;

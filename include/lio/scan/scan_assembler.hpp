@@ -25,6 +25,8 @@ class ScanAssembler {
   // whole sweep was.
   void CloseUpTo(Timestamp stamp);
   void CloseAll();
+  // Stamps have jumped from `end` to `next_begin`: closes what is left of the time before.
+  void CloseStretch(Timestamp end, Timestamp next_begin);
 
   // Closed sweeps in order of time, oldest first.
   std::optional<Sweep> Take();
@@ -46,7 +48,8 @@ class ScanAssembler {
   };
 
   Partial* FindOrOpen(const ScanChunk& chunk);
-  void CloseOldest();
+  void CloseOneFor(Timestamp stamp);
+  void Close(std::size_t at);
 
   Counters* counters_;
   std::deque<Partial> open_;  // at most two, oldest first

@@ -1,0 +1,38 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""A walk with a VLP-16, where a second without inertial samples is steps of 6 m/s^2 unseen: holes,
+clocks that jump, a gyro that clips. What cannot be bridged ends in a start anew from where it was."""
+import unittest
+
+import support
+
+
+class Recovery(unittest.TestCase):
+    def run_with(self, fault):
+        folder = support.simulated("campus", "--lidar", "vlp16", "--seed", "77", "--duration", "32",
+                                   "--fault", fault)
+        run = support.replay(folder / "log.lcm", folder.name + "-run", "--config",
+                             folder / "config.yaml")
+        figures = support.evaluate(folder / "truth.tum", run)
+        ape_m = figures["ape"]["position_m"]["rmse"]
+        print(f"{fault}: APE {ape_m:.4f} m, restarts {support.stats(run)['num_restarts']}")
+        return ape_m, support.stats(run)
+
+    def test_a_second_without_the_imu_is_bridged_by_the_lidar(self):
+        ape_m, _ = self.run_with("imu_gap:start=15,duration=1")
+        self.assertLess(ape_m, 0.1)
+
+    def test_clocks_that_jump_back_for_two_seconds_leave_the_path_whole(self):
+        ape_m, stats = self.run_with("stamp_jump:offset=-3,start=15,duration=2")
+        self.assertLess(ape_m, 0.05)
+        self.assertEqual(stats["num_restarts"], 2)
+
+    def test_a_gyro_that_clipped_is_recovered_from(self):
+        ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
+        self.assertGreaterEqual(stats["num_restarts"], 1)
+        self.assertLess(ape_m, 3.0)
+
+
+if __name__ == "__main__":
+    support.main()
