@@ -120,7 +120,7 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
             "scan matching and inertial unit disagree: the start begins anew to find out why");
   if (clock_offset_) clock_offset_.emplace(options_.rig.imu);  // it was found with wrong rates
   if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);
-  ScoutWithoutGyro();
+  scouts_with_gyro_ = false;
 }
 
 // The filter is sure of itself and refuses what scan matching saw, as it does soon after driving

@@ -28,8 +28,8 @@ constexpr std::size_t kMaxGlance = 8;
 // Where after so many scans no velocity is clear, they start from rest.
 constexpr std::size_t kMaxSought = 5;
 constexpr double kGlanceVelocityStd_mps = 1.0;
+constexpr int kUnmatchedWhenLost = 25;  // scans in a row
 // A scan whose place in the map is less sure would blur the map.
-constexpr int kUnmatchedWhenLost = 25;
 constexpr double kMaxInsertStd_m = 0.3;
 
 // Of three errors that belong together.

@@ -52,7 +52,7 @@ bool ScanGate::DropLate() {
 bool ScanGate::HoldsBack(Sweep& sweep) {
   if (suspect_) {
     const Duration after = sweep.start - suspect_->end;
-    if (sweep.end > suspect_->end && after < kBearsOut && -after < kBearsOut) {
+    if (sweep.end > suspect_->end && Abs(after) < kBearsOut) {
       LetIn(std::move(*suspect_));
     } else {
       ++counters_->num_scans_late;

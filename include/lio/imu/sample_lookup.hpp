@@ -23,10 +23,8 @@ auto FirstNotBefore(const Samples& samples, Timestamp stamp) {
 template <class Samples>
 ImuSample SampleAt(const Samples& samples, Timestamp stamp) {
   const auto after = FirstNotBefore(samples, stamp);
-  if (after == std::end(samples))
-    return InterpolateSample(*std::prev(after), *std::prev(after), stamp);
-  if (after == std::begin(samples)) return InterpolateSample(*after, *after, stamp);
-  return InterpolateSample(*std::prev(after), *after, stamp);
+  const auto before = after == std::begin(samples) ? after : std::prev(after);
+  return InterpolateSample(*before, after == std::end(samples) ? *before : *after, stamp);
 }
 
 // Most samples belong at the end. False: there is one of that stamp already.
