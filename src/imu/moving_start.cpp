@@ -200,7 +200,6 @@ MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const Scou
   result.why_not = EstimateProblem(start.estimate, rig);
   if (!result.why_not.empty()) return result;
   if (has_gravity) start.g_world = Vector3(0, 0, -rig.gravity_mps2);
-  start.in_motion = true;
   start.how = DescribeStart("in motion", start.estimate, has_gravity);
   result.start = std::move(start);
   return result;

@@ -44,8 +44,6 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
       reading_(ReadingOf(options.rig.imu.units)),
       classifier_(reading_, options.rig),
       intake_(counters_, MaxRateSent(options.rig.imu.units)),
-      world_(options.filter.steady_world ? SteadyWorld::Mode::kFromMotion
-                                         : SteadyWorld::Mode::kFollow),
       standstill_(options.rig.imu) {
   const std::vector<OptionFault> faults = Validate(options);
   if (options.filter.estimate_clock_offset && use_imu_) clock_offset_.emplace(options.rig.imu);

@@ -134,6 +134,7 @@ class Odometry::Impl {
 
   // --- odometry_output.cpp
   FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report) const;
+  WorldEstimate InPublishedWorld(const Estimate& estimate) const;
   NavOutput MakeNav(const Estimate& estimate) const;
   double RateVariance(Timestamp stamp) const;
   void EmitImuRate();
@@ -195,7 +196,6 @@ class Odometry::Impl {
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU
   Vector3 g_world_ = Vector3::Zero();
-  SteadyWorld world_;
 
   std::optional<ClockOffset> clock_offset_;
   double moved_by_s_ = 0.0;  // the stamps of the sweep in flight

@@ -7,12 +7,16 @@
 
 namespace lio {
 
+WorldEstimate Odometry::Impl::InPublishedWorld(const Estimate& estimate) const {
+  return options_.filter.steady_world ? InSteadyWorld(estimate) : InFilterWorld(estimate);
+}
+
 NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
   NavOutput nav;
   nav.stamp = estimate.stamp;
   nav.scan_seq = last_seq_;
   nav.status = status_;
-  const SteadyWorld::Published published = world_.Publish(estimate);
+  const WorldEstimate published = InPublishedWorld(estimate);
   nav.T_world_imu = published.T_world_imu;
   nav.pose_cov = published.cov.topLeftCorner<6, 6>();
   nav.v_world_imu_mps = published.v_world_imu;
@@ -42,7 +46,7 @@ FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
   filter.nav = MakeNav(estimate);
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
-  filter.g_world_mps2 = g_world_;
+  filter.g_world_mps2 = InPublishedWorld(estimate).R_world_filter * g_world_;
   filter.clock_offset_s = options_.rig.lidar.clock_offset_s;
   if (clock_offset_) {
     filter.clock_offset_s += clock_offset_->offset_s();

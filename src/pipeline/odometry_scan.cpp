@@ -197,9 +197,8 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     report.stage_ns[static_cast<std::size_t>(Stage::kTotal)] +=
         report.stage_ns[static_cast<std::size_t>(i)];
   }
-  world_.Update(estimate);
   if (is_sound) {
-    const SteadyWorld::Published published = world_.Publish(estimate);
+    const WorldEstimate published = InPublishedWorld(estimate);
     last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
   }
   const Timestamp end = outcome.sweep->end;

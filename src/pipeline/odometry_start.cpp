@@ -289,9 +289,6 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   BeginScoutingAnew();
   scouting_since_.reset();
   g_world_ = start.g_world;
-  const auto steady =
-      start.in_motion ? SteadyWorld::Mode::kFromMotion : SteadyWorld::Mode::kFromRest;
-  world_ = SteadyWorld(options_.filter.steady_world ? steady : SteadyWorld::Mode::kFollow);
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(imu_, start.estimate.stamp));
   history_->KeepFrom(start.estimate.stamp - ClockMargin());
   for (const ImuSample& sample : imu_) {

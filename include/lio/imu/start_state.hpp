@@ -33,7 +33,6 @@ struct StartState {
   Estimate estimate;
   Vector3 g_world = Vector3::Zero();  // zero when the accelerometer's reading has none
   std::string how;                    // for people
-  bool in_motion = false;
 };
 
 // The vehicle stood still over all of `samples`; the state is for `stamp`.

@@ -58,7 +58,7 @@ struct FilterReport {
   NavOutput nav;
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();
-  Vector3 g_world_mps2 = Vector3::Zero();
+  Vector3 g_world_mps2 = Vector3::Zero();  // as known now: a steady world is level as at its start
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included; the standard deviation is
   // zero unless it is estimated.
   double clock_offset_s = 0.0;
