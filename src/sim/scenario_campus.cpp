@@ -113,7 +113,7 @@ void AddEdges(Town& town, const Path& way) {
 Scenario MakeCampus(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(80.0);
-  const double planned_s = scenario.duration_s + kAfterEnd_s;
+  const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 10);
   const Path lap = WayAroundLawn();
   Terrain::Shape shape;

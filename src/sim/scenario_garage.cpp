@@ -181,7 +181,7 @@ void AddSurroundings(World& world, std::uint64_t seed) {
 Scenario MakeGarage(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(90.0);
-  const double planned_s = scenario.duration_s + kAfterEnd_s;
+  const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 9);
   DriveLimits limits;
   limits.speed_mps = 5.5;

@@ -154,7 +154,7 @@ Scenario MakeHall(const ScenarioOptions& options) {
   MotionPlan plan;
   plan.knot_interval_s = kKnot_s;
   Random motion(options.seed, Purpose::kMotion, 3);
-  plan.knots = SwingKnots(scenario.duration_s + kAfterEnd_s, motion);
+  plan.knots = SwingKnots(PlannedSeconds(scenario, options), motion);
   for (const Oscillation& wave : WalkOscillations(options.seed)) {
     if (wave.axis != BodyAxis::kYaw) plan.oscillations.push_back(wave);
   }

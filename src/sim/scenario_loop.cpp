@@ -121,7 +121,7 @@ Scenario MakeLoop(const ScenarioOptions& options) {
   const HeightFunction height = HeightOf(terrain);
   MotionPlan plan;
   plan.knot_interval_s = kCarKnot_s;
-  plan.knots = FollowDrive(way, *drive, height, {}, kCarKnot_s, scenario.duration_s + kAfterEnd_s);
+  plan.knots = FollowDrive(way, *drive, height, {}, kCarKnot_s, PlannedSeconds(scenario, options));
   plan.oscillations = CarOscillations(options.seed);
   AddOncoming(scenario.world, block, height, random);
   AddVehicleMover(

@@ -160,7 +160,7 @@ void AddTraffic(World& world, const Path& road, const Drive& drive, double durat
 Scenario MakeMotorway(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(60.0);
-  const double planned_s = scenario.duration_s + kAfterEnd_s;
+  const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 6);
   const Path road = Carriageway(kSpeed_mps * planned_s, random);
   Terrain::Shape shape;

@@ -74,7 +74,7 @@ Scenario MakeParked(const ScenarioOptions& options) {
   const HeightFunction height = HeightOf(terrain);
   MotionPlan plan;
   plan.knot_interval_s = kCarKnot_s;
-  const Drive standing(ego, {}, {}, scenario.duration_s + kAfterEnd_s);
+  const Drive standing(ego, {}, {}, PlannedSeconds(scenario, options));
   plan.knots = FollowDrive(ego, standing, height, {}, kCarKnot_s, scenario.duration_s);
   for (BodyKnot& knot : plan.knots) knot.liveliness = kTremble;
   plan.oscillations = CarOscillations(options.seed);

@@ -81,6 +81,12 @@ HeightFunction HeightOf(const Terrain& terrain) {
   return [terrain](const Vector2& p_m, double) { return terrain.Height(p_m); };
 }
 
+double PlannedSeconds(const Scenario& scenario, const ScenarioOptions& options) {
+  constexpr double kAfterEnd_s = 4.0;
+  constexpr double kRunUp_s = 15.0;
+  return scenario.duration_s + kAfterEnd_s + (options.starts_moving ? kRunUp_s : 0.0);
+}
+
 void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_mps) {
   scenario.begin_s = 0.0;
   if (!options.starts_moving) return;

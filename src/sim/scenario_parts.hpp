@@ -10,13 +10,16 @@ namespace lio::sim {
 
 inline constexpr double kStartRest_s = 2.5;
 inline constexpr double kCarKnot_s = 0.2;
-inline constexpr double kAfterEnd_s = 4.0;  // the motion is planned this far past the log's end
 
 // A car with the sensors on its roof: the lidar turned by 90 degrees and 0.3 m above the IMU. Adds
 // the car itself to the world.
 void MountOnCar(Scenario& scenario, MotionPlan plan);
 // A hand-held rod, its carrier half a metre behind it.
 void MountOnPerson(Scenario& scenario, MotionPlan plan);
+
+// For how long to plan the motion: past the log's end, and with the run-up of a log that begins in
+// motion.
+double PlannedSeconds(const Scenario& scenario, const ScenarioOptions& options);
 
 // Begins the log at rest or, if asked, when the body has reached `moving_mps`.
 void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_mps);

@@ -107,7 +107,7 @@ Scenario MakeStreet(const ScenarioOptions& options) {
   const double duration_s = options.duration_s.value_or(60.0);
   scenario.duration_s = duration_s;
   Random random(options.seed, Purpose::kWorld, 1);
-  const double planned_s = duration_s + kAfterEnd_s + 20.0;
+  const double planned_s = PlannedSeconds(scenario, options) + 20.0;
   const Path road = StreetPath(kSpeed_mps * planned_s, random);
   const std::vector<Road> roads = StreetRoads(road);
   Terrain::Shape shape;

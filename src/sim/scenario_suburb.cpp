@@ -77,7 +77,7 @@ void AddGardens(Town& town, const Path& road) {
 Scenario MakeSuburb(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(70.0);
-  const double planned_s = scenario.duration_s + kAfterEnd_s;
+  const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 5);
   const Path road = WindingRoad(kSpeed_mps * planned_s, random);
   Terrain::Shape shape;

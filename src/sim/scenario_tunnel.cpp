@@ -142,7 +142,7 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   const auto drive = std::make_shared<const Drive>(ego, limits, std::vector<Stop>{}, kStartRest_s);
   MotionPlan plan;
   plan.knot_interval_s = kCarKnot_s;
-  plan.knots = FollowDrive(ego, *drive, height, {}, kCarKnot_s, scenario.duration_s + kAfterEnd_s);
+  plan.knots = FollowDrive(ego, *drive, height, {}, kCarKnot_s, PlannedSeconds(scenario, options));
   plan.oscillations = CarOscillations(options.seed);
   const Path oncoming = road.Shifted(1.9).Reversed();
   for (double s = 0.0; s > -15.0 * scenario.duration_s; s -= random.Uniform(90.0, 220.0)) {
