@@ -12,7 +12,7 @@ namespace {
 
 // Beyond this many sigmas a pose's pull no longer grows: 99 % of six dimensions are within 4.1.
 constexpr double kHuberSigmas = 4.0;
-constexpr int kMaxIterations = 15;
+constexpr int kMaxIterations = 60;
 
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;

@@ -26,7 +26,7 @@ constexpr double kMaxWindow_s = 3.5;
 constexpr std::size_t kMinGlance = 4;
 constexpr std::size_t kMaxGlance = 8;
 // Where after so many scans no velocity is clear, they start from rest.
-constexpr std::size_t kMaxSought = 5;
+constexpr std::size_t kMaxSought = 8;
 constexpr double kGlanceVelocityStd_mps = 1.0;
 constexpr int kUnmatchedWhenLost = 25;  // scans in a row
 // A scan whose place in the map is less sure would blur the map.
