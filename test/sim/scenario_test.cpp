@@ -157,8 +157,8 @@ TEST_P(Scenarios, MayBeginInMotion) {
   EXPECT_GE(scenario.trajectory->duration_s(), scenario.begin_s);
   double hardest_mps2 = 0.0;
   for (double t_s = scenario.begin_s; t_s < scenario.begin_s + 19.0; t_s += 0.1) {
-    const Vector3 change = scenario.trajectory->At(t_s + 1.0).v_world_mps -
-                           scenario.trajectory->At(t_s).v_world_mps;
+    const Vector3 change =
+        scenario.trajectory->At(t_s + 1.0).v_world_mps - scenario.trajectory->At(t_s).v_world_mps;
     hardest_mps2 = std::max(hardest_mps2, change.norm());
   }
   EXPECT_LT(hardest_mps2, 7.0) << "mean over a second: the way goes on to the log's end";
