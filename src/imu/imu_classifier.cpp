@@ -15,6 +15,7 @@ constexpr std::size_t kMinSteps = 8;
 // longer counts, and the expected one is given up only when worse by the second.
 constexpr double kRefuted = 30.0;
 constexpr double kGivenUp = 60.0;
+constexpr double kFavoured = 1.0;     // the expected one is worse than the best
 constexpr double kLeaning = 20.0;     // for a quarter turn of the vertical that no rig speaks of
 constexpr double kMaxMisfitSq = 9.0;  // of the best reading; beyond that nothing can be said
 // Half of the last ten steps' turns read as more than this and this much more than seen: absurd.
@@ -118,25 +119,36 @@ double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   return least;
 }
 
+ImuClassifier::Ranking ImuClassifier::Rank(Bends bends) const {
+  Ranking ranking;
+  ranking.all = ScoreAll(bends);
+  for (const Scored& scored : ranking.all) {
+    ranking.best = std::min(ranking.best, scored.score);
+    if (scored.reading == expected_) ranking.expected = std::min(ranking.expected, scored.score);
+  }
+  double num_terms = 3.0 * static_cast<double>(evidence_.steps().size());
+  for (const MotionEvidence::Bend& bend : bends) num_terms += 3.0 * bend.weight;
+  ranking.scale = std::max(1.0, ranking.best / num_terms);
+  return ranking;
+}
+
+bool ImuClassifier::FavoursAnother() const {
+  if (evidence_.steps().size() < kMinSteps) return false;
+  const Ranking ranking = Rank(evidence_.FindBends());
+  return ranking.expected > ranking.best + kFavoured * ranking.scale;
+}
+
 ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   using Finding = ImuVerdict::Finding;
   ImuVerdict verdict;
   verdict.reading = expected_;
-  const std::size_t num_steps = evidence_.steps().size();
-  if (num_steps < kMinSteps) return verdict;
+  if (evidence_.steps().size() < kMinSteps) return verdict;
   const std::vector<MotionEvidence::Bend> bends = evidence_.FindBends();
-  std::vector<Scored> likely = ScoreAll(bends);
-  double best = std::numeric_limits<double>::infinity();
-  double expected = best;
-  for (const Scored& scored : likely) {
-    best = std::min(best, scored.score);
-    if (scored.reading == expected_) expected = std::min(expected, scored.score);
-  }
-  double num_terms = 3.0 * static_cast<double>(num_steps);
-  for (const MotionEvidence::Bend& bend : bends) num_terms += 3.0 * bend.weight;
-  const double scale = std::max(1.0, best / num_terms);
-  if (scale > kMaxMisfitSq) return verdict;
-  std::erase_if(likely, [&](const Scored& s) { return s.score > best + scale * kRefuted; });
+  Ranking ranking = Rank(bends);
+  if (ranking.scale > kMaxMisfitSq) return verdict;
+  const auto within = [&](double margin) { return ranking.best + ranking.scale * margin; };
+  std::vector<Scored>& likely = ranking.all;
+  std::erase_if(likely, [&](const Scored& s) { return s.score > within(kRefuted); });
 
   const bool has_gravity = likely.front().has_gravity;
   const auto all_agree = [&likely](const auto& is_so) {
@@ -147,8 +159,8 @@ ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   }
   if (all_agree([&](const Scored& s) { return s.reading == expected_; })) {
     verdict.finding = Finding::kAsExpected;
-  } else if (const double limit = best + scale * (in_doubt ? kRefuted : kGivenUp);
-             expected > limit && ExpectedScoreOfOtherClocks() > limit) {
+  } else if (const double limit = within(in_doubt ? kRefuted : kGivenUp);
+             ranking.expected > limit && ExpectedScoreOfOtherClocks() > limit) {
     verdict.finding = Finding::kNotExpected;
     const std::optional<ImuReading> found = LeastChange(likely);
     if (found && verdict.has_gravity) {

@@ -126,7 +126,8 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
 // The filter is sure of itself and refuses what scan matching saw, as it does soon after driving
 // off with a wrong reading. Told once: there may be other reasons.
 bool Odometry::Impl::IsDoubtful() const {
-  return !has_doubted_ && std::popcount(gated_scans_ & kLastScans) >= kMaxGated;
+  return !has_doubted_ && std::popcount(gated_scans_ & kLastScans) >= kMaxGated &&
+         classifier_.FavoursAnother();
 }
 
 // A start would be wrong again as long as the doubts that ended the last one are not settled.

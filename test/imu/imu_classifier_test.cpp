@@ -26,7 +26,8 @@ test::Motion Drive() {
 
 struct DriveCase {
   test::Motion motion = Drive();
-  ImuReading sent_as;  // how the messages are to be read
+  test::Motion matched;  // what scan matching sees, where it is not the motion
+  ImuReading sent_as;    // how the messages are to be read
   Vector3 g_world = test::kGravity;
   double to_s = 9.0;
   Vector3 gyro_bias{0.01, -0.008, 0.012};  // a consumer's unit
@@ -39,13 +40,13 @@ struct DriveCase {
   double max_rate_radps = 100.0;              // the gyro saturates
 };
 
-ImuVerdict Classify(const DriveCase& setup, const ImuReading& expected = {}, const Rig& rig = {}) {
+ImuClassifier After(const DriveCase& setup, const ImuReading& expected = {}, const Rig& rig = {}) {
   std::mt19937_64 random(3);
   ImuClassifier classifier(expected, rig);
   classifier.BeginMap(StampAt(0.0));
   for (int k = 0; k * kSweep_s <= setup.to_s; ++k) {
     const double t_s = k * kSweep_s;
-    Pose pose = setup.motion(t_s);
+    Pose pose = setup.matched ? setup.matched(t_s) : setup.motion(t_s);
     pose.translation += setup.pose_std_m * test::RandomVector<3>(random);
     pose.rotation = pose.rotation * ExpSo3(setup.pose_std_rad * test::RandomVector<3>(random));
     std::vector<ImuSample> samples;
@@ -64,7 +65,11 @@ ImuVerdict Classify(const DriveCase& setup, const ImuReading& expected = {}, con
     }
     classifier.AddPose({StampAt(t_s), pose}, samples);
   }
-  return classifier.Judge();
+  return classifier;
+}
+
+ImuVerdict Classify(const DriveCase& setup, const ImuReading& expected = {}, const Rig& rig = {}) {
+  return After(setup, expected, rig).Judge();
 }
 
 void ExpectFound(const ImuVerdict& verdict, const ImuReading& reading) {
@@ -162,6 +167,36 @@ TEST(ImuClassifier, WorthlessPosesSayNothing) {
   setup.pose_std_m = 3.0;
   setup.pose_std_rad = 0.5;
   EXPECT_EQ(Classify(setup).finding, Finding::kOpen);
+}
+
+// Straight ahead with 2 m/s^2, after a second of rest.
+Pose DriveOff(double t_s) {
+  const double since_s = std::max(0.0, t_s - 1.0);
+  return {Quaternion::Identity(), Vector3(since_s * since_s, 0, 0)};
+}
+
+TEST(ImuClassifier, WrongAxesAreOutOfFavourOnceADriveHasBegun) {
+  DriveCase setup;
+  setup.motion = DriveOff;
+  setup.to_s = 2.2;
+  EXPECT_FALSE(After(setup).FavoursAnother());
+  setup.sent_as.R_imu_sent = ExpSo3(Vector3(0, 0, M_PI / 2)).toRotationMatrix().array().round();
+  EXPECT_TRUE(After(setup).FavoursAnother());
+  EXPECT_NE(Classify(setup).finding, Finding::kOtherwise) << "too little for a verdict";
+}
+
+TEST(ImuClassifier, ScansThatClingToTheRingsOfARestSpeakForNoOtherReading) {
+  DriveCase setup;
+  setup.motion = DriveOff;
+  setup.to_s = 3.0;
+  for (const double share : {0.0, 0.3}) {
+    setup.matched = [share](double t_s) {
+      Pose pose = DriveOff(t_s);
+      pose.translation *= share;
+      return pose;
+    };
+    EXPECT_FALSE(After(setup).FavoursAnother()) << share;
+  }
 }
 
 TEST(ImuClassifier, DegreesAreAbsurdInMotionOnly) {

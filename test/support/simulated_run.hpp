@@ -25,6 +25,7 @@ struct DriveSpec {
   double duration_s = 10.0;
   std::uint64_t seed = 1;
   std::vector<sim::Fault> faults = {};  // of the world
+  double rotation_hz = 0.0;             // 0: the lidar's own
 };
 
 // A simulated drive, with what lio-sim's folder holds.
@@ -40,6 +41,7 @@ struct SimulatedLog {
     scenario.duration_s = spec.duration_s;
     sim::RecordOptions record;
     record.lidar = sim::LoadLidarModel(spec.lidar);
+    if (spec.rotation_hz > 0.0) record.lidar.rotation_hz = spec.rotation_hz;
     record.imu = sim::LoadImuModel("xsens_mti10");
     record.seed = spec.seed;
     record.faults = spec.faults;

@@ -14,6 +14,7 @@
 // Cost: about 0.3 ms a verdict over 10 s at 10 Hz.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,6 +54,9 @@ class ImuClassifier {
   // While the body moved, lately, the rates as expected have been many times what scan matching
   // saw: whatever is wrong, they are of no help to it.
   bool IsGyroAbsurd() const;
+  // Another reading fits a little better. Where the poses are wrong and not the reading, as when a
+  // scan clings to the rings of a standstill, none does.
+  bool FavoursAnother() const;
   bool HasMoved() const { return evidence_.HasMoved(); }
 
  private:
@@ -63,6 +67,14 @@ class ImuClassifier {
     double score = 0.0;
   };
 
+  struct Ranking {
+    std::vector<Scored> all;
+    double best = std::numeric_limits<double>::infinity();
+    double expected = std::numeric_limits<double>::infinity();
+    double scale = 1.0;  // that makes the best one fit
+  };
+
+  Ranking Rank(Bends bends) const;
   std::vector<Scored> ScoreAll(Bends bends) const;
   void ScoreForces(const ImuReading& rates, Bends bends, std::vector<Scored>& all) const;
   std::optional<ImuReading> LeastChange(std::span<const Scored> likely) const;
