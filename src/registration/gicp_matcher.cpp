@@ -121,6 +121,7 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
   }
 }
 
+// A neighbour that is far along the surface may lie where this has bent away from its plane.
 // The pair's covariance C_q + R C_p R' has its least eigenvalue along the bisector of the normals.
 GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& rotation,
                                       float reach_var) const {
@@ -129,6 +130,7 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
   Term term;
   if (!source.HasShape() && !uses_shapeless_) return term;
   float variance = reach_var;
+  float bend_var = 0.f;
   if (source.HasShape()) {
     const Eigen::Vector3f normal = rotation * source.normal;
     const float cosine = normal.dot(target.normal);
@@ -138,12 +140,16 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
     variance += 0.5f * (1.f + aligned) * (source.thickness_var + target.thickness_var) +
                 (1.f - aligned) * kTangentVar;
     term.tilt_var = 0.25f * (source.normal_var + target.normal_var);
+    bend_var = 2.f * (source.bend_var + target.bend_var);  // the same way, at worst
   } else {
     term.direction = target.normal;
     variance += target.thickness_var + kShapelessVar;
     term.tilt_var = target.normal_var;
+    bend_var = target.bend_var;
   }
   term.distance = term.direction.dot(pair.offset);
+  const float apart_sq = pair.offset.squaredNorm() - term.distance * term.distance;
+  variance += bend_var * apart_sq * apart_sq;
   term.distance_sq = term.distance * term.distance / variance;
   if (RobustKernel::IsOutlier(term.distance_sq)) return term;
   term.kernel = RobustKernel(term.distance_sq);

@@ -18,6 +18,9 @@ constexpr double kMinPoints = 6.0;
 constexpr double kMaxThicknessRatio = 0.1;
 constexpr double kMinWidthPerVoxel = 0.3;
 constexpr double kMaxNormalStd_rad = 0.1;
+// A surface z = k x^2 / 2 seen over [-a, a] is a^2 / 3 wide and k^2 a^4 / 45 thick, both variances;
+// a distance o away it has bent by k o^2 / 2, whose square is this much thickness / width^2 o^4.
+constexpr double kBend = 1.25;
 constexpr float kOverlapVoxels = 2.f;  // points so near to the next level's range count there too
 
 VoxelCell CellAt(const Eigen::Vector3f& point, float inverse_voxel) {
@@ -115,6 +118,7 @@ ShapedPoint ScanShapes::At(const Eigen::Vector3f& point) const {
   shaped.normal = normal;
   shaped.thickness_var = static_cast<float>(thickness_var);
   shaped.normal_var = static_cast<float>(normal_var);
+  shaped.bend_var = static_cast<float>(kBend * thickness_var / (variance[1] * variance[1]));
   return shaped;
 }
 

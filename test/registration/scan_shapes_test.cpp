@@ -53,6 +53,19 @@ TEST(ScanShapes, ThicknessIsTheScatterAlongTheNormal) {
   EXPECT_NEAR(std::sqrt(shape.thickness_var), 0.06, 0.015);
 }
 
+TEST(ScanShapes, BendIsThatOfTheVaultItSees) {
+  constexpr float kRadius_m = 1.5f;
+  const Eigen::Vector3f centre(5, 0, 0);
+  auto vault = Patch(centre, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.f);
+  for (Eigen::Vector3f& point : vault) point.x() -= point.y() * point.y() / (2.f * kRadius_m);
+  ScanShapes shapes(GicpOptions{});
+  shapes.SetScan(vault);
+  const ShapedPoint shape = shapes.At(centre);
+  ASSERT_TRUE(shape.HasShape());
+  // At a distance o it is o^2 / (2 R) away from its plane.
+  EXPECT_NEAR(std::sqrt(shape.bend_var), 1.f / (2.f * kRadius_m), 0.05f);
+}
+
 TEST(ScanShapes, OneRingIsNoSurface) {
   ScanShapes shapes(GicpOptions{});
   shapes.SetScan(Patch({6, 0, -1.5f}, {0, 1.f, 0}, {0, 0, 0.005f}, 15, 0.01f));

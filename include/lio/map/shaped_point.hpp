@@ -12,6 +12,8 @@ struct ShapedPoint {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, either side; zero: shape unknown
   float thickness_var = 0.f;                         // along the normal [m^2]
   float normal_var = 0.f;                            // of the normal's tilt [rad^2]
+  float bend_var = 0.f;  // of how far the surface bends away from its plane, at a metre [m^2]; at
+                         // another distance times its fourth power
 
   bool HasShape() const { return thickness_var > 0.f; }
 };

@@ -3,13 +3,15 @@
 // Direct matching of a scan against a submap of keyframes, plane to plane (generalised ICP): every
 // point against its nearest neighbour e = q - T p, along the direction b that both surfaces' shapes
 // hold best,
-//   cost = sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + reach^2,
-// C a surface's thickness along its normal and 1 m^2 across, rho Geman-McClure's. b bisects the two
-// normals: the least eigenvector of C_q + R C_p R'. `reach` is what the guess may be off and
-// shrinks to nothing. Shapes are computed once, when a scan comes, and kept with its points in the
-// keyframes. Points of no known surface (single rings, edges, bushes) are held to the surface of
-// their neighbour, which shows a motion that is not there by centimetres: they count only where
-// surfaces leave a direction open and the shift is not known better.
+//   cost = sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + k a^4 + reach^2,
+// C a surface's thickness along its normal and 1 m^2 across, rho Geman-McClure's, a the length of e
+// across b, k how much the surfaces may bend, from their thickness and width: in a vault neighbours
+// half a metre apart differ by centimetres, always to the same side. b bisects the two normals: the
+// least eigenvector of C_q + R C_p R'. `reach` is what the guess may be off and shrinks to nothing.
+// Shapes are computed once, when a scan comes, and kept with its points in the keyframes. Points of
+// no known surface (single rings, edges, bushes) are held to the surface of their neighbour, which
+// shows a motion that is not there by centimetres: they count only where surfaces leave a direction
+// open and the shift is not known better.
 //
 // Which scans become keyframes depends on how far the vehicle has moved against how open the place
 // is. Insert() decides; what Match() says about new content takes it into account.
