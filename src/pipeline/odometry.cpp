@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxGap_s = 3.0;
 constexpr double kHole_s = 0.15;           // between inertial samples
-constexpr double kMeanBeforeHole_s = 0.5;  // a step of a walker
+constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
 constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
 constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
@@ -203,7 +203,7 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
   HistoryOptions history = MakeHistoryOptions();
   ProcessNoise noise = history.noise;
-  noise.accel_density = 2.0 * history.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.accel_density = history.gap_accel_std_mps2 * std::sqrt(unknown_s);
   noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
   const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);

@@ -9,8 +9,8 @@ import support
 
 
 class Recovery(unittest.TestCase):
-    def run_with(self, fault):
-        folder = support.simulated("campus", "--lidar", "vlp16", "--seed", "77", "--duration", "32",
+    def run_with(self, fault, seed="77"):
+        folder = support.simulated("campus", "--lidar", "vlp16", "--seed", seed, "--duration", "32",
                                    "--fault", fault)
         run = support.replay(folder / "log.lcm", folder.name + "-run", "--config",
                              folder / "config.yaml")
@@ -22,6 +22,10 @@ class Recovery(unittest.TestCase):
     def test_a_second_without_the_imu_is_bridged_by_the_lidar(self):
         ape_m, _ = self.run_with("imu_gap:start=15,duration=1")
         self.assertLess(ape_m, 0.1)
+
+    def test_steps_that_go_unseen_do_not_turn_the_path(self):
+        ape_m, _ = self.run_with("imu_gap:start=9,duration=0.4", "2")
+        self.assertLess(ape_m, 0.1, "was 5 m")
 
     def test_clocks_that_jump_back_for_two_seconds_leave_the_path_whole(self):
         ape_m, stats = self.run_with("stamp_jump:offset=-3,start=15,duration=2")

@@ -35,8 +35,8 @@ struct HistoryOptions {
   double standstill_nis_limit = kChiSquare3At999;
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
-  double gap_accel_std_mps2 = 1.5;
-  double gap_gyro_std_radps = 0.4;
+  double gap_accel_std_mps2 = 3.0;
+  double gap_gyro_std_radps = 0.5;
 };
 
 struct PoseEvent {
