@@ -7,6 +7,7 @@
 
 #include "lio/pipeline/match_method.hpp"
 #include "lio/scan/deskew.hpp"
+#include "pipeline/place_guesses.hpp"
 
 namespace lio {
 namespace {
@@ -53,22 +54,8 @@ TurnRate PutRight(const TurnRate& error, const StampedPoses& motion) {
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
 constexpr std::size_t kMinScansToSeek = 3;
 
-// To axes whose z is up; the origin stays at the sensor.
-std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
-                                      const Quaternion& R_level_imu) {
-  const Eigen::Matrix3f R = R_level_imu.toRotationMatrix().cast<float>();
-  std::vector<Eigen::Vector3f> levelled;
-  levelled.reserve(points_imu.size());
-  for (const Eigen::Vector3f& point : points_imu) levelled.emplace_back(R * point);
-  return levelled;
-}
-
 SweepTimes TimesOf(const Sweep& sweep) {
   return {sweep.start, sweep.end, sweep.middle()};
-}
-
-Quaternion LevelOf(const Vector3& up_map) {
-  return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
 }
 
 }  // namespace
@@ -90,15 +77,15 @@ MatchInput MatchSide::SeekShift(const MatchJob& job, MatchInput input) const {
   if (!last_found_) return input;
   const Quaternion R_level_map = LevelOf(job.up_map);
   VelocitySearch search;
-  search.Add(last_found_->stamp,
-             Levelled(last_found_->points_imu, R_level_map * last_found_->T_map_imu.rotation));
+  search.Add(last_found_->stamp, Levelled(last_found_->points_imu,
+                                          R_level_map * last_found_->match.T_map_imu.rotation));
   search.Add(job.sweep->middle(),
              Levelled(input.points_imu, R_level_map * job.T_map_imu_guess.rotation));
   if (const auto v_level = search.Find()) {
     const double since_s = SecondsBetween(last_found_->stamp, job.sweep->middle());
     const Vector3 shift_level = since_s * Vector3(v_level->x(), v_level->y(), 0.0);
     input.T_map_imu_guess.translation =
-        last_found_->T_map_imu.translation + R_level_map.conjugate() * shift_level;
+        last_found_->match.T_map_imu.translation + R_level_map.conjugate() * shift_level;
     input.guess_cov.topLeftCorner<3, 3>() = kSoughtStd_m * kSoughtStd_m * Matrix3::Identity();
   }
   return input;
@@ -123,12 +110,13 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
                    tags,     outcome.points_imu,  job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
+  if (job.seek_place && last_found_) SeekPlace(job, input, outcome);
   AddTime(Stage::kMatch, begin, outcome);
   const SweepTimes sweep_times = TimesOf(*job.sweep);
   StampedPoses motion = job.T_any_imu;
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
-    motion = Bend(job, outcome.match.T_map_imu);
+    if (!outcome.is_sought) motion = Bend(job, outcome.match.T_map_imu);
     outcome.points_imu = Deskew(reduced.points, sweep_times, motion, T_imu_lidar_);
     AddTime(Stage::kDeskew, begin, outcome);
     begin = Now();
@@ -142,9 +130,9 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     AddTime(Stage::kMatch, begin, outcome);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
-    last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match.T_map_imu};
+    last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match};
   }
-  if (job.clear_map && feeds_young_map_) {
+  if ((job.clear_map || job.is_map_young) && feeds_young_map_) {
     begin = Now();
     const std::vector<ScanPoint> dense = DensePoints(*job.sweep, filter_);
     outcome.points_imu = Deskew(dense, sweep_times, motion, T_imu_lidar_);

@@ -15,6 +15,9 @@ constexpr double kStartTurnRateStd_radps = 1.0;
 constexpr double kSoughtVelocityStd_mps = 1.5;
 constexpr double kKnownVelocityStd_mps = 2.0;
 constexpr double kKnownTurnRateStd_radps = 0.3;
+constexpr double kUnseen_s = 0.5;
+constexpr double kUnseenShift_m = 1.0;
+constexpr double kUnseenTurn_rad = 0.2;
 constexpr double kGyroDensity = 5.0e-3;  // rad/s/sqrt(Hz): also what scale and time errors do
 constexpr double kGyroBiasStd_radps = 0.02;
 
@@ -47,6 +50,7 @@ Estimate Start(Timestamp start, const ScoutOptions& options) {
   const auto set = [&](int at, double std) {
     estimate.cov.block<3, 3>(at, at) = std * std * Matrix3::Identity();
   };
+  estimate.cov.topLeftCorner<6, 6>() = options.start_cov;
   set(kVel, velocity_std_mps);
   set(kGyroBias, turn_rate_std_radps);
   if (is_known) {
@@ -54,7 +58,27 @@ Estimate Start(Timestamp start, const ScoutOptions& options) {
     estimate.state.v_world_imu = motion.T_world_imu.rotation.conjugate() * motion.v_world_imu;
     estimate.state.gyro_bias = motion.gyro_bias;
   }
+  NavState& state = estimate.state;
+  state.T_world_imu = options.T_world_start;
+  state.T_map_imu = options.T_world_start;
+  state.v_world_imu = options.T_world_start.rotation * state.v_world_imu;
   return estimate;
+}
+
+// For a while that nobody knows, about half a second.
+void AllowUnseenMotion(Estimate& estimate) {
+  const double shift_std_m =
+      std::max(kUnseenShift_m, kUnseen_s * estimate.state.v_world_imu.norm());
+  Vector6 variance;
+  variance << Vector3::Constant(shift_std_m * shift_std_m),
+      Vector3::Constant(kUnseenTurn_rad * kUnseenTurn_rad);
+  Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
+  effect.block<3, 3>(kPos, 0) = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  effect.block<3, 3>(kRot, 3).setIdentity();
+  effect.block<6, 6>(kMapPose, 0).setIdentity();
+  estimate.cov += effect * variance.asDiagonal() * effect.transpose();
+  estimate.cov.block<3, 3>(kVel, kVel) +=
+      kKnownVelocityStd_mps * kKnownVelocityStd_mps * Matrix3::Identity();
 }
 
 ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
@@ -114,8 +138,7 @@ Estimate MotionScout::AtEnd(Timestamp middle, Timestamp end,
 void MotionScout::SetClock(Timestamp stamp) {
   Estimate estimate = history_.head();
   estimate.stamp = stamp;
-  estimate.cov.block<3, 3>(kVel, kVel) +=
-      kKnownVelocityStd_mps * kKnownVelocityStd_mps * Matrix3::Identity();
+  AllowUnseenMotion(estimate);
   history_ = FilterHistory(history_options_, estimate, Rate(stamp, last_rate_));
 }
 

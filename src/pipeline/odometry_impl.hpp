@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The state machine behind Odometry, in seven files: odometry.cpp takes data in, odometry_start.cpp
+// The state machine behind Odometry, in eight files: odometry.cpp takes data in, odometry_start.cpp
 // finds the first state, odometry_reading.cpp what the inertial messages mean, odometry_scan.cpp
-// matches and fuses, odometry_standstill.cpp and odometry_clock.cpp look for rest and for the
-// clocks' offset, odometry_output.cpp tells the state.
+// matches and fuses, odometry_lidar_only.cpp goes without an IMU, odometry_standstill.cpp and
+// odometry_clock.cpp look for rest and for the clocks' offset, odometry_output.cpp tells the state.
 #pragma once
 
 #include <deque>
@@ -79,7 +79,6 @@ class Odometry::Impl {
   void BeginScouting(const Sweep& sweep);
   void BeginScoutingAnew();
   void FinishSeeking(const MatchOutcome& outcome);
-  void RunLidarOnly();
   bool IsLastScouted() const { return is_flushed_ && scouted_.size() == ready_.size(); }
   Vector3 UpInMap() const;  // about
   void AdvanceScout(Timestamp stamp);
@@ -123,6 +122,13 @@ class Odometry::Impl {
   Matrix6 DeskewCov(const Sweep& sweep);
   bool Fuse(const MatchOutcome& outcome, bool grows_map, ScanReport& report);
   void UpdateStatus(const MatchOutcome& outcome, bool fused);
+
+  // --- odometry_lidar_only.cpp
+  void RunLidarOnly();
+  bool IsMapYoung() const;
+  bool IsPlaceSure(const MatchOutcome& outcome) const;
+  void StartAnewByLidar(Timestamp stamp);
+  void GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting);
 
   // --- odometry_standstill.cpp
   void FuseStandstill(const MatchOutcome& outcome, bool is_fused);
@@ -190,6 +196,13 @@ class Odometry::Impl {
     PassedPoint last_fix;
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
+  struct Loss {                           // of the way, lidar-only
+    PassedPoint last_fix;
+    Vector3 w_imu_radps = Vector3::Zero();
+    Matrix6 pose_cov = Matrix6::Zero();  // when the map was given up
+  };
+  std::optional<Loss> loss_;  // a map begun anew goes on from here
+  int num_scans_in_map_ = 0;  // lidar-only: run since its beginning
   Pose T_world_start_;
   PassedPoint last_fix_;  // as published
   std::optional<Timestamp> scouting_since_;

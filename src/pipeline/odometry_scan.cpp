@@ -35,7 +35,7 @@ std::optional<MatchJob> Odometry::Impl::NextJob() {
       BeginScouting(*in_flight_);
     } else if (is_back) {
       scout_->SetClock(in_flight_->start);
-      last_found_.reset();
+      last_found_ = in_flight_->start;
     }
     AdvanceScout(in_flight_->end);
   }
@@ -53,6 +53,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.T_map_imu_guess = predicted.state.T_map_imu;
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
+  job.is_map_young = IsMapYoung();
   const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
   job.up_map = UpInMap();
@@ -62,6 +63,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
     const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
     job.shift_std_m = velocity_std_mps * job.since_last_fix_s;
     if (job.shift_std_m > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
+    job.seek_place = !use_imu_ && phase_ == Phase::kRunning;
   }
   if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
   return job;
@@ -85,6 +87,7 @@ InsertTask Odometry::Impl::TakeOutcome(MatchOutcome outcome) {
   } else {
     FinishRunning(outcome, insert);
     ready_.pop_front();
+    if (!use_imu_) StartAnewByLidar(outcome.sweep->end);
     if (history_) {
       history_->KeepFrom(ready_.empty() ? std::nullopt
                                         : std::optional(ready_.front()->start - ClockMargin()));
@@ -123,7 +126,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
   if (last_standstill_) event.measurement.cov *= kAlikeAtRest;
   event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
   event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
-  event.force = num_gated_in_a_row_ >= filter.max_gated_in_a_row;
+  event.force = outcome.is_sought || num_gated_in_a_row_ >= filter.max_gated_in_a_row;
   UpdateResult update;
   const EventOutcome fused = history().AddPose(outcome.sweep->middle(), event, &update);
   report.nis = update.nis;
@@ -157,7 +160,8 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   report.weak_mask = outcome.match.weak_mask;
 
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  const bool is_keyframe =
+      keyframes_.IsKeyframe(outcome.match.T_map_imu) && (use_imu_ || IsPlaceSure(outcome));
   if (outcome.match.IsUsable()) {
     TellClassifier({middle, outcome.match.T_map_imu});
     report.fused = Fuse(outcome, is_keyframe, report);
@@ -165,16 +169,17 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   FuseStandstill(outcome, report.fused);
   if (clock_offset_) FollowClockOffset(outcome);
   const bool sees_enough = outcome.num_used >= kMinPointsToGrow;
-  const bool is_sound = report.fused && num_unmatched_in_a_row_ == 0;
+  const bool is_sound = report.fused && IsPlaceSure(outcome);
   if (report.fused || starts_map) {
     num_unmatched_in_a_row_ = 0;
   } else if (sees_enough) {
     ++num_unmatched_in_a_row_;
   }
   if (!report.fused && !starts_map) ++counters_.num_matches_rejected;
-  // Where the map has nothing to match against, it is grown from where the filter stands.
-  const bool leaves_map = sees_enough && (outcome.match.status == MatchStatus::kTooFewPoints ||
-                                          num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
+  // Where the map has nothing to match against, it is grown from where the IMU says.
+  const bool leaves_map = use_imu_ && sees_enough &&
+                          (outcome.match.status == MatchStatus::kTooFewPoints ||
+                           num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
   if (starts_map || leaves_map) history().AddRebase(middle);
   const Estimate estimate = history().At(middle);
   const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);
@@ -188,6 +193,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     last_seq_ = outcome.sweep->scan_seq;
   }
   is_first_scan_ = false;
+  ++num_scans_in_map_;
   UpdateStatus(outcome, report.fused || starts_map);
 
   report.stage_ns = outcome.stage_ns;

@@ -66,14 +66,23 @@ std::vector<ImuSample> Odometry::Impl::SamplesBetween(Timestamp from, Timestamp 
 
 void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   last_found_.reset();
-  ScoutOptions scouting{options_.filter.history_s, nis_limit_, {}, sought_v_imu_mps_, glance_};
+  ScoutOptions scouting;
+  scouting.span_s = options_.filter.history_s;
+  scouting.nis_limit = nis_limit_;
+  scouting.sought_v_imu_mps = sought_v_imu_mps_;
+  scouting.motion = glance_;
   const Timestamp start = glance_ ? sweep.start : sweep.middle();
   if (use_imu_ && scouts_with_gyro_ && !imu_.empty()) {
     scouting.first_rate_radps = SampleAt(imu_, start).w_imu_radps;
   }
+  const bool runs_by_lidar = phase_ == Phase::kRunning;
+  if (runs_by_lidar && loss_) GoOnFromLoss(start, scouting);
   scout_.emplace(start, scouting);
+  if (runs_by_lidar)
+    last_fix_ = {start, scouting.T_world_start, history().head().state.v_world_imu};
   classifier_.BeginMap(sweep.start);
-  scout_up_map_ = MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
+  scout_up_map_ = scouting.T_world_start.rotation *
+                  MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
 }
 
 Vector3 Odometry::Impl::UpInMap() const {
@@ -96,13 +105,6 @@ void Odometry::Impl::FinishSeeking(const MatchOutcome& outcome) {
   sought_v_imu_mps_ = outcome.v_map_imu_mps;  // the map's axes are those of the first sweep
   has_sought_ = true;
   scouted_.clear();
-}
-
-// From the first sweep on, along the motion that was glanced.
-void Odometry::Impl::RunLidarOnly() {
-  scouted_.clear();
-  scout_.reset();
-  phase_ = Phase::kRunning;
 }
 
 void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& insert) {

@@ -235,6 +235,10 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
+  result.num_in_map =
+      static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
+        return pair.cell != GaussianMap::kNoCell;
+      }));
   result.new_content_share = NewContentShare();
   if (sums.num_matched < kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;

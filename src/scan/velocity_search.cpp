@@ -16,6 +16,8 @@ constexpr float kColumn_m = 0.5f;
 constexpr float kMinHeight_m = 0.4f;  // of a column's points above each other
 constexpr float kCell_m = 0.25f;      // of how near is near
 constexpr int kSide = 2 * static_cast<int>(kReach_m / kCell_m);
+constexpr int kRoughCell = 4;  // in cells
+constexpr int kRoughSide = kSide / kRoughCell;
 constexpr std::size_t kMinPlaces = 20;
 constexpr std::size_t kMaxPlaces = 300;
 // What is part of a line, a wall or a rail, says nothing of the way along it.
@@ -46,12 +48,21 @@ int CellOf(float coordinate) {
   return static_cast<int>(std::floor((coordinate + kReach_m) / kCell_m));
 }
 
-bool IsInside(int x, int y) {
-  return x >= 0 && y >= 0 && x < kSide && y < kSide;
+bool IsInside(int x, int y, int side) {
+  return x >= 0 && y >= 0 && x < side && y < side;
 }
 
-std::size_t IndexOf(int x, int y) {
-  return static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+std::size_t IndexOf(int x, int y, int side) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
+}
+
+// The cell and its eight neighbours.
+void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) {
+  for (int y = at_y - 1; y <= at_y + 1; ++y) {
+    for (int x = at_x - 1; x <= at_x + 1; ++x) {
+      if (IsInside(x, y, side)) cells[IndexOf(x, y, side)] = 1;
+    }
+  }
 }
 
 // Ordered, so that the result depends on points alone.
@@ -87,19 +98,17 @@ Eigen::Vector2f VelocityOf(int x, int y) {
 }  // namespace
 
 UprightView::UprightView(std::span<const Eigen::Vector3f> points)
-    : near_(static_cast<std::size_t>(kSide) * kSide, 0) {
+    : near_(static_cast<std::size_t>(kSide) * kSide, 0),
+      roughly_near_(static_cast<std::size_t>(kRoughSide) * kRoughSide, 0) {
   std::vector<Eigen::Vector2f> places;
   for (const auto& [at, column] : ColumnsOf(points)) {
     if (column.high - column.low < kMinHeight_m) continue;
     const Eigen::Vector2f place = column.sum / static_cast<float>(column.num);
     places.push_back(place);
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int x = CellOf(place.x()) + dx;
-        const int y = CellOf(place.y()) + dy;
-        if (IsInside(x, y)) near_[IndexOf(x, y)] = 1;
-      }
-    }
+    const int x = CellOf(place.x());
+    const int y = CellOf(place.y());
+    MarkAround(x, y, kSide, near_);
+    MarkAround(x / kRoughCell, y / kRoughCell, kRoughSide, roughly_near_);
   }
   std::vector<Eigen::Vector2f> alone;
   for (const Eigen::Vector2f& place : places) {
@@ -126,7 +135,14 @@ bool UprightView::IsNear(const Eigen::Vector2f& place) const {
   if (!IsInView(place)) return false;
   const int x = CellOf(place.x());
   const int y = CellOf(place.y());
-  return IsInside(x, y) && near_[IndexOf(x, y)] != 0;
+  return IsInside(x, y, kSide) && near_[IndexOf(x, y, kSide)] != 0;
+}
+
+bool UprightView::IsRoughlyNear(const Eigen::Vector2f& place) const {
+  if (!IsInView(place)) return false;
+  const int x = CellOf(place.x()) / kRoughCell;
+  const int y = CellOf(place.y()) / kRoughCell;
+  return IsInside(x, y, kRoughSide) && roughly_near_[IndexOf(x, y, kRoughSide)] != 0;
 }
 
 void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> points) {

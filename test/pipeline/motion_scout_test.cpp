@@ -42,6 +42,20 @@ TEST(MotionScout, BeginsAtTheOriginAtRestAndUnsureOfIt) {
   EXPECT_EQ(StdOf(head, kMapPose), 0.0);
 }
 
+TEST(MotionScout, MayBeginElsewhereInTheWorldAndUnsureOfIt) {
+  ScoutOptions options;
+  options.sought_v_imu_mps = Vector3(20, 1, 0);
+  options.T_world_start = {ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(5, 6, 7)};
+  options.start_cov = 4.0 * Matrix6::Identity();
+  const MotionScout scout(StampAt(1.0), options);
+  const Estimate& head = scout.history().head();
+  EXPECT_EQ(head.state.T_world_imu.translation, Vector3(5, 6, 7));
+  EXPECT_EQ(head.state.T_map_imu.translation, Vector3(5, 6, 7));
+  EXPECT_LT((head.state.v_world_imu - Vector3(-1, 20, 0)).norm(), 1e-9);
+  EXPECT_DOUBLE_EQ(StdOf(head, kPos), 2.0);
+  EXPECT_EQ(StdOf(head, kMapPose), 0.0);
+}
+
 TEST(MotionScout, ASoughtVelocityIsWhereItBegins) {
   ScoutOptions options;
   options.sought_v_imu_mps = Vector3(20, 1, 0);

@@ -24,11 +24,13 @@ struct MatchJob {
   StampedPoses T_any_imu;  // covers the sweep
   Pose T_map_imu_guess;    // at the sweep's middle
   Matrix6 guess_cov = Matrix6::Zero();
-  bool clear_map = false;      // forget everything first; this scan is inserted unthinned
+  bool clear_map = false;      // forget everything first
+  bool is_map_young = false;   // this scan is inserted unthinned, as the first one is
   bool refine_deskew = false;  // match, deskew again along what was found, match again
   // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
   // of the scans since clear_map, and nothing is matched.
   enum class Seek { kNothing, kShift, kVelocity } seek = Seek::kNothing;
+  bool seek_place = false;  // where the scan is not found as guessed, look for it farther around
   Vector3 up_map = Vector3::UnitZ();  // about; for seeking
   double shift_std_m = 1.0;           // of the guessed shift since the last scan that was found
   double since_last_fix_s = 0.1;      // how long the guess has run free at the sweep's middle
@@ -38,6 +40,7 @@ struct MatchJob {
 struct MatchOutcome {
   std::shared_ptr<const Sweep> sweep;
   MatchResult match;
+  bool is_sought = false;                // found, but farther around
   std::optional<Vector3> v_map_imu_mps;  // sought and found
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refine_deskew
   int num_used = 0;
@@ -71,13 +74,15 @@ class MatchSide {
   struct FoundScan {
     Timestamp stamp;
     std::vector<Eigen::Vector3f> points_imu;
-    Pose T_map_imu;
+    MatchResult match;
   };
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
   void SeekVelocity(const MatchJob& job, MatchOutcome& outcome);
   void Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome);
+  // Where the scan was not found as guessed, in the places where it may be: match_side_place.cpp.
+  void SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& outcome);
   // The job's guess, bettered by the shift since the last scan.
   MatchInput SeekShift(const MatchJob& job, MatchInput input) const;
 

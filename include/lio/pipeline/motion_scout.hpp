@@ -22,11 +22,14 @@ struct ScoutOptions {
   // gyro, turn rate of an earlier scout's state.
   std::optional<Vector3> sought_v_imu_mps;
   std::optional<NavState> motion;
+  // Where it begins, and what is unknown of that in the world; its map begins there.
+  Pose T_world_start;
+  Matrix6 start_cov = Matrix6::Zero();
 };
 
 class MotionScout {
  public:
-  // Begins at the origin; without a known motion at rest, but very unsure of that.
+  // Without a known motion it begins at rest, but very unsure of that.
   MotionScout(Timestamp start, const ScoutOptions& options);
 
   // A gyro's reading, with a gyro only. Samples not after the newest are left out.
@@ -40,7 +43,7 @@ class MotionScout {
   // the sweep itself shows, if it does. The filter does without: what is systematic in that rate
   // would go into the next sweeps' deskew and, with them, into the map, and grow.
   Estimate AtEnd(Timestamp middle, Timestamp end, const std::optional<TurnRate>& shown) const;
-  // Goes on at another time, unsure of the velocity.
+  // Goes on at another time, unsure of the velocity and of what happened in between.
   void SetClock(Timestamp stamp);
   FilterHistory& history() { return history_; }
   const FilterHistory& history() const { return history_; }

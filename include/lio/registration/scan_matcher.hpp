@@ -54,6 +54,8 @@ struct MatchResult {
   Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
   unsigned weak_mask = 0;                 // bit i: eigenvalue i is not held by the scene
   int num_matched = 0;
+  // Points where the map knows a surface, near or far from it; 0 where the method does not tell.
+  int num_in_map = 0;
   int iterations = 0;
   double residual_rms_m = 0.0;
   // What the turn rate that the scan was deskewed by is off by; where asked for and the method can.

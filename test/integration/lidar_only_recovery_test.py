@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""A walk with a VLP-16 and no IMU: seconds unseen, sweeps lost, a clock that jumps. Where the scene
+still overlaps the map the place is found again; where it does not, the map begins anew from there."""
+import unittest
+
+import support
+
+
+class LidarOnlyRecovery(unittest.TestCase):
+    def run_with(self, fault, scenario="campus", lidar="vlp16"):
+        folder = support.simulated(scenario, "--lidar", lidar, "--seed", "77", "--duration", "32",
+                                   "--fault", fault)
+        run = support.replay(folder / "log.lcm", folder.name + "-lidar-only", "--config",
+                             folder / "config.yaml", "--set", "pipeline.use_imu=false")
+        ape_m = support.evaluate(folder / "truth.tum", run)["ape"]["position_m"]["rmse"]
+        restarts = support.stats(run)["num_restarts"]
+        print(f"{scenario} {fault}: APE {ape_m:.4f} m, restarts {restarts}")
+        return ape_m, restarts
+
+    def test_the_place_is_found_again_after_seconds_unseen(self):
+        for duration, bar_m in (1, 0.15), (5, 0.5):
+            ape_m, restarts = self.run_with(f"lidar_gap:start=15,duration={duration}")
+            self.assertLess(ape_m, bar_m)
+            self.assertEqual(restarts, 0)
+
+    def test_a_third_of_the_sweeps_may_be_lost(self):
+        ape_m, restarts = self.run_with("drop:ratio=0.3")
+        self.assertLess(ape_m, 0.25)
+        self.assertEqual(restarts, 0)
+
+    def test_a_clock_may_jump_back_for_two_seconds(self):
+        ape_m, restarts = self.run_with("stamp_jump:offset=-3,start=15,duration=2")
+        self.assertLess(ape_m, 0.6)
+        self.assertEqual(restarts, 0)
+
+    def test_a_drive_through_unseen_streets_goes_on_from_about_where_it_is(self):
+        ape_m, restarts = self.run_with("lidar_gap:start=15,duration=5", "street", "hdl32e")
+        self.assertLess(ape_m, 7.0)  # of 38 m unseen, braking
+        self.assertEqual(restarts, 1)
+
+
+if __name__ == "__main__":
+    support.main()

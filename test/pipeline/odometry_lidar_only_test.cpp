@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The lidar alone, where the way is lost from sight.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/faulty_drives.hpp"
+
+namespace lio {
+namespace {
+
+using test::ErrorAgainst;
+using test::HasNotice;
+using test::IsBetween;
+using test::kEnd_s;
+using test::LidarOnly;
+using test::Message;
+using test::Messages;
+using test::RestThenDrive;
+using test::RunOdometry;
+using test::RunResult;
+using test::StaticStartDrive;
+using test::WithoutLidar;
+
+TEST(OdometryLidarOnly, FindsItsWayBackAfterASecondUnseen) {
+  const RunResult run = RunOdometry(WithoutLidar(StaticStartDrive(), 4.0, 5.0), LidarOnly());
+  EXPECT_EQ(run.counters.num_restarts, 0);
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.15);
+}
+
+// Sweeps that show clouds of points: nothing fits.
+Messages WithClouds(double from_s, double to_s) {
+  Messages messages = StaticStartDrive();
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<float> place(-20.f, 20.f);
+  for (Message& message : messages) {
+    if (message.is_imu || !IsBetween(message, from_s, to_s)) continue;
+    for (LidarPoint& point : message.chunk.points) {
+      point.x_m = place(random);
+      point.y_m = place(random);
+      point.z_m = 4.f + place(random);
+    }
+  }
+  return messages;
+}
+
+TEST(OdometryLidarOnly, BeginsAMapAnewWhereThePathWasWhenLost) {
+  const RunResult run = RunOdometry(WithClouds(4.0, 4.7), LidarOnly());
+  EXPECT_GE(run.counters.num_restarts, 1);
+  EXPECT_TRUE(HasNotice(run, "the map begins anew"));
+  EXPECT_EQ(run.status, TrackingStatus::kOk);
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 5.0);  // of 6 m unseen
+  ASSERT_TRUE(run.scans.back().filter);
+  const NavOutput& end = run.scans.back().filter->nav;
+  EXPECT_GT(end.pose_cov(0, 0), 0.2);                         // in the world it is not sure ...
+  EXPECT_LT(end.map_pose_cov(0, 0), end.pose_cov(0, 0) / 4);  // ... but in its map
+}
+
+TEST(OdometryLidarOnly, AScanFoundNowhereIsNotInTheMap) {
+  const RunResult run = RunOdometry(WithClouds(4.0, 4.2), LidarOnly());
+  EXPECT_EQ(run.counters.num_restarts, 0);
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.1);
+}
+
+}  // namespace
+}  // namespace lio
