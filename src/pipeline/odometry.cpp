@@ -14,6 +14,7 @@ namespace lio {
 namespace {
 
 constexpr double kMaxGap_s = 3.0;
+constexpr double kSetRight_s = 0.1;        // a clock goes as far forward as it had gone back
 constexpr double kHole_s = 0.15;           // between inertial samples
 constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
@@ -192,8 +193,12 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
   // Else a clock was set, for messages go on.
-  const bool is_gap = jump_s >= 0.0 && jump_s < kMaxGap_s;
-  const double unknown_s = is_gap ? jump_s : std::clamp(jump_s, 0.1, kMaxGap_s);
+  const bool is_set_right =
+      clock_is_behind_s_ > 0.0 && std::abs(jump_s - clock_is_behind_s_) < kSetRight_s;
+  const bool is_gap = jump_s >= 0.0 && jump_s < kMaxGap_s && !is_set_right;
+  const double max_unknown_s = is_set_right ? kSetRight_s : kMaxGap_s;
+  const double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kSetRight_s, max_unknown_s);
+  clock_is_behind_s_ = jump_s < 0.0 ? clock_is_behind_s_ - jump_s : 0.0;
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;

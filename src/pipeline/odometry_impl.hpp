@@ -167,6 +167,7 @@ class Odometry::Impl {
   std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
   std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one
   std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
+  double clock_is_behind_s_ = 0.0;      // by steps back that were seen
   std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
   struct HeldMessage {
     ImuSample sample;

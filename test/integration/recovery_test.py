@@ -32,6 +32,10 @@ class Recovery(unittest.TestCase):
         self.assertLess(ape_m, 0.05)
         self.assertEqual(stats["num_restarts"], 2)
 
+    def test_a_clock_that_is_set_right_again_is_no_gap(self):
+        ape_m, _ = self.run_with("stamp_jump:offset=-2,start=10,duration=1")
+        self.assertLess(ape_m, 0.05)
+
     def test_a_gyro_that_clipped_is_recovered_from(self):
         ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
         self.assertGreaterEqual(stats["num_restarts"], 1)
