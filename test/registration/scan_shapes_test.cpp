@@ -80,6 +80,7 @@ TEST(ScanShapes, FewPointsOrAClusterAreNoSurface) {
   std::mt19937 random(2);
   std::normal_distribution<float> noise(0.f, 0.2f);
   std::vector<Eigen::Vector3f> bush;
+  bush.reserve(300);
   for (int i = 0; i < 300; ++i) bush.push_back({6 + noise(random), noise(random), noise(random)});
   shapes.SetScan(bush);
   EXPECT_FALSE(shapes.At({6, 0, 0}).HasShape());
