@@ -65,6 +65,7 @@ void ImuClassifier::ScoreForces(const ImuReading& rates, Bends bends,
   const double rate_score = evidence_.RateScore(rates.R_imu_sent, rates.rate_scale());
   const double leaning = kLeaning * std::max(0.0, Lean(rates) - Lean(expected_));
   for (const bool is_in_g : {false, true}) {
+    if (keeps_force_unit_ && is_in_g != expected_.is_in_g) continue;
     const ImuReading reading{is_in_g, rates.is_in_deg, rates.R_imu_sent};
     for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
       const bool has_gravity = gravity_mps2 > 0.0;

@@ -97,6 +97,7 @@ class Odometry::Impl {
 
   // --- odometry_reading.cpp
   std::optional<ImuSample> Read(const ImuSample& sent);
+  void ClassifyAnew();
   void TellClassifier(const StampedPose& T_map_imu);
   bool JudgeWhileScouting(Timestamp stamp);
   void JudgeWhileRunning(Timestamp stamp);
@@ -156,6 +157,7 @@ class Odometry::Impl {
   ImuReading reading_;  // of all samples that come
   ImuClassifier classifier_;
   bool is_reading_settled_ = false;  // beyond doubt
+  bool is_force_unit_told_ = false;  // by gravity, at rest
   bool is_refused_ = false;          // the configuration contradicts the data
   std::optional<bool> has_gravity_in_motion_;
   Timestamp classified_until_;

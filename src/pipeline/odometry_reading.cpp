@@ -66,13 +66,18 @@ void Odometry::Impl::TellClassifier(const StampedPose& T_map_imu) {
   ++num_poses_to_judge_;
 }
 
+void Odometry::Impl::ClassifyAnew() {
+  classifier_ = ImuClassifier(reading_, options_.rig);
+  if (is_force_unit_told_) classifier_.KeepForceUnit();
+}
+
 // True when what was scouted is of no use any more.
 bool Odometry::Impl::JudgeWhileScouting(Timestamp stamp) {
   if (is_reading_settled_) return false;
   const ImuVerdict verdict = classifier_.Judge(IsInDoubt(stamp));
   has_gravity_in_motion_ = verdict.has_gravity;
   if (scouts_with_gyro_ && IsGyroMisleading(verdict)) {
-    classifier_ = ImuClassifier(reading_, options_.rig);
+    ClassifyAnew();
     ScoutWithoutGyro();
     return true;
   }
@@ -119,7 +124,7 @@ void Odometry::Impl::JudgeWhileRunning(Timestamp stamp) {
   StartAnew(stamp,
             "scan matching and inertial unit disagree: the start begins anew to find out why");
   if (clock_offset_) clock_offset_.emplace(options_.rig.imu);  // it was found with wrong rates
-  if (is_useless) classifier_ = ImuClassifier(reading_, options_.rig);
+  if (is_useless) ClassifyAnew();
   scouts_with_gyro_ = false;
 }
 
@@ -160,6 +165,8 @@ bool Odometry::Impl::AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp sta
   }
   if (!AcceptGravity(force != ForceAtRest::kWithoutGravity, seen, stamp)) return false;
   if (force == ForceAtRest::kWithoutGravity) return true;
+  is_force_unit_told_ = true;
+  classifier_.KeepForceUnit();
   ImuReading found = reading_;
   found.is_in_g = force == ForceAtRest::kInG;
   if (found == reading_) return true;
@@ -222,7 +229,7 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
     resumption_->last_fix.v_world_imu = turn_world.rotation * resumption_->last_fix.v_world_imu;
   }
   ReadAnewAs(found);
-  classifier_ = ImuClassifier(reading_, rig);
+  ClassifyAnew();
   scouts_with_gyro_ = true;
   has_doubted_ = false;
   Say(stamp, Notice::Severity::kWarning, what);

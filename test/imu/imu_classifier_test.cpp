@@ -199,6 +199,18 @@ TEST(ImuClassifier, ScansThatClingToTheRingsOfARestSpeakForNoOtherReading) {
   }
 }
 
+TEST(ImuClassifier, UnitOfForcesThatIsKeptIsNotGivenUpForWhatScansDoNotSee) {
+  DriveCase setup;
+  setup.motion = DriveOff;
+  setup.matched = [](double) { return Pose{}; };
+  setup.to_s = 4.0;
+  setup.sent_as.is_in_g = true;
+  ImuClassifier classifier = After(setup, setup.sent_as);
+  EXPECT_TRUE(classifier.FavoursAnother()) << "weaker forces would be seen less";
+  classifier.KeepForceUnit();
+  EXPECT_FALSE(classifier.FavoursAnother());
+}
+
 TEST(ImuClassifier, DegreesAreAbsurdInMotionOnly) {
   for (const bool moves : {false, true}) {
     ImuClassifier classifier({}, {});

@@ -41,6 +41,9 @@ class ImuClassifier {
  public:
   ImuClassifier(const ImuReading& expected, const Rig& rig);
 
+  // It was told at rest: forces that scan matching does not see are no other unit's.
+  void KeepForceUnit() { keeps_force_unit_ = true; }
+
   // The poses to come are in another map, and tell anew of the time from `from` on.
   void BeginMap(Timestamp from) { evidence_.BeginMap(from); }
   // A matched pose, later than the one before, and the samples since that, as sent.
@@ -84,6 +87,7 @@ class ImuClassifier {
   std::string Describe(const ImuReading& found, Bends bends) const;
 
   ImuReading expected_;
+  bool keeps_force_unit_ = false;
   double gravity_mps2_;
   Vector3 lidar_axis_imu_;  // up, where the lidar stands
   MotionEvidence evidence_;
