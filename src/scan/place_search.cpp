@@ -15,7 +15,6 @@ constexpr float kRoughStep_rad = 0.035f;
 constexpr float kFineStep_m = 0.25f;
 constexpr float kFineStep_rad = 0.00875f;
 constexpr std::size_t kMaxRoughPlaces = 60;
-constexpr std::size_t kMinPlaces = 20;
 constexpr std::size_t kMaxRefined = 100;
 constexpr std::size_t kMaxFound = 12;
 // Two poses nearer than this are the same.
@@ -35,13 +34,6 @@ Eigen::Matrix2f TurnBy(float angle_rad) {
   const float c = std::cos(angle_rad);
   const float s = std::sin(angle_rad);
   return (Eigen::Matrix2f() << c, -s, s, c).finished();
-}
-
-std::vector<Eigen::Vector2f> Thinned(const std::vector<Eigen::Vector2f>& places) {
-  const std::size_t num = std::min(places.size(), kMaxRoughPlaces);
-  std::vector<Eigen::Vector2f> thinned;
-  for (std::size_t i = 0; i < num; ++i) thinned.push_back(places[i * places.size() / num]);
-  return thinned;
 }
 
 struct Grid {
@@ -112,10 +104,11 @@ bool IsSame(const FlatPose& a, const FlatPose& b) {
 
 std::vector<FlatPose> FindPlaces(const UprightView& earlier, const UprightView& later,
                                  const FlatPose& middle, const FlatRange& range) {
-  if (earlier.places().size() < kMinPlaces || later.places().size() < kMinPlaces) return {};
+  if (!earlier.SaysEnough() || !later.SaysEnough()) return {};
   Best rough(kMaxRefined);
   ScoreGrid(
-      Thinned(later.places()), Grid{middle, range, kRoughStep_m, kRoughStep_rad},
+      EvenlyChosen(later.places(), kMaxRoughPlaces),
+      Grid{middle, range, kRoughStep_m, kRoughStep_rad},
       [&](const Eigen::Vector2f& place) { return earlier.IsRoughlyNear(place); },
       [&](const Scored& scored) { rough.Take(scored); });
   Best fine(kMaxRefined);

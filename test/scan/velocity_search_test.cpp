@@ -7,28 +7,14 @@
 #include <cmath>
 #include <random>
 
+#include "support/standing_things.hpp"
+
 namespace lio {
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
-
-// Rings on the ground, the same wherever the sensor is.
-void AddRings(Points& points) {
-  for (const float radius : {4.f, 5.f, 6.5f, 9.f, 14.f, 25.f}) {
-    for (int i = 0; i < 360; ++i) {
-      const float angle = static_cast<float>(i) * 0.0174533f;
-      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), -1.8f);
-    }
-  }
-}
-
-// A post, as the beams of a sensor at `sensor` see it.
-void AddPost(const Eigen::Vector2f& place, const Eigen::Vector2f& sensor, Points& points) {
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector2f seen = place - sensor;
-    points.emplace_back(seen.x(), seen.y(), -1.8f + 0.3f * static_cast<float>(i));
-  }
-}
+using test::AddPost;
+using test::AddRings;
+using test::Points;
 
 Points Wood(const Eigen::Vector2f& sensor) {
   std::mt19937_64 random(4);
@@ -104,17 +90,6 @@ TEST(VelocitySearch, SaysNothingOfBareGroundOrASingleScan) {
   VelocitySearch search;
   search.Add(Timestamp{0}, Wood({0.f, 0.f}));
   EXPECT_FALSE(search.Find());
-}
-
-TEST(UprightView, DoesNotCountGround) {
-  Points points;
-  AddRings(points);
-  EXPECT_TRUE(UprightView(points).places().empty());
-  AddPost({7.f, 3.f}, {0.f, 0.f}, points);
-  const UprightView view(points);
-  ASSERT_EQ(view.places().size(), 1u);
-  EXPECT_TRUE(view.IsNear({7.1f, 2.9f}));
-  EXPECT_FALSE(view.IsNear({8.f, 3.f}));
 }
 
 }  // namespace

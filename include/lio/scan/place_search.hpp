@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lio/scan/velocity_search.hpp"
+#include "lio/scan/upright_view.hpp"
 
 namespace lio {
 

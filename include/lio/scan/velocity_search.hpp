@@ -13,36 +13,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "lio/base/time.hpp"
+#include "lio/scan/upright_view.hpp"
 
 namespace lio {
-
-// Where things stand in a scan, seen from above.
-class UprightView {
- public:
-  explicit UprightView(std::span<const Eigen::Vector3f> points);
-
-  // One point a column, at most a few hundred, evenly chosen; none of a line, a wall or a rail,
-  // unless there is little else.
-  const std::vector<Eigen::Vector2f>& places() const { return places_; }
-  // Does something stand within about a quarter of a metre of there?
-  bool IsNear(const Eigen::Vector2f& place) const;
-  // The same within one to two metres.
-  bool IsRoughlyNear(const Eigen::Vector2f& place) const;
-
- private:
-  // Do things stand in a row to both sides of there?
-  bool IsOnLine(const Eigen::Vector2f& place) const;
-
-  std::vector<Eigen::Vector2f> places_;
-  std::vector<std::uint8_t> near_;          // by cell of a square around the origin
-  std::vector<std::uint8_t> roughly_near_;  // the same, of larger cells
-};
 
 class VelocitySearch {
  public:
