@@ -38,20 +38,12 @@ bool IsSmall(const Vector6& residual) {
   return residual.head<3>().norm() < kSmall_m && residual.tail<3>().norm() < kSmall_rad;
 }
 
-// The body has moved in a way that the filter did not see, by about the residual, and may have kept
-// the speed of it or not: the next scans tell. Both poses and the velocity take the unseen motion;
-// what is known of tilt and biases stays.
-void AllowUnseenMotion(Estimate& estimate, const Vector6& residual) {
+// The body has moved by about the residual, and may have kept the speed of it or not: the next
+// scans tell.
+void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
   constexpr double kDuration_s = 0.2;  // a scan or two
-  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
-  Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
-  effect.block<3, 3>(kPos, 0) = R;
-  effect.block<3, 3>(kRot, 3) = Matrix3::Identity();
-  effect.block<6, 6>(kMapPose, 0) = Matrix6::Identity();
-  const Vector6 variance = residual.cwiseAbs2();
-  estimate.cov += effect * variance.asDiagonal() * effect.transpose();
-  const Vector3 velocity_var = variance.head<3>() / (kDuration_s * kDuration_s);
-  estimate.cov.block<3, 3>(kVel, kVel) += R * velocity_var.asDiagonal() * R.transpose();
+  const Vector6 motion_var = residual.cwiseAbs2();
+  AllowUnseenMotion(estimate, motion_var, motion_var.head<3>() / (kDuration_s * kDuration_s));
 }
 
 // Fuses a pose from beyond the gate. `nis`: how far beyond.
@@ -60,7 +52,7 @@ bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, do
   if (IsSmall(residual)) {
     measurement.cov *= nis / nis_limit;
   } else {
-    AllowUnseenMotion(estimate, residual);
+    AllowMotionBy(residual, estimate);
   }
   return FusePose(estimate, measurement, std::numeric_limits<double>::infinity()).fused;
 }

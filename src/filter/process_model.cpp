@@ -175,6 +175,17 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
   estimate.cov.triangularView<Eigen::StrictlyUpper>() = estimate.cov.transpose();
 }
 
+void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
+                       const Vector3& velocity_var_imu) {
+  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
+  effect.block<3, 3>(kPos, 0) = R;
+  effect.block<3, 3>(kRot, 3).setIdentity();
+  effect.block<6, 6>(kMapPose, 0).setIdentity();
+  estimate.cov += effect * motion_var_imu.asDiagonal() * effect.transpose();
+  estimate.cov.block<3, 3>(kVel, kVel) += R * velocity_var_imu.asDiagonal() * R.transpose();
+}
+
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp) {
   const double span_s = SecondsBetween(a.stamp, b.stamp);
   const double fraction =

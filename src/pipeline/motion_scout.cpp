@@ -66,19 +66,14 @@ Estimate Start(Timestamp start, const ScoutOptions& options) {
 }
 
 // For a while that nobody knows, about half a second.
-void AllowUnseenMotion(Estimate& estimate) {
+void AllowUnseenHalfSecond(Estimate& estimate) {
   const double shift_std_m =
       std::max(kUnseenShift_m, kUnseen_s * estimate.state.v_world_imu.norm());
-  Vector6 variance;
-  variance << Vector3::Constant(shift_std_m * shift_std_m),
+  Vector6 motion_var;
+  motion_var << Vector3::Constant(shift_std_m * shift_std_m),
       Vector3::Constant(kUnseenTurn_rad * kUnseenTurn_rad);
-  Eigen::Matrix<double, kStateDim, 6> effect = Eigen::Matrix<double, kStateDim, 6>::Zero();
-  effect.block<3, 3>(kPos, 0) = estimate.state.T_world_imu.rotation.toRotationMatrix();
-  effect.block<3, 3>(kRot, 3).setIdentity();
-  effect.block<6, 6>(kMapPose, 0).setIdentity();
-  estimate.cov += effect * variance.asDiagonal() * effect.transpose();
-  estimate.cov.block<3, 3>(kVel, kVel) +=
-      kKnownVelocityStd_mps * kKnownVelocityStd_mps * Matrix3::Identity();
+  AllowUnseenMotion(estimate, motion_var,
+                    Vector3::Constant(kKnownVelocityStd_mps * kKnownVelocityStd_mps));
 }
 
 ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
@@ -138,7 +133,7 @@ Estimate MotionScout::AtEnd(Timestamp middle, Timestamp end,
 void MotionScout::SetClock(Timestamp stamp) {
   Estimate estimate = history_.head();
   estimate.stamp = stamp;
-  AllowUnseenMotion(estimate);
+  AllowUnseenHalfSecond(estimate);
   history_ = FilterHistory(history_options_, estimate, Rate(stamp, last_rate_));
 }
 

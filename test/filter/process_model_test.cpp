@@ -265,6 +265,25 @@ TEST(ProcessModel, CovarianceStaysSymmetricAndPositiveOverALongRun) {
             -1e-12);  // T and M become one: zero but for rounding
 }
 
+TEST(ProcessModel, UnseenMotionIsThatOfBothPoses) {
+  const Vector6 motion_var = (Vector6() << 0.04, 0.09, 0.16, 1e-4, 4e-4, 9e-4).finished();
+  const Vector3 velocity_var(1, 4, 9);
+  Estimate estimate;
+  estimate.state.T_world_imu.rotation = ExpSo3(Vector3(0.3, -0.7, 1.9));
+  estimate.state.T_map_imu.rotation = ExpSo3(Vector3(0.1, 0.2, -0.5));
+  AllowUnseenMotion(estimate, motion_var, velocity_var);
+  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 6, kStateDim> apart = Eigen::Matrix<double, 6, kStateDim>::Zero();
+  apart.block<3, 3>(0, kPos) = R.transpose();
+  apart.block<3, 3>(3, kRot).setIdentity();
+  apart.block<6, 6>(0, kMapPose) -= Matrix6::Identity();
+  EXPECT_LT((apart * estimate.cov * apart.transpose()).norm(), 1e-12);
+  const Matrix6 of_map = estimate.cov.block<6, 6>(kMapPose, kMapPose);
+  EXPECT_LT((of_map - Matrix6(motion_var.asDiagonal())).norm(), 1e-12);
+  const Matrix3 of_velocity = R.transpose() * estimate.cov.block<3, 3>(kVel, kVel) * R;
+  EXPECT_LT((of_velocity - Matrix3(velocity_var.asDiagonal())).norm(), 1e-12);
+}
+
 TEST(ProcessModel, SamplesBetweenTwoAreLinear) {
   ImuSample a{test::StampAt(0.0), Vector3(1, 2, 3), Vector3(4, 5, 6)};
   ImuSample b{test::StampAt(0.02), Vector3(3, 2, 1), Vector3(0, 5, 8)};

@@ -31,6 +31,12 @@ ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, cons
 void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
                const ProcessNoise& noise, const Vector3& g_world);
 
+// The body has moved in a way that the samples did not tell, by motion of the variances
+// `motion_var_imu` [m^2; rad^2], and its velocity has changed by `velocity_var_imu` [(m/s)^2], all
+// along the imu's axes. Both poses take the same motion; what is known of tilt and biases stays.
+void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
+                       const Vector3& velocity_var_imu);
+
 // The sample at `stamp` by linear interpolation, held beyond both ends.
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp);
 
