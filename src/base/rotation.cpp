@@ -38,6 +38,11 @@ Vector3 LogSo3(const Quaternion& q) {
   return scale * v;
 }
 
+double YawOf(const Quaternion& rotation) {
+  const Vector3 forward = rotation * Vector3::UnitX();
+  return std::atan2(forward.y(), forward.x());
+}
+
 Matrix3 LeftJacobianSo3(const Vector3& phi) {
   const double angle_sq = phi.squaredNorm();
   const double angle = std::sqrt(angle_sq);

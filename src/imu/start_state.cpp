@@ -73,18 +73,13 @@ void AnchorMap(Estimate& estimate) {
 
 Quaternion LevelledRotation(const Vector3& up_imu) {
   const Quaternion tilt = Quaternion::FromTwoVectors(up_imu, Vector3::UnitZ());
-  const Vector3 forward = tilt * Vector3::UnitX();
-  const double yaw = std::atan2(forward.y(), forward.x());
-  return ExpSo3(Vector3(0, 0, -yaw)) * tilt;
+  return ExpSo3(Vector3(0, 0, -YawOf(tilt))) * tilt;
 }
 
 void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
-  const auto yaw = [](const Pose& pose) {
-    const Vector3 forward = pose.rotation * Vector3::UnitX();
-    return std::atan2(forward.y(), forward.x());
-  };
   NavState& state = estimate.state;
-  const Quaternion turn = ExpSo3(Vector3(0, 0, yaw(earlier.T_world_imu) - yaw(state.T_world_imu)));
+  const double yaw_rad = YawOf(earlier.T_world_imu.rotation) - YawOf(state.T_world_imu.rotation);
+  const Quaternion turn = ExpSo3(Vector3(0, 0, yaw_rad));
   state.v_world_imu = turn * state.v_world_imu;
   const double since_s = SecondsBetween(earlier.stamp, estimate.stamp);
   const Vector3 position =

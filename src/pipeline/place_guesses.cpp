@@ -20,11 +20,6 @@ double LargestStd(const Matrix3& cov) {
   return std::sqrt(std::max(0.0, cov.diagonal().maxCoeff()));
 }
 
-double YawOf(const Quaternion& rotation) {
-  const Vector3 forward = rotation * Vector3::UnitX();
-  return std::atan2(forward.y(), forward.x());
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,

@@ -67,5 +67,13 @@ TEST(Rotation, JacobianInversesInvert) {
   }
 }
 
+TEST(Rotation, YawIsWhereTheXAxisPoints) {
+  for (const double yaw_rad : {-3.0, -0.4, 0.0, 1.2, 3.1}) {
+    const Quaternion turn = ExpSo3(Vector3(0, 0, yaw_rad));
+    EXPECT_NEAR(YawOf(turn * ExpSo3(Vector3(0, 0.3, 0))), yaw_rad, 1e-12);
+    EXPECT_NEAR(YawOf(turn * ExpSo3(Vector3(-0.8, 0, 0))), yaw_rad, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace lio

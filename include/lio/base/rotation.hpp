@@ -23,6 +23,10 @@ Quaternion ExpSo3(const Vector3& phi);
 // Inverse of ExpSo3 with |result| <= pi; the sign of q does not matter. q must have unit norm.
 Vector3 LogSo3(const Quaternion& q);
 
+// About z, of where the turned x axis points, within -pi to pi; 0 where that is straight up or
+// down.
+double YawOf(const Quaternion& rotation);
+
 // Exp(phi + d) = Exp(LeftJacobian(phi) d) Exp(phi) to first order; right likewise from the right.
 Matrix3 LeftJacobianSo3(const Vector3& phi);
 Matrix3 LeftJacobianInverseSo3(const Vector3& phi);
