@@ -196,8 +196,8 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   const bool is_set_right =
       clock_is_behind_s_ > 0.0 && std::abs(jump_s - clock_is_behind_s_) < kSetRight_s;
   const bool is_gap = jump_s >= 0.0 && jump_s < kMaxGap_s && !is_set_right;
-  const double max_unknown_s = is_set_right ? kSetRight_s : kMaxGap_s;
-  const double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kSetRight_s, max_unknown_s);
+  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kSetRight_s, kMaxGap_s);
+  if (is_set_right) unknown_s = kSetRight_s;
   clock_is_behind_s_ = jump_s < 0.0 ? clock_is_behind_s_ - jump_s : 0.0;
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;

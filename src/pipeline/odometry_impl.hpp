@@ -89,6 +89,7 @@ class Odometry::Impl {
   bool HasMovedSince(std::size_t first, bool is_calm) const;
   bool IsVeryCalm(Timestamp stamp) const;
   void SayWaiting(Timestamp stamp, const std::string& text);
+  void ScoutAgain(Timestamp stamp, const std::string& why);
   void StartAnew(Timestamp stamp, const std::string& why);
   void StartAnewWhenLost(Timestamp stamp);
   void TurnByGyro(const Estimate& now, PassedPoint& earlier) const;

@@ -39,16 +39,10 @@ bool Odometry::Impl::IsPlaceSure(const MatchOutcome& outcome) const {
 // new map, in the world that was published.
 void Odometry::Impl::StartAnewByLidar(Timestamp stamp) {
   if (num_unmatched_in_a_row_ < kUnmatchedWhenLost) return;
-  Say(stamp, Notice::Severity::kWarning,
-      "lost among things to see: the map begins anew, from the last pose that was found");
-  ++counters_.num_restarts;
   const Estimate estimate = scout_->history().At(stamp);
   loss_ = {last_fix_, -estimate.state.gyro_bias, estimate.cov.topLeftCorner<6, 6>()};
-  num_unmatched_in_a_row_ = 0;
-  num_gated_in_a_row_ = 0;
-  phase_ = Phase::kScouting;
-  status_ = TrackingStatus::kInit;
-  BeginScoutingAnew();
+  ScoutAgain(stamp,
+             "lost among things to see: the map begins anew, from the last pose that was found");
 }
 
 // Where the new map begins, by the motion before and after what was not seen.

@@ -78,8 +78,9 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   const bool runs_by_lidar = phase_ == Phase::kRunning;
   if (runs_by_lidar && loss_) GoOnFromLoss(start, scouting);
   scout_.emplace(start, scouting);
-  if (runs_by_lidar)
+  if (runs_by_lidar) {
     last_fix_ = {start, scouting.T_world_start, history().head().state.v_world_imu};
+  }
   classifier_.BeginMap(sweep.start);
   scout_up_map_ = scouting.T_world_start.rotation *
                   MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
@@ -256,18 +257,23 @@ void Odometry::Impl::TurnByGyro(const Estimate& now, PassedPoint& earlier) const
   earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
 }
 
-// In the world that was published, from the last pose that was found.
-void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
+void Odometry::Impl::ScoutAgain(Timestamp stamp, const std::string& why) {
   Say(stamp, Notice::Severity::kWarning, why);
   ++counters_.num_restarts;
+  num_unmatched_in_a_row_ = 0;
+  num_gated_in_a_row_ = 0;
+  phase_ = Phase::kScouting;
+  status_ = TrackingStatus::kInit;
+  BeginScoutingAnew();
+}
+
+// In the world that was published, from the last pose that was found.
+void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
   resumption_ = {T_world_start_, last_fix_};
   history_.reset();
   standstill_.Forget();
   last_standstill_.reset();
-  num_unmatched_in_a_row_ = 0;
-  phase_ = Phase::kScouting;
-  status_ = TrackingStatus::kInit;
-  BeginScoutingAnew();
+  ScoutAgain(stamp, why);
 }
 
 // Scans that see enough and are found nowhere, for seconds: the state is wrong by more than
