@@ -20,5 +20,6 @@ if(LIO_BUILD_TESTS)
   find_package(GTest 1.12 REQUIRED)
   find_package(benchmark REQUIRED)
   find_package(rapidcheck REQUIRED)
+  find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED) # a rival in tools/bench, headers alone
   include(GoogleTest)
 endif()
