@@ -2,16 +2,26 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/imu_intake.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
+
+#include "lio/imu/sample_lookup.hpp"
 
 namespace lio {
 namespace {
 
 constexpr double kMaxForce_mps2 = 2000.0;  // beyond any accelerometer (200 g)
-constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is a jump
+constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is one whatever follows
+constexpr Duration kJitter{20'000'000};    // a shorter step back is none
+constexpr double kHole = 1.5;              // in mean steps
 constexpr Duration kSameStretch{200'000'000};
 constexpr Duration kGap{200'000'000};
 constexpr std::size_t kConfirmations = 5;
+// A clock that was set right steps forward by what it had gone back, but for so much ...
+constexpr double kMaxSetRight_s = 0.1;
+constexpr double kSetRightShare = 0.25;  // ... and no more than this share of it.
 
 }  // namespace
 
@@ -27,32 +37,102 @@ bool ImuIntake::IsSane(const ImuSample& sample) {
   return true;
 }
 
+bool ImuIntake::IsFar(Timestamp stamp) const {
+  return Abs(stamp - *newest_) > kJump;
+}
+
+double ImuIntake::MeanStep_s() const {
+  if (recent_.size() < 2) return 0.0;
+  return SecondsBetween(recent_.front().stamp, recent_.back().stamp) /
+         static_cast<double>(recent_.size() - 1);
+}
+
+double ImuIntake::ClockStepTo_s(Timestamp stamp) const {
+  return SecondsBetween(*newest_, stamp) - MeanStep_s();
+}
+
+bool ImuIntake::MayBeSetRight(Timestamp stamp) const {
+  const Timestamp first = suspects_.empty() ? stamp : suspects_.front().stamp;
+  if (stamp < first) return false;
+  const double step_s = ClockStepTo_s(first);
+  return is_behind_s_ > 0.0 &&
+         std::abs(step_s - is_behind_s_) < std::min(kMaxSetRight_s, kSetRightShare * is_behind_s_);
+}
+
+// Is it of a time of which other samples have told, and none of them itself?
+bool ImuIntake::Contradicts(const ImuSample& sample) const {
+  const auto next = FirstNotBefore(recent_, sample.stamp);
+  if (next == recent_.begin() || next == recent_.end()) return false;
+  if (next->stamp == sample.stamp) {
+    return next->w_imu_radps != sample.w_imu_radps || next->f_imu_mps2 != sample.f_imu_mps2;
+  }
+  return SecondsBetween(std::prev(next)->stamp, next->stamp) < kHole * MeanStep_s();
+}
+
+bool ImuIntake::IsSuspect(const ImuSample& sample) const {
+  if (!newest_) return false;
+  if (IsFar(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
+  return *newest_ - sample.stamp > kJitter && Contradicts(sample);
+}
+
+std::vector<ImuSample> ImuIntake::Release() {
+  std::vector<ImuSample> released;
+  for (const ImuSample& sample : std::exchange(suspects_, {})) {
+    if (IsFar(sample.stamp)) {
+      ++counters_->num_imu_out_of_range;
+    } else {
+      released.push_back(sample);
+      Accept(sample);
+    }
+  }
+  return released;
+}
+
+ImuIntake::Step ImuIntake::Confirm() {
+  const Timestamp first = suspects_.front().stamp;
+  const double step_s = ClockStepTo_s(first);
+  if (first < *newest_) {
+    ++counters_->num_clock_jumps;
+    is_behind_s_ -= step_s;
+    return Step::kSetBack;
+  }
+  if (MayBeSetRight(first)) {
+    ++counters_->num_clock_jumps;
+    is_behind_s_ = 0.0;
+    return Step::kSetRight;
+  }
+  ++counters_->num_imu_gaps;
+  is_behind_s_ = 0.0;
+  return Step::kGap;
+}
+
+void ImuIntake::Accept(const ImuSample& sample) {
+  InsertByStamp(recent_, sample);
+  if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
+  while (*newest_ - recent_.front().stamp > kJump) recent_.pop_front();
+}
+
 ImuIntake::Result ImuIntake::Add(const ImuSample& sample) {
   ++counters_->num_imu;
   if (!IsSane(sample)) return {};
-  if (!newest_ || Abs(sample.stamp - *newest_) <= kJump) {
-    counters_->num_imu_out_of_range += static_cast<std::int64_t>(suspects_.size());
-    suspects_.clear();
-    if (newest_ && sample.stamp - *newest_ > kGap) ++counters_->num_imu_gaps;
-    if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
-    return {{sample}, false};
-  }
+  Result result;
   if (!suspects_.empty() && Abs(sample.stamp - suspects_.back().stamp) > kSameStretch) {
-    counters_->num_imu_out_of_range += static_cast<std::int64_t>(suspects_.size());
-    suspects_.clear();
+    result.accepted = Release();
+  }
+  if (!IsSuspect(sample)) {
+    for (const ImuSample& held : Release()) result.accepted.push_back(held);
+    if (newest_ && sample.stamp - *newest_ > kGap) ++counters_->num_imu_gaps;
+    Accept(sample);
+    result.accepted.push_back(sample);
+    return result;
   }
   suspects_.push_back(sample);
-  if (suspects_.size() < kConfirmations) return {};
-  if (suspects_.front().stamp > *newest_) {
-    ++counters_->num_imu_gaps;
-  } else {
-    ++counters_->num_clock_jumps;
-  }
-  Result result{std::exchange(suspects_, {}), true};
-  newest_ = result.accepted.front().stamp;
-  for (const ImuSample& accepted : result.accepted) {
-    if (accepted.stamp > *newest_) newest_ = accepted.stamp;
-  }
+  if (suspects_.size() < kConfirmations) return result;
+  result.step = Confirm();
+  result.accepted = std::exchange(suspects_, {});
+  recent_.clear();
+  newest_.reset();
+  for (const ImuSample& accepted : result.accepted) Accept(accepted);
   return result;
 }
 

@@ -14,7 +14,7 @@ namespace lio {
 namespace {
 
 constexpr double kMaxGap_s = 3.0;
-constexpr double kSetRight_s = 0.1;        // a clock goes as far forward as it had gone back
+constexpr double kClockSet_s = 0.1;        // what may be missing where a clock was set
 constexpr double kHole_s = 0.15;           // between inertial samples
 constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
@@ -76,14 +76,14 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
     ++counters_.num_imu;
     return;
   }
-  if (!new_stretch_.empty()) {
+  if (IsBetweenStretches()) {
     held_.push_back({sample, std::nullopt, 0});
     return;
   }
   const std::int64_t begin = Now();
   ImuIntake::Result result = intake_.Add(sample);
-  if (result.jumped) {
-    new_stretch_ = std::move(result.accepted);
+  if (result.step != ImuIntake::Step::kNone) {
+    new_stretch_ = std::move(result);
     EndStretch();
   } else {
     for (const ImuSample& accepted : result.accepted) Accept(accepted);
@@ -95,7 +95,7 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
 // The inertial stream has jumped to new_stretch_. What the lidar saw before is matched first, all
 // that comes meanwhile waits: so it does not matter how fast jobs are finished.
 void Odometry::Impl::EndStretch() {
-  const Timestamp first = new_stretch_.front().stamp;
+  const Timestamp first = new_stretch_.accepted.front().stamp;
   const bool goes_back = first < sent_.back().stamp;
   assembler_.CloseStretch(sent_.back().stamp, first);
   while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
@@ -107,15 +107,15 @@ void Odometry::Impl::EndStretch() {
 }
 
 void Odometry::Impl::ResumeAfterStretch() {
-  const std::vector<ImuSample> samples = std::exchange(new_stretch_, {});
-  BeginNewStretch(Understand(reading_, samples.front()));
-  for (const ImuSample& sample : samples) Accept(sample);
-  while (!held_.empty() && new_stretch_.empty()) {
+  const ImuIntake::Result stretch = std::exchange(new_stretch_, {});
+  BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
+  for (const ImuSample& sample : stretch.accepted) Accept(sample);
+  while (!held_.empty() && !IsBetweenStretches()) {
     HeldMessage message = std::move(held_.front());
     held_.pop_front();
     message.chunk ? AddChunk(std::move(*message.chunk), message.decode_ns) : AddImu(message.sample);
   }
-  if (is_flushed_ && new_stretch_.empty()) Flush();
+  if (is_flushed_ && !IsBetweenStretches()) Flush();
 }
 
 bool Odometry::Impl::HasWork() const {
@@ -176,7 +176,7 @@ void Odometry::Impl::AddHeld(Timestamp stamp) {
 
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time.
-void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
+void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step step) {
   sent_.clear();
   imu_.clear();
   mean_before_hole_.reset();
@@ -192,13 +192,10 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first) {
   }
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
-  // Else a clock was set, for messages go on.
-  const bool is_set_right =
-      clock_is_behind_s_ > 0.0 && std::abs(jump_s - clock_is_behind_s_) < kSetRight_s;
-  const bool is_gap = jump_s >= 0.0 && jump_s < kMaxGap_s && !is_set_right;
-  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kSetRight_s, kMaxGap_s);
-  if (is_set_right) unknown_s = kSetRight_s;
-  clock_is_behind_s_ = jump_s < 0.0 ? clock_is_behind_s_ - jump_s : 0.0;
+  // Where a clock was set, messages went on.
+  const bool is_gap = step == ImuIntake::Step::kGap && jump_s >= 0.0 && jump_s < kMaxGap_s;
+  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kClockSet_s, kMaxGap_s);
+  if (step == ImuIntake::Step::kSetRight) unknown_s = kClockSet_s;
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;
@@ -232,7 +229,7 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     ++counters_.num_chunks;
     return;
   }
-  if (!new_stretch_.empty()) {
+  if (IsBetweenStretches()) {
     held_.push_back({{}, std::move(chunk), decode_ns});
     return;
   }
@@ -246,7 +243,7 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 
 void Odometry::Impl::Flush() {
   is_flushed_ = true;
-  if (is_refused_ || !new_stretch_.empty()) return;
+  if (is_refused_ || IsBetweenStretches()) return;
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();

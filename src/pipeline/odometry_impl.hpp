@@ -60,7 +60,8 @@ class Odometry::Impl {
   void EndStretch();
   void ResumeAfterStretch();
   bool HasWork() const;
-  void BeginNewStretch(const ImuSample& first);
+  bool IsBetweenStretches() const { return !new_stretch_.accepted.empty(); }
+  void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
   void CollectSweeps();
   void OpenGate();
   void Admit(SweepPtr sweep);
@@ -169,9 +170,8 @@ class Odometry::Impl {
   std::deque<ImuSample> sent_;  // accepted, as they came, by stamp, of the last seconds
   std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
   std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one
-  std::optional<Timestamp> cut_;        // samples up to here come too late: a scan has used them
-  double clock_is_behind_s_ = 0.0;      // by steps back that were seen
-  std::vector<ImuSample> new_stretch_;  // after a jump, until all before it is matched
+  std::optional<Timestamp> cut_;   // samples up to here come too late: a scan has used them
+  ImuIntake::Result new_stretch_;  // after a step, until all before it is matched
   struct HeldMessage {
     ImuSample sample;
     std::optional<ScanChunk> chunk;  // absent: it is the sample

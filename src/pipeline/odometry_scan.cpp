@@ -71,7 +71,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
 
 InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
   InsertTask insert = TakeOutcome(std::move(outcome));
-  if (!new_stretch_.empty() && !HasWork()) ResumeAfterStretch();
+  if (IsBetweenStretches() && !HasWork()) ResumeAfterStretch();
   return insert;
 }
 

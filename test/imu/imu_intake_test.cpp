@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "support/motion.hpp"
 
@@ -12,6 +17,7 @@ namespace lio {
 namespace {
 
 using test::StampAt;
+using Step = ImuIntake::Step;
 
 constexpr double kStep_s = 0.01;
 
@@ -22,13 +28,20 @@ ImuSample Still(double t_s) {
   return sample;
 }
 
+// What it reads at `t_s`, stamped by a clock that is wrong.
+ImuSample Moving(double t_s, double clock_error_s = 0.0) {
+  ImuSample sample = Still(t_s + clock_error_s);
+  sample.w_imu_radps = Vector3(std::sin(3.0 * t_s), std::cos(5.0 * t_s), 0.1 * t_s);
+  return sample;
+}
+
 // Takes samples from `from_s` on; gives how many were accepted.
 int Feed(ImuIntake& intake, double from_s, int num, bool* jumped = nullptr) {
   int num_accepted = 0;
   for (int i = 0; i < num; ++i) {
     const ImuIntake::Result result = intake.Add(Still(from_s + i * kStep_s));
     num_accepted += static_cast<int>(result.accepted.size());
-    if (jumped != nullptr) *jumped = *jumped || result.jumped;
+    if (jumped != nullptr) *jumped = *jumped || result.step != Step::kNone;
   }
   return num_accepted;
 }
@@ -82,10 +95,11 @@ TEST(ImuIntake, DroppedSampleDoesNotMoveTheClock) {
 TEST(ImuIntake, OutOfOrderSamplesPass) {
   Counters counters;
   ImuIntake intake(counters);
-  Feed(intake, 0.0, 10);
-  const ImuIntake::Result late = intake.Add(Still(0.035));
+  Feed(intake, 0.0, 5);
+  Feed(intake, 0.06, 5);
+  const ImuIntake::Result late = intake.Add(Still(0.05));
   ASSERT_EQ(late.accepted.size(), 1u);
-  EXPECT_FALSE(late.jumped);
+  EXPECT_EQ(late.step, Step::kNone);
   EXPECT_EQ(counters.num_imu_gaps, 0);
 }
 
@@ -144,6 +158,90 @@ TEST(ImuIntake, WildStampsNeverBecomeAStretch) {
   EXPECT_EQ(Feed(intake, 0.1, 5), 5);
   EXPECT_EQ(counters.num_imu_out_of_range, 20);
   EXPECT_EQ(counters.num_clock_jumps, 0);
+}
+
+// Steps of a clock that was set back and right again, by samples of which none is lost.
+std::vector<Step> StepsOf(double clock_error_s, double rate_Hz, Counters& counters) {
+  ImuIntake intake(counters);
+  std::vector<Step> steps;
+  std::size_t num_accepted = 0;
+  for (int i = 0; i < 6 * rate_Hz; ++i) {
+    const double t_s = i / rate_Hz;
+    const bool is_wrong = t_s > 2.0 && t_s < 4.0;
+    const ImuIntake::Result result = intake.Add(Moving(t_s, is_wrong ? clock_error_s : 0.0));
+    num_accepted += result.accepted.size();
+    if (result.step != Step::kNone) steps.push_back(result.step);
+  }
+  EXPECT_EQ(static_cast<std::int64_t>(num_accepted), counters.num_imu);
+  return steps;
+}
+
+TEST(ImuIntake, ClockSetBackByLessThanASecondAndRightAgainBeginsNewStretches) {
+  for (const double error_s : {-0.15, -0.3, -0.5, -0.5037, -0.9, -1.7}) {
+    for (const double rate_Hz : {50.0, 100.0, 400.0}) {
+      Counters counters;
+      const std::vector<Step> expected{Step::kSetBack, Step::kSetRight};
+      EXPECT_EQ(StepsOf(error_s, rate_Hz, counters), expected) << error_s << " s at " << rate_Hz;
+      EXPECT_EQ(counters.num_clock_jumps, 2);
+      EXPECT_EQ(counters.num_imu_out_of_range, 0);
+    }
+  }
+}
+
+TEST(ImuIntake, BlockThatComesLateIsNoStepOfTheClock) {
+  Counters counters;
+  ImuIntake intake(counters);
+  int num_accepted = 0;
+  const auto feed = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      const ImuIntake::Result result = intake.Add(Moving(i * kStep_s));
+      EXPECT_EQ(result.step, Step::kNone) << i;
+      num_accepted += static_cast<int>(result.accepted.size());
+    }
+  };
+  feed(0, 60);
+  feed(80, 110);
+  feed(60, 80);
+  feed(110, 130);
+  EXPECT_EQ(num_accepted, 130);
+  EXPECT_EQ(counters.num_clock_jumps, 0);
+}
+
+TEST(ImuIntake, SamplesInRandomOrderPass) {
+  std::mt19937_64 random(3);
+  for (const double max_delay_s : {0.05, 0.3, 0.9}) {
+    std::uniform_real_distribution<double> delay_s(0.0, max_delay_s);
+    std::vector<std::pair<double, ImuSample>> arrivals;
+    for (int i = 0; i < 1000; ++i) {
+      arrivals.emplace_back(i * kStep_s + delay_s(random), Moving(i * kStep_s));
+    }
+    std::sort(arrivals.begin(), arrivals.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    Counters counters;
+    ImuIntake intake(counters);
+    std::size_t num_accepted = 0;
+    for (const auto& [at_s, sample] : arrivals) {
+      const ImuIntake::Result result = intake.Add(sample);
+      EXPECT_EQ(result.step, Step::kNone);
+      num_accepted += result.accepted.size();
+    }
+    EXPECT_EQ(num_accepted, 1000u) << max_delay_s;
+  }
+}
+
+// As a network does that sends twice.
+TEST(ImuIntake, RepeatsAreNoStepOfTheClock) {
+  Counters counters;
+  ImuIntake intake(counters);
+  std::size_t num_accepted = 0;
+  for (int i = 0; i < 300; ++i) {
+    for (const int at : {i, std::max(0, i - 10)}) {
+      const ImuIntake::Result result = intake.Add(Moving(at * kStep_s));
+      EXPECT_EQ(result.step, Step::kNone);
+      num_accepted += result.accepted.size();
+    }
+  }
+  EXPECT_EQ(num_accepted, 600u);  // that they are repeats is seen where they are kept
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ class Recovery(unittest.TestCase):
                              folder / "config.yaml")
         figures = support.evaluate(folder / "truth.tum", run)
         ape_m = figures["ape"]["position_m"]["rmse"]
-        print(f"{fault}: APE {ape_m:.4f} m, restarts {support.stats(run)['num_restarts']}")
+        self.end_error_m = figures["end"]["error_m"]
+        print(f"{fault}: APE {ape_m:.4f} m, at the end {self.end_error_m:.4f} m,"
+              f" restarts {support.stats(run)['num_restarts']}")
         return ape_m, support.stats(run)
 
     def test_a_second_without_the_imu_is_bridged_by_the_lidar(self):
@@ -35,6 +37,14 @@ class Recovery(unittest.TestCase):
     def test_a_clock_that_is_set_right_again_is_no_gap(self):
         ape_m, _ = self.run_with("stamp_jump:offset=-2,start=10,duration=1")
         self.assertLess(ape_m, 0.05)
+
+    # Its stamps come a second time, so they look like those of samples that are late. While they are
+    # wrong the path, by its stamps, is off by the way of 0.5 s.
+    def test_a_clock_that_steps_back_by_less_than_a_second_is_seen_to(self):
+        ape_m, stats = self.run_with("stamp_jump:offset=-0.5,start=10,duration=3")
+        self.assertEqual(stats["num_clock_jumps"], 2)
+        self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
+        self.assertLess(ape_m, 0.4)
 
     def test_a_gyro_that_clipped_is_recovered_from(self):
         ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
