@@ -23,6 +23,10 @@ constexpr std::size_t kConfirmations = 5;
 constexpr double kMaxSetRight_s = 0.1;
 constexpr double kSetRightShare = 0.25;  // ... and no more than this share of it.
 
+bool IsAsLong(double step_s, double as_s) {
+  return as_s > 0.0 && std::abs(step_s - as_s) < std::min(kMaxSetRight_s, kSetRightShare * as_s);
+}
+
 }  // namespace
 
 bool ImuIntake::IsSane(const ImuSample& sample) {
@@ -51,12 +55,13 @@ double ImuIntake::ClockStepTo_s(Timestamp stamp) const {
   return SecondsBetween(*newest_, stamp) - MeanStep_s();
 }
 
+bool ImuIntake::IsBehindHole(Timestamp stamp) const {
+  return stamp - *newest_ > kGap;
+}
+
 bool ImuIntake::MayBeSetRight(Timestamp stamp) const {
   const Timestamp first = suspects_.empty() ? stamp : suspects_.front().stamp;
-  if (stamp < first) return false;
-  const double step_s = ClockStepTo_s(first);
-  return is_behind_s_ > 0.0 &&
-         std::abs(step_s - is_behind_s_) < std::min(kMaxSetRight_s, kSetRightShare * is_behind_s_);
+  return stamp >= first && IsAsLong(ClockStepTo_s(first), is_behind_s_);
 }
 
 // Is it of a time of which other samples have told, and none of them itself?
@@ -71,7 +76,7 @@ bool ImuIntake::Contradicts(const ImuSample& sample) const {
 
 bool ImuIntake::IsSuspect(const ImuSample& sample) const {
   if (!newest_) return false;
-  if (IsFar(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
+  if (IsFar(sample.stamp) || IsBehindHole(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
   return *newest_ - sample.stamp > kJitter && Contradicts(sample);
 }
 
@@ -81,6 +86,7 @@ std::vector<ImuSample> ImuIntake::Release() {
     if (IsFar(sample.stamp)) {
       ++counters_->num_imu_out_of_range;
     } else {
+      if (IsBehindHole(sample.stamp)) ++counters_->num_imu_gaps;
       released.push_back(sample);
       Accept(sample);
     }
@@ -88,22 +94,37 @@ std::vector<ImuSample> ImuIntake::Release() {
   return released;
 }
 
-ImuIntake::Step ImuIntake::Confirm() {
+ImuIntake::Result ImuIntake::Confirm() {
+  Result result;
   const Timestamp first = suspects_.front().stamp;
-  const double step_s = ClockStepTo_s(first);
+  result.before = *newest_;
+  result.clock_step_s = ClockStepTo_s(first);
   if (first < *newest_) {
     ++counters_->num_clock_jumps;
-    is_behind_s_ -= step_s;
-    return Step::kSetBack;
-  }
-  if (MayBeSetRight(first)) {
+    result.step = Step::kSetBack;
+    result.undoes_hole = IsAsLong(-result.clock_step_s, hole_s_);
+    is_behind_s_ = result.undoes_hole ? 0.0 : is_behind_s_ - result.clock_step_s;
+  } else if (MayBeSetRight(first)) {
     ++counters_->num_clock_jumps;
+    result.step = Step::kSetRight;
     is_behind_s_ = 0.0;
-    return Step::kSetRight;
+  } else {
+    ++counters_->num_imu_gaps;
+    result.step = IsFar(first) ? Step::kGap : Step::kHole;
+    is_behind_s_ = 0.0;
   }
-  ++counters_->num_imu_gaps;
-  is_behind_s_ = 0.0;
-  return Step::kGap;
+  hole_s_ = result.step == Step::kHole ? result.clock_step_s : 0.0;
+  result.accepted = std::exchange(suspects_, {});
+  recent_.clear();
+  newest_.reset();
+  for (const ImuSample& accepted : result.accepted) Accept(accepted);
+  return result;
+}
+
+void ImuIntake::ShiftBy(Duration shift) {
+  for (ImuSample& sample : recent_) sample.stamp = sample.stamp + shift;
+  *newest_ = *newest_ + shift;
+  hole_s_ = 0.0;
 }
 
 void ImuIntake::Accept(const ImuSample& sample) {
@@ -121,19 +142,13 @@ ImuIntake::Result ImuIntake::Add(const ImuSample& sample) {
   }
   if (!IsSuspect(sample)) {
     for (const ImuSample& held : Release()) result.accepted.push_back(held);
-    if (newest_ && sample.stamp - *newest_ > kGap) ++counters_->num_imu_gaps;
     Accept(sample);
     result.accepted.push_back(sample);
     return result;
   }
   suspects_.push_back(sample);
   if (suspects_.size() < kConfirmations) return result;
-  result.step = Confirm();
-  result.accepted = std::exchange(suspects_, {});
-  recent_.clear();
-  newest_.reset();
-  for (const ImuSample& accepted : result.accepted) Accept(accepted);
-  return result;
+  return Confirm();
 }
 
 }  // namespace lio

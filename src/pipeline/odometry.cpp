@@ -13,8 +13,8 @@
 namespace lio {
 namespace {
 
-constexpr double kMaxGap_s = 3.0;
-constexpr double kClockSet_s = 0.1;        // what may be missing where a clock was set
+// A step of the inertial clock waits so long for a sweep that tells of the lidar's.
+constexpr Duration kWaitForLidar{1'000'000'000};
 constexpr double kHole_s = 0.15;           // between inertial samples
 constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
@@ -76,46 +76,23 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
     ++counters_.num_imu;
     return;
   }
+  ImuSample shifted = sample;
+  shifted.stamp = sample.stamp + imu_clock_shift_;
   if (IsBetweenStretches()) {
     held_.push_back({sample, std::nullopt, 0});
+    const Duration waited = Abs(shifted.stamp - new_stretch_.accepted.back().stamp);
+    if (!is_step_judged_ && waited > kWaitForLidar) EndStretch();
     return;
   }
   const std::int64_t begin = Now();
-  ImuIntake::Result result = intake_.Add(sample);
+  ImuIntake::Result result = intake_.Add(shifted);
   if (result.step != ImuIntake::Step::kNone) {
-    new_stretch_ = std::move(result);
-    EndStretch();
+    TakeStep(std::move(result));
   } else {
     for (const ImuSample& accepted : result.accepted) Accept(accepted);
   }
   filter_ns_ += Now() - begin;
   OpenGate();
-}
-
-// The inertial stream has jumped to new_stretch_. What the lidar saw before is matched first, all
-// that comes meanwhile waits: so it does not matter how fast jobs are finished.
-void Odometry::Impl::EndStretch() {
-  const Timestamp first = new_stretch_.accepted.front().stamp;
-  const bool goes_back = first < sent_.back().stamp;
-  assembler_.CloseStretch(sent_.back().stamp, first);
-  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
-  while (history_ && !gate_.empty() && (goes_back || gate_.oldest().end < first)) {
-    ++counters_.num_scans_without_imu;
-    Admit(gate_.Force());
-  }
-  if (!HasWork()) ResumeAfterStretch();
-}
-
-void Odometry::Impl::ResumeAfterStretch() {
-  const ImuIntake::Result stretch = std::exchange(new_stretch_, {});
-  BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
-  for (const ImuSample& sample : stretch.accepted) Accept(sample);
-  while (!held_.empty() && !IsBetweenStretches()) {
-    HeldMessage message = std::move(held_.front());
-    held_.pop_front();
-    message.chunk ? AddChunk(std::move(*message.chunk), message.decode_ns) : AddImu(message.sample);
-  }
-  if (is_flushed_ && !IsBetweenStretches()) Flush();
 }
 
 bool Odometry::Impl::HasWork() const {
@@ -174,51 +151,6 @@ void Odometry::Impl::AddHeld(Timestamp stamp) {
   Keep(*mean_before_hole_);
 }
 
-// After a long gap or a step of the clock the state goes on from where it was, unsure of what
-// happened in between, at the new time.
-void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step step) {
-  sent_.clear();
-  imu_.clear();
-  mean_before_hole_.reset();
-  cut_.reset();
-  gate_.BeginNewStretch(first.stamp);
-  ready_.clear();
-  ++counters_.num_restarts;
-  if (!history_) {
-    BeginScoutingAnew();
-    scouting_since_.reset();
-    Say(first.stamp, Notice::Severity::kWarning, "inertial stamps jumped: the start begins anew");
-    return;
-  }
-  Estimate estimate = history_->head();
-  const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
-  // Where a clock was set, messages went on.
-  const bool is_gap = step == ImuIntake::Step::kGap && jump_s >= 0.0 && jump_s < kMaxGap_s;
-  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kClockSet_s, kMaxGap_s);
-  if (step == ImuIntake::Step::kSetRight) unknown_s = kClockSet_s;
-  ImuSample coast;  // straight on, without turning
-  coast.stamp = estimate.stamp;
-  coast.w_imu_radps = estimate.state.gyro_bias;
-  coast.f_imu_mps2 =
-      estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * g_world_;
-  ImuSample end = coast;
-  end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
-  HistoryOptions history = MakeHistoryOptions();
-  ProcessNoise noise = history.noise;
-  noise.accel_density = history.gap_accel_std_mps2 * std::sqrt(unknown_s);
-  noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
-  const NavState before = estimate.state;
-  if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
-  if (!is_gap) estimate.state = before;
-  estimate.stamp = first.stamp;
-  history_.emplace(history, estimate, first);
-  standstill_.Forget();
-  last_published_.reset();
-  char text[120];
-  std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
-  Say(first.stamp, Notice::Severity::kWarning, text);
-}
-
 void Odometry::Impl::AddRawChunk(ScanChunk chunk, std::int64_t decode_ns) {
   chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.rig.lidar.clock_offset_s);
   AddChunk(std::move(chunk), decode_ns);
@@ -230,10 +162,13 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     return;
   }
   if (IsBetweenStretches()) {
+    const Timestamp stamp = chunk.stamp;
     held_.push_back({{}, std::move(chunk), decode_ns});
+    if (!is_step_judged_) JudgeStep(stamp);
     return;
   }
   const Timestamp stamp = chunk.stamp;
+  if (!intake_.is_in_doubt()) arrivals_.Note(stamp, NewestImu());
   assembler_.Add(std::move(chunk), decode_ns);
   if (!use_imu_ || sent_.empty()) {
     assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
@@ -243,7 +178,11 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 
 void Odometry::Impl::Flush() {
   is_flushed_ = true;
-  if (is_refused_ || IsBetweenStretches()) return;
+  if (is_refused_) return;
+  if (IsBetweenStretches()) {
+    if (!is_step_judged_) EndStretch();
+    return;
+  }
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The state machine behind Odometry, in eight files: odometry.cpp takes data in, odometry_start.cpp
-// finds the first state, odometry_reading.cpp what the inertial messages mean, odometry_scan.cpp
-// matches and fuses, odometry_lidar_only.cpp goes without an IMU, odometry_standstill.cpp and
-// odometry_clock.cpp look for rest and for the clocks' offset, odometry_output.cpp tells the state.
+// The state machine behind Odometry, in nine files: odometry.cpp takes data in,
+// odometry_stretch.cpp across gaps and steps of the clock, odometry_start.cpp finds the first
+// state, odometry_reading.cpp what the inertial messages mean, odometry_scan.cpp matches and fuses,
+// odometry_lidar_only.cpp goes without an IMU, odometry_standstill.cpp and odometry_clock.cpp look
+// for rest and for the clocks' offset, odometry_output.cpp tells the state.
 #pragma once
 
 #include <deque>
@@ -21,6 +22,7 @@
 #include "lio/imu/moving_start.hpp"
 #include "lio/imu/sample_lookup.hpp"
 #include "lio/imu/start_state.hpp"
+#include "lio/pipeline/arrival_watch.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "lio/pipeline/match_side.hpp"
 #include "lio/pipeline/motion_scout.hpp"
@@ -57,12 +59,7 @@ class Odometry::Impl {
   bool Keep(const ImuSample& sent);
   void BridgeTo(Timestamp stamp);
   void AddHeld(Timestamp stamp);
-  void EndStretch();
-  void ResumeAfterStretch();
   bool HasWork() const;
-  bool IsBetweenStretches() const { return !new_stretch_.accepted.empty(); }
-  void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
-  void CollectSweeps();
   void OpenGate();
   void Admit(SweepPtr sweep);
   void GoLidarOnly(const std::string& why);
@@ -74,6 +71,18 @@ class Odometry::Impl {
   HistoryOptions MakeHistoryOptions() const;
   void Say(Timestamp stamp, Notice::Severity severity, std::string text);
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
+
+  // --- odometry_stretch.cpp
+  bool IsBetweenStretches() const { return !new_stretch_.accepted.empty(); }
+  void TakeStep(ImuIntake::Result result);
+  ClockStep ClockStepNow() const;
+  void JudgeStep(Timestamp chunk);
+  void GoOnShifted();
+  void GoOn();
+  void EndStretch();
+  void ResumeAfterStretch();
+  void GoOnWith(const std::vector<ImuSample>& samples);
+  void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
 
   // --- odometry_start.cpp
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
@@ -171,7 +180,10 @@ class Odometry::Impl {
   std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
   std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one
   std::optional<Timestamp> cut_;   // samples up to here come too late: a scan has used them
-  ImuIntake::Result new_stretch_;  // after a step, until all before it is matched
+  ImuIntake::Result new_stretch_;  // after a step, until it is judged and all before it is matched
+  bool is_step_judged_ = true;
+  Duration imu_clock_shift_;  // of a clock that stepped alone
+  ArrivalWatch arrivals_;
   struct HeldMessage {
     ImuSample sample;
     std::optional<ScanChunk> chunk;  // absent: it is the sample

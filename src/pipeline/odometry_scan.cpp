@@ -71,7 +71,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
 
 InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
   InsertTask insert = TakeOutcome(std::move(outcome));
-  if (IsBetweenStretches() && !HasWork()) ResumeAfterStretch();
+  if (IsBetweenStretches() && is_step_judged_ && !HasWork()) ResumeAfterStretch();
   return insert;
 }
 

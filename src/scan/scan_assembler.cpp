@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kMaxOffsetNs = 500'000'000;  // no lidar turns slower than twice a second
 constexpr Duration kMaxSweepSpan{500'000'000};
+constexpr Duration kJitter{20'000'000};
 constexpr Duration kApart{1'000'000'000};  // sweeps that follow each other are nearer
 constexpr std::size_t kMaxOpenSweeps = 2;
 constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
@@ -33,6 +34,17 @@ bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
          chunk.stamp - first < kMaxSweepSpan && last - chunk.stamp < kMaxSweepSpan;
 }
 
+// Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
+bool ScanAssembler::IsTornOff(const ScanChunk& chunk) const {
+  if (span_ == Duration{}) return false;
+  const Duration reach = span_ + kJitter;
+  const Timestamp last = chunk.stamp + Duration{LastOffset(chunk)};
+  return std::any_of(open_.begin(), open_.end(), [&](const Partial& partial) {
+    return partial.name.Names(chunk) &&
+           (chunk.stamp - partial.name.last > reach || partial.name.first - last > reach);
+  });
+}
+
 ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   for (Partial& partial : open_) {
     if (!partial.name.Names(chunk)) continue;
@@ -54,6 +66,10 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
 void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
   if (!IsUsable(chunk)) {
+    ++counters_->num_chunks_bad;
+    return;
+  }
+  if (IsTornOff(chunk)) {
     ++counters_->num_chunks_bad;
     return;
   }

@@ -46,6 +46,12 @@ class Recovery(unittest.TestCase):
         self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
         self.assertLess(ape_m, 0.4)
 
+    def test_an_inertial_clock_that_steps_alone_is_put_right(self):
+        for offset in ("-0.5", "0.4", "1.5"):
+            ape_m, stats = self.run_with(f"stamp_jump:channel=imu,offset={offset},start=10,duration=5")
+            self.assertLess(ape_m, 0.02, "was 1.1 m and more")
+            self.assertEqual(stats["num_restarts"], 0)
+
     def test_a_gyro_that_clipped_is_recovered_from(self):
         ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
         self.assertGreaterEqual(stats["num_restarts"], 1)

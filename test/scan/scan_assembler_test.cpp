@@ -223,6 +223,23 @@ TEST(ScanAssembler, ChunkThatDisagreesOnTheCountIsNotMixedIn) {
 }
 
 // The sender starts anew and counts from zero again: same number, another time.
+TEST(ScanAssembler, ChunkThatAStepOfTheClockTearsOffIsDropped) {
+  for (const double step_s : {-0.3, 0.25, 0.4}) {
+    Assembly assembly;
+    for (const ScanChunk& chunk : MakeSweep(1)) assembly.Add(chunk);
+    for (int i = 0; i < 3; ++i) assembly.Add(MakeChunk(2, i));
+    ScanChunk torn = MakeChunk(2, 3);
+    torn.stamp = torn.stamp + Duration::FromSeconds(step_s);
+    assembly.Add(torn);
+    assembly.assembler.CloseAll();
+    const std::vector<Sweep> sweeps = assembly.TakeAll();
+    ASSERT_EQ(sweeps.size(), 2u);
+    EXPECT_EQ(sweeps[1].num_missing_chunks, 1);
+    EXPECT_EQ(sweeps[1].end, MakeChunk(2, 2).stamp + Duration{24'000'000});
+    EXPECT_EQ(assembly.counters.num_chunks_bad, 1);
+  }
+}
+
 TEST(ScanAssembler, SameNumberMuchLaterIsAnotherSweep) {
   Assembly a;
   for (const int index : {0, 1}) a.Add(MakeChunk(0, index));

@@ -28,15 +28,23 @@ class ImuIntake {
 
   enum class Step {
     kNone,      // they go on as those before
-    kGap,       // a new stretch: after a long gap, or the clock was set forward
-    kSetBack,   // a new stretch: the clock was set back
-    kSetRight,  // a new stretch: the clock was set forward by what it had been set back
+    kHole,      // less than a second is missing, or the clock was set forward
+    kGap,       // more than that
+    kSetBack,   // the clock was set back
+    kSetRight,  // the clock was set forward by what it had been set back
   };
   struct Result {
     std::vector<ImuSample> accepted;  // mostly one; several when a step is confirmed or denied
     Step step = Step::kNone;
+    Timestamp before;           // with a step: the newest stamp before it
+    double clock_step_s = 0.0;  // with a step: of the clock, if samples went on meanwhile
+    bool undoes_hole = false;   // the step back is as long as a hole before: was that a step, too?
   };
   Result Add(const ImuSample& sample);
+  // Are samples held that may be the first ones after a step?
+  bool is_in_doubt() const { return !suspects_.empty(); }
+  // What was accepted since the last step is of another time.
+  void ShiftBy(Duration shift);
 
  private:
   bool IsSane(const ImuSample& sample);
@@ -44,18 +52,20 @@ class ImuIntake {
   // Of a clock by which the sample that follows the newest one has that stamp.
   double ClockStepTo_s(Timestamp stamp) const;
   bool IsFar(Timestamp stamp) const;
+  bool IsBehindHole(Timestamp stamp) const;
   bool IsSuspect(const ImuSample& sample) const;
   bool MayBeSetRight(Timestamp stamp) const;
   bool Contradicts(const ImuSample& sample) const;
-  // Those that are held are believed to be late, or not at all.
+  // Those that are held are believed, unless they are far off.
   std::vector<ImuSample> Release();
-  Step Confirm();
+  Result Confirm();
   void Accept(const ImuSample& sample);
 
   Counters* counters_;
   double max_rate_;
   std::optional<Timestamp> newest_;
   double is_behind_s_ = 0.0;         // the clock, by steps back that were seen
+  double hole_s_ = 0.0;              // the last one in the stream; perhaps a step forth
   std::deque<ImuSample> recent_;     // accepted, by stamp
   std::vector<ImuSample> suspects_;  // perhaps of a new stretch of time, not yet believed
 };

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Did the lidar's clock step when the inertial unit's did? Where one host stamps both they step
+// together; where each sensor has its own clock, one may step alone. And is a step forth one at
+// all, or a gap? The order in which messages come tells, since chunks of sweeps come a steady while
+// after inertial samples of the same time. No wall clock is asked.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "lio/base/time.hpp"
+
+namespace lio {
+
+// Stamps of the inertial samples next to each other on both sides of a step.
+struct ClockStep {
+  Timestamp before;
+  Timestamp after;
+};
+
+enum class LidarClock {
+  kUnclear,  // the chunk may be of a sweep that began before the step
+  kStepped,  // as well; or time has passed for both
+  kSteady,
+};
+
+class ArrivalWatch {
+ public:
+  // A chunk came, by its stamp, when the inertial stream was at `newest_imu` and in no doubt.
+  void Note(Timestamp chunk, std::optional<Timestamp> newest_imu);
+  bool has_seen_lidar() const { return last_chunk_.has_value(); }
+
+  // Did time pass for the lidar up to a step forth, as it does in a gap of the inertial stream?
+  bool HasTimePassed(const ClockStep& step) const;
+  // By a chunk that came after the step, when the inertial stream was at `newest_imu`.
+  LidarClock Judge(const ClockStep& step, Timestamp chunk, Timestamp newest_imu) const;
+
+ private:
+  Duration Lag() const;
+
+  std::optional<Timestamp> last_chunk_;
+  Duration last_stride_;  // from the chunk before
+  std::optional<Timestamp> newest_imu_;
+  std::deque<Duration> lags_;  // of chunks behind the inertial stream, the last few
+};
+
+}  // namespace lio

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "pipeline/odometry_impl.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kMaxGap_s = 3.0;
+constexpr double kClockSet_s = 0.1;  // what may be missing where a clock was set
+
+}  // namespace
+
+// It is held back, with all that comes meanwhile, until a sweep tells whether the lidar's clock
+// stepped as well.
+void Odometry::Impl::TakeStep(ImuIntake::Result result) {
+  using enum ImuIntake::Step;
+  new_stretch_ = std::move(result);
+  is_step_judged_ = false;
+  const ClockStep step = ClockStepNow();
+  const bool is_known_alone = new_stretch_.step == kSetRight && imu_clock_shift_ > Duration{};
+  if (is_known_alone) {
+    GoOnShifted();
+  } else if (!arrivals_.has_seen_lidar()) {
+    EndStretch();
+  } else if (arrivals_.HasTimePassed(step)) {
+    if (new_stretch_.step == kSetRight) new_stretch_.step = kGap;
+    EndStretch();
+  }
+}
+
+ClockStep Odometry::Impl::ClockStepNow() const {
+  return {new_stretch_.before, new_stretch_.accepted.front().stamp};
+}
+
+// By a chunk that came after it.
+void Odometry::Impl::JudgeStep(Timestamp chunk) {
+  Timestamp newest_imu = new_stretch_.accepted.back().stamp;
+  for (const HeldMessage& held : held_) {
+    if (!held.chunk) newest_imu = std::max(newest_imu, held.sample.stamp + imu_clock_shift_);
+  }
+  const LidarClock lidar = arrivals_.Judge(ClockStepNow(), chunk, newest_imu);
+  if (lidar == LidarClock::kStepped) EndStretch();
+  if (lidar == LidarClock::kSteady) GoOnShifted();
+}
+
+// The inertial unit's clock has stepped alone: its stamps are put right.
+void Odometry::Impl::GoOnShifted() {
+  const double step_s = new_stretch_.undoes_hole ? 0.0 : new_stretch_.clock_step_s;
+  const Duration shift = Duration::FromSeconds(-step_s);
+  imu_clock_shift_ = imu_clock_shift_ + shift;
+  intake_.ShiftBy(shift);
+  for (ImuSample& sample : new_stretch_.accepted) sample.stamp = sample.stamp + shift;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the inertial clock stepped by %.3f s, the lidar's did not: inertial stamps are "
+                "shifted by %.3f s",
+                new_stretch_.clock_step_s,
+                SecondsBetween(Timestamp{}, Timestamp{} + imu_clock_shift_));
+  Say(new_stretch_.accepted.front().stamp, Notice::Severity::kWarning, text);
+  GoOn();
+}
+
+// As if there had been no step, or a hole at most.
+void Odometry::Impl::GoOn() {
+  is_step_judged_ = true;
+  const ImuIntake::Result step = std::exchange(new_stretch_, {});
+  GoOnWith(step.accepted);
+}
+
+// The inertial stream has jumped to new_stretch_. What the lidar saw before is matched first, all
+// that comes meanwhile waits: so it does not matter how fast jobs are finished.
+void Odometry::Impl::EndStretch() {
+  if (new_stretch_.step == ImuIntake::Step::kHole) {
+    GoOn();
+    return;
+  }
+  is_step_judged_ = true;
+  const Timestamp first = new_stretch_.accepted.front().stamp;
+  const bool goes_back = first < sent_.back().stamp;
+  assembler_.CloseStretch(sent_.back().stamp, first);
+  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
+  while (history_ && !gate_.empty() && (goes_back || gate_.oldest().end < first)) {
+    ++counters_.num_scans_without_imu;
+    Admit(gate_.Force());
+  }
+  if (!HasWork()) ResumeAfterStretch();
+}
+
+void Odometry::Impl::ResumeAfterStretch() {
+  const ImuIntake::Result stretch = std::exchange(new_stretch_, {});
+  BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
+  GoOnWith(stretch.accepted);
+}
+
+// And with what came since the step.
+void Odometry::Impl::GoOnWith(const std::vector<ImuSample>& samples) {
+  for (const ImuSample& sample : samples) Accept(sample);
+  while (!held_.empty() && !IsBetweenStretches()) {
+    HeldMessage message = std::move(held_.front());
+    held_.pop_front();
+    message.chunk ? AddChunk(std::move(*message.chunk), message.decode_ns) : AddImu(message.sample);
+  }
+  if (is_flushed_) Flush();
+}
+
+// After a long gap or a step of the clock the state goes on from where it was, unsure of what
+// happened in between, at the new time.
+void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step step) {
+  sent_.clear();
+  imu_.clear();
+  mean_before_hole_.reset();
+  cut_.reset();
+  gate_.BeginNewStretch(first.stamp);
+  ready_.clear();
+  ++counters_.num_restarts;
+  if (!history_) {
+    BeginScoutingAnew();
+    scouting_since_.reset();
+    Say(first.stamp, Notice::Severity::kWarning, "inertial stamps jumped: the start begins anew");
+    return;
+  }
+  Estimate estimate = history_->head();
+  const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
+  // Where a clock was set, messages went on.
+  const bool is_gap = step == ImuIntake::Step::kGap && jump_s >= 0.0 && jump_s < kMaxGap_s;
+  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kClockSet_s, kMaxGap_s);
+  if (step == ImuIntake::Step::kSetRight) unknown_s = kClockSet_s;
+  ImuSample coast;  // straight on, without turning
+  coast.stamp = estimate.stamp;
+  coast.w_imu_radps = estimate.state.gyro_bias;
+  coast.f_imu_mps2 =
+      estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * g_world_;
+  ImuSample end = coast;
+  end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
+  HistoryOptions history = MakeHistoryOptions();
+  ProcessNoise noise = history.noise;
+  noise.accel_density = history.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
+  const NavState before = estimate.state;
+  if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
+  if (!is_gap) estimate.state = before;
+  estimate.stamp = first.stamp;
+  history_.emplace(history, estimate, first);
+  standstill_.Forget();
+  last_published_.reset();
+  char text[120];
+  std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
+  Say(first.stamp, Notice::Severity::kWarning, text);
+}
+
+}  // namespace lio
