@@ -130,6 +130,7 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     AddTime(Stage::kMatch, begin, outcome);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
+    if (job.hold_by_view) HoldByView(job, outcome);
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match};
   }
   if ((job.clear_map || job.is_map_young) && feeds_young_map_) {
@@ -148,6 +149,7 @@ MatchOutcome MatchSide::Run(const MatchJob& job) {
     matcher_->Clear();
     matcher_->SetUp(job.up_map);
     velocity_search_ = {};
+    views_.clear();
     last_found_.reset();
   }
 

@@ -53,6 +53,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.T_map_imu_guess = predicted.state.T_map_imu;
   job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
   job.clear_map = clear_map;
+  job.hold_by_view = scout_.has_value();
   job.is_map_young = IsMapYoung();
   const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;

@@ -9,13 +9,7 @@
 namespace lio::sim {
 namespace {
 
-test::RunOutcome RunOver(const test::DriveSpec& spec, bool use_imu) {
-  test::SimulatedLog log(spec);
-  log.options.pipeline.use_imu = use_imu;
-  test::RunningEstimator estimator(log.options);
-  for (Message& message : log.messages) estimator.Take(std::move(message));
-  return estimator.Finish(log.truth);
-}
+using test::RunOver;
 
 // Was 24 cm and 0.2 deg when beams through crowns of trees made planes.
 TEST(FewBeams, DrivingOffFromRestIsNotHeldBack) {

@@ -26,6 +26,7 @@ struct DriveSpec {
   std::uint64_t seed = 1;
   std::vector<sim::Fault> faults = {};  // of the world
   double rotation_hz = 0.0;             // 0: the lidar's own
+  bool starts_moving = false;           // else at rest
 };
 
 // A simulated drive, with what lio-sim's folder holds.
@@ -39,6 +40,7 @@ struct SimulatedLog {
     sim::ScenarioOptions scenario;
     scenario.seed = spec.seed;
     scenario.duration_s = spec.duration_s;
+    scenario.starts_moving = spec.starts_moving;
     sim::RecordOptions record;
     record.lidar = sim::LoadLidarModel(spec.lidar);
     if (spec.rotation_hz > 0.0) record.lidar.rotation_hz = spec.rotation_hz;
@@ -127,5 +129,13 @@ class RunningEstimator {
   MatchSide match_side_;
   StampedPoses rows_;
 };
+
+inline RunOutcome RunOver(const DriveSpec& spec, bool use_imu) {
+  SimulatedLog log(spec);
+  log.options.pipeline.use_imu = use_imu;
+  RunningEstimator estimator(log.options);
+  for (sim::Message& message : log.messages) estimator.Take(std::move(message));
+  return estimator.Finish(log.truth);
+}
 
 }  // namespace lio::test

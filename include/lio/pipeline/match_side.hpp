@@ -13,6 +13,7 @@
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/scan/dense_points.hpp"
 #include "lio/scan/reduced_scan.hpp"
+#include "lio/scan/shift_search.hpp"
 #include "lio/scan/sweep.hpp"
 #include "lio/scan/velocity_search.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -25,6 +26,7 @@ struct MatchJob {
   Pose T_map_imu_guess;    // at the sweep's middle
   Matrix6 guess_cov = Matrix6::Zero();
   bool clear_map = false;      // forget everything first
+  bool hold_by_view = false;   // a match with weak directions, by the things that stand around
   bool is_map_young = false;   // this scan is inserted unthinned, as the first one is
   bool refine_deskew = false;  // match, deskew again along what was found, match again
   // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
@@ -81,6 +83,8 @@ class MatchSide {
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
   void SeekVelocity(const MatchJob& job, MatchOutcome& outcome);
   void Match(const MatchJob& job, const ReducedScan& reduced, MatchOutcome& outcome);
+  // By the things that stand around: match_side_shift.cpp.
+  void HoldByView(const MatchJob& job, MatchOutcome& outcome);
   // Where the scan was not found as guessed, in the places where it may be: match_side_place.cpp.
   void SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& outcome);
   // The job's guess, bettered by the shift since the last scan.
@@ -93,6 +97,7 @@ class MatchSide {
   std::unique_ptr<SweepReducer> reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
   VelocitySearch velocity_search_;
+  std::vector<PlacedView> views_;  // of the last scans that were matched, some way apart
   std::optional<FoundScan> last_found_;
   std::int64_t last_insert_ns_ = 0;
 };
