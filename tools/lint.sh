@@ -7,6 +7,10 @@
 #   tools/lint.sh          all of it
 #   tools/lint.sh --fast   without clang-tidy
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '4,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 failed=0

@@ -6,6 +6,10 @@
 # in LIO_DATA, else in ../shared/data, and are reported as skipped without it.
 #   tools/test.sh [--fast] [CTEST_ARGUMENT...]     --fast leaves the sanitizers out
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '4,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 with_sanitizers=yes

@@ -8,6 +8,10 @@
 # leaves it. Needs tools/setup.sh. Leaves out/compare/NAME/{table.md,paths.png} and each run, NAME
 # that of LOG's folder.
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '4,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 usage() {
   sed -n '4,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2

@@ -6,6 +6,10 @@
 #   tools/bench/speed.sh [RUNS [THREADS]]        (3 runs, 1 thread)
 # Needs tools/setup.sh. The drive is kept in out/inputs/speed/.
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '4,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 runs=${1:-3} threads=${2:-1}
 drive=out/inputs/speed
