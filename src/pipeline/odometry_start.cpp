@@ -16,6 +16,7 @@ constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over 
 constexpr double kMovedDistanceCalm_m = 0.5;
 constexpr double kCalmGyroStd_radps = 0.005;
 constexpr double kCalmAccelStd_mps2 = 0.05;
+constexpr double kSpreadFactor = 1.5;  // of a spread that is only that
 constexpr double kMovedAngle_rad = 0.01;
 constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
 constexpr double kWaitNoticeEvery_s = 1.0;
@@ -125,7 +126,8 @@ void Odometry::Impl::FinishScouting(const MatchOutcome& outcome, InsertTask& ins
   if (is_matched) TellClassifier({middle, outcome.match.T_map_imu});
   last_found_ = middle;
   if (!scouting_since_) scouting_since_ = outcome.sweep->start;
-  if (!glance_ && scouted_.size() >= kMinGlance && HasMovedSince(0, false) &&
+  if (!glance_ && scouted_.size() >= kMinGlance &&
+      HasMovedSince(0, use_imu_ && IsVeryCalm(outcome.sweep->end)) &&
       LargestStd(estimate, kVel) < kGlanceVelocityStd_mps) {
     glance_ = state;
     scouted_.clear();
@@ -157,8 +159,15 @@ bool Odometry::Impl::HasMovedSince(std::size_t first, bool is_calm) const {
 bool Odometry::Impl::IsVeryCalm(Timestamp stamp) const {
   const ImuStatistics statistics =
       Summarise(SamplesBetween(stamp - Duration::FromSeconds(options_.start.rest_s), stamp));
-  return statistics.num_samples >= 3 && statistics.gyro_std_radps < kCalmGyroStd_radps &&
-         statistics.accel_std_mps2 < kCalmAccelStd_mps2;
+  if (statistics.num_samples < 3) return false;
+  // Beside the body's own unrest there is the noise of the sensors, the more the faster they are.
+  const ImuRig& imu = options_.rig.imu;
+  const double root_s = std::sqrt(statistics.span_s / (statistics.num_samples - 1));
+  const auto limit = [&](double calm_std, double density) {
+    return kSpreadFactor * std::hypot(calm_std, density / root_s);
+  };
+  return statistics.gyro_std_radps < limit(kCalmGyroStd_radps, imu.gyro_noise_density) &&
+         statistics.accel_std_mps2 < limit(kCalmAccelStd_mps2, imu.accel_noise_density);
 }
 
 void Odometry::Impl::SayWaiting(Timestamp stamp, const std::string& text) {
