@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMaxForce_mps2 = 2000.0;  // beyond any accelerometer (200 g)
 constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is one whatever follows
-constexpr Duration kJitter{20'000'000};    // a shorter step back is none
+constexpr Duration kJitter{80'000'000};    // a shorter step back is none
 constexpr double kHole = 1.5;              // in mean steps
 constexpr Duration kSameStretch{200'000'000};
 constexpr Duration kGap{200'000'000};
@@ -67,7 +67,7 @@ bool ImuIntake::MayBeSetRight(Timestamp stamp) const {
 // Is it of a time of which other samples have told, and none of them itself?
 bool ImuIntake::Contradicts(const ImuSample& sample) const {
   const auto next = FirstNotBefore(recent_, sample.stamp);
-  if (next == recent_.begin() || next == recent_.end()) return false;
+  if (next == recent_.begin()) return true;  // it would have been told before the first that was
   if (next->stamp == sample.stamp) {
     return next->w_imu_radps != sample.w_imu_radps || next->f_imu_mps2 != sample.f_imu_mps2;
   }
@@ -77,7 +77,8 @@ bool ImuIntake::Contradicts(const ImuSample& sample) const {
 bool ImuIntake::IsSuspect(const ImuSample& sample) const {
   if (!newest_) return false;
   if (IsFar(sample.stamp) || IsBehindHole(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
-  return *newest_ - sample.stamp > kJitter && Contradicts(sample);
+  const Duration least = suspects_.empty() ? kJitter : Duration{};
+  return *newest_ - sample.stamp > least && Contradicts(sample);
 }
 
 std::vector<ImuSample> ImuIntake::Release() {
@@ -115,16 +116,29 @@ ImuIntake::Result ImuIntake::Confirm() {
   }
   hole_s_ = result.step == Step::kHole ? result.clock_step_s : 0.0;
   result.accepted = std::exchange(suspects_, {});
-  recent_.clear();
-  newest_.reset();
+  if (result.step != Step::kHole) {
+    recent_.clear();
+    newest_.reset();
+  }
+  step_after_ = first;
   for (const ImuSample& accepted : result.accepted) Accept(accepted);
   return result;
 }
 
-void ImuIntake::ShiftBy(Duration shift) {
-  for (ImuSample& sample : recent_) sample.stamp = sample.stamp + shift;
-  *newest_ = *newest_ + shift;
+std::vector<ImuSample> ImuIntake::Flush() {
+  return newest_ ? Release() : std::vector<ImuSample>{};
+}
+
+void ImuIntake::ForgetHole() {
   hole_s_ = 0.0;
+}
+
+void ImuIntake::ShiftBy(Duration shift) {
+  for (ImuSample& sample : recent_) {
+    if (sample.stamp >= step_after_) sample.stamp = sample.stamp + shift;
+  }
+  newest_ = recent_.back().stamp;
+  ForgetHole();
 }
 
 void ImuIntake::Accept(const ImuSample& sample) {

@@ -10,6 +10,9 @@ namespace {
 
 // The step is somewhere between two inertial samples, which need not come on time.
 constexpr Duration kUnsure{30'000'000};
+constexpr Duration kWild{5'000'000'000};  // a chunk that is so far off tells nothing
+constexpr Duration kSilence{1'000'000'000};
+constexpr std::size_t kNumChunks = 4;
 constexpr std::size_t kNumLags = 9;  // the lidar may step a message earlier: their median counts
 
 bool IsNearerAfter(const ClockStep& step, Timestamp stamp) {
@@ -19,13 +22,17 @@ bool IsNearerAfter(const ClockStep& step, Timestamp stamp) {
 }  // namespace
 
 void ArrivalWatch::Note(Timestamp chunk, std::optional<Timestamp> newest_imu) {
-  last_stride_ = last_chunk_ ? chunk - *last_chunk_ : Duration{};
-  last_chunk_ = chunk;
+  chunks_.push_back(chunk);
+  if (chunks_.size() > kNumChunks) chunks_.pop_front();
   // While the inertial stream pauses nothing is learned of the lag.
   if (!newest_imu || newest_imu == newest_imu_) return;
   newest_imu_ = newest_imu;
   lags_.push_back(*newest_imu - chunk);
   if (lags_.size() > kNumLags) lags_.pop_front();
+}
+
+bool ArrivalWatch::SeesLidarAt(Timestamp imu) const {
+  return !chunks_.empty() && Abs(imu - (chunks_.back() + Lag())) < kSilence;
 }
 
 Duration ArrivalWatch::Lag() const {
@@ -37,15 +44,24 @@ Duration ArrivalWatch::Lag() const {
 }
 
 bool ArrivalWatch::HasTimePassed(const ClockStep& step) const {
-  if (!last_chunk_ || step.after < step.before) return false;
-  const bool has_stepped_itself = last_stride_ + last_stride_ > step.after - step.before;
-  return !has_stepped_itself && IsNearerAfter(step, *last_chunk_ + Lag());
+  if (chunks_.empty() || step.after < step.before) return false;
+  for (std::size_t i = 1; i < chunks_.size(); ++i) {
+    const Duration stride = chunks_[i] - chunks_[i - 1];
+    if (stride + stride > step.after - step.before) return false;  // it has stepped itself
+  }
+  return IsNearerAfter(step, chunks_.back() + Lag());
 }
 
-LidarClock ArrivalWatch::Judge(const ClockStep& step, Timestamp chunk, Timestamp newest_imu) const {
+StepVerdict ArrivalWatch::Judge(const ClockStep& step, Timestamp chunk,
+                                Timestamp newest_imu) const {
   const Timestamp at_step = chunk + Lag() - (newest_imu - step.after);
-  if (IsNearerAfter(step, at_step)) return LidarClock::kStepped;
-  return chunk > step.before + kUnsure ? LidarClock::kSteady : LidarClock::kUnclear;
+  if (IsNearerAfter(step, at_step)) {
+    const bool is_wild = Abs(at_step - step.after) > kWild;
+    return {is_wild ? LidarClock::kUnclear : LidarClock::kStepped, at_step};
+  }
+  const bool is_wild = Abs(at_step - step.before) > kWild;
+  const bool began_after = chunk > step.before + kUnsure;
+  return {began_after && !is_wild ? LidarClock::kSteady : LidarClock::kUnclear, at_step};
 }
 
 }  // namespace lio

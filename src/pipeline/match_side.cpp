@@ -130,7 +130,9 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
     AddTime(Stage::kMatch, begin, outcome);
   }
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
+    begin = Now();
     if (job.hold_by_view) HoldByView(job, outcome);
+    AddTime(Stage::kMatch, begin, outcome);
     last_found_ = {job.sweep->middle(), std::move(to_match), outcome.match};
   }
   if ((job.clear_map || job.is_map_young) && feeds_young_map_) {

@@ -39,6 +39,8 @@ void MatchSide::HoldByView(const MatchJob& job, MatchOutcome& outcome) {
   const auto place_m = [&]() -> Eigen::Vector2f {
     return (R_level_map * match.T_map_imu.translation).head<2>().cast<float>();
   };
+  const bool is_apart = views_.empty() || (place_m() - views_.back().position_m).norm() >= kApart_m;
+  if (match.weak_mask == 0 && !is_apart) return;
   UprightView view(Levelled(outcome.points_imu, R_level_map * match.T_map_imu.rotation));
   if (match.weak_mask != 0 && !views_.empty()) {
     const double std_m =
@@ -48,7 +50,7 @@ void MatchSide::HoldByView(const MatchJob& job, MatchOutcome& outcome) {
       HoldAt(*found, R_level_map, match);
     }
   }
-  if (!views_.empty() && (place_m() - views_.back().position_m).norm() < kApart_m) return;
+  if (!is_apart) return;
   if (views_.size() == kMaxViews) views_.erase(views_.begin());
   views_.push_back({place_m(), std::move(view)});
 }

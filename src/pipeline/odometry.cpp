@@ -13,8 +13,6 @@
 namespace lio {
 namespace {
 
-// A step of the inertial clock waits so long for a sweep that tells of the lidar's.
-constexpr Duration kWaitForLidar{1'000'000'000};
 constexpr double kHole_s = 0.15;           // between inertial samples
 constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
@@ -76,15 +74,13 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
     ++counters_.num_imu;
     return;
   }
-  ImuSample shifted = sample;
-  shifted.stamp = sample.stamp + imu_clock_shift_;
   if (IsBetweenStretches()) {
-    held_.push_back({sample, std::nullopt, 0});
-    const Duration waited = Abs(shifted.stamp - new_stretch_.accepted.back().stamp);
-    if (!is_step_judged_ && waited > kWaitForLidar) EndStretch();
+    HoldSample(sample);
     return;
   }
   const std::int64_t begin = Now();
+  ImuSample shifted = sample;
+  shifted.stamp = sample.stamp + imu_clock_shift_;
   ImuIntake::Result result = intake_.Add(shifted);
   if (result.step != ImuIntake::Step::kNone) {
     TakeStep(std::move(result));
@@ -162,13 +158,11 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     return;
   }
   if (IsBetweenStretches()) {
-    const Timestamp stamp = chunk.stamp;
-    held_.push_back({{}, std::move(chunk), decode_ns});
-    if (!is_step_judged_) JudgeStep(stamp);
+    HoldChunk(std::move(chunk), decode_ns);
     return;
   }
   const Timestamp stamp = chunk.stamp;
-  if (!intake_.is_in_doubt()) arrivals_.Note(stamp, NewestImu());
+  if (!intake_.is_in_doubt()) arrivals_.Note(stamp, intake_.newest());
   assembler_.Add(std::move(chunk), decode_ns);
   if (!use_imu_ || sent_.empty()) {
     assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
@@ -183,6 +177,7 @@ void Odometry::Impl::Flush() {
     if (!is_step_judged_) EndStretch();
     return;
   }
+  for (const ImuSample& sample : intake_.Flush()) Accept(sample);
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();

@@ -76,8 +76,9 @@ class Odometry::Impl {
   bool IsBetweenStretches() const { return !new_stretch_.accepted.empty(); }
   void TakeStep(ImuIntake::Result result);
   ClockStep ClockStepNow() const;
-  void JudgeStep(Timestamp chunk);
-  void GoOnShifted();
+  void HoldSample(const ImuSample& sample);
+  void HoldChunk(ScanChunk chunk, std::int64_t decode_ns);
+  void GoOnShifted(Timestamp after_by_lidar);
   void GoOn();
   void EndStretch();
   void ResumeAfterStretch();
@@ -182,6 +183,8 @@ class Odometry::Impl {
   std::optional<Timestamp> cut_;   // samples up to here come too late: a scan has used them
   ImuIntake::Result new_stretch_;  // after a step, until it is judged and all before it is matched
   bool is_step_judged_ = true;
+  Timestamp newest_held_;  // of the inertial stream since the step
+  int feed_depth_ = 0;
   Duration imu_clock_shift_;  // of a clock that stepped alone
   ArrivalWatch arrivals_;
   struct HeldMessage {

@@ -10,6 +10,12 @@
 namespace lio {
 namespace {
 
+// A step of the inertial clock waits so long, by its stamps, for a sweep that tells of the lidar's
+// ...
+constexpr Duration kWaitForLidar{1'000'000'000};
+constexpr std::size_t kMaxHeld = 3000;   // ... or for so many messages
+constexpr Duration kStray{200'000'000};  // a held sample that is so far ahead tells no time
+constexpr Duration kOutage{150'000'000};
 constexpr double kMaxGap_s = 3.0;
 constexpr double kClockSet_s = 0.1;  // what may be missing where a clock was set
 
@@ -21,14 +27,13 @@ void Odometry::Impl::TakeStep(ImuIntake::Result result) {
   using enum ImuIntake::Step;
   new_stretch_ = std::move(result);
   is_step_judged_ = false;
+  newest_held_ = new_stretch_.accepted.back().stamp;
   const ClockStep step = ClockStepNow();
-  const bool is_known_alone = new_stretch_.step == kSetRight && imu_clock_shift_ > Duration{};
-  if (is_known_alone) {
-    GoOnShifted();
-  } else if (!arrivals_.has_seen_lidar()) {
-    EndStretch();
-  } else if (arrivals_.HasTimePassed(step)) {
+  if (arrivals_.HasTimePassed(step)) {
+    intake_.ForgetHole();
     if (new_stretch_.step == kSetRight) new_stretch_.step = kGap;
+    EndStretch();
+  } else if (!arrivals_.SeesLidarAt(step.before)) {
     EndStretch();
   }
 }
@@ -37,21 +42,36 @@ ClockStep Odometry::Impl::ClockStepNow() const {
   return {new_stretch_.before, new_stretch_.accepted.front().stamp};
 }
 
-// By a chunk that came after it.
-void Odometry::Impl::JudgeStep(Timestamp chunk) {
-  Timestamp newest_imu = new_stretch_.accepted.back().stamp;
-  for (const HeldMessage& held : held_) {
-    if (!held.chunk) newest_imu = std::max(newest_imu, held.sample.stamp + imu_clock_shift_);
-  }
-  const LidarClock lidar = arrivals_.Judge(ClockStepNow(), chunk, newest_imu);
-  if (lidar == LidarClock::kStepped) EndStretch();
-  if (lidar == LidarClock::kSteady) GoOnShifted();
+// Not by what wild stamps say, nor for ever.
+void Odometry::Impl::HoldSample(const ImuSample& sample) {
+  held_.push_back({sample, std::nullopt, 0});
+  if (is_step_judged_) return;
+  const Timestamp stamp = sample.stamp + imu_clock_shift_;
+  if (stamp > newest_held_ && stamp - newest_held_ < kStray) newest_held_ = stamp;
+  const Duration waited = newest_held_ - new_stretch_.accepted.back().stamp;
+  if (waited > kWaitForLidar || held_.size() > kMaxHeld) EndStretch();
 }
 
-// The inertial unit's clock has stepped alone: its stamps are put right.
-void Odometry::Impl::GoOnShifted() {
-  const double step_s = new_stretch_.undoes_hole ? 0.0 : new_stretch_.clock_step_s;
-  const Duration shift = Duration::FromSeconds(-step_s);
+void Odometry::Impl::HoldChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  const Timestamp stamp = chunk.stamp;
+  held_.push_back({{}, std::move(chunk), decode_ns});
+  if (is_step_judged_) return;
+  const StepVerdict verdict = arrivals_.Judge(ClockStepNow(), stamp, newest_held_);
+  if (verdict.lidar == LidarClock::kStepped || held_.size() > kMaxHeld) {
+    EndStretch();
+  } else if (verdict.lidar == LidarClock::kSteady) {
+    GoOnShifted(verdict.after_by_lidar);
+  }
+}
+
+// The inertial unit's clock has stepped alone: its stamps are put right, so that they go on where
+// they were or, where samples were missing meanwhile, where the lidar says.
+void Odometry::Impl::GoOnShifted(Timestamp after_by_lidar) {
+  const Timestamp after = new_stretch_.accepted.front().stamp;
+  const bool was_missing = after_by_lidar - new_stretch_.before > kOutage;
+  Duration shift = Duration::FromSeconds(-new_stretch_.clock_step_s);
+  if (was_missing) shift = after_by_lidar - after;
+  if (new_stretch_.undoes_hole) shift = {};
   imu_clock_shift_ = imu_clock_shift_ + shift;
   intake_.ShiftBy(shift);
   for (ImuSample& sample : new_stretch_.accepted) sample.stamp = sample.stamp + shift;
@@ -59,7 +79,7 @@ void Odometry::Impl::GoOnShifted() {
   std::snprintf(text, sizeof text,
                 "the inertial clock stepped by %.3f s, the lidar's did not: inertial stamps are "
                 "shifted by %.3f s",
-                new_stretch_.clock_step_s,
+                SecondsBetween(after + shift, after),
                 SecondsBetween(Timestamp{}, Timestamp{} + imu_clock_shift_));
   Say(new_stretch_.accepted.front().stamp, Notice::Severity::kWarning, text);
   GoOn();
@@ -100,12 +120,13 @@ void Odometry::Impl::ResumeAfterStretch() {
 // And with what came since the step.
 void Odometry::Impl::GoOnWith(const std::vector<ImuSample>& samples) {
   for (const ImuSample& sample : samples) Accept(sample);
-  while (!held_.empty() && !IsBetweenStretches()) {
-    HeldMessage message = std::move(held_.front());
-    held_.pop_front();
+  // Another step may be among them: then the rest is held again, and judged as it came.
+  ++feed_depth_;
+  for (HeldMessage& message : std::exchange(held_, {})) {
     message.chunk ? AddChunk(std::move(*message.chunk), message.decode_ns) : AddImu(message.sample);
   }
-  if (is_flushed_) Flush();
+  --feed_depth_;
+  if (is_flushed_ && feed_depth_ == 0) Flush();
 }
 
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what

@@ -65,11 +65,7 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
 
 void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
-  if (!IsUsable(chunk)) {
-    ++counters_->num_chunks_bad;
-    return;
-  }
-  if (IsTornOff(chunk)) {
+  if (!IsUsable(chunk) || IsTornOff(chunk)) {
     ++counters_->num_chunks_bad;
     return;
   }

@@ -80,8 +80,11 @@ std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier, const U
                                     const Eigen::Vector2f& guess_m, float range_m) {
   if (earlier.empty() || !now.SaysEnough()) return {};
   const std::vector<Scored> scored = ScoreAll(earlier, now, guess_m, range_m);
-  int peak = 0;
-  for (const Scored& one : scored) peak = std::max(peak, one.score);
+  const Scored best = *std::max_element(
+      scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+  const int peak = best.score;
+  // At the border of what was looked at the best place may be beyond it.
+  if ((best.place_m - guess_m).cwiseAbs().maxCoeff() > range_m - 0.5f * kStep_m) return {};
   // Views of the same things err partly alike: n of them count as the root of n.
   const double chance = std::sqrt(std::sqrt(static_cast<double>(earlier.size())) * peak);
   if (peak == 0 || peak - ScoreOfPattern(earlier, now) < chance) return {};

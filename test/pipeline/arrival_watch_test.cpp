@@ -30,8 +30,10 @@ ArrivalWatch SweepsBefore(double late_s, double until_s = 10.0) {
 // The first one after a step of the inertial clock, which began at `start_s` by the old time.
 LidarClock Judge(const ArrivalWatch& watch, double step_s, double start_s, bool has_stepped,
                  double late_s) {
-  return watch.Judge(StepBy(step_s), StampAt(has_stepped ? start_s + step_s : start_s),
-                     StampAt(start_s + 0.1 + late_s + step_s));
+  return watch
+      .Judge(StepBy(step_s), StampAt(has_stepped ? start_s + step_s : start_s),
+             StampAt(start_s + 0.1 + late_s + step_s))
+      .lidar;
 }
 
 TEST(ArrivalWatch, SweepsThatGoOnTellThatTheLidarDidNotStep) {

@@ -14,6 +14,7 @@
 namespace lio {
 namespace {
 
+using test::Bytes;
 using test::ErrorAgainst;
 using test::ExpectStampsIncrease;
 using test::IsBetween;
@@ -177,6 +178,43 @@ TEST(Odometry, InertialClockThatStepsAloneIsPutRight) {
       EXPECT_EQ(run.scans.back().scan.scan_seq, 64) << shift_s;
     }
   }
+}
+
+// As an inertial unit whose clock counts from its start, and which starts anew.
+TEST(Odometry, InertialClockThatStepsAfterAnOutageIsPutRight) {
+  const Messages messages = WithoutImu(StaticStartDrive(), 3.5, 4.0);
+  for (const double shift_s : {-100.0, -0.9, 100.0}) {
+    const RunResult run =
+        RunOdometry(WithClockStep(messages, 4.0, shift_s, true, false), test::DriveRig());
+    EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.1) << shift_s;
+    EXPECT_EQ(run.counters.num_restarts, 0) << shift_s;
+    EXPECT_TRUE(run.scans.back().scan.fused) << shift_s;
+  }
+}
+
+// Gaps as long as the step, while sweeps come, are gaps.
+TEST(Odometry, GapsNextToStepsAreNotTakenForThem) {
+  const Messages gap_first =
+      WithClockStep(WithoutImu(StaticStartDrive(), 2.5, 2.9), 4.0, -0.4, true, false);
+  const Messages step_first =
+      WithClockStep(WithoutImu(StaticStartDrive(), 4.5, 4.9), 3.0, -0.4, true, false);
+  for (const Messages& messages : {gap_first, step_first}) {
+    const RunResult run = RunOdometry(messages, test::DriveRig());
+    EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.1);
+    EXPECT_TRUE(run.scans.back().scan.fused);
+  }
+}
+
+TEST(Odometry, StepsOneAfterTheOtherAreJudgedAlikeWheneverJobsAreFinished) {
+  Messages messages = WithClockStep(StaticStartDrive(), 3.0, -5.0);
+  messages = WithClockStep(messages, 3.2, -0.6, true, false);
+  messages = WithClockStep(messages, 4.5, 5.0);
+  const RunResult at_once = RunOdometry(messages, test::DriveRig());
+  for (const int delay : {1, 5, 11, 20}) {
+    const RunResult late = RunOdometry(messages, test::DriveRig(), delay);
+    EXPECT_TRUE(Bytes(at_once.scans) == Bytes(late.scans)) << delay;
+  }
+  EXPECT_TRUE(at_once.scans.back().scan.fused);
 }
 
 TEST(Odometry, BothClocksSteppedBackByLessThanASecondGoOn) {

@@ -6,8 +6,9 @@
 // stamps decide, never the wall clock.
 //
 // Late samples fill a hole in the stream; those of a clock that was set back by less than a second
-// tell of a time that others have told of already. A step back of less than five samples is not
-// seen: those samples are dropped as repeats or mixed in.
+// tell of a time that others have told of already. A step back of less than 80 ms or five
+// samples is not seen: those samples are dropped as repeats or mixed in; nor is one where samples
+// come in bursts, so that holes are everywhere.
 #pragma once
 
 #include <deque>
@@ -43,8 +44,13 @@ class ImuIntake {
   Result Add(const ImuSample& sample);
   // Are samples held that may be the first ones after a step?
   bool is_in_doubt() const { return !suspects_.empty(); }
-  // What was accepted since the last step is of another time.
+  // The samples that are still held, when no more will come.
+  std::vector<ImuSample> Flush();
+  // Only right after a step: `shift` is added to the stamps of what was accepted with it.
   void ShiftBy(Duration shift);
+  // The last hole in the stream was none of the clock's doing.
+  void ForgetHole();
+  std::optional<Timestamp> newest() const { return newest_; }
 
  private:
   bool IsSane(const ImuSample& sample);
@@ -66,6 +72,7 @@ class ImuIntake {
   std::optional<Timestamp> newest_;
   double is_behind_s_ = 0.0;         // the clock, by steps back that were seen
   double hole_s_ = 0.0;              // the last one in the stream; perhaps a step forth
+  Timestamp step_after_;             // stamp of the first sample after the last step
   std::deque<ImuSample> recent_;     // accepted, by stamp
   std::vector<ImuSample> suspects_;  // perhaps of a new stretch of time, not yet believed
 };

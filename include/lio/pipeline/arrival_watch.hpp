@@ -25,22 +25,28 @@ enum class LidarClock {
   kSteady,
 };
 
+struct StepVerdict {
+  LidarClock lidar = LidarClock::kUnclear;
+  Timestamp after_by_lidar;  // when the first inertial sample after the step was taken
+};
+
 class ArrivalWatch {
  public:
   // A chunk came, by its stamp, when the inertial stream was at `newest_imu` and in no doubt.
   void Note(Timestamp chunk, std::optional<Timestamp> newest_imu);
-  bool has_seen_lidar() const { return last_chunk_.has_value(); }
+  // Did chunks come up to the second before that stamp of an inertial sample?
+  bool SeesLidarAt(Timestamp imu) const;
 
   // Did time pass for the lidar up to a step forth, as it does in a gap of the inertial stream?
   bool HasTimePassed(const ClockStep& step) const;
-  // By a chunk that came after the step, when the inertial stream was at `newest_imu`.
-  LidarClock Judge(const ClockStep& step, Timestamp chunk, Timestamp newest_imu) const;
+  // By a chunk that came after the step, when the inertial stream was at `newest_imu`. Until it is
+  // known how long after the inertial samples chunks come, that is taken for no time.
+  StepVerdict Judge(const ClockStep& step, Timestamp chunk, Timestamp newest_imu) const;
 
  private:
   Duration Lag() const;
 
-  std::optional<Timestamp> last_chunk_;
-  Duration last_stride_;  // from the chunk before
+  std::deque<Timestamp> chunks_;  // the last few
   std::optional<Timestamp> newest_imu_;
   std::deque<Duration> lags_;  // of chunks behind the inertial stream, the last few
 };

@@ -27,7 +27,8 @@ struct FoundShift {
 
 // Where `now` was seen from, sought up to `range_m` around `guess_m` in x and y. Absent where too
 // little stands, and where the views are as alike unshifted: along plain walls a sensor sees its
-// own rings, which move with it, and at rest there is nothing to seek.
+// own rings, which move with it, and at rest there is nothing to seek; and where the best
+// place is at the border of what was looked at.
 std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier, const UprightView& now,
                                     const Eigen::Vector2f& guess_m, float range_m);
 
