@@ -1,14 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The checks of form: clang-format, file length, licence tags, a test for every source
-# (docs/testing.md), and clang-tidy over src/ (the checks and why others are off: .clang-tidy). Needs
-# what tools/setup.sh --tests installs and builds.
-#   tools/lint.sh          all of it
-#   tools/lint.sh --fast   without clang-tidy
+# The checks of form: see usage.
 set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/lint.sh [--fast]
+The checks of form: clang-format, file length, licence tags, a test for every source
+(docs/testing.md), and clang-tidy over src/ (the checks and why others are off: .clang-tidy). Needs
+what tools/setup.sh --tests installs and builds.
+  --fast  without clang-tidy
+USAGE
+}
+
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '4,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  usage
   exit 0
 fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -23,8 +23,8 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libyaml-cp
   libfmt-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev liblz4-dev libbz2-dev libpcl-dev
   libembree-dev liblcm-dev liblcm-bin
   python3 python3-matplotlib iproute2 util-linux xz-utils)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev clang-format
-  clang-tidy)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev
+  clang-format clang-tidy)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
 
 with_tests=OFF with_spy=no

@@ -1,13 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Sets up, with what only tests need, and runs all tests: first the fuzz tests under the address and
-# undefined-behaviour sanitizers, then everything by ctest. Tests that need the real data look for it
-# in LIO_DATA, else in ../shared/data, and are reported as skipped without it.
-#   tools/test.sh [--fast] [CTEST_ARGUMENT...]     --fast leaves the sanitizers out
+# Sets up and runs all tests: see usage.
 set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/test.sh [--fast] [CTEST_ARGUMENT...]
+Sets up, with what only tests need, and runs all tests: first the fuzz tests under the address and
+undefined-behaviour sanitizers, then everything by ctest. Tests that need the real data look for it
+in LIO_DATA, else in ../shared/data, and are reported as skipped without it.
+  --fast  without the sanitizers
+USAGE
+}
+
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '4,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  usage
   exit 0
 fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -14,6 +14,7 @@ namespace lio {
 namespace {
 
 constexpr double kRestVelocityStd_mps = 0.01;
+constexpr double kSpreadFactor = 1.5;  // of a spread that is only noise
 constexpr double kUnknownTiltStd_rad = 1.0;
 // Local gravity differs from the configured value by up to 0.03 m/s^2 between equator and poles.
 constexpr double kGravityStd_mps2 = 0.02;
@@ -122,6 +123,15 @@ ImuStatistics Summarise(std::span<const ImuSample> samples) {
   statistics.gyro_std_radps = std::sqrt(w_sq.maxCoeff());
   statistics.accel_std_mps2 = std::sqrt(f_sq.maxCoeff());
   return statistics;
+}
+
+bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const Unrest& unrest) {
+  const double root_step = std::sqrt(statistics.span_s / std::max(1, statistics.num_samples - 1));
+  const auto limit = [&](double density, double unrest_std) {
+    return kSpreadFactor * std::hypot(density / root_step, unrest_std);
+  };
+  return statistics.gyro_std_radps < limit(imu.gyro_noise_density, unrest.gyro_std_radps) &&
+         statistics.accel_std_mps2 < limit(imu.accel_noise_density, unrest.accel_std_mps2);
 }
 
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig) {

@@ -14,9 +14,7 @@ constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over 
 // ... but where the inertial data is as calm as at rest, traffic and bare ground may deceive it by
 // more, and a vehicle that moves without shaking at all is fast.
 constexpr double kMovedDistanceCalm_m = 0.5;
-constexpr double kCalmGyroStd_radps = 0.005;
-constexpr double kCalmAccelStd_mps2 = 0.05;
-constexpr double kSpreadFactor = 1.5;  // of a spread that is only that
+constexpr Unrest kVeryCalm{0.005, 0.05};
 constexpr double kMovedAngle_rad = 0.01;
 constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
 constexpr double kWaitNoticeEvery_s = 1.0;
@@ -159,15 +157,7 @@ bool Odometry::Impl::HasMovedSince(std::size_t first, bool is_calm) const {
 bool Odometry::Impl::IsVeryCalm(Timestamp stamp) const {
   const ImuStatistics statistics =
       Summarise(SamplesBetween(stamp - Duration::FromSeconds(options_.start.rest_s), stamp));
-  if (statistics.num_samples < 3) return false;
-  // Beside the body's own unrest there is the noise of the sensors, the more the faster they are.
-  const ImuRig& imu = options_.rig.imu;
-  const double root_s = std::sqrt(statistics.span_s / (statistics.num_samples - 1));
-  const auto limit = [&](double calm_std, double density) {
-    return kSpreadFactor * std::hypot(calm_std, density / root_s);
-  };
-  return statistics.gyro_std_radps < limit(kCalmGyroStd_radps, imu.gyro_noise_density) &&
-         statistics.accel_std_mps2 < limit(kCalmAccelStd_mps2, imu.accel_noise_density);
+  return statistics.num_samples >= 3 && IsCalm(statistics, options_.rig.imu, kVeryCalm);
 }
 
 void Odometry::Impl::SayWaiting(Timestamp stamp, const std::string& text) {

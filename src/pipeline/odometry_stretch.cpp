@@ -10,8 +10,8 @@
 namespace lio {
 namespace {
 
-// A step of the inertial clock waits so long, by its stamps, for a sweep that tells of the lidar's
-// ...
+// A step of the inertial clock waits so long, by its stamps, for a sweep that tells whether the
+// lidar's stepped as well ...
 constexpr Duration kWaitForLidar{1'000'000'000};
 constexpr std::size_t kMaxHeld = 3000;   // ... or for so many messages
 constexpr Duration kStray{200'000'000};  // a held sample that is so far ahead tells no time
@@ -79,15 +79,13 @@ void Odometry::Impl::GoOnShifted(Timestamp after_by_lidar) {
   std::snprintf(text, sizeof text,
                 "the inertial clock stepped by %.3f s, the lidar's did not: inertial stamps are "
                 "shifted by %.3f s",
-                SecondsBetween(after + shift, after),
-                SecondsBetween(Timestamp{}, Timestamp{} + imu_clock_shift_));
+                SecondsBetween(after + shift, after), imu_clock_shift_.Seconds());
   Say(new_stretch_.accepted.front().stamp, Notice::Severity::kWarning, text);
   GoOn();
 }
 
 // As if there had been no step, or a hole at most.
 void Odometry::Impl::GoOn() {
-  is_step_judged_ = true;
   const ImuIntake::Result step = std::exchange(new_stretch_, {});
   GoOnWith(step.accepted);
 }

@@ -14,22 +14,10 @@ namespace lio {
 namespace {
 
 // What an idling engine adds to the sensors' noise.
-constexpr double kTremble_radps = 0.005;
-constexpr double kTremble_mps2 = 0.08;
+constexpr Unrest kTremble{0.005, 0.08};
 // What it, and errors of the sensors that the filter does not know, leave in means.
 constexpr double kMeanRateStd_radps = 5e-4;
 constexpr double kMeanForceStd_mps2 = 0.01;
-constexpr double kSpreadFactor = 1.5;  // of a spread that is only noise
-
-double LargestSpread(double density, double step_s, double tremble) {
-  return kSpreadFactor * std::hypot(density / std::sqrt(step_s), tremble);
-}
-
-bool IsCalm(const ImuStatistics& seen, const ImuRig& imu) {
-  const double step_s = seen.span_s / std::max(1, seen.num_samples - 1);
-  return seen.gyro_std_radps < LargestSpread(imu.gyro_noise_density, step_s, kTremble_radps) &&
-         seen.accel_std_mps2 < LargestSpread(imu.accel_noise_density, step_s, kTremble_mps2);
-}
 
 bool IsPlausible(const Vector3& residual, const Matrix3& cov) {
   return residual.dot(cov.ldlt().solve(residual)) < kChiSquare3At999;
@@ -83,7 +71,8 @@ bool Standstill::Holds(const Estimate& estimate, const Vector3& g_world) const {
     samples.insert(samples.end(), scan.samples.begin(), scan.samples.end());
   }
   const ImuStatistics seen = Summarise(samples);
-  return seen.span_s >= kWindow_s && IsCalm(seen, imu_) && IsUnmoved(seen, imu_, estimate, g_world);
+  return seen.span_s >= kWindow_s && IsCalm(seen, imu_, kTremble) &&
+         IsUnmoved(seen, imu_, estimate, g_world);
 }
 
 }  // namespace lio

@@ -44,26 +44,24 @@ struct Grid {
 };
 
 // Calls `take` with each shift of a grid and the number of turned places that fit there.
-template <class IsNear, class Take>
+template <class NumNear, class Take>
 void ScoreShifts(const std::vector<Eigen::Vector2f>& turned, float turn_rad, const Grid& grid,
-                 const IsNear& is_near, const Take& take) {
+                 const NumNear& num_near, const Take& take) {
   const int num_x = NumSteps(grid.range.shift_m.x(), grid.step_m);
   const int num_y = NumSteps(grid.range.shift_m.y(), grid.step_m);
   for (int y = -num_y; y <= num_y; ++y) {
     for (int x = -num_x; x <= num_x; ++x) {
       const Eigen::Vector2f steps(static_cast<float>(x), static_cast<float>(y));
       const Eigen::Vector2f shift = grid.middle.shift_m + grid.step_m * steps;
-      const auto score = std::count_if(turned.begin(), turned.end(),
-                                       [&](const auto& place) { return is_near(place + shift); });
-      take(Scored{{shift, turn_rad}, static_cast<int>(score)});
+      take(Scored{{shift, turn_rad}, num_near(turned, shift)});
     }
   }
 }
 
 // The same with each pose of a grid.
-template <class IsNear, class Take>
-void ScoreGrid(const std::vector<Eigen::Vector2f>& places, const Grid& grid, const IsNear& is_near,
-               const Take& take) {
+template <class NumNear, class Take>
+void ScoreGrid(const std::vector<Eigen::Vector2f>& places, const Grid& grid,
+               const NumNear& num_near, const Take& take) {
   const int num_turns = NumSteps(grid.range.turn_rad, grid.step_rad);
   std::vector<Eigen::Vector2f> turned(places.size());
   for (int k = -num_turns; k <= num_turns; ++k) {
@@ -71,7 +69,7 @@ void ScoreGrid(const std::vector<Eigen::Vector2f>& places, const Grid& grid, con
     const Eigen::Matrix2f turn = TurnBy(turn_rad);
     std::transform(places.begin(), places.end(), turned.begin(),
                    [&](const Eigen::Vector2f& place) { return turn * place; });
-    ScoreShifts(turned, turn_rad, grid, is_near, take);
+    ScoreShifts(turned, turn_rad, grid, num_near, take);
   }
 }
 
@@ -109,7 +107,7 @@ std::vector<FlatPose> FindPlaces(const UprightView& earlier, const UprightView& 
   ScoreGrid(
       EvenlyChosen(later.places(), kMaxRoughPlaces),
       Grid{middle, range, kRoughStep_m, kRoughStep_rad},
-      [&](const Eigen::Vector2f& place) { return earlier.IsRoughlyNear(place); },
+      [&](const auto& places, const auto& shift) { return earlier.NumRoughlyNear(places, shift); },
       [&](const Scored& scored) { rough.Take(scored); });
   Best fine(kMaxRefined);
   const FlatRange around{Eigen::Vector2f::Constant(0.5f * kRoughStep_m), 0.5f * kRoughStep_rad};
@@ -117,7 +115,7 @@ std::vector<FlatPose> FindPlaces(const UprightView& earlier, const UprightView& 
     Best one(1);
     ScoreGrid(
         later.places(), Grid{scored.pose, around, kFineStep_m, kFineStep_rad},
-        [&](const Eigen::Vector2f& place) { return earlier.IsNear(place); },
+        [&](const auto& places, const auto& shift) { return earlier.NumNear(places, shift); },
         [&](const Scored& finer) { one.Take(finer); });
     fine.Take(one.all().front());
   }

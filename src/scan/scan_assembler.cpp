@@ -8,22 +8,21 @@
 namespace lio {
 namespace {
 
-constexpr std::uint32_t kMaxOffsetNs = 500'000'000;  // no lidar turns slower than twice a second
+constexpr Duration kMaxOffset{500'000'000};  // no lidar turns slower than twice a second
 constexpr Duration kMaxSweepSpan{500'000'000};
 constexpr Duration kJitter{20'000'000};
 constexpr Duration kApart{1'000'000'000};  // sweeps that follow each other are nearer
 constexpr std::size_t kMaxOpenSweeps = 2;
 constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
 
-std::uint32_t LastOffset(const ScanChunk& chunk) {
+Duration LastOffset(const ScanChunk& chunk) {
   std::uint32_t last = 0;
   for (const LidarPoint& point : chunk.points) last = std::max(last, point.t_offset_ns);
-  return last;
+  return Duration{last};
 }
 
 bool IsUsable(const ScanChunk& chunk) {
-  return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count &&
-         LastOffset(chunk) <= kMaxOffsetNs;
+  return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count;
 }
 
 }  // namespace
@@ -35,10 +34,9 @@ bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
 }
 
 // Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
-bool ScanAssembler::IsTornOff(const ScanChunk& chunk) const {
+bool ScanAssembler::IsTornOff(const ScanChunk& chunk, Timestamp last) const {
   if (span_ == Duration{}) return false;
   const Duration reach = span_ + kJitter;
-  const Timestamp last = chunk.stamp + Duration{LastOffset(chunk)};
   return std::any_of(open_.begin(), open_.end(), [&](const Partial& partial) {
     return partial.name.Names(chunk) &&
            (chunk.stamp - partial.name.last > reach || partial.name.first - last > reach);
@@ -65,7 +63,9 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
 
 void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
-  if (!IsUsable(chunk) || IsTornOff(chunk)) {
+  const Duration last_offset = LastOffset(chunk);
+  const Timestamp last = chunk.stamp + last_offset;
+  if (!IsUsable(chunk) || last_offset > kMaxOffset || IsTornOff(chunk, last)) {
     ++counters_->num_chunks_bad;
     return;
   }
@@ -79,7 +79,6 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
     ++counters_->num_chunks_duplicate;
     return;
   }
-  const Timestamp last = chunk.stamp + Duration{LastOffset(chunk)};
   partial->name.first = std::min(partial->name.first, chunk.stamp);
   partial->name.last = std::max(partial->name.last, last);
   partial->decode_ns += decode_ns;

@@ -11,8 +11,7 @@ namespace {
 
 constexpr float kStep_m = 0.25f;
 constexpr double kLeastStd_m = 0.2;
-// What fits worse by as much as chance makes of a score is so many times less likely, in powers of
-// e.
+// So many powers of e less likely is what fits worse by as much as chance makes of a score.
 constexpr double kUnlikely = 6.0;
 
 struct Scored {
@@ -24,10 +23,7 @@ int ScoreAt(std::span<const PlacedView> earlier, const UprightView& now,
             const Eigen::Vector2f& place_m) {
   int score = 0;
   for (const PlacedView& other : earlier) {
-    const Eigen::Vector2f shift = place_m - other.position_m;
-    for (const Eigen::Vector2f& thing : now.places()) {
-      score += other.view.IsNear(thing + shift) ? 1 : 0;
-    }
+    score += other.view.NumNear(now.places(), place_m - other.position_m);
   }
   return score;
 }
@@ -36,7 +32,7 @@ int ScoreAt(std::span<const PlacedView> earlier, const UprightView& now,
 int ScoreOfPattern(std::span<const PlacedView> earlier, const UprightView& now) {
   int score = 0;
   for (const PlacedView& other : earlier) {
-    for (const Eigen::Vector2f& thing : now.places()) score += other.view.IsNear(thing) ? 1 : 0;
+    score += other.view.NumNear(now.places(), Eigen::Vector2f::Zero());
   }
   return score;
 }

@@ -96,6 +96,13 @@ UprightView::UprightView(std::span<const Eigen::Vector3f> points)
   places_ = EvenlyChosen(alone.size() < kMinAlone ? places : alone, kMaxPlaces);
 }
 
+inline bool UprightView::IsNear(const Eigen::Vector2f& place) const {
+  if (!IsInView(place)) return false;
+  const int x = CellOf(place.x());
+  const int y = CellOf(place.y());
+  return IsInside(x, y, kSide) && near_[IndexOf(x, y, kSide)] != 0;
+}
+
 bool UprightView::IsOnLine(const Eigen::Vector2f& place) const {
   for (int i = 0; i < kNumDirections; ++i) {
     const float angle_rad = static_cast<float>(i) * std::numbers::pi_v<float> / kNumDirections;
@@ -110,18 +117,24 @@ bool UprightView::IsOnLine(const Eigen::Vector2f& place) const {
   return false;
 }
 
-bool UprightView::IsNear(const Eigen::Vector2f& place) const {
-  if (!IsInView(place)) return false;
-  const int x = CellOf(place.x());
-  const int y = CellOf(place.y());
-  return IsInside(x, y, kSide) && near_[IndexOf(x, y, kSide)] != 0;
+int UprightView::NumNear(std::span<const Eigen::Vector2f> places,
+                         const Eigen::Vector2f& shift) const {
+  int num = 0;
+  for (const Eigen::Vector2f& place : places) num += IsNear(place + shift) ? 1 : 0;
+  return num;
 }
 
-bool UprightView::IsRoughlyNear(const Eigen::Vector2f& place) const {
-  if (!IsInView(place)) return false;
-  const int x = CellOf(place.x()) / kRoughCell;
-  const int y = CellOf(place.y()) / kRoughCell;
-  return IsInside(x, y, kRoughSide) && roughly_near_[IndexOf(x, y, kRoughSide)] != 0;
+int UprightView::NumRoughlyNear(std::span<const Eigen::Vector2f> places,
+                                const Eigen::Vector2f& shift) const {
+  int num = 0;
+  for (const Eigen::Vector2f& unmoved : places) {
+    const Eigen::Vector2f place = unmoved + shift;
+    if (!IsInView(place)) continue;
+    const int x = CellOf(place.x()) / kRoughCell;
+    const int y = CellOf(place.y()) / kRoughCell;
+    num += IsInside(x, y, kRoughSide) && roughly_near_[IndexOf(x, y, kRoughSide)] != 0 ? 1 : 0;
+  }
+  return num;
 }
 
 bool UprightView::SaysEnough() const {

@@ -37,9 +37,7 @@ void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
   for (int y = 0; y < kNumSteps; ++y) {
     for (int x = 0; x < kNumSteps; ++x, ++score) {
       const Eigen::Vector2f shift = dt_s * VelocityOf(x, y);
-      for (const Eigen::Vector2f& place : after.view.places()) {
-        *score += before.view.IsNear(place + shift) ? 1 : 0;
-      }
+      *score += before.view.NumNear(after.view.places(), shift);
     }
   }
 }

@@ -64,6 +64,24 @@ TEST(StartState, StatisticsOfNothingAreZero) {
   EXPECT_EQ(Summarise({}).span_s, 0.0);
 }
 
+// 100 steps of 10 ms: noise of 0.01 rad/s and 0.02 m/s^2.
+TEST(StartState, CalmIsWhatNoiseAndUnrestExplain) {
+  const ImuRig imu;
+  ImuStatistics statistics;
+  statistics.num_samples = 101;
+  statistics.span_s = 1.0;
+  statistics.gyro_std_radps = 0.014;
+  statistics.accel_std_mps2 = 0.029;
+  EXPECT_TRUE(IsCalm(statistics, imu, {}));
+  statistics.gyro_std_radps = 0.016;
+  EXPECT_FALSE(IsCalm(statistics, imu, {}));
+  EXPECT_TRUE(IsCalm(statistics, imu, {0.01, 0.0}));
+  statistics.accel_std_mps2 = 0.031;
+  EXPECT_FALSE(IsCalm(statistics, imu, {0.01, 0.0}));
+  statistics.num_samples = 401;  // each sample has twice the noise
+  EXPECT_TRUE(IsCalm(statistics, imu, {}));
+}
+
 TEST(StartState, GravityIsFoundInTheReadingUnlessTheRigSays) {
   Rig rig;
   ImuStatistics present;

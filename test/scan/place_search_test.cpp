@@ -8,10 +8,12 @@
 #include <cmath>
 #include <random>
 
+#include "support/standing_things.hpp"
+
 namespace lio {
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
+using test::Points;
 
 Eigen::Matrix2f TurnBy(float angle_rad) {
   return Eigen::Rotation2Df(angle_rad).toRotationMatrix();
@@ -25,8 +27,7 @@ Points Wood(const FlatPose& sensor, unsigned seed = 4) {
   for (int i = 0; i < 80; ++i) {
     const float x = coordinate(random);
     const Eigen::Vector2f place(x, coordinate(random));
-    const Eigen::Vector2f seen = TurnBy(-sensor.turn_rad) * (place - sensor.shift_m);
-    for (float z = -1.8f; z < 0.6f; z += 0.3f) points.emplace_back(seen.x(), seen.y(), z);
+    test::AddPost(TurnBy(-sensor.turn_rad) * (place - sensor.shift_m), {0.f, 0.f}, points);
   }
   return points;
 }

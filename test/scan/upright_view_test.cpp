@@ -13,6 +13,14 @@ using test::AddPost;
 using test::AddRings;
 using test::Points;
 
+bool IsNear(const UprightView& view, const Eigen::Vector2f& place) {
+  return view.NumNear({&place, 1}, Eigen::Vector2f::Zero()) == 1;
+}
+
+bool IsRoughlyNear(const UprightView& view, const Eigen::Vector2f& place) {
+  return view.NumRoughlyNear({&place, 1}, Eigen::Vector2f::Zero()) == 1;
+}
+
 TEST(UprightView, DoesNotCountGround) {
   Points points;
   AddRings(points);
@@ -20,8 +28,8 @@ TEST(UprightView, DoesNotCountGround) {
   AddPost({7.f, 3.f}, {0.f, 0.f}, points);
   const UprightView view(points);
   ASSERT_EQ(view.places().size(), 1u);
-  EXPECT_TRUE(view.IsNear({7.1f, 2.9f}));
-  EXPECT_FALSE(view.IsNear({8.f, 3.f}));
+  EXPECT_TRUE(IsNear(view, {7.1f, 2.9f}));
+  EXPECT_FALSE(IsNear(view, {8.f, 3.f}));
 }
 
 // A wall says nothing of the way along it, so what stands alone is chosen where there is enough.
@@ -32,7 +40,7 @@ TEST(UprightView, LeavesWallsOutWhereEnoughStandsAlone) {
     AddPost({-50.f + 2.f * static_cast<float>(i), i % 2 == 0 ? -9.f : -17.f}, {0.f, 0.f}, points);
   }
   const UprightView view(points);
-  EXPECT_TRUE(view.IsNear({0.f, 12.f}));
+  EXPECT_TRUE(IsNear(view, {0.f, 12.f}));
   int num_of_wall = 0;
   for (const Eigen::Vector2f& place : view.places()) num_of_wall += place.y() > 11.f ? 1 : 0;
   EXPECT_LE(num_of_wall, 12);  // its ends
@@ -51,10 +59,10 @@ TEST(UprightView, RoughlyNearReachesFartherThanNear) {
   Points points;
   AddPost({7.f, 3.f}, {0.f, 0.f}, points);
   const UprightView view(points);
-  EXPECT_TRUE(view.IsRoughlyNear({8.f, 3.f}));
-  EXPECT_FALSE(view.IsNear({8.f, 3.f}));
-  EXPECT_FALSE(view.IsRoughlyNear({11.f, 3.f}));
-  EXPECT_FALSE(view.IsNear({200.f, 3.f}));  // outside the view
+  EXPECT_TRUE(IsRoughlyNear(view, {8.f, 3.f}));
+  EXPECT_FALSE(IsNear(view, {8.f, 3.f}));
+  EXPECT_FALSE(IsRoughlyNear(view, {11.f, 3.f}));
+  EXPECT_FALSE(IsNear(view, {200.f, 3.f}));  // outside the view
 }
 
 TEST(EvenlyChosen, KeepsAllOfFewAndSpreadsOverMany) {
@@ -65,6 +73,17 @@ TEST(EvenlyChosen, KeepsAllOfFewAndSpreadsOverMany) {
   const auto chosen = EvenlyChosen(places, 5);
   ASSERT_EQ(chosen.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(chosen[i].x(), 2.f * static_cast<float>(i));
+}
+
+TEST(UprightView, CountsPlacesAsMoved) {
+  Points points;
+  AddPost({7.f, 3.f}, {0.f, 0.f}, points);
+  AddPost({-9.f, 3.f}, {0.f, 0.f}, points);
+  const UprightView view(points);
+  const std::vector<Eigen::Vector2f> places{{6.f, 5.f}, {-10.f, 5.f}, {20.f, 5.f}};
+  EXPECT_EQ(view.NumNear(places, {1.f, -2.f}), 2);
+  EXPECT_EQ(view.NumNear(places, {0.f, 0.f}), 0);
+  EXPECT_EQ(view.NumRoughlyNear(places, {0.8f, -1.8f}), 2);
 }
 
 }  // namespace

@@ -1,34 +1,47 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Every registration method over one log, with and without the IMU: one Markdown table and one
-# picture.
-#   tools/bench/compare.sh LOG TRUTH [--config FILE ...] [--duration S] [--out DIR]
-# The rig comes from the given configurations, by default from config.yaml beside LOG, as lio-sim
-# leaves it. Needs tools/setup.sh. Leaves out/compare/NAME/{table.md,paths.png} and each run, NAME
-# that of LOG's folder.
+# Every registration method over one log: see usage.
 set -euo pipefail
-if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '4,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
-  exit 0
-fi
-repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
 usage() {
-  sed -n '4,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  cat <<'USAGE'
+Usage: tools/bench/compare.sh LOG TRUTH [OPTIONS]
+Runs every registration method over one log, with and without the IMU, and makes one Markdown table
+and one picture. Needs tools/setup.sh. Leaves out/compare/NAME/{table.md,paths.png} and each run,
+NAME that of LOG's folder.
+  --config FILE  configuration with the rig; may be given again (default: config.yaml beside LOG, as
+                 lio-sim leaves it)
+  --duration S   only so many seconds of the log
+  --out DIR      another folder
+USAGE
+}
+
+fail_usage() {
+  echo "tools/bench/compare.sh: $1; see tools/bench/compare.sh --help" >&2
   exit 2
 }
+
+repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 log='' truth='' out='' configs=() cut=()
 while (($#)); do
   case $1 in
-    --config) configs+=(--config "${2:?--config needs a file}") && shift ;;
-    --duration) cut=(--duration "${2:?--duration needs seconds}") && shift ;;
-    --out) out=${2:?--out needs a folder} && shift ;;
-    -*) usage ;;
-    *) if [[ -z $log ]]; then log=$1; elif [[ -z $truth ]]; then truth=$1; else usage; fi ;;
+    -h | --help) usage && exit 0 ;;
+    --config | --duration | --out)
+      (($# > 1)) || fail_usage "$1 needs a value"
+      case $1 in
+        --config) configs+=(--config "$2") ;;
+        --duration) cut=(--duration "$2") ;;
+        --out) out=$2 ;;
+      esac
+      shift
+      ;;
+    -*) fail_usage "unknown option $1" ;;
+    *) if [[ -z $log ]]; then log=$1; elif [[ -z $truth ]]; then truth=$1; else fail_usage "unknown argument $1"; fi ;;
   esac
   shift
 done
-[[ -n $log && -n $truth ]] || usage
+[[ -n $log && -n $truth ]] || fail_usage "LOG and TRUTH are needed"
 [[ -f $log && -f $truth ]] || { echo "compare.sh: no such file: $log or $truth" >&2 && exit 5; }
 if ((${#configs[@]} == 0)); then
   configs=(--config "$(dirname "$log")/config.yaml")

@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# How fast is the whole pipeline? Replays a simulated HDL-32E drive of full resolution several times
-# and prints the medians over the runs: milliseconds a sweep by stage, real-time factor, memory.
-#   tools/bench/speed.sh [RUNS [THREADS]]        (3 runs, 1 thread)
-# Needs tools/setup.sh. The drive is kept in out/inputs/speed/.
+# How fast is the whole pipeline? See usage.
 set -euo pipefail
+
+usage() {
+  cat <<'USAGE'
+Usage: tools/bench/speed.sh [RUNS [THREADS]]
+Replays a simulated HDL-32E drive of full resolution several times (3, on 1 thread) and prints the
+medians over the runs: milliseconds a sweep by stage, real-time factor, memory. Needs
+tools/setup.sh. The drive is kept in out/inputs/speed/.
+USAGE
+}
+
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '4,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  usage
   exit 0
 fi
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

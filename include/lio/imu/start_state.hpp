@@ -25,6 +25,15 @@ struct ImuStatistics {
 };
 ImuStatistics Summarise(std::span<const ImuSample> samples);
 
+// What shakes a body: of each of the three axes, 1 sigma.
+struct Unrest {
+  double gyro_std_radps = 0.0;
+  double accel_std_mps2 = 0.0;
+};
+// Is the spread no more than this unrest and the sensors' noise make, which is the more the faster
+// they are read?
+bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const Unrest& unrest);
+
 // Is gravity in the accelerometer's reading? `automatic` goes by the mean's length at rest or in
 // smooth motion: nearer to g than to zero.
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig);

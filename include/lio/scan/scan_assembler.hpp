@@ -47,7 +47,7 @@ class ScanAssembler {
     std::int64_t decode_ns = 0;
   };
 
-  bool IsTornOff(const ScanChunk& chunk) const;
+  bool IsTornOff(const ScanChunk& chunk, Timestamp last) const;  // `last`: of its latest point
   Partial* FindOrOpen(const ScanChunk& chunk);
   void CloseOneFor(Timestamp stamp);
   void Close(std::size_t at);

@@ -21,14 +21,16 @@ class UprightView {
   // One point a column, at most a few hundred, evenly chosen; none of a line, a wall or a rail,
   // unless there is little else.
   const std::vector<Eigen::Vector2f>& places() const { return places_; }
-  // Does something stand within about a quarter of a metre of there?
-  bool IsNear(const Eigen::Vector2f& place) const;
+  // How many of these places, moved by `shift`, have something standing within about a quarter of
+  // a metre?
+  int NumNear(std::span<const Eigen::Vector2f> places, const Eigen::Vector2f& shift) const;
   // The same within one to two metres.
-  bool IsRoughlyNear(const Eigen::Vector2f& place) const;
+  int NumRoughlyNear(std::span<const Eigen::Vector2f> places, const Eigen::Vector2f& shift) const;
   // Do enough things stand there to lay it over another view?
   bool SaysEnough() const;
 
  private:
+  bool IsNear(const Eigen::Vector2f& place) const;
   // Do things stand in a row to both sides of there?
   bool IsOnLine(const Eigen::Vector2f& place) const;
 
