@@ -167,7 +167,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     TellClassifier({middle, outcome.match.T_map_imu});
     report.fused = Fuse(outcome, is_keyframe, report);
   }
-  FuseStandstill(outcome, report.fused);
+  if (!starts_map) FuseStandstill(outcome, report.fused);
   if (clock_offset_) FollowClockOffset(outcome);
   const bool sees_enough = outcome.num_used >= kMinPointsToGrow;
   const bool is_sound = report.fused && IsPlaceSure(outcome);

@@ -7,10 +7,9 @@
 namespace lio {
 namespace {
 
-// A vehicle that is taken to stand still may move by this, unknown for as long as the detector
-// looks back: so many standstills in a row are one measurement.
-constexpr double kStandstillStd_mps = 0.01;
-constexpr double kStandstillCorrelation_s = Standstill::kWindow_s;
+// A body at rest sways on its springs by so much, to and fro within so long.
+constexpr double kStandstillStd_mps = 0.004;
+constexpr double kStandstillCorrelation_s = 0.3;
 
 }  // namespace
 
@@ -19,14 +18,15 @@ constexpr double kStandstillCorrelation_s = Standstill::kWindow_s;
 void Odometry::Impl::FuseStandstill(const MatchOutcome& outcome, bool is_fused) {
   if (!use_imu_ || !options_.filter.use_standstill) return;
   const Timestamp middle = outcome.sweep->middle();
-  if (!is_fused || outcome.match.weak_mask != 0) {
+  if (!is_fused) return;
+  if (outcome.match.weak_mask != 0) {
     standstill_.Forget();
     last_standstill_.reset();
     return;
   }
   standstill_.Add({middle, outcome.match.T_map_imu.translation,
                    history_->SamplesBetween(outcome.sweep->start, outcome.sweep->end)});
-  if (!standstill_.Holds(history_->At(middle), g_world_)) {
+  if (!standstill_.Judge(history_->At(middle), g_world_)) {
     last_standstill_.reset();
     return;
   }

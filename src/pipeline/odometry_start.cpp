@@ -195,6 +195,7 @@ void Odometry::Impl::TryStartAtRest(Timestamp begin, Timestamp stamp) {
     if (!AcceptRatesAtRest(samples, stamp)) return;
     const std::size_t last = scouted_.size() - 1;
     StartFrom(StartAtRest(samples, ready_[last]->start, options_.rig), last);
+    standstill_.BeginAtRest();
     return;
   }
   SayWaiting(stamp,

@@ -46,33 +46,83 @@ bool IsUnmoved(const ImuStatistics& seen, const ImuRig& imu, const Estimate& est
   return IsPlausible(seen.mean_f_mps2 - at_rest - state.accel_bias, force_cov);
 }
 
+struct Line {
+  Timestamp stamp;
+  Vector3 place_m = Vector3::Zero();  // at `stamp`
+  Vector3 speed_mps = Vector3::Zero();
+
+  Vector3 At(Timestamp when) const { return place_m + SecondsBetween(stamp, when) * speed_mps; }
+};
+
+// By least squares, through where the scans were matched.
+Line FitLine(const std::deque<StandstillScan>& scans) {
+  const auto num = static_cast<double>(scans.size());
+  double time_s = 0.0;
+  Vector3 place_m = Vector3::Zero();
+  for (const StandstillScan& scan : scans) {
+    time_s += SecondsBetween(scans.front().stamp, scan.stamp) / num;
+    place_m += scan.position_map_m / num;
+  }
+  Line line{scans.front().stamp + Duration::FromSeconds(time_s), place_m};
+  double squares_s2 = 0.0;
+  Vector3 products_ms = Vector3::Zero();
+  for (const StandstillScan& scan : scans) {
+    const double dt_s = SecondsBetween(line.stamp, scan.stamp);
+    squares_s2 += dt_s * dt_s;
+    products_ms += dt_s * (scan.position_map_m - place_m);
+  }
+  if (squares_s2 > 0.0) line.speed_mps = products_ms / squares_s2;
+  return line;
+}
+
 }  // namespace
 
 void Standstill::Add(StandstillScan scan) {
+  if (!scans_.empty() && SecondsBetween(scans_.back().stamp, scan.stamp) > kMaxGap_s) Forget();
   const Timestamp begin = scan.stamp - Duration::FromSeconds(kWindow_s);
   scans_.push_back(std::move(scan));
   while (scans_.size() > 1 && scans_[1].stamp <= begin) scans_.pop_front();
 }
 
-bool Standstill::IsInPlace() const {
-  return std::all_of(scans_.begin(), scans_.end(), [this](const StandstillScan& a) {
-    return std::all_of(scans_.begin(), scans_.end(), [&a](const StandstillScan& b) {
-      return (a.position_map_m - b.position_map_m).norm() < kMaxShift_m;
-    });
-  });
+void Standstill::Forget() {
+  scans_.clear();
+  stands_ = false;
 }
 
-bool Standstill::Holds(const Estimate& estimate, const Vector3& g_world) const {
-  if (scans_.empty()) return false;
-  const double span_s = SecondsBetween(scans_.front().stamp, scans_.back().stamp);
-  if (span_s < kWindow_s || !IsInPlace()) return false;
+void Standstill::BeginAtRest() {
+  scans_.clear();
+  stands_ = true;
+}
+
+double Standstill::Span_s() const {
+  return SecondsBetween(scans_.front().stamp, scans_.back().stamp);
+}
+
+// Single matches of few points scatter by centimetres; a line through many does not.
+bool Standstill::IsInPlace() const {
+  const Line line = FitLine(scans_);
+  const double max_m = Span_s() < kWindow_s ? kMaxScatter_m : kMaxShift_m;
+  return line.speed_mps.norm() * Span_s() < max_m &&
+         std::all_of(scans_.begin(), scans_.end(), [&](const StandstillScan& scan) {
+           return (scan.position_map_m - line.At(scan.stamp)).norm() < kMaxScatter_m;
+         });
+}
+
+bool Standstill::IsStillToImu(const Estimate& estimate, const Vector3& g_world) const {
   std::vector<ImuSample> samples;
   for (const StandstillScan& scan : scans_) {
     samples.insert(samples.end(), scan.samples.begin(), scan.samples.end());
   }
+  if (samples.size() < 2) return false;
   const ImuStatistics seen = Summarise(samples);
-  return seen.span_s >= kWindow_s && IsCalm(seen, imu_, kTremble) &&
+  return seen.span_s >= Span_s() && IsCalm(seen, imu_, kTremble) &&
          IsUnmoved(seen, imu_, estimate, g_world);
+}
+
+bool Standstill::Judge(const Estimate& estimate, const Vector3& g_world) {
+  if (scans_.empty()) return false;
+  stands_ = (stands_ || Span_s() >= kWindow_s) && IsInPlace() && IsStillToImu(estimate, g_world);
+  return stands_;
 }
 
 }  // namespace lio

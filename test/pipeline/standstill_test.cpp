@@ -31,20 +31,25 @@ Estimate KnownState() {
 
 const Vector3 kGravityWorld(0, 0, -test::kGravity);
 
-// What the scans and the IMU of a moving body show; the lidar may see another motion.
-bool HoldsAfter(int num_scans, const test::SmoothMotion& felt, const test::SmoothMotion& seen) {
-  std::mt19937_64 random(3);
+// What the k-th scan and the IMU of a moving body show; the lidar may see another motion.
+StandstillScan ScanOf(int k, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
+                      double scatter_m, std::mt19937_64& random) {
   const test::ImuErrors errors{Vector3::Zero(), Vector3::Zero(), Rig().gyro_noise_density,
                                Rig().accel_noise_density};
+  const double middle_s = kScan_s * (k + 0.5);
+  return {Timestamp{} + Duration::FromSeconds(middle_s),
+          seen.At(middle_s).T_world_imu.translation + test::NormalVector(random, scatter_m),
+          test::ReadImu(felt, kScan_s * k + 1e-3, kScan_s * (k + 1), kRate_hz, errors, random)};
+}
+
+bool HoldsAfter(int num_scans, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
+                double scatter_m = 1e-3) {
+  std::mt19937_64 random(3);
   Standstill standstill(Rig());
   for (int k = 0; k < num_scans; ++k) {
-    const double middle_s = kScan_s * (k + 0.5);
-    standstill.Add(
-        {Timestamp{} + Duration::FromSeconds(middle_s),
-         seen.At(middle_s).T_world_imu.translation + test::NormalVector(random, 1e-3),
-         test::ReadImu(felt, kScan_s * k + 1e-3, kScan_s * (k + 1), kRate_hz, errors, random)});
+    standstill.Add(ScanOf(k, felt, seen, scatter_m, random));
   }
-  return standstill.Holds(KnownState(), kGravityWorld);
+  return standstill.Judge(KnownState(), kGravityWorld);
 }
 
 bool HoldsAfter(int num_scans, const test::SmoothMotion& motion) {
@@ -97,6 +102,41 @@ TEST(Standstill, WhatTheImuFeelsIsNoRestThoughTheLidarSeesNone) {
   EXPECT_FALSE(HoldsAfter(kEnough, shakes, rest));
 }
 
+// As those of a lidar of few rings do.
+TEST(Standstill, MatchesThatScatterAreRest) {
+  const test::SmoothMotion rest;
+  EXPECT_TRUE(HoldsAfter(kEnough, rest, rest, 7e-3));
+  EXPECT_FALSE(HoldsAfter(kEnough, rest, rest, 0.05));
+}
+
+TEST(Standstill, AfterAStartAtRestItIsSeenAtOnceUntilItDrivesOff) {
+  test::SmoothMotion drives_off;
+  drives_off.x.accel = 0.3;
+  for (const bool moves : {false, true}) {
+    std::mt19937_64 random(5);
+    Standstill standstill(Rig());
+    standstill.BeginAtRest();
+    const test::SmoothMotion motion = moves ? drives_off : test::SmoothMotion();
+    for (int k = 0; k < 10; ++k) {
+      standstill.Add(ScanOf(k, motion, motion, 3e-3, random));
+      EXPECT_EQ(standstill.Judge(KnownState(), kGravityWorld), !moves) << k;
+    }
+  }
+}
+
+TEST(Standstill, AScanNowAndThenMayBeMissing) {
+  const test::SmoothMotion rest;
+  for (const bool lasts : {false, true}) {
+    std::mt19937_64 random(5);
+    Standstill standstill(Rig());
+    const auto is_missing = [&](int k) { return lasts ? k >= 8 && k < 14 : k % 3 == 1; };
+    for (int k = 0; k < kEnough; ++k) {
+      if (!is_missing(k)) standstill.Add(ScanOf(k, rest, rest, 1e-3, random));
+    }
+    EXPECT_EQ(standstill.Judge(KnownState(), kGravityWorld), !lasts);
+  }
+}
+
 TEST(Standstill, ForgettingBeginsTheWindowAnew) {
   Standstill standstill(Rig());
   const auto add = [&](double t_s) {
@@ -110,10 +150,10 @@ TEST(Standstill, ForgettingBeginsTheWindowAnew) {
     standstill.Add({Timestamp{} + Duration::FromSeconds(t_s + 0.05), Vector3::Zero(), samples});
   };
   for (int k = 0; k < kEnough; ++k) add(kScan_s * k);
-  EXPECT_TRUE(standstill.Holds(KnownState(), kGravityWorld));
+  EXPECT_TRUE(standstill.Judge(KnownState(), kGravityWorld));
   standstill.Forget();
   add(kScan_s * kEnough);
-  EXPECT_FALSE(standstill.Holds(KnownState(), kGravityWorld));
+  EXPECT_FALSE(standstill.Judge(KnownState(), kGravityWorld));
 }
 
 }  // namespace

@@ -5,13 +5,15 @@
 // speed is calm to the IMU, a ring lock or a bus alongside stands still to the lidar.
 //
 // At rest all of this holds:
-//   - no two scans of the window were matched more than kMaxShift_m apart,
+//   - a straight line through where the window's scans were matched is no longer than kMaxShift_m,
+//     and no scan lies farther than kMaxScatter_m off it,
 //   - rate and force spread by no more than their noise and an idling engine,
 //   - mean rate and force are those of rest, as surely as the filter knows tilt and biases.
-// A scan that is not matched, or not held in every direction, begins the window anew: along a
-// tunnel the lidar says nothing.
+// A scan that is not held in every direction begins the window anew, since along a tunnel the lidar
+// says nothing, and so does one that comes more than kMaxGap_s after the last that was matched.
 //
-// What goes undetected is a creep of about kMaxShift_m / kWindow_s that begins without being felt.
+// After a start at rest the window counts as full from the first scan on. What goes undetected is a
+// creep of about kMaxShift_m / kWindow_s that begins without being felt.
 #pragma once
 
 #include <deque>
@@ -34,20 +36,27 @@ class Standstill {
  public:
   static constexpr double kWindow_s = 1.5;
   static constexpr double kMaxShift_m = 0.02;
+  static constexpr double kMaxScatter_m = 0.05;
+  static constexpr double kMaxGap_s = 0.5;  // between two matched scans
 
   explicit Standstill(const ImuRig& imu) : imu_(imu) {}
 
   void Add(StandstillScan scan);
-  void Forget() { scans_.clear(); }
+  void Forget();
+  // The next scan finds the vehicle at rest.
+  void BeginAtRest();
 
   // As of the last scan, whose time is the estimate's.
-  bool Holds(const Estimate& estimate, const Vector3& g_world) const;
+  bool Judge(const Estimate& estimate, const Vector3& g_world);
 
  private:
+  double Span_s() const;
   bool IsInPlace() const;
+  bool IsStillToImu(const Estimate& estimate, const Vector3& g_world) const;
 
   ImuRig imu_;
   std::deque<StandstillScan> scans_;  // by stamp; reaches back kWindow_s at least, when full
+  bool stands_ = false;               // as of the scan before
 };
 
 }  // namespace lio
