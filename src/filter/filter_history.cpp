@@ -117,11 +117,19 @@ void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuS
   const double dt = SecondsBetween(from.stamp, to.stamp);
   if (dt <= 0) return;
   ProcessNoise noise = options_.noise;
-  if (is_in_gap) {  // an error that lasts for dt: its density grows with dt
-    noise.accel_density =
-        std::hypot(noise.accel_density, options_.gap_accel_std_mps2 * std::sqrt(dt));
-    noise.gyro_density =
-        std::hypot(noise.gyro_density, options_.gap_gyro_std_radps * std::sqrt(dt));
+  // An error that lasts: the longer it does, the higher is its density.
+  const auto add = [](double& density, double std, double lasts_s) {
+    density = std::hypot(density, std * std::sqrt(lasts_s));
+  };
+  if (is_in_gap) {
+    add(noise.accel_density, options_.gap_accel_std_mps2, dt);
+    add(noise.gyro_density, options_.gap_gyro_std_radps, dt);
+  }
+  if (from.is_force_clipped || to.is_force_clipped) {
+    add(noise.accel_density, options_.clipped_accel_std_mps2, options_.clipped_s);
+  }
+  if (from.is_rate_clipped || to.is_rate_clipped) {
+    add(noise.gyro_density, options_.clipped_gyro_std_radps, options_.clipped_s);
   }
   Propagate(estimate, from, to, noise, options_.g_world);
 }

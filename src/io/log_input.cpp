@@ -37,8 +37,9 @@ class LogInput::Impl {
     if (!options_.reads_ahead) return Read();
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return !ahead_.empty(); });
+    if (!ahead_.front()) return std::nullopt;  // the end stays there for whoever asks again
     std::optional<InputItem> item = std::move(ahead_.front());
-    if (item) ahead_.pop_front();  // the end stays there for whoever asks again
+    ahead_.pop_front();
     room_.notify_one();
     return item;
   }

@@ -107,6 +107,7 @@ Json CounterStats(const Counters& c) {
           {"num_imu_duplicate", c.num_imu_duplicate},
           {"num_imu_late", c.num_imu_late},
           {"num_imu_out_of_range", c.num_imu_out_of_range},
+          {"num_imu_clipped", c.num_imu_clipped},
           {"num_imu_gaps", c.num_imu_gaps},
           {"num_chunks", c.num_chunks},
           {"num_chunks_duplicate", c.num_chunks_duplicate},

@@ -19,6 +19,7 @@ void CopyCounters(const Counters& from, status_t& to) {
   to.imu_duplicate = from.num_imu_duplicate;
   to.imu_late = from.num_imu_late;
   to.imu_out_of_range = from.num_imu_out_of_range;
+  to.imu_clipped = from.num_imu_clipped;
   to.imu_gaps = from.num_imu_gaps;
   to.chunks = from.num_chunks;
   to.chunks_duplicate = from.num_chunks_duplicate;

@@ -101,13 +101,25 @@ void Odometry::Impl::Accept(const ImuSample& sent) {
     return;
   }
   if (sent_.empty() || sent.stamp > sent_.back().stamp) BridgeTo(sent.stamp);
-  if (!Keep(sent)) {
+  if (!Keep(Marked(sent))) {
     ++counters_.num_imu_duplicate;
     return;
   }
   const Timestamp newest = sent_.back().stamp;
   if (history_ && !imu_.empty() && imu_.back().stamp == newest) EmitImuRate();
   assembler_.CloseUpTo(newest - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
+}
+
+// With what the end of a sensor's range hides.
+ImuSample Odometry::Impl::Marked(ImuSample sent) {
+  clip_watch_.Mark(sent);
+  if (!sent.is_rate_clipped && !sent.is_force_clipped) return sent;
+  if (counters_.num_imu_clipped++ == 0) {
+    Say(sent.stamp, Notice::Severity::kWarning,
+        std::string(sent.is_rate_clipped ? "the gyro" : "the accelerometer") +
+            " is at the end of its range: scans alone tell how much more it was");
+  }
+  return sent;
 }
 
 // As it came and, where it can be in the units that are believed, as it is read. False: there is

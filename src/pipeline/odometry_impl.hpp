@@ -17,6 +17,7 @@
 #include "lio/calib/clock_offset.hpp"
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/steady_world.hpp"
+#include "lio/imu/clip_watch.hpp"
 #include "lio/imu/imu_classifier.hpp"
 #include "lio/imu/imu_intake.hpp"
 #include "lio/imu/moving_start.hpp"
@@ -57,6 +58,7 @@ class Odometry::Impl {
   // --- odometry.cpp: intake
   void Accept(const ImuSample& sent);
   bool Keep(const ImuSample& sent);
+  ImuSample Marked(ImuSample sent);
   void BridgeTo(Timestamp stamp);
   void AddHeld(Timestamp stamp);
   bool HasWork() const;
@@ -177,6 +179,7 @@ class Odometry::Impl {
   std::uint32_t gated_scans_ = 0;  // a bit a matched scan, the newest lowest
   bool has_doubted_ = false;       // the start was begun anew with this reading
   ImuIntake intake_;
+  ClipWatch clip_watch_;
   std::deque<ImuSample> sent_;  // accepted, as they came, by stamp, of the last seconds
   std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
   std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one

@@ -222,6 +222,31 @@ TEST(FilterHistory, GapInTheSamplesWidensTheCovariance) {
   EXPECT_GT(with_gap.head().cov(kRot, kRot), 10 * without.head().cov(kRot, kRot));
 }
 
+TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
+  const auto after = [](bool rate, bool force) {
+    FilterHistory history = StartedHistory();
+    for (int k = 1; k <= 10; ++k) {
+      ImuSample sample = SampleAt(0.01 * k);
+      sample.is_rate_clipped = rate;
+      sample.is_force_clipped = force;
+      history.AddImu(sample);
+    }
+    return history.head().cov;
+  };
+  const HistoryOptions options;
+  const ErrorMatrix clean = after(false, false);
+  const ErrorMatrix no_rate = after(true, false);
+  const ErrorMatrix no_force = after(false, true);
+  // Over clipped_s it is as if the error lasted.
+  const double turn_std_rad = options.clipped_s * options.clipped_gyro_std_radps;
+  const double speed_std_mps = options.clipped_s * options.clipped_accel_std_mps2;
+  EXPECT_NEAR(std::sqrt(no_rate(kRot, kRot) - clean(kRot, kRot)), turn_std_rad,
+              0.01 * turn_std_rad);
+  EXPECT_NEAR(std::sqrt(no_force(kVel, kVel) - clean(kVel, kVel)), speed_std_mps,
+              0.01 * speed_std_mps);
+  EXPECT_DOUBLE_EQ(no_force(kRot, kRot), clean(kRot, kRot));
+}
+
 // A scan in the middle of a gap makes two short steps of a long one: it stays a gap.
 TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   FilterHistory plain = StartedHistory();

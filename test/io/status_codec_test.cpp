@@ -33,6 +33,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
                                           message.imu_duplicate,
                                           message.imu_late,
                                           message.imu_out_of_range,
+                                          message.imu_clipped,
                                           message.imu_gaps,
                                           message.chunks,
                                           message.chunks_duplicate,

@@ -105,9 +105,9 @@ INSTANTIATE_TEST_SUITE_P(
                     1},
         Expectation{"gyro_saturation",
                     "gyro_saturation:start=6,duration=3,limit=0.3",
-                    {&Counters::num_gated},
-                    0.5,
-                    3},
+                    {&Counters::num_imu_clipped},
+                    0.05,
+                    1},
         Expectation{
             "empty_scan", "empty_scan:start=7,duration=0.5", {&Counters::num_scans_empty}, 0.3, 1},
         Expectation{"sparse_scan",
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {
   const Counters& counters = clean_->counters;
   EXPECT_EQ(counters.num_imu_nonfinite + counters.num_imu_duplicate + counters.num_imu_late +
-                counters.num_imu_gaps + counters.num_imu_out_of_range,
+                counters.num_imu_gaps + counters.num_imu_out_of_range + counters.num_imu_clipped,
             0);
   EXPECT_EQ(counters.num_chunks_duplicate + counters.num_chunks_late + counters.num_chunks_missing +
                 counters.num_chunks_bad + counters.num_points_nonfinite,

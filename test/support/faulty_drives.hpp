@@ -113,11 +113,13 @@ inline int NumFused(const RunResult& run) {
 // All counters of faults are zero.
 inline void ExpectClean(const Counters& c) {
   for (const std::int64_t count :
-       {c.num_imu_nonfinite, c.num_imu_duplicate, c.num_imu_late, c.num_imu_out_of_range,
-        c.num_imu_gaps, c.num_chunks_duplicate, c.num_chunks_late, c.num_chunks_missing,
-        c.num_chunks_bad, c.num_points_nonfinite, c.num_scans_empty, c.num_scans_dropped,
-        c.num_scans_late, c.num_scans_without_imu, c.num_scan_gaps, c.num_matches_rejected,
-        c.num_gated, c.num_clock_jumps, c.num_restarts}) {
+       {c.num_imu_nonfinite,    c.num_imu_duplicate,    c.num_imu_late,
+        c.num_imu_out_of_range, c.num_imu_clipped,      c.num_imu_gaps,
+        c.num_chunks_duplicate, c.num_chunks_late,      c.num_chunks_missing,
+        c.num_chunks_bad,       c.num_points_nonfinite, c.num_scans_empty,
+        c.num_scans_dropped,    c.num_scans_late,       c.num_scans_without_imu,
+        c.num_scan_gaps,        c.num_matches_rejected, c.num_gated,
+        c.num_clock_jumps,      c.num_restarts}) {
     EXPECT_EQ(count, 0);
   }
 }

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter over a window of time: every event (inertial sample, pose, standstill,
-// rebase) with its posterior,
-// ordered by stamp. An event that comes late is inserted at its own time and everything after it is
-// replayed, so the result does not depend on the order of arrival.
+// The filter over a window of time: every event (inertial sample, pose, standstill, rebase) with its
+// posterior, ordered by stamp. An event that comes late is inserted at its own time and everything
+// after it is replayed, so the result does not depend on the order of arrival.
 //
 // Outcomes are values. Equal stamps: inertial samples first, then poses, standstills, rebases.
 #pragma once
@@ -37,6 +36,10 @@ struct HistoryOptions {
   double gap_s = 0.03;
   double gap_accel_std_mps2 = 3.0;
   double gap_gyro_std_radps = 0.5;
+  // What is beyond a sensor's range is unknown by these, for clipped_s, when a scan tells.
+  double clipped_s = 0.1;
+  double clipped_accel_std_mps2 = 10.0;
+  double clipped_gyro_std_radps = 2.0;
 };
 
 struct PoseEvent {

@@ -105,6 +105,7 @@ struct Counters {
   std::int64_t num_imu_duplicate = 0;
   std::int64_t num_imu_late = 0;  // stamped before what was already fused
   std::int64_t num_imu_out_of_range = 0;
+  std::int64_t num_imu_clipped = 0;  // an axis at the end of its range
   std::int64_t num_imu_gaps = 0;
   std::int64_t num_chunks = 0;
   std::int64_t num_chunks_duplicate = 0;

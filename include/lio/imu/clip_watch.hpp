@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Is a sensor of the inertial unit at the end of its range? Its axis then reads the very same value
+// again and again while the others go on changing; how much more there was nobody knows.
+#pragma once
+
+#include <array>
+
+#include "lio/sensor/imu_sample.hpp"
+
+namespace lio {
+
+class ClipWatch {
+ public:
+  // Samples in the order they come; sets what is clipped in the sample.
+  void Mark(ImuSample& sample);
+
+ private:
+  // Three axes of a sensor.
+  struct Triad {
+    Vector3 last = Vector3::Zero();
+    std::array<int, 3> num_equal{};  // readings in a row that were the same, by axis
+
+    bool IsClipped(const Vector3& reading, double min_range);
+  };
+
+  Triad rates_;
+  Triad forces_;
+};
+
+}  // namespace lio

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/clip_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lio {
+namespace {
+
+constexpr int kMinEqual = 5;  // fewer may be chance, where readings are coarse
+// No range is smaller. An axis that never reads anything, or gravity without noise, is not clipped.
+constexpr double kMinRateRange = 0.02;
+constexpr double kMinForceRange = 12.0;
+
+}  // namespace
+
+void ClipWatch::Mark(ImuSample& sample) {
+  sample.is_rate_clipped = rates_.IsClipped(sample.w_imu_radps, kMinRateRange);
+  sample.is_force_clipped = forces_.IsClipped(sample.f_imu_mps2, kMinForceRange);
+}
+
+// Where all axes stay the same the driver repeats itself.
+bool ClipWatch::Triad::IsClipped(const Vector3& reading, double min_range) {
+  const bool is_repeat = reading == last;
+  bool is_clipped = false;
+  for (std::size_t i = 0; i < num_equal.size(); ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    if (reading[axis] != last[axis]) {
+      num_equal[i] = 0;
+    } else if (!is_repeat) {
+      ++num_equal[i];
+    }
+    is_clipped |= num_equal[i] >= kMinEqual - 1 && std::abs(reading[axis]) > min_range;
+  }
+  last = reading;
+  return is_clipped;
+}
+
+}  // namespace lio
