@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter over a window of time: every event (inertial sample, pose, standstill, rebase) with its
-// posterior, ordered by stamp. An event that comes late is inserted at its own time and everything
-// after it is replayed, so the result does not depend on the order of arrival.
+// The filter over a window of time: every event (inertial sample, pose, standstill, rebase) with
+// its posterior, ordered by stamp. An event that comes late is inserted at its own time and
+// everything after it is replayed, so the result does not depend on the order of arrival.
 //
 // Outcomes are values. Equal stamps: inertial samples first, then poses, standstills, rebases.
 #pragma once
