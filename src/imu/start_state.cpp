@@ -16,6 +16,7 @@ namespace {
 constexpr double kRestVelocityStd_mps = 0.01;
 constexpr double kSpreadFactor = 1.5;  // of a spread that is only noise
 constexpr double kUnknownTiltStd_rad = 1.0;
+constexpr double kMaxCoast_s = 30.0;  // longer than that nothing goes on straight
 // Local gravity differs from the configured value by up to 0.03 m/s^2 between equator and poles.
 constexpr double kGravityStd_mps2 = 0.02;
 
@@ -82,7 +83,8 @@ void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
   const double yaw_rad = YawOf(earlier.T_world_imu.rotation) - YawOf(state.T_world_imu.rotation);
   const Quaternion turn = ExpSo3(Vector3(0, 0, yaw_rad));
   state.v_world_imu = turn * state.v_world_imu;
-  const double since_s = SecondsBetween(earlier.stamp, estimate.stamp);
+  const double since_s =
+      std::clamp(SecondsBetween(earlier.stamp, estimate.stamp), 0.0, kMaxCoast_s);
   const Vector3 position =
       earlier.T_world_imu.translation + 0.5 * since_s * (earlier.v_world_imu + state.v_world_imu);
   const Pose placed{turn, position - turn * state.T_world_imu.translation};

@@ -13,6 +13,7 @@
 
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
+#include "lio/io/trajectory_file.hpp"
 
 namespace lio {
 namespace {
@@ -25,18 +26,6 @@ constexpr std::array<const char*, 6> kMatchStatusNames = {
     "converged", "max_iterations", "too_few_points", "empty_map", "diverged", "degenerate"};
 constexpr std::array<const char*, 6> kPoseErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
 
-// All digits of the stamp: a double of seconds since the epoch holds 0.2 us at best.
-std::string Seconds(Timestamp stamp) {
-  return fmt::format("{}.{:09}", stamp.ns / 1'000'000'000, stamp.ns % 1'000'000'000);
-}
-
-std::string TumRow(Timestamp stamp, const Pose& pose) {
-  const Vector3& p = pose.translation;
-  const Quaternion& q = pose.rotation;
-  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n", Seconds(stamp),
-                     p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
-}
-
 std::string CovarianceHeader() {
   std::string header = "t_s";
   for (const char* row : kPoseErrorNames) {
@@ -46,7 +35,7 @@ std::string CovarianceHeader() {
 }
 
 std::string CovarianceRow(const NavOutput& nav) {
-  std::string text = Seconds(nav.stamp);
+  std::string text = StampText(nav.stamp);
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
       text += fmt::format(",{:.12e}", nav.pose_cov(row, column));
@@ -70,7 +59,7 @@ double Milliseconds(std::int64_t ns) {
 
 std::string RegistrationRow(const ScanReport& scan) {
   std::string row =
-      fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", Seconds(scan.stamp), scan.scan_seq,
+      fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", StampText(scan.stamp), scan.scan_seq,
                   scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
                   kMatchStatusNames.at(static_cast<std::size_t>(scan.status)), scan.fused ? 1 : 0,
                   scan.residual_rms_m, scan.nis, scan.weak_mask);
@@ -167,12 +156,12 @@ void RunWriter::Write(const Output& output) {
   if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan);
   const auto* nav = std::get_if<NavOutput>(&output);
   if (nav == nullptr || nav->source != OdometrySource::kImuPropagated) return;
-  if (nav->stamp <= last_imu_rate_) {
+  if (last_imu_rate_ && nav->stamp <= *last_imu_rate_) {
     ++num_rows_not_later_;
     return;
   }
   last_imu_rate_ = nav->stamp;
-  imu_rate_.stream << TumRow(nav->stamp, nav->T_world_imu);
+  imu_rate_.stream << TumRow({nav->stamp, nav->T_world_imu}) << '\n';
 }
 
 void RunWriter::WriteScan(const ScanOutput& output) {
@@ -182,13 +171,13 @@ void RunWriter::WriteScan(const ScanOutput& output) {
   }
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
-  if (nav.stamp <= last_scan_) {
+  if (last_scan_ && nav.stamp <= *last_scan_) {
     ++num_rows_not_later_;
     return;
   }
   last_scan_ = nav.stamp;
-  trajectory_.stream << TumRow(nav.stamp, nav.T_world_imu);
-  if (base_ && nav.base) base_->stream << TumRow(nav.stamp, nav.base->T_world_base);
+  trajectory_.stream << TumRow({nav.stamp, nav.T_world_imu}) << '\n';
+  if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_world_base}) << '\n';
   covariance_.stream << CovarianceRow(nav);
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/pipeline/match_side.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "lio/pipeline/match_method.hpp"
@@ -106,8 +105,13 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
   std::int64_t begin = Now();
   const std::vector<FeatureTag> tags = Pick(reduced.tags, reduced.to_match);
   std::vector<Eigen::Vector3f> to_match = Pick(outcome.points_imu, reduced.to_match);
-  MatchInput input{to_match, job.T_map_imu_guess, job.guess_cov,  job.refine_deskew,
-                   tags,     outcome.points_imu,  job.shift_std_m};
+  MatchInput input{.points_imu = to_match,
+                   .T_map_imu_guess = job.T_map_imu_guess,
+                   .guess_cov = job.guess_cov,
+                   .is_far_off = job.refine_deskew,
+                   .tags = tags,
+                   .scan_points_imu = outcome.points_imu,
+                   .shift_std_m = job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
   if (job.seek_place && last_found_) SeekPlace(job, input, outcome);

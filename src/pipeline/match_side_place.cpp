@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
 
 #include "lio/pipeline/match_side.hpp"
 #include "pipeline/place_guesses.hpp"

@@ -7,6 +7,8 @@
 namespace lio {
 namespace {
 
+constexpr Duration kMaxUnseen{10'000'000'000};  // after more the clock was set, or all is new
+constexpr Duration kMaxSweep{500'000'000};
 constexpr Duration kStep{10'000'000};
 constexpr double kAccelDensity = 1.5;      // m/s^2/sqrt(Hz): 0.5 m/s in a sweep of 0.1 s
 constexpr double kTurnAccelDensity = 1.0;  // rad/s^2/sqrt(Hz): 0.3 rad/s in a sweep
@@ -98,6 +100,7 @@ void MotionScout::AddRate(const ImuSample& sample) {
 }
 
 void MotionScout::AdvanceTo(Timestamp stamp) {
+  if (stamp - history_.head().stamp > kMaxUnseen) SetClock(stamp - kMaxSweep);
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
     at = std::min(at + kStep, stamp);

@@ -19,6 +19,7 @@ constexpr Duration kBridgeEdge{1'000'000};
 constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
 constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
 constexpr Duration kStampSlack{20'000'000};
+constexpr double kClocksApart_s = 2.0;  // more than any message is late
 
 // Of messages whose units may be any that the option allows.
 double MaxRateSent(ImuUnits units) {
@@ -38,15 +39,15 @@ std::string JoinFaults(const std::vector<OptionFault>& faults) {
 Odometry::Impl::Impl(const Options& options, ClockNs clock)
     : options_(options),
       clock_(clock),
-      nis_limit_(ChiSquareQuantile6(options.filter.gate_probability)),
       use_imu_(options.pipeline.use_imu),
       reading_(ReadingOf(options.rig.imu.units)),
       classifier_(reading_, options.rig),
       intake_(counters_, MaxRateSent(options.rig.imu.units)),
       standstill_(options.rig.imu) {
   const std::vector<OptionFault> faults = Validate(options);
-  if (options.filter.estimate_clock_offset && use_imu_) clock_offset_.emplace(options.rig.imu);
   if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
+  nis_limit_ = ChiSquareQuantile6(options.filter.gate_probability);
+  if (options.filter.estimate_clock_offset && use_imu_) clock_offset_.emplace(options.rig.imu);
 }
 
 void Odometry::Impl::Say(Timestamp stamp, Notice::Severity severity, std::string text) {
@@ -221,12 +222,25 @@ void Odometry::Impl::OpenGate() {
   std::optional<Timestamp> passed = NewestImu();
   if (passed) *passed = *passed - ClockMargin();
   while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
+  if (passed && !gate_.empty()) TellClocksApart(*passed, gate_.oldest().start);
+}
+
+void Odometry::Impl::TellClocksApart(Timestamp imu, Timestamp lidar) {
+  const double ahead_s = SecondsBetween(imu, lidar);
+  if (std::abs(ahead_s) < kClocksApart_s) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "scans are stamped %.1f s %s the inertial samples and cannot be used: the sensors "
+                "need one clock, or rig.lidar.clock_offset_s",
+                std::abs(ahead_s), ahead_s > 0.0 ? "after" : "before");
+  SayWaiting(imu, text);
 }
 
 void Odometry::Impl::Admit(SweepPtr sweep) {
   const Timestamp earliest = history_ ? history_->start_stamp() : sent_.front().stamp;
   if (sweep->start + kStampSlack < earliest) {
     ++counters_.num_scans_without_imu;
+    TellClocksApart(earliest, sweep->start);
     return;
   }
   // From here on nothing may change what the scan was deskewed and predicted with.
@@ -243,10 +257,10 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
 }
 
 void Odometry::Impl::ShedLoad() {
-  if (phase_ == Phase::kScouting) return;
   const auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
-  // The sweep in flight is the front one.
-  const std::size_t first = in_flight_ ? 1 : 0;
+  // Before the first that waits are those a start looks back on, and the one in flight.
+  const std::size_t first =
+      (phase_ == Phase::kScouting ? scouted_.size() : 0) + (in_flight_ ? 1 : 0);
   while (ready_.size() > limit + first) {
     ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(first));
     ++counters_.num_scans_dropped;

@@ -64,6 +64,7 @@ class Odometry::Impl {
   bool HasWork() const;
   void OpenGate();
   void Admit(SweepPtr sweep);
+  void TellClocksApart(Timestamp imu, Timestamp lidar);
   void GoLidarOnly(const std::string& why);
   std::optional<Timestamp> NewestImu() const;
   // How far a scan may still be moved in time before it is matched.
@@ -86,6 +87,7 @@ class Odometry::Impl {
   void ResumeAfterStretch();
   void GoOnWith(const std::vector<ImuSample>& samples);
   void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
+  void SetTimesBy(Duration by);
 
   // --- odometry_start.cpp
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
@@ -93,7 +95,7 @@ class Odometry::Impl {
   void BeginScoutingAnew();
   void FinishSeeking(const MatchOutcome& outcome);
   bool IsLastScouted() const { return is_flushed_ && scouted_.size() == ready_.size(); }
-  Vector3 UpInMap() const;  // about
+  Vector3 UpInMap(const NavState& state) const;  // about
   void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
   void ForgetOldestScouted();
@@ -165,7 +167,7 @@ class Odometry::Impl {
   Counters counters_;
   std::vector<Output> outputs_;
   TrackingStatus status_ = TrackingStatus::kInit;
-  double nis_limit_;
+  double nis_limit_ = 0.0;
 
   bool use_imu_;
   ImuReading reading_;  // of all samples that come

@@ -10,6 +10,7 @@ namespace {
 constexpr int kUnmatchedWhenLost = 5;    // coasting on is wrong by more with each scan
 constexpr int kYoungScans = 10;          // with fewer a map is thin, and its cells are of no shape
 constexpr double kTurnLasts_s = 0.5;     // of a body that is not seen
+constexpr double kMaxCoast_s = 30.0;     // longer than that nothing goes on straight
 constexpr double kPlacedStd_m = 0.5;     // a start anew is off by this at least ...
 constexpr double kPlacedStd_rad = 0.05;  // ... and this
 
@@ -48,7 +49,7 @@ void Odometry::Impl::StartAnewByLidar(Timestamp stamp) {
 // Where the new map begins, by the motion before and after what was not seen.
 void Odometry::Impl::GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting) {
   const PassedPoint& fix = loss_->last_fix;
-  const double since_s = std::max(0.0, SecondsBetween(fix.stamp, stamp));
+  const double since_s = std::clamp(SecondsBetween(fix.stamp, stamp), 0.0, kMaxCoast_s);
   const Vector3 turn = std::min(since_s, kTurnLasts_s) * loss_->w_imu_radps;
   const Quaternion rotation = fix.T_world_imu.rotation * ExpSo3(turn);
   Vector3 v_world_mps = fix.v_world_imu;

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 
 #include "lio/pipeline/base_motion.hpp"
 #include "pipeline/odometry_impl.hpp"

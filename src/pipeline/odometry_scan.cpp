@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "pipeline/odometry_impl.hpp"
 
@@ -57,7 +56,7 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   job.is_map_young = IsMapYoung();
   const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
-  job.up_map = UpInMap();
+  job.up_map = UpInMap(predicted.state);
   if (last_found_) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
     const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);

@@ -85,9 +85,8 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
                   MeanUp(SamplesBetween(sweep.start, sweep.end), options_.rig);
 }
 
-Vector3 Odometry::Impl::UpInMap() const {
+Vector3 Odometry::Impl::UpInMap(const NavState& state) const {
   if (scout_) return scout_up_map_;
-  const NavState& state = history_->head().state;
   return state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
@@ -181,6 +180,10 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
     TryStartAtRest(rest_begin, stamp);
   } else if (first_at_rest > 0) {
     TryStartInMotion(stamp);
+  }
+  const bool still_waits = phase_ == Phase::kScouting && !scouted_.empty();
+  if (still_waits && SecondsBetween(ready_.front()->start, stamp) > kMaxWindow_s) {
+    ForgetOldestScouted();
   }
 }
 

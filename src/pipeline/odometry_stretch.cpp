@@ -162,7 +162,10 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step ste
   noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
   const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
-  if (!is_gap) estimate.state = before;
+  if (!is_gap) {
+    estimate.state = before;
+    SetTimesBy(Duration::FromSeconds(jump_s - unknown_s));
+  }
   estimate.stamp = first.stamp;
   history_.emplace(history, estimate, first);
   standstill_.Forget();
@@ -170,6 +173,16 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step ste
   char text[120];
   std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
   Say(first.stamp, Notice::Severity::kWarning, text);
+}
+
+// What is remembered by the old clock is as long ago by the new one.
+void Odometry::Impl::SetTimesBy(Duration by) {
+  for (std::optional<Timestamp>* stamp : {&last_fused_, &last_found_}) {
+    if (*stamp) **stamp = **stamp + by;
+  }
+  last_fix_.stamp = last_fix_.stamp + by;
+  if (resumption_) resumption_->last_fix.stamp = resumption_->last_fix.stamp + by;
+  if (clock_offset_) clock_offset_->Interrupt();
 }
 
 }  // namespace lio

@@ -117,8 +117,8 @@ void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
   if (o.reduce.voxel_m > o.reduce.max_voxel_m) {
     faults.push_back({"reduce.voxel_m", "must not be above reduce.max_voxel_m"});
   }
-  if (o.ndt.min_cell_points > o.ndt.max_cell_points) {
-    faults.push_back({"ndt.min_cell_points", "must not be above ndt.max_cell_points"});
+  if (o.ndt.min_cell_points >= o.ndt.max_cell_points) {
+    faults.push_back({"ndt.min_cell_points", "must be below ndt.max_cell_points"});
   }
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr Duration kImuSilence{1'000'000'000};  // the lidar goes on without the IMU after this
 constexpr Duration kScanGap{250'000'000};
+constexpr double kMaxWait_s = 5.0;            // for inertial samples that come late
 constexpr Duration kFarAhead{2'000'000'000};  // a longer gap may be a wrong stamp
 constexpr Duration kBearsOut{500'000'000};    // of a wrong stamp no second one comes so near
 constexpr int kMaxLateInARow = 5;             // then the lidar's clock has moved back for good
@@ -35,6 +36,10 @@ void ScanGate::LetIn(Sweep sweep) {
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
   waiting_.push_back(std::make_shared<const Sweep>(std::move(sweep)));
+  while (waiting_span_s() > kMaxWait_s) {
+    waiting_.pop_front();
+    ++counters_->num_scans_without_imu;
+  }
 }
 
 // Counts a late sweep. False: so many come late that time itself has moved back.

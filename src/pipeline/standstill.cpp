@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "lio/base/chi_square.hpp"

@@ -3,7 +3,6 @@
 #include "lio/registration/loam_scan_matcher.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 

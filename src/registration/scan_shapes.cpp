@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
 #include "lio/base/rotation.hpp"
 #include "lio/map/edge_on.hpp"

@@ -3,7 +3,6 @@
 #include "lio/registration/weak_directions.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 
 namespace lio {

@@ -99,11 +99,9 @@ void LoamRing::MarkOccluded() {
 
 void LoamRing::ComputeCurvature() {
   curvature_m2_.assign(size(), 0.f);
-  Eigen::Vector3f window = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < 2 * kHalfWindow; ++i) window += position_[i];
   for (std::size_t i = kHalfWindow; i + kHalfWindow < size(); ++i) {
     // Summed anew for each point: a running sum would gather rounding along the ring.
-    window.setZero();
+    Eigen::Vector3f window = Eigen::Vector3f::Zero();
     for (std::size_t j = i - kHalfWindow; j <= i + kHalfWindow; ++j) {
       window += position_[j] - position_[i];
     }

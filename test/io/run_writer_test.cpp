@@ -61,7 +61,16 @@ TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
   writer.Finish({});
   EXPECT_THAT(Lines(out_ / "trajectory.tum"),
               ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.250000000 "
-                          "-0.500000000000 0.500000000000 0.500000000000 0.500000000000"));
+                          "-0.500000000 0.500000000 0.500000000 0.500000000"));
+}
+
+// Logs that count from zero, their stamps shifted back.
+TEST_F(RunWriterTest, StampsBeforeTheEpochAreRowsToo) {
+  RunWriter writer(out_, Options{});
+  writer.Write(Scan(Timestamp{-40'000'000}));
+  writer.Finish({});
+  EXPECT_THAT(Lines(out_ / "trajectory.tum"),
+              ElementsAre(testing::StartsWith("-0.040000000 1.000000000 ")));
 }
 
 TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
@@ -86,7 +95,7 @@ TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
   writer.Finish({});
   EXPECT_THAT(Lines(out_ / "trajectory_base.tum"),
               ElementsAre("1700000000.000000007 0.000000000 -2.000000000 3.250000000 "
-                          "0.000000000000 0.000000000000 0.000000000000 1.000000000000"));
+                          "0.000000000 0.000000000 0.000000000 1.000000000"));
   RunWriter(out_, Options{}).Finish({});
   EXPECT_FALSE(std::filesystem::exists(out_ / "trajectory_base.tum")) << "of an earlier run";
 }

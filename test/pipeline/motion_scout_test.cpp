@@ -185,5 +185,14 @@ TEST(MotionScout, ASetClockKeepsThePlaceAndDoubtsTheVelocity) {
   EXPECT_NEAR(scout.history().head().state.T_map_imu.translation.x(), 20.0, 1e-6);
 }
 
+// A clock that was set, from zero at the start of the machine to the present: no walk through it.
+TEST(MotionScout, FarAheadItGoesOnWithoutFillingTheTime) {
+  MotionScout scout(StampAt(0.0), {});
+  const Timestamp end = StampAt(1.7e9);
+  scout.AdvanceTo(end);
+  EXPECT_EQ(scout.history().head().stamp, end);
+  EXPECT_LT(scout.history().head().state.T_world_imu.translation.norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace lio

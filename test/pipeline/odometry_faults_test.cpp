@@ -184,5 +184,19 @@ TEST(Odometry, PublishedStampsNeverGoBack) {
   ExpectStampsIncrease(RunOdometry(WithClockStep(drive, 3.5, 10.0), test::DriveRig()));
 }
 
+// Each sensor by its own clock, one of them since the machine started.
+TEST(OdometryFaults, ClocksFarApartAreTold) {
+  for (const double lidar_ahead_s : {37.0, -37.0}) {
+    Messages messages = StaticStartDrive();
+    for (Message& message : messages) {
+      message.chunk.stamp = message.chunk.stamp + Duration::FromSeconds(lidar_ahead_s);
+    }
+    const RunResult run = RunOdometry(messages, test::DriveRig());
+    EXPECT_TRUE(test::HasNotice(run, lidar_ahead_s > 0.0 ? "s after the inertial samples"
+                                                         : "s before the inertial samples"));
+    EXPECT_GT(run.counters.num_scans_without_imu, 0);
+  }
+}
+
 }  // namespace
 }  // namespace lio

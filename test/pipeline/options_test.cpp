@@ -83,7 +83,7 @@ TEST(Options, ContradictionsBetweenFieldsAreFound) {
   Options options = Usable();
   options.rig.lidar.min_range_m = options.rig.lidar.max_range_m = 50;
   options.reduce.min_voxel_m = 1;
-  options.ndt.max_cell_points = 4;
+  options.ndt.max_cell_points = options.ndt.min_cell_points;
   options.rig.lidar.own_vehicle_box = OwnVehicleBox{{-1, -1, 1}, {1, 1, 1}};
   EXPECT_THAT(
       Validate(options),

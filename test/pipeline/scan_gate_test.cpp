@@ -176,5 +176,16 @@ TEST(ScanGate, NothingIsForcedOutOfAnEmptyGate) {
   EXPECT_EQ(g.gate.waiting_span_s(), 0.0);
 }
 
+// Of a lidar whose clock is far ahead, for as long as it sends.
+TEST(ScanGate, WhatWaitsInVainIsCountedAndDropped) {
+  Gate g;
+  for (int k = 1; k <= 600; ++k) {
+    g.gate.Add(SweepEnding(37.0 + 0.1 * k));
+    EXPECT_EQ(g.gate.Open(StampAt(0.1 * k)), nullptr);
+    EXPECT_LT(g.gate.waiting_span_s(), 5.1);
+  }
+  EXPECT_EQ(g.counters.num_scans_without_imu, 549);
+}
+
 }  // namespace
 }  // namespace lio

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "lio/filter/filter_history.hpp"
+#include "lio/filter/filter_options.hpp"
 #include "lio/imu/preintegration.hpp"
 #include "support/random_state.hpp"
 
@@ -97,7 +98,7 @@ class Pass {
     event.measurement.cov = std.cwiseAbs2().asDiagonal();
     // Down to 20 deg.
     if (!settings_.believes_rotations) event.measurement.cov.bottomRightCorner<3, 3>() *= 1e4;
-    event.force = num_gated_in_a_row_ > 0;  // as the pipeline does
+    event.force = num_gated_in_a_row_ >= FilterOptions{}.max_gated_in_a_row;
     UpdateResult update;
     const EventOutcome outcome = history_->AddPose(truth.stamp, event, &update);
     ++figures_.num_poses;

@@ -7,7 +7,6 @@ namespace lio {
 
 struct FilterOptions {
   double history_s = 3.0;           // how late a measurement may come
-  double max_imu_gap_s = 0.5;       // longer gaps in the IMU stream are bridged with inflated noise
   double gate_probability = 0.999;  // a pose farther off than this quantile is not fused
   int max_gated_in_a_row = 2;       // then it is fused all the same, as a motion that was not seen
   bool use_standstill = true;       // false: a parked vehicle is a slow one

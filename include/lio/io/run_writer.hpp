@@ -65,8 +65,8 @@ class RunWriter {
   File covariance_;
   File imu_rate_;
   File registration_;
-  Timestamp last_scan_{-1};
-  Timestamp last_imu_rate_{-1};
+  std::optional<Timestamp> last_scan_;
+  std::optional<Timestamp> last_imu_rate_;
   std::int64_t num_rows_not_later_ = 0;
   std::array<std::vector<float>, kNumStages> stage_ms_;
 };

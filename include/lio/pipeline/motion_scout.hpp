@@ -34,7 +34,8 @@ class MotionScout {
 
   // A gyro's reading, with a gyro only. Samples not after the newest are left out.
   void AddRate(const ImuSample& sample);
-  // Fills the time up to `stamp`; with a gyro its last rate holds.
+  // Fills the time up to `stamp`, the end of a sweep; with a gyro its last rate holds. Far ahead it
+  // goes on there as by SetClock().
   void AdvanceTo(Timestamp stamp);
   // What matching found at the middle of a sweep. Not gated. A usable match moves the estimate; an
   // empty map begins where the estimate stands.

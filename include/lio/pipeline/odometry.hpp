@@ -16,7 +16,6 @@
 // is finished: replay and live agree to the last bit (docs/design.md).
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <variant>

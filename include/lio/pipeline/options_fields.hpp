@@ -141,9 +141,9 @@ void VisitFields(Visitor& visit, MaybeConst<ReduceOptions> auto& o) {
   visit("min_voxel_m", o.min_voxel_m, "the edge then adapts, from this [m]", Range{0.01, 10});
   visit("max_voxel_m", o.max_voxel_m, "to this [m]", Range{0.01, 10});
   visit("target_points", o.target_points, "to leave about this many points, for the map",
-        Range{100, 1000000});
+        Range{400, 1000000});
   visit("match_points", o.match_points, "about this many of them are matched; more is slower",
-        Range{100, 1000000});
+        Range{400, 1000000});
 }
 
 template <class Visitor>
@@ -248,8 +248,6 @@ void VisitFields(Visitor& visit, MaybeConst<GicpOptions> auto& o) {
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
   visit("history_s", o.history_s, "how late a measurement may come [s]", Range{0.1, 60});
-  visit("max_imu_gap_s", o.max_imu_gap_s, "longer IMU gaps are bridged with inflated noise [s]",
-        Range{0.001, 10});
   visit("gate_probability", o.gate_probability,
         "a pose farther off than this quantile is not fused", Range{0.5, 0.999999999});
   visit("max_gated_in_a_row", o.max_gated_in_a_row,

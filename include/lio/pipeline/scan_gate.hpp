@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Holds closed sweeps until the inertial stream has passed their end, so that they can be deskewed
-// and fused at their own time. Sweeps leave in order of time; what comes late is dropped and
-// counted.
+// and fused at their own time. Sweeps leave in order of time; what comes late, or waits in vain, is
+// dropped and counted.
 #pragma once
 
 #include <deque>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Scan-to-map registration: one interface, several backends. A matcher owns its map. The pose it
-// measures is that of the imu in the map's frame, at the sweep's end; points come in the imu frame
-// at that instant, already deskewed.
+// measures is that of the imu in the map's frame, at the sweep's middle; points come in the imu
+// frame at that instant, already deskewed.
 #pragma once
 
 #include <cstdint>
