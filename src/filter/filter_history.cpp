@@ -38,6 +38,12 @@ bool IsSmall(const Vector6& residual) {
   return residual.head<3>().norm() < kSmall_m && residual.tail<3>().norm() < kSmall_rad;
 }
 
+// No time has passed for the body to move as far as it was thought to.
+void TakeBackMotion(Estimate& estimate, const PoseMeasurement& measurement) {
+  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+  AllowUnseenMotion(estimate, residual.cwiseAbs2(), Vector3::Zero());
+}
+
 // The body has moved by about the residual, and may have kept the speed of it or not: the next
 // scans tell.
 void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
@@ -162,6 +168,7 @@ void FilterHistory::Step(std::size_t at) {
 void FilterHistory::Fuse(Node& node) const {
   PoseMeasurement measurement = node.pose.measurement;
   measurement.cov = Widened(measurement.cov, node.misfit);
+  if (node.pose.is_clock_set) TakeBackMotion(node.posterior, measurement);
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
   node.misfit = NextMisfit(node.misfit, node.update);
   if (!node.update.fused && node.pose.force) {

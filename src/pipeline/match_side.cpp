@@ -50,6 +50,11 @@ TurnRate PutRight(const TurnRate& error, const StampedPoses& motion) {
   return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
 }
 
+bool MaySeekPlace(const MatchJob& job, const MatchResult& last) {
+  using enum MatchJob::SeekPlace;
+  return job.seek_place == kAnywhere || (job.seek_place == kWhereHeld && last.weak_mask == 0);
+}
+
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
 constexpr std::size_t kMinScansToSeek = 3;
 
@@ -114,13 +119,16 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
                    .shift_std_m = job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
-  if (job.seek_place && last_found_) SeekPlace(job, input, outcome);
+  if (last_found_ && MaySeekPlace(job, last_found_->match)) SeekPlace(job, input, outcome);
+  if (job.T_map_imu_if_clock_set && last_found_ && !outcome.is_sought) {
+    TryClockSet(job, input, outcome);
+  }
   AddTime(Stage::kMatch, begin, outcome);
   const SweepTimes sweep_times = TimesOf(*job.sweep);
   StampedPoses motion = job.T_any_imu;
   if (job.refine_deskew && outcome.match.IsUsable()) {
     begin = Now();
-    if (!outcome.is_sought) motion = Bend(job, outcome.match.T_map_imu);
+    if (!outcome.is_sought && !outcome.is_clock_set) motion = Bend(job, outcome.match.T_map_imu);
     outcome.points_imu = Deskew(reduced.points, sweep_times, motion, T_imu_lidar_);
     AddTime(Stage::kDeskew, begin, outcome);
     begin = Now();

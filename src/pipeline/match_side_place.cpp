@@ -14,9 +14,15 @@ constexpr double kLever_m = 20.0;
 // walks, and 78 % at most elsewhere: so much of the share that the last scan had is enough ...
 constexpr double kFittingShare = 0.9;
 // ... of a number of points that says something, by what the last one had. With as many as the
-// second of these there is no need to look on.
+// second of these there is no need to look on, and against what the inertial unit says it takes
+// them.
 constexpr double kLeastNumber = 0.2;
 constexpr double kPlenty = 0.6;
+// Two guesses are apart from here on. Better than the other is what has so many times its matches,
+// much nearer what is so many times as far.
+constexpr double kApart_m = 0.5;
+constexpr double kClearlyMore = 1.2;
+constexpr double kMuchNearer = 0.3;
 
 bool IsSure(const Matrix6& guess_cov) {
   const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
@@ -44,11 +50,35 @@ bool FitsNowhereElse(const MatchResult& match, const MatchResult& last) {
   return Fits(match, last) && (match.weak_mask == 0 || last.weak_mask != 0);
 }
 
+// Much nearer to where it would be had no time passed than to where it was guessed?
+bool IsNearClockSet(const MatchJob& job, const MatchResult& match) {
+  const auto off_m = [&](const Pose& guess) {
+    return (match.T_map_imu.translation - guess.translation).norm();
+  };
+  const double off_guess_m = off_m(job.T_map_imu_guess);
+  return match.IsUsable() && match.weak_mask == 0 && off_guess_m > kApart_m &&
+         off_m(*job.T_map_imu_if_clock_set) < kMuchNearer * off_guess_m;
+}
+
 }  // namespace
+
+void MatchSide::TryClockSet(const MatchJob& job, MatchInput input, MatchOutcome& outcome) {
+  outcome.is_clock_set = IsNearClockSet(job, outcome.match);  // it was sought, perhaps
+  if (outcome.is_clock_set) return;
+  input.T_map_imu_guess = *job.T_map_imu_if_clock_set;
+  input.guess_cov = GuessedPlaceCov();
+  const MatchResult match = matcher_->Match(input);
+  const bool is_better = match.num_matched > kClearlyMore * outcome.match.num_matched;
+  if (match.weak_mask != 0 || !Fits(match, last_found_->match) || !is_better) return;
+  outcome.match = match;
+  outcome.is_clock_set = true;
+}
 
 void MatchSide::SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& outcome) {
   if (outcome.match.IsUsable() && IsSure(job.guess_cov)) return;
   const MatchResult& last = last_found_->match;
+  const double least_share =
+      job.seek_place == MatchJob::SeekPlace::kWhereHeld ? kPlenty : kLeastNumber;
   const auto has_plenty = [&](const MatchResult& match) {
     return FitsNowhereElse(match, last) && match.num_matched >= kPlenty * last.num_matched;
   };
@@ -61,6 +91,7 @@ void MatchSide::SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& o
       const MatchResult match = matcher_->Match(input);
       const bool is_more = match.num_matched > outcome.match.num_matched;
       if (!FitsNowhereElse(match, last)) continue;
+      if (match.num_matched < least_share * last.num_matched) continue;
       if (FitsNowhereElse(outcome.match, last) && !is_more) continue;
       outcome.match = match;
       outcome.is_sought = true;

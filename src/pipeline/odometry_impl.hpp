@@ -88,6 +88,9 @@ class Odometry::Impl {
   void GoOnWith(const std::vector<ImuSample>& samples);
   void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
   void SetTimesBy(Duration by);
+  bool IsAfterStepInDoubt(const Sweep& sweep) const;
+  std::optional<Pose> GuessIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted);
+  void SettleStepInDoubt(const MatchOutcome& outcome);
 
   // --- odometry_start.cpp
   void FinishScouting(const MatchOutcome& outcome, InsertTask& insert);
@@ -189,6 +192,12 @@ class Odometry::Impl {
   ImuIntake::Result new_stretch_;  // after a step, until it is judged and all before it is matched
   bool is_step_judged_ = true;
   Timestamp newest_held_;  // of the inertial stream since the step
+  // Stamps of all sensors went forth: did time pass, or was the clock set?
+  struct StepInDoubt {
+    ClockStep stamps;
+    std::optional<Pose> T_map_before;  // absent: the history still has it
+  };
+  std::optional<StepInDoubt> step_in_doubt_;
   int feed_depth_ = 0;
   Duration imu_clock_shift_;  // of a clock that stepped alone
   ArrivalWatch arrivals_;

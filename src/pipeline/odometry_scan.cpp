@@ -57,13 +57,18 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
   job.up_map = UpInMap(predicted.state);
+  job.T_map_imu_if_clock_set = GuessIfClockSet(*sweep, predicted.state.T_map_imu);
   if (last_found_) {
     job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
     const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);
     const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
     job.shift_std_m = velocity_std_mps * job.since_last_fix_s;
     if (job.shift_std_m > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
-    job.seek_place = !use_imu_ && phase_ == Phase::kRunning;
+    if (phase_ == Phase::kRunning) {
+      using enum MatchJob::SeekPlace;
+      if (IsAfterStepInDoubt(*sweep)) job.seek_place = kWhereHeld;
+      if (!use_imu_) job.seek_place = kAnywhere;
+    }
   }
   if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
   return job;
@@ -126,6 +131,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
   if (last_standstill_) event.measurement.cov *= kAlikeAtRest;
   event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
   event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
+  event.is_clock_set = outcome.is_clock_set;
   event.force = outcome.is_sought || num_gated_in_a_row_ >= filter.max_gated_in_a_row;
   UpdateResult update;
   const EventOutcome fused = history().AddPose(outcome.sweep->middle(), event, &update);
@@ -166,6 +172,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     TellClassifier({middle, outcome.match.T_map_imu});
     report.fused = Fuse(outcome, is_keyframe, report);
   }
+  if (report.fused) SettleStepInDoubt(outcome);
   if (!starts_map) FuseStandstill(outcome, report.fused);
   if (clock_offset_) FollowClockOffset(outcome);
   const bool sees_enough = outcome.num_used >= kMinPointsToGrow;

@@ -87,6 +87,9 @@ void Odometry::Impl::GoOnShifted(Timestamp after_by_lidar) {
 // As if there had been no step, or a hole at most.
 void Odometry::Impl::GoOn() {
   const ImuIntake::Result step = std::exchange(new_stretch_, {});
+  if (step.step == ImuIntake::Step::kHole) {
+    step_in_doubt_ = {{step.before, step.accepted.front().stamp}, std::nullopt};
+  }
   GoOnWith(step.accepted);
 }
 
@@ -162,7 +165,10 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step ste
   noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
   const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
-  if (!is_gap) {
+  step_in_doubt_.reset();
+  if (is_gap) {
+    step_in_doubt_ = {{coast.stamp, first.stamp}, before.T_map_imu};
+  } else {
     estimate.state = before;
     SetTimesBy(Duration::FromSeconds(jump_s - unknown_s));
   }
@@ -173,6 +179,34 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step ste
   char text[120];
   std::snprintf(text, sizeof text, "inertial stamps jumped by %.3f s: state carried over", jump_s);
   Say(first.stamp, Notice::Severity::kWarning, text);
+}
+
+bool Odometry::Impl::IsAfterStepInDoubt(const Sweep& sweep) const {
+  return step_in_doubt_ && sweep.middle() > step_in_doubt_->stamps.before;
+}
+
+// Where a sweep after the step is if no time has passed there: the motion since, from before it.
+std::optional<Pose> Odometry::Impl::GuessIfClockSet(const Sweep& sweep,
+                                                    const Pose& T_map_imu_predicted) {
+  if (!history_ || !IsAfterStepInDoubt(sweep)) return {};
+  const auto& [stamps, T_map_before] = *step_in_doubt_;
+  if (last_found_ && *last_found_ > stamps.before) return {};  // seen meanwhile
+  const Pose before = T_map_before ? *T_map_before : history_->At(stamps.before).state.T_map_imu;
+  return before * (history_->At(stamps.after).state.T_map_imu.Inverse() * T_map_imu_predicted);
+}
+
+void Odometry::Impl::SettleStepInDoubt(const MatchOutcome& outcome) {
+  if (!IsAfterStepInDoubt(*outcome.sweep)) return;
+  if (outcome.is_clock_set) {
+    const ClockStep& stamps = step_in_doubt_->stamps;
+    ++counters_.num_clock_jumps;
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "stamps went %.3f s forth and nothing moved meanwhile: the clock was set",
+                  SecondsBetween(stamps.before, stamps.after));
+    Say(outcome.sweep->end, Notice::Severity::kWarning, text);
+  }
+  step_in_doubt_.reset();
 }
 
 // What is remembered by the old clock is as long ago by the new one.

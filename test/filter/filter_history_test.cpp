@@ -102,6 +102,23 @@ TEST(FilterHistory, ForcedPoseIsFusedWithTheCovarianceInflated) {
   EXPECT_GT(history.head().cov(kVel, kVel), before.cov(kVel, kVel));
 }
 
+// No time has passed where stamps say so: the body is not where it was thought to be, its speed is
+// as before.
+TEST(FilterHistory, ASetClockTakesTheWayBackAndLeavesTheSpeed) {
+  FilterHistory history = StartedHistory();
+  AddImuUpTo(history, 0.5);
+  history.AddImu(SampleAt(2.0));  // place and speed of the gap are correlated
+  const Estimate before = history.head();
+  PoseEvent event;
+  event.measurement.T_map_imu = before.state.T_map_imu * ExpSe3(-16.0 * Vector6::Unit(0));
+  event.measurement.cov = 1e-4 * Matrix6::Identity();
+  event.is_clock_set = true;
+  EXPECT_EQ(history.AddPose(StampAt(2.0), event), EventOutcome::kApplied);
+  const NavState& state = history.head().state;
+  EXPECT_LT(LogSe3(event.measurement.T_map_imu.Inverse() * state.T_map_imu).norm(), 0.01);
+  EXPECT_LT((state.v_world_imu - before.state.v_world_imu).norm(), 1.5);
+}
+
 TEST(FilterHistory, RebaseMakesTheMapPoseErrorZero) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 0.5);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""A walk with a VLP-16, where a second without inertial samples is steps of 6 m/s^2 unseen: holes,
+"""A walk with a VLP-16, mostly, where a second without inertial samples is steps of 6 m/s^2 unseen: holes,
 clocks that jump, a gyro that clips. What cannot be bridged ends in a start anew from where it was."""
 import unittest
 
@@ -9,9 +9,10 @@ import support
 
 
 class Recovery(unittest.TestCase):
-    def run_with(self, fault, seed="77"):
-        folder = support.simulated("campus", "--lidar", "vlp16", "--seed", seed, "--duration", "32",
-                                   "--fault", fault)
+    def run_with(self, fault, seed="77", scenario="campus", also=None):
+        faults = ["--fault", fault] + (["--fault", also] if also else [])
+        folder = support.simulated(scenario, "--lidar", "vlp16", "--seed", seed, "--duration", "32",
+                                   *faults)
         run = support.replay(folder / "log.lcm", folder.name + "-run", "--config",
                              folder / "config.yaml")
         figures = support.evaluate(folder / "truth.tum", run)
@@ -45,6 +46,20 @@ class Recovery(unittest.TestCase):
         self.assertEqual(stats["num_clock_jumps"], 2)
         self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
         self.assertLess(ape_m, 0.4)
+
+    # A host's clock that is set forth and back takes both sensors along. By the stamps alone it is as if
+    # nothing had come for a second and a half; the scans tell that nothing moved meanwhile.
+    def test_clocks_that_are_set_forth_are_told_from_a_gap(self):
+        for scenario in ("street", "campus"):
+            _, stats = self.run_with("stamp_jump:offset=1.5,start=10,duration=0.5", scenario=scenario)
+            self.assertEqual(stats["num_restarts"], 2)
+            self.assertLess(self.end_error_m, 0.3, "was 37 m")
+
+    def test_a_gap_of_both_sensors_is_told_from_a_set_clock(self):
+        ape_m, stats = self.run_with("imu_gap:start=10,duration=0.7", scenario="street",
+                                     also="lidar_gap:start=10,duration=0.7")
+        self.assertEqual(stats["num_clock_jumps"], 0)
+        self.assertLess(ape_m, 0.05)
 
     def test_an_inertial_clock_that_steps_alone_is_put_right(self):
         for offset in ("-0.5", "0.4", "1.5"):

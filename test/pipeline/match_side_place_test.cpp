@@ -37,7 +37,7 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   MatchJob job = JobFor(start_s, guess_error);
   job.guess_cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
-  job.seek_place = true;
+  job.seek_place = MatchJob::SeekPlace::kAnywhere;
   job.refine_deskew = true;
   job.since_last_fix_s = 0.5;
   return job;
@@ -81,8 +81,24 @@ TEST(MatchSidePlace, WithoutLeaveToSeekItIsNot) {
   MatchSide side(test::DriveRig());
   FillMap(side);
   MatchJob job = UnsureJobFor(0.93, FarAhead());
-  job.seek_place = false;
+  job.seek_place = MatchJob::SeekPlace::kNowhere;
   EXPECT_FALSE(side.Run(job).is_sought);
+}
+
+// After stamps that went a second forth: did the vehicle drive on, or was the clock set?
+TEST(MatchSidePlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
+  for (const bool was_set : {true, false}) {
+    MatchSide side(test::DriveRig());
+    FillMap(side);
+    const Vector6 way = FarAhead();
+    MatchJob job = JobFor(0.93, was_set ? way : Vector6(Vector6::Zero()));
+    job.T_map_imu_if_clock_set =
+        Driving()(0.98) * ExpSe3(was_set ? Vector6(Vector6::Zero()) : Vector6(-way));
+    const MatchOutcome outcome = side.Run(job);
+    EXPECT_EQ(outcome.is_clock_set, was_set);
+    ASSERT_TRUE(outcome.match.IsUsable());
+    EXPECT_LT((Driving()(0.98).Inverse() * outcome.match.T_map_imu).translation.norm(), 0.05);
+  }
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ struct HistoryOptions {
 struct PoseEvent {
   PoseMeasurement measurement;
   bool force = false;  // fuse even beyond the gate, the covariance inflated to what was seen
+  // No time has passed where stamps say so: the place is off by what the pose says, the speed not.
+  bool is_clock_set = false;
 };
 
 // Factors on the covariance of poses.

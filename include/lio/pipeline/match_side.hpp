@@ -32,7 +32,11 @@ struct MatchJob {
   // Over a wide range: kShift, since the last scan that was found, to better the guess; kVelocity,
   // of the scans since clear_map, and nothing is matched.
   enum class Seek { kNothing, kShift, kVelocity } seek = Seek::kNothing;
-  bool seek_place = false;  // where the scan is not found as guessed, look for it farther around
+  // Where it is if no time has passed at a step of the stamps, tried as well.
+  std::optional<Pose> T_map_imu_if_clock_set;
+  // Where the scan is not found as guessed, look for it farther around; kWhereHeld: unless the last
+  // one that was found had weak directions, which the inertial unit knows better.
+  enum class SeekPlace { kNowhere, kWhereHeld, kAnywhere } seek_place = SeekPlace::kNowhere;
   Vector3 up_map = Vector3::UnitZ();  // about; for seeking
   double shift_std_m = 1.0;           // of the guessed shift since the last scan that was found
   double since_last_fix_s = 0.1;      // how long the guess has run free at the sweep's middle
@@ -43,6 +47,7 @@ struct MatchOutcome {
   std::shared_ptr<const Sweep> sweep;
   MatchResult match;
   bool is_sought = false;                // found, but farther around
+  bool is_clock_set = false;             // found at T_map_imu_if_clock_set
   std::optional<Vector3> v_map_imu_mps;  // sought and found
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refine_deskew
   int num_used = 0;
@@ -87,6 +92,8 @@ class MatchSide {
   void HoldByView(const MatchJob& job, MatchOutcome& outcome);
   // Where the scan was not found as guessed, in the places where it may be: match_side_place.cpp.
   void SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& outcome);
+  // Where it would be had no time passed, if it fits better there.
+  void TryClockSet(const MatchJob& job, MatchInput input, MatchOutcome& outcome);
   // The job's guess, bettered by the shift since the last scan.
   MatchInput SeekShift(const MatchJob& job, MatchInput input) const;
 
