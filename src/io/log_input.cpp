@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kMaxAhead = 64;  // items, at most 4 MB of chunks
+constexpr std::size_t kMaxAhead = 64;  // messages; 85 MB where each is a whole sweep
 
 // In floating point, because a damaged log may hold any number.
 double SecondsBetweenUtimes(std::int64_t from, std::int64_t to) {
