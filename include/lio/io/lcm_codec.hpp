@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Messages to domain types and back: with its source and status_codec.cpp the only place that sees
-// generated LCM types. Decoding checks hash, counts and sizes before it trusts a byte (shared rules:
-// docs/messages.md) and never throws.
+// generated LCM types. Decoding checks hash, counts and sizes before it trusts a byte (shared
+// rules: docs/messages.md) and never throws.
 #pragma once
 
 #include <cstdint>
