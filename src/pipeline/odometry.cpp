@@ -71,12 +71,16 @@ std::optional<Timestamp> Odometry::Impl::NewestImu() const {
 }
 
 void Odometry::Impl::AddImu(const ImuSample& sample) {
-  if (!use_imu_ || is_refused_) {
+  if (!options_.pipeline.use_imu || is_refused_) {
     ++counters_.num_imu;
     return;
   }
   if (IsBetweenStretches()) {
     HoldSample(sample);
+    return;
+  }
+  if (!use_imu_) {
+    TakeLateImu(sample);
     return;
   }
   const std::int64_t begin = Now();

@@ -88,6 +88,8 @@ class Odometry::Impl {
   void GoOnWith(const std::vector<ImuSample>& samples);
   void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
   void SetTimesBy(Duration by);
+  void TakeLateImu(const ImuSample& sample);
+  void GoInertial(Timestamp first);
   bool IsAfterStepInDoubt(const Sweep& sweep) const;
   std::optional<Pose> GuessIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted);
   void SettleStepInDoubt(const MatchOutcome& outcome);
@@ -206,7 +208,8 @@ class Odometry::Impl {
     std::optional<ScanChunk> chunk;  // absent: it is the sample
     std::int64_t decode_ns = 0;
   };
-  std::deque<HeldMessage> held_;  // what came since new_stretch_ did
+  std::deque<HeldMessage> held_;     // what came since new_stretch_ did
+  std::vector<ImuSample> late_imu_;  // the first ones, where the lidar has begun alone
   bool is_flushed_ = false;
   ScanAssembler assembler_{counters_};
   ScanGate gate_{counters_};
@@ -227,6 +230,7 @@ class Odometry::Impl {
   struct Resumption {
     Pose T_world_start;  // in the world that was published, in the axes that were believed
     PassedPoint last_fix;
+    bool keeps_attitude = false;  // the published world need not be level
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
   struct Loss {                           // of the way, lidar-only

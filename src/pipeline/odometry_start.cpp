@@ -272,7 +272,7 @@ void Odometry::Impl::ScoutAgain(Timestamp stamp, const std::string& why) {
 
 // In the world that was published, from the last pose that was found.
 void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
-  resumption_ = {T_world_start_, last_fix_};
+  resumption_ = {T_world_start_, last_fix_, false};
   history_.reset();
   standstill_.Forget();
   last_standstill_.reset();
@@ -290,6 +290,9 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   if (resumption_) {
     TurnByGyro(start.estimate, resumption_->last_fix);
     PlaceInWorld(resumption_->last_fix, start.estimate);
+    if (resumption_->keeps_attitude) {
+      start.estimate.state.T_map_imu.rotation = resumption_->last_fix.T_world_imu.rotation;
+    }
     resumption_.reset();
   }
   const NavState& state = start.estimate.state;

@@ -13,6 +13,7 @@ namespace {
 // A step of the inertial clock waits so long, by its stamps, for a sweep that tells whether the
 // lidar's stepped as well ...
 constexpr Duration kWaitForLidar{1'000'000'000};
+constexpr Duration kImuIsThere{500'000'000};
 constexpr std::size_t kMaxHeld = 3000;   // ... or for so many messages
 constexpr Duration kStray{200'000'000};  // a held sample that is so far ahead tells no time
 constexpr Duration kOutage{150'000'000};
@@ -114,8 +115,37 @@ void Odometry::Impl::EndStretch() {
 
 void Odometry::Impl::ResumeAfterStretch() {
   const ImuIntake::Result stretch = std::exchange(new_stretch_, {});
-  BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
+  if (use_imu_) {
+    BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
+  } else {
+    GoInertial(stretch.accepted.front().stamp);
+  }
   GoOnWith(stretch.accepted);
+}
+
+// An inertial unit that comes up after the lidar. A stray sample is none.
+void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
+  const ImuIntake::Result result = intake_.Add(sample);
+  if (result.step != ImuIntake::Step::kNone) late_imu_.clear();
+  late_imu_.insert(late_imu_.end(), result.accepted.begin(), result.accepted.end());
+  if (late_imu_.empty()) return;
+  const Duration span = late_imu_.back().stamp - late_imu_.front().stamp;
+  if (span < kImuIsThere) return;
+  new_stretch_.accepted = std::exchange(late_imu_, {});
+  new_stretch_.step = ImuIntake::Step::kGap;
+  if (!HasWork()) ResumeAfterStretch();
+}
+
+// The lidar's path ends, and with the inertial unit the start begins anew from there.
+void Odometry::Impl::GoInertial(Timestamp first) {
+  use_imu_ = true;
+  if (phase_ == Phase::kRunning) resumption_ = {T_world_start_, last_fix_, true};
+  loss_.reset();
+  ready_.clear();
+  gate_.BeginNewStretch(first);
+  scouting_since_.reset();
+  if (options_.filter.estimate_clock_offset) clock_offset_.emplace(options_.rig.imu);
+  ScoutAgain(first, "inertial samples have come: the start begins anew, with them");
 }
 
 // And with what came since the step.

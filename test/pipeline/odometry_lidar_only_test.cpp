@@ -63,5 +63,37 @@ TEST(OdometryLidarOnly, AScanFoundNowhereIsNotInTheMap) {
   EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.1);
 }
 
+// The lidar's driver is up first.
+TEST(OdometryLidarOnly, AnInertialUnitThatComesLaterIsUsed) {
+  const Messages messages = test::WithoutImu(StaticStartDrive(), -1.0, 2.6);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_TRUE(HasNotice(run, "no inertial samples come: lidar-only odometry"));
+  EXPECT_TRUE(HasNotice(run, "inertial samples have come"));
+  EXPECT_TRUE(HasNotice(run, "started in motion"));
+  test::ExpectStampsIncrease(run);
+  ASSERT_FALSE(run.navs.empty());
+  EXPECT_EQ(run.status, TrackingStatus::kOk);
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 0.5);
+  for (const int lag : {1, 5, 20}) {
+    EXPECT_EQ(test::Bytes(RunOdometry(messages, test::DriveRig(), lag).scans),
+              test::Bytes(run.scans))
+        << lag;
+  }
+}
+
+TEST(OdometryLidarOnly, AStrayInertialSampleChangesNothing) {
+  Messages messages = test::WithoutImu(StaticStartDrive(), -1.0, kEnd_s);
+  const std::size_t num_scans = RunOdometry(messages, test::DriveRig()).scans.size();
+  for (Message& message : messages) {
+    if (!IsBetween(message, 4.0, 4.05)) continue;
+    message.is_imu = true;
+    message.sample.stamp = message.arrival;
+    break;
+  }
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_FALSE(HasNotice(run, "inertial samples have come"));
+  EXPECT_GE(run.scans.size() + 1, num_scans);
+}
+
 }  // namespace
 }  // namespace lio
