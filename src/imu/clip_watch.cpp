@@ -10,14 +10,14 @@ namespace {
 
 constexpr int kMinEqual = 5;  // fewer may be chance, where readings are coarse
 // No range is smaller. An axis that never reads anything, or gravity without noise, is not clipped.
-constexpr double kMinRateRange = 0.02;
-constexpr double kMinForceRange = 12.0;
+constexpr double kMinRate_radps = 0.04;
+constexpr double kMinForce_mps2 = 12.0;
 
 }  // namespace
 
-void ClipWatch::Mark(ImuSample& sample) {
-  sample.is_rate_clipped = rates_.IsClipped(sample.w_imu_radps, kMinRateRange);
-  sample.is_force_clipped = forces_.IsClipped(sample.f_imu_mps2, kMinForceRange);
+void ClipWatch::Mark(ImuSample& sample, double rate_scale, double force_scale) {
+  sample.is_rate_clipped = rates_.IsClipped(sample.w_imu_radps, kMinRate_radps / rate_scale);
+  sample.is_force_clipped = forces_.IsClipped(sample.f_imu_mps2, kMinForce_mps2 / force_scale);
 }
 
 // Where all axes stay the same the driver repeats itself.

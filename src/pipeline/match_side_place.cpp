@@ -71,6 +71,7 @@ void MatchSide::TryClockSet(const MatchJob& job, MatchInput input, MatchOutcome&
   const bool is_better = match.num_matched > kClearlyMore * outcome.match.num_matched;
   if (match.weak_mask != 0 || !Fits(match, last_found_->match) || !is_better) return;
   outcome.match = match;
+  outcome.match.status = MatchStatus::kConverged;  // or to and fro, by little
   outcome.is_clock_set = true;
 }
 

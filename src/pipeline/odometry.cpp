@@ -16,8 +16,9 @@ namespace {
 constexpr double kHole_s = 0.15;           // between inertial samples
 constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
 constexpr Duration kBridgeEdge{1'000'000};
-constexpr double kNoImuAtAll_s = 2.0;  // scans alone for this long: the log has no IMU
-constexpr double kImuBuffer_s = 6.0;   // raw samples kept for a start that looks back
+constexpr double kNoImuAtAll_s = 2.0;         // scans alone for this long: the log has no IMU
+constexpr std::size_t kMaxLookedBackOn = 80;  // sweeps: 4 s of a fast lidar
+constexpr double kImuBuffer_s = 6.0;          // raw samples kept for a start that looks back
 constexpr Duration kStampSlack{20'000'000};
 constexpr double kClocksApart_s = 2.0;  // more than any message is late
 
@@ -117,7 +118,7 @@ void Odometry::Impl::Accept(const ImuSample& sent) {
 
 // With what the end of a sensor's range hides.
 ImuSample Odometry::Impl::Marked(ImuSample sent) {
-  clip_watch_.Mark(sent);
+  clip_watch_.Mark(sent, reading_.rate_scale(), reading_.force_scale());
   if (!sent.is_rate_clipped && !sent.is_force_clipped) return sent;
   if (counters_.num_imu_clipped++ == 0) {
     Say(sent.stamp, Notice::Severity::kWarning,
@@ -179,6 +180,7 @@ void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     return;
   }
   const Timestamp stamp = chunk.stamp;
+  newest_chunk_ = stamp;
   if (!intake_.is_in_doubt()) arrivals_.Note(stamp, intake_.newest());
   assembler_.Add(std::move(chunk), decode_ns);
   if (!use_imu_ || sent_.empty()) {
@@ -211,6 +213,7 @@ void Odometry::Impl::Flush() {
 
 void Odometry::Impl::GoLidarOnly(const std::string& why) {
   use_imu_ = false;
+  clock_offset_.reset();
   Say(gate_.oldest().end, Notice::Severity::kWarning, why + ": lidar-only odometry");
 }
 
@@ -261,10 +264,14 @@ void Odometry::Impl::Admit(SweepPtr sweep) {
 }
 
 void Odometry::Impl::ShedLoad() {
-  const auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
-  // Before the first that waits are those a start looks back on, and the one in flight.
-  const std::size_t first =
-      (phase_ == Phase::kScouting ? scouted_.size() : 0) + (in_flight_ ? 1 : 0);
+  auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
+  // The sweep in flight is the front one, but for those a start looks back on. It may match all of
+  // them anew, which is no overload.
+  std::size_t first = in_flight_ ? 1 : 0;
+  if (phase_ == Phase::kScouting) {
+    first += scouted_.size();
+    limit += kMaxLookedBackOn;
+  }
   while (ready_.size() > limit + first) {
     ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(first));
     ++counters_.num_scans_dropped;

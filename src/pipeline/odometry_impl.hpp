@@ -202,6 +202,7 @@ class Odometry::Impl {
   std::optional<StepInDoubt> step_in_doubt_;
   int feed_depth_ = 0;
   Duration imu_clock_shift_;  // of a clock that stepped alone
+  std::optional<Timestamp> newest_chunk_;
   ArrivalWatch arrivals_;
   struct HeldMessage {
     ImuSample sample;
@@ -230,7 +231,6 @@ class Odometry::Impl {
   struct Resumption {
     Pose T_world_start;  // in the world that was published, in the axes that were believed
     PassedPoint last_fix;
-    bool keeps_attitude = false;  // the published world need not be level
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
   struct Loss {                           // of the way, lidar-only
@@ -241,7 +241,8 @@ class Odometry::Impl {
   std::optional<Loss> loss_;  // a map begun anew goes on from here
   int num_scans_in_map_ = 0;  // lidar-only: run since its beginning
   Pose T_world_start_;
-  PassedPoint last_fix_;  // as published
+  bool is_world_unlevel_ = false;  // it began lidar-only: a start anew keeps its attitude
+  PassedPoint last_fix_;           // as published
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU

@@ -220,7 +220,8 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
                       FixOf(found, rig));
     return;
   }
-  if (resumption_) {  // what was published since the start was turned about it
+  // What was published since a start with these axes was turned about it.
+  if (resumption_ && !is_world_unlevel_) {
     const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
     const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
     const Pose& start = resumption_->T_world_start;

@@ -272,7 +272,7 @@ void Odometry::Impl::ScoutAgain(Timestamp stamp, const std::string& why) {
 
 // In the world that was published, from the last pose that was found.
 void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
-  resumption_ = {T_world_start_, last_fix_, false};
+  resumption_ = {T_world_start_, last_fix_};
   history_.reset();
   standstill_.Forget();
   last_standstill_.reset();
@@ -290,14 +290,15 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   if (resumption_) {
     TurnByGyro(start.estimate, resumption_->last_fix);
     PlaceInWorld(resumption_->last_fix, start.estimate);
-    if (resumption_->keeps_attitude) {
+    if (is_world_unlevel_) {
       start.estimate.state.T_map_imu.rotation = resumption_->last_fix.T_world_imu.rotation;
     }
     resumption_.reset();
   }
   const NavState& state = start.estimate.state;
   T_world_start_ = state.T_world_imu;
-  last_fix_ = {start.estimate.stamp, state.T_world_imu, state.v_world_imu};
+  const WorldEstimate published = InPublishedWorld(start.estimate);
+  last_fix_ = {start.estimate.stamp, published.T_world_imu, published.v_world_imu};
   classifier_.BeginMap(start.estimate.stamp);
   ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
   BeginScoutingAnew();

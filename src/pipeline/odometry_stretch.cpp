@@ -14,6 +14,7 @@ namespace {
 // lidar's stepped as well ...
 constexpr Duration kWaitForLidar{1'000'000'000};
 constexpr Duration kImuIsThere{500'000'000};
+constexpr Duration kMaxClocksApart{2'000'000'000};
 constexpr std::size_t kMaxHeld = 3000;   // ... or for so many messages
 constexpr Duration kStray{200'000'000};  // a held sample that is so far ahead tells no time
 constexpr Duration kOutage{150'000'000};
@@ -88,9 +89,6 @@ void Odometry::Impl::GoOnShifted(Timestamp after_by_lidar) {
 // As if there had been no step, or a hole at most.
 void Odometry::Impl::GoOn() {
   const ImuIntake::Result step = std::exchange(new_stretch_, {});
-  if (step.step == ImuIntake::Step::kHole) {
-    step_in_doubt_ = {{step.before, step.accepted.front().stamp}, std::nullopt};
-  }
   GoOnWith(step.accepted);
 }
 
@@ -98,6 +96,7 @@ void Odometry::Impl::GoOn() {
 // that comes meanwhile waits: so it does not matter how fast jobs are finished.
 void Odometry::Impl::EndStretch() {
   if (new_stretch_.step == ImuIntake::Step::kHole) {
+    if (!arrivals_.HasTimePassed(ClockStepNow())) step_in_doubt_ = {ClockStepNow(), std::nullopt};
     GoOn();
     return;
   }
@@ -123,11 +122,22 @@ void Odometry::Impl::ResumeAfterStretch() {
   GoOnWith(stretch.accepted);
 }
 
-// An inertial unit that comes up after the lidar. A stray sample is none.
+// An inertial unit that comes up after the lidar. A stray sample is none, nor is one by another
+// clock of use.
 void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
   const ImuIntake::Result result = intake_.Add(sample);
   if (result.step != ImuIntake::Step::kNone) late_imu_.clear();
-  late_imu_.insert(late_imu_.end(), result.accepted.begin(), result.accepted.end());
+  for (const ImuSample& accepted : result.accepted) {
+    const bool is_of_lidars_time =
+        newest_chunk_ && Abs(accepted.stamp - *newest_chunk_) < kMaxClocksApart;
+    if (newest_chunk_) TellClocksApart(accepted.stamp, *newest_chunk_);
+    if (!is_of_lidars_time) late_imu_.clear();
+    if (!is_of_lidars_time || (!late_imu_.empty() && accepted.stamp <= late_imu_.back().stamp)) {
+      ++counters_.num_imu_late;
+      continue;
+    }
+    late_imu_.push_back(accepted);
+  }
   if (late_imu_.empty()) return;
   const Duration span = late_imu_.back().stamp - late_imu_.front().stamp;
   if (span < kImuIsThere) return;
@@ -139,7 +149,10 @@ void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
 // The lidar's path ends, and with the inertial unit the start begins anew from there.
 void Odometry::Impl::GoInertial(Timestamp first) {
   use_imu_ = true;
-  if (phase_ == Phase::kRunning) resumption_ = {T_world_start_, last_fix_, true};
+  if (phase_ == Phase::kRunning || loss_) {
+    resumption_ = {T_world_start_, loss_ ? loss_->last_fix : last_fix_};
+    is_world_unlevel_ = true;
+  }
   loss_.reset();
   ready_.clear();
   gate_.BeginNewStretch(first);

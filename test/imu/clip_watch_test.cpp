@@ -75,5 +75,23 @@ TEST(ClipWatch, AnAxisWithNothingToReadIsNotClipped) {
   EXPECT_EQ(marks.num_force, 0);
 }
 
+// In deg/s and g.
+TEST(ClipWatch, LimitsAreThoseOfTheUnits) {
+  ClipWatch watch;
+  int num_rate = 0;
+  int num_force = 0;
+  for (int k = 0; k < 1000; ++k) {
+    ImuSample sample = Swinging(k, 1e9, 19.6);
+    sample.f_imu_mps2 /= 9.80665;
+    sample.w_imu_radps *= 180.0 / M_PI;
+    sample.w_imu_radps.x() = 0.5;  // a coarse gyro at rest
+    watch.Mark(sample, M_PI / 180.0, 9.80665);
+    num_rate += sample.is_rate_clipped ? 1 : 0;
+    num_force += sample.is_force_clipped ? 1 : 0;
+  }
+  EXPECT_EQ(num_rate, 0);
+  EXPECT_NEAR(num_force, 230, 50);
+}
+
 }  // namespace
 }  // namespace lio

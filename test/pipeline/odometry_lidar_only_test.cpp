@@ -95,5 +95,22 @@ TEST(OdometryLidarOnly, AStrayInertialSampleChangesNothing) {
   EXPECT_GE(run.scans.size() + 1, num_scans);
 }
 
+TEST(OdometryLidarOnly, AnInertialUnitByAnotherClockLeavesTheLidarAlone) {
+  const Messages lidar = test::WithoutImu(StaticStartDrive(), -1.0, kEnd_s);
+  const Messages late = test::WithoutImu(StaticStartDrive(), -1.0, 2.6);
+  const RunResult run =
+      RunOdometry(test::WithClockStep(late, -1.0, -1000.0, true, false), test::DriveRig());
+  EXPECT_TRUE(HasNotice(run, "s after the inertial samples"));
+  EXPECT_FALSE(HasNotice(run, "inertial samples have come"));
+  EXPECT_EQ(test::Bytes(run.scans), test::Bytes(RunOdometry(lidar, test::DriveRig()).scans));
+}
+
+TEST(OdometryLidarOnly, ItNeedsNoOffsetBetweenClocks) {
+  Options options = test::DriveRig();
+  options.filter.estimate_clock_offset = true;
+  const RunResult run = RunOdometry(test::WithoutImu(StaticStartDrive(), -1.0, kEnd_s), options);
+  EXPECT_EQ(run.status, TrackingStatus::kOk);
+}
+
 }  // namespace
 }  // namespace lio

@@ -12,8 +12,9 @@ namespace lio {
 
 class ClipWatch {
  public:
-  // Samples in the order they come; sets what is clipped in the sample.
-  void Mark(ImuSample& sample);
+  // Samples in the order they come; sets what is clipped in the sample. The scales take its units
+  // to rad/s and m/s^2.
+  void Mark(ImuSample& sample, double rate_scale = 1.0, double force_scale = 1.0);
 
  private:
   // Three axes of a sensor.
