@@ -38,9 +38,12 @@ bool IsSmall(const Vector6& residual) {
   return residual.head<3>().norm() < kSmall_m && residual.tail<3>().norm() < kSmall_rad;
 }
 
+Vector6 ResidualOf(const PoseMeasurement& measurement, const Estimate& estimate) {
+  return LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+}
+
 // No time has passed for the body to move as far as it was thought to.
-void TakeBackMotion(Estimate& estimate, const PoseMeasurement& measurement) {
-  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+void TakeBackMotion(const Vector6& residual, Estimate& estimate) {
   AllowUnseenMotion(estimate, residual.cwiseAbs2(), Vector3::Zero());
 }
 
@@ -54,7 +57,7 @@ void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
 
 // Fuses a pose from beyond the gate. `nis`: how far beyond.
 bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
-  const Vector6 residual = LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
+  const Vector6 residual = ResidualOf(measurement, estimate);
   if (IsSmall(residual)) {
     measurement.cov *= nis / nis_limit;
   } else {
@@ -168,7 +171,9 @@ void FilterHistory::Step(std::size_t at) {
 void FilterHistory::Fuse(Node& node) const {
   PoseMeasurement measurement = node.pose.measurement;
   measurement.cov = Widened(measurement.cov, node.misfit);
-  if (node.pose.is_clock_set) TakeBackMotion(node.posterior, measurement);
+  if (node.pose.is_clock_set) {
+    TakeBackMotion(ResidualOf(measurement, node.posterior), node.posterior);
+  }
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
   node.misfit = NextMisfit(node.misfit, node.update);
   if (!node.update.fused && node.pose.force) {

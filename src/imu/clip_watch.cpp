@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/clip_watch.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lio {

@@ -78,13 +78,16 @@ Quaternion LevelledRotation(const Vector3& up_imu) {
   return ExpSo3(Vector3(0, 0, -YawOf(tilt))) * tilt;
 }
 
+double CoastedSince_s(const PassedPoint& earlier, Timestamp now) {
+  return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kMaxCoast_s);
+}
+
 void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
   NavState& state = estimate.state;
   const double yaw_rad = YawOf(earlier.T_world_imu.rotation) - YawOf(state.T_world_imu.rotation);
   const Quaternion turn = ExpSo3(Vector3(0, 0, yaw_rad));
   state.v_world_imu = turn * state.v_world_imu;
-  const double since_s =
-      std::clamp(SecondsBetween(earlier.stamp, estimate.stamp), 0.0, kMaxCoast_s);
+  const double since_s = CoastedSince_s(earlier, estimate.stamp);
   const Vector3 position =
       earlier.T_world_imu.translation + 0.5 * since_s * (earlier.v_world_imu + state.v_world_imu);
   const Pose placed{turn, position - turn * state.T_world_imu.translation};

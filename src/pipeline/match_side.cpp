@@ -50,11 +50,6 @@ TurnRate PutRight(const TurnRate& error, const StampedPoses& motion) {
   return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
 }
 
-bool MaySeekPlace(const MatchJob& job, const MatchResult& last) {
-  using enum MatchJob::SeekPlace;
-  return job.seek_place == kAnywhere || (job.seek_place == kWhereHeld && last.weak_mask == 0);
-}
-
 constexpr double kSoughtStd_m = 0.5;  // of a shift that was found
 constexpr std::size_t kMinScansToSeek = 3;
 
@@ -119,8 +114,8 @@ void MatchSide::Match(const MatchJob& job, const ReducedScan& reduced, MatchOutc
                    .shift_std_m = job.shift_std_m};
   if (job.seek == MatchJob::Seek::kShift) input = SeekShift(job, input);
   outcome.match = matcher_->Match(input);
-  if (last_found_ && MaySeekPlace(job, last_found_->match)) SeekPlace(job, input, outcome);
-  if (job.T_map_imu_if_clock_set && last_found_ && !outcome.is_sought) {
+  if (last_found_) {
+    SeekPlace(job, input, outcome);
     TryClockSet(job, input, outcome);
   }
   AddTime(Stage::kMatch, begin, outcome);

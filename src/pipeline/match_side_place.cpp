@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-
 #include "lio/pipeline/match_side.hpp"
 #include "pipeline/place_guesses.hpp"
 
@@ -63,6 +62,7 @@ bool IsNearClockSet(const MatchJob& job, const MatchResult& match) {
 }  // namespace
 
 void MatchSide::TryClockSet(const MatchJob& job, MatchInput input, MatchOutcome& outcome) {
+  if (!job.T_map_imu_if_clock_set || outcome.is_sought) return;
   outcome.is_clock_set = IsNearClockSet(job, outcome.match);  // it was sought, perhaps
   if (outcome.is_clock_set) return;
   input.T_map_imu_guess = *job.T_map_imu_if_clock_set;
@@ -76,10 +76,11 @@ void MatchSide::TryClockSet(const MatchJob& job, MatchInput input, MatchOutcome&
 }
 
 void MatchSide::SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& outcome) {
-  if (outcome.match.IsUsable() && IsSure(job.guess_cov)) return;
   const MatchResult& last = last_found_->match;
-  const double least_share =
-      job.seek_place == MatchJob::SeekPlace::kWhereHeld ? kPlenty : kLeastNumber;
+  const bool is_unlike_imu = job.seek_place == MatchJob::SeekPlace::kWhereHeld;
+  if (job.seek_place == MatchJob::SeekPlace::kNowhere) return;
+  if (is_unlike_imu && last.weak_mask != 0) return;
+  if (outcome.match.IsUsable() && IsSure(job.guess_cov)) return;
   const auto has_plenty = [&](const MatchResult& match) {
     return FitsNowhereElse(match, last) && match.num_matched >= kPlenty * last.num_matched;
   };
@@ -92,7 +93,7 @@ void MatchSide::SeekPlace(const MatchJob& job, MatchInput input, MatchOutcome& o
       const MatchResult match = matcher_->Match(input);
       const bool is_more = match.num_matched > outcome.match.num_matched;
       if (!FitsNowhereElse(match, last)) continue;
-      if (match.num_matched < least_share * last.num_matched) continue;
+      if (is_unlike_imu && !has_plenty(match)) continue;
       if (FitsNowhereElse(outcome.match, last) && !is_more) continue;
       outcome.match = match;
       outcome.is_sought = true;

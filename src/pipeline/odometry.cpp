@@ -229,25 +229,26 @@ void Odometry::Impl::OpenGate() {
   std::optional<Timestamp> passed = NewestImu();
   if (passed) *passed = *passed - ClockMargin();
   while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
-  if (passed && !gate_.empty()) TellClocksApart(*passed, gate_.oldest().start);
+  if (passed && !gate_.empty()) TellIfClocksApart(*passed, gate_.oldest().start);
 }
 
-void Odometry::Impl::TellClocksApart(Timestamp imu, Timestamp lidar) {
+bool Odometry::Impl::TellIfClocksApart(Timestamp imu, Timestamp lidar) {
   const double ahead_s = SecondsBetween(imu, lidar);
-  if (std::abs(ahead_s) < kClocksApart_s) return;
+  if (std::abs(ahead_s) < kClocksApart_s) return false;
   char text[160];
   std::snprintf(text, sizeof text,
                 "scans are stamped %.1f s %s the inertial samples and cannot be used: the sensors "
                 "need one clock, or rig.lidar.clock_offset_s",
                 std::abs(ahead_s), ahead_s > 0.0 ? "after" : "before");
   SayWaiting(imu, text);
+  return true;
 }
 
 void Odometry::Impl::Admit(SweepPtr sweep) {
   const Timestamp earliest = history_ ? history_->start_stamp() : sent_.front().stamp;
   if (sweep->start + kStampSlack < earliest) {
     ++counters_.num_scans_without_imu;
-    TellClocksApart(earliest, sweep->start);
+    TellIfClocksApart(earliest, sweep->start);
     return;
   }
   // From here on nothing may change what the scan was deskewed and predicted with.

@@ -64,7 +64,7 @@ class Odometry::Impl {
   bool HasWork() const;
   void OpenGate();
   void Admit(SweepPtr sweep);
-  void TellClocksApart(Timestamp imu, Timestamp lidar);
+  bool TellIfClocksApart(Timestamp imu, Timestamp lidar);
   void GoLidarOnly(const std::string& why);
   std::optional<Timestamp> NewestImu() const;
   // How far a scan may still be moved in time before it is matched.
@@ -88,8 +88,6 @@ class Odometry::Impl {
   void GoOnWith(const std::vector<ImuSample>& samples);
   void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
   void SetTimesBy(Duration by);
-  void TakeLateImu(const ImuSample& sample);
-  void GoInertial(Timestamp first);
   bool IsAfterStepInDoubt(const Sweep& sweep) const;
   std::optional<Pose> GuessIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted);
   void SettleStepInDoubt(const MatchOutcome& outcome);
@@ -103,6 +101,7 @@ class Odometry::Impl {
   Vector3 UpInMap(const NavState& state) const;  // about
   void AdvanceScout(Timestamp stamp);
   void TryStart(Timestamp stamp);
+  void TryStartAsItMoves(Timestamp stamp);
   void ForgetOldestScouted();
   void TryStartAtRest(Timestamp begin, Timestamp stamp);
   void TryStartInMotion(Timestamp stamp);
@@ -151,6 +150,8 @@ class Odometry::Impl {
   bool IsPlaceSure(const MatchOutcome& outcome) const;
   void StartAnewByLidar(Timestamp stamp);
   void GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting);
+  void TakeLateImu(const ImuSample& sample);
+  void GoInertial(Timestamp first);
 
   // --- odometry_standstill.cpp
   void FuseStandstill(const MatchOutcome& outcome, bool is_fused);
@@ -202,7 +203,7 @@ class Odometry::Impl {
   std::optional<StepInDoubt> step_in_doubt_;
   int feed_depth_ = 0;
   Duration imu_clock_shift_;  // of a clock that stepped alone
-  std::optional<Timestamp> newest_chunk_;
+  Timestamp newest_chunk_;
   ArrivalWatch arrivals_;
   struct HeldMessage {
     ImuSample sample;

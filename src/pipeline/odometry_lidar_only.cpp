@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
 
 #include "pipeline/odometry_impl.hpp"
 
 namespace lio {
 namespace {
 
-constexpr int kUnmatchedWhenLost = 5;    // coasting on is wrong by more with each scan
-constexpr int kYoungScans = 10;          // with fewer a map is thin, and its cells are of no shape
-constexpr double kTurnLasts_s = 0.5;     // of a body that is not seen
-constexpr double kMaxCoast_s = 30.0;     // longer than that nothing goes on straight
+constexpr int kUnmatchedWhenLost = 5;  // coasting on is wrong by more with each scan
+constexpr int kYoungScans = 10;        // with fewer a map is thin, and its cells are of no shape
+constexpr double kTurnLasts_s = 0.5;   // of a body that is not seen
+constexpr Duration kImuIsThere{500'000'000};
 constexpr double kPlacedStd_m = 0.5;     // a start anew is off by this at least ...
 constexpr double kPlacedStd_rad = 0.05;  // ... and this
 
@@ -49,7 +50,7 @@ void Odometry::Impl::StartAnewByLidar(Timestamp stamp) {
 // Where the new map begins, by the motion before and after what was not seen.
 void Odometry::Impl::GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting) {
   const PassedPoint& fix = loss_->last_fix;
-  const double since_s = std::clamp(SecondsBetween(fix.stamp, stamp), 0.0, kMaxCoast_s);
+  const double since_s = CoastedSince_s(fix, stamp);
   const Vector3 turn = std::min(since_s, kTurnLasts_s) * loss_->w_imu_radps;
   const Quaternion rotation = fix.T_world_imu.rotation * ExpSo3(turn);
   Vector3 v_world_mps = fix.v_world_imu;
@@ -64,6 +65,43 @@ void Odometry::Impl::GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting) {
   scouting.start_cov = loss_->pose_cov;
   scouting.start_cov.diagonal() += least;
   loss_.reset();
+}
+
+// An inertial unit that comes up after the lidar. A stray sample is none, nor is one by another
+// clock of use.
+void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
+  const ImuIntake::Result result = intake_.Add(sample);
+  if (result.step != ImuIntake::Step::kNone) late_imu_.clear();
+  for (const ImuSample& accepted : result.accepted) {
+    const bool is_apart = TellIfClocksApart(accepted.stamp, newest_chunk_);
+    if (is_apart) late_imu_.clear();
+    if (is_apart || (!late_imu_.empty() && accepted.stamp <= late_imu_.back().stamp)) {
+      ++counters_.num_imu_late;
+      continue;
+    }
+    late_imu_.push_back(accepted);
+  }
+  if (late_imu_.empty()) return;
+  const Duration span = late_imu_.back().stamp - late_imu_.front().stamp;
+  if (span < kImuIsThere) return;
+  new_stretch_.accepted = std::exchange(late_imu_, {});
+  new_stretch_.step = ImuIntake::Step::kGap;
+  if (!HasWork()) ResumeAfterStretch();
+}
+
+// The lidar's path ends, and with the inertial unit the start begins anew from there.
+void Odometry::Impl::GoInertial(Timestamp first) {
+  use_imu_ = true;
+  if (phase_ == Phase::kRunning || loss_) {
+    resumption_ = {T_world_start_, loss_ ? loss_->last_fix : last_fix_};
+    is_world_unlevel_ = true;
+  }
+  loss_.reset();
+  ready_.clear();
+  gate_.BeginNewStretch(first);
+  scouting_since_.reset();
+  if (options_.filter.estimate_clock_offset) clock_offset_.emplace(options_.rig.imu);
+  ScoutAgain(first, "inertial samples have come: the start begins anew, with them");
 }
 
 }  // namespace lio

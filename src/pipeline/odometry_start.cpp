@@ -168,9 +168,16 @@ void Odometry::Impl::SayWaiting(Timestamp stamp, const std::string& text) {
 void Odometry::Impl::TryStart(Timestamp stamp) {
   if (IsInDoubt(stamp)) {
     SayWaiting(stamp, "in doubt of the inertial unit's units and axes: waiting for turns");
-    if (SecondsBetween(ready_.front()->start, stamp) > kMaxWindow_s) ForgetOldestScouted();
-    return;
+  } else {
+    TryStartAsItMoves(stamp);
   }
+  const bool still_waits = phase_ == Phase::kScouting && !scouted_.empty();
+  if (still_waits && SecondsBetween(ready_.front()->start, stamp) > kMaxWindow_s) {
+    ForgetOldestScouted();
+  }
+}
+
+void Odometry::Impl::TryStartAsItMoves(Timestamp stamp) {
   const bool is_calm = IsVeryCalm(stamp);
   std::size_t first_at_rest = scouted_.size() - 1;
   while (first_at_rest > 0 && !HasMovedSince(first_at_rest - 1, is_calm)) --first_at_rest;
@@ -180,10 +187,6 @@ void Odometry::Impl::TryStart(Timestamp stamp) {
     TryStartAtRest(rest_begin, stamp);
   } else if (first_at_rest > 0) {
     TryStartInMotion(stamp);
-  }
-  const bool still_waits = phase_ == Phase::kScouting && !scouted_.empty();
-  if (still_waits && SecondsBetween(ready_.front()->start, stamp) > kMaxWindow_s) {
-    ForgetOldestScouted();
   }
 }
 

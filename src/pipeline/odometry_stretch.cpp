@@ -13,8 +13,6 @@ namespace {
 // A step of the inertial clock waits so long, by its stamps, for a sweep that tells whether the
 // lidar's stepped as well ...
 constexpr Duration kWaitForLidar{1'000'000'000};
-constexpr Duration kImuIsThere{500'000'000};
-constexpr Duration kMaxClocksApart{2'000'000'000};
 constexpr std::size_t kMaxHeld = 3000;   // ... or for so many messages
 constexpr Duration kStray{200'000'000};  // a held sample that is so far ahead tells no time
 constexpr Duration kOutage{150'000'000};
@@ -120,45 +118,6 @@ void Odometry::Impl::ResumeAfterStretch() {
     GoInertial(stretch.accepted.front().stamp);
   }
   GoOnWith(stretch.accepted);
-}
-
-// An inertial unit that comes up after the lidar. A stray sample is none, nor is one by another
-// clock of use.
-void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
-  const ImuIntake::Result result = intake_.Add(sample);
-  if (result.step != ImuIntake::Step::kNone) late_imu_.clear();
-  for (const ImuSample& accepted : result.accepted) {
-    const bool is_of_lidars_time =
-        newest_chunk_ && Abs(accepted.stamp - *newest_chunk_) < kMaxClocksApart;
-    if (newest_chunk_) TellClocksApart(accepted.stamp, *newest_chunk_);
-    if (!is_of_lidars_time) late_imu_.clear();
-    if (!is_of_lidars_time || (!late_imu_.empty() && accepted.stamp <= late_imu_.back().stamp)) {
-      ++counters_.num_imu_late;
-      continue;
-    }
-    late_imu_.push_back(accepted);
-  }
-  if (late_imu_.empty()) return;
-  const Duration span = late_imu_.back().stamp - late_imu_.front().stamp;
-  if (span < kImuIsThere) return;
-  new_stretch_.accepted = std::exchange(late_imu_, {});
-  new_stretch_.step = ImuIntake::Step::kGap;
-  if (!HasWork()) ResumeAfterStretch();
-}
-
-// The lidar's path ends, and with the inertial unit the start begins anew from there.
-void Odometry::Impl::GoInertial(Timestamp first) {
-  use_imu_ = true;
-  if (phase_ == Phase::kRunning || loss_) {
-    resumption_ = {T_world_start_, loss_ ? loss_->last_fix : last_fix_};
-    is_world_unlevel_ = true;
-  }
-  loss_.reset();
-  ready_.clear();
-  gate_.BeginNewStretch(first);
-  scouting_since_.reset();
-  if (options_.filter.estimate_clock_offset) clock_offset_.emplace(options_.rig.imu);
-  ScoutAgain(first, "inertial samples have come: the start begins anew, with them");
 }
 
 // And with what came since the step.

@@ -89,7 +89,7 @@ void Standstill::Forget() {
 }
 
 void Standstill::BeginAtRest() {
-  scans_.clear();
+  Forget();
   stands_ = true;
 }
 

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""A walk with a VLP-16, mostly, where a second without inertial samples is steps of 6 m/s^2 unseen: holes,
-clocks that jump, a gyro that clips. What cannot be bridged ends in a start anew from where it was."""
+"""A walk with a VLP-16, mostly, where a second without inertial samples is steps of 6 m/s^2 unseen:
+holes, clocks that jump, a gyro that clips. What cannot be bridged ends in a start anew from where it
+was."""
 import unittest
 
 import support

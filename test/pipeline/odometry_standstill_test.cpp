@@ -18,6 +18,13 @@ using test::RunOdometry;
 using test::RunResult;
 using test::SecondsOf;
 
+Messages DriveAlong(const test::Motion& motion, double to_s) {
+  DriveOptions drive;
+  drive.motion = motion;
+  drive.to_s = to_s;
+  return SimulateDrive(test::Street(), drive);
+}
+
 // To and fro by 3 mm/s, as in a wind.
 Pose SwayingOnItsSprings(double t_s) {
   const Vector3 sway_m(8e-4 * std::sin(4.1 * t_s + 1.0), 6e-4 * std::sin(3.1 * t_s), 0.0);
@@ -25,10 +32,7 @@ Pose SwayingOnItsSprings(double t_s) {
 }
 
 TEST(Odometry, AtRestTheVelocityIsZeroAndItsCovarianceDoesNotCollapse) {
-  DriveOptions drive;
-  drive.motion = SwayingOnItsSprings;
-  drive.to_s = 12.0;
-  const RunResult run = RunOdometry(SimulateDrive(test::Street(), drive), test::DriveRig());
+  const RunResult run = RunOdometry(DriveAlong(SwayingOnItsSprings, 12.0), test::DriveRig());
   EXPECT_GT(run.counters.num_standstills, 80);
   const NavOutput& start = run.scans.front().filter->nav;
   for (const NavOutput& nav : run.navs) {
@@ -56,10 +60,7 @@ Pose Creeping(double t_s) {
 }
 
 TEST(Odometry, ACreepThatIsTakenForRestIsFollowed) {
-  DriveOptions drive;
-  drive.motion = Creeping;
-  drive.to_s = 20.0;
-  const RunResult run = RunOdometry(SimulateDrive(test::Street(), drive), test::DriveRig());
+  const RunResult run = RunOdometry(DriveAlong(Creeping, 20.0), test::DriveRig());
   EXPECT_GT(run.counters.num_standstills, 150);
   EXPECT_LT(test::ErrorAgainst(Creeping, run.scans).max_m, 0.01);
 }
@@ -70,10 +71,7 @@ TEST(Odometry, InMotionNoStandstillIsFused) {
 }
 
 TEST(Odometry, StandstillEndsWhenTheVehicleDrivesOff) {
-  DriveOptions drive;
-  drive.motion = test::WindingDrive(4.0);
-  drive.to_s = 8.5;
-  const Messages messages = SimulateDrive(test::Street(), drive);
+  const Messages messages = DriveAlong(test::WindingDrive(4.0), 8.5);
   const RunResult run = RunOdometry(messages, test::DriveRig());
   EXPECT_GT(run.counters.num_standstills, 10);
   EXPECT_LE(run.counters.num_standstills, 41) << "scans taken before it drives off";

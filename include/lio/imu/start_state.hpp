@@ -53,6 +53,8 @@ struct PassedPoint {
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
 };
+// How long ago that was; no longer than the body may be thought to have gone straight on.
+double CoastedSince_s(const PassedPoint& earlier, Timestamp now);
 // Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
 // and from its position by the mean of both velocities.
 void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate);
