@@ -11,6 +11,7 @@ void Publisher::Send(const std::string& channel, const Bytes& bytes) {
 void Publisher::Send(const NavOutput& nav) {
   const bool is_imu_rate = nav.source == OdometrySource::kImuPropagated;
   Send(is_imu_rate ? channels_.odometry_imu_rate : channels_.odometry, EncodeOdometry(nav));
+  if (!is_imu_rate) Send(channels_.odometry_local, EncodeLocalOdometry(nav));
   if (!nav.base) return;
   Send(is_imu_rate ? channels_.odometry_base_imu_rate : channels_.odometry_base,
        EncodeBaseOdometry(nav));

@@ -25,14 +25,14 @@ std::vector<Matrix6> ReadCovariances(const std::filesystem::path& file,
                                          file.string(), table.columns.size()));
   }
   if (table.stamps.size() != estimate.size()) {
-    throw std::runtime_error(fmt::format("{}: has {} rows, trajectory.tum has {}", file.string(),
+    throw std::runtime_error(fmt::format("{}: has {} rows, its trajectory has {}", file.string(),
                                          table.stamps.size(), estimate.size()));
   }
   std::vector<Matrix6> covariances;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (table.stamps[i] != estimate[i].stamp) {
       throw std::runtime_error(fmt::format(
-          "{}:{}: its stamp is not that of trajectory.tum's row {}", file.string(), i + 2, i + 1));
+          "{}:{}: its stamp is not that of its trajectory's row {}", file.string(), i + 2, i + 1));
     }
     using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
     const Matrix6 covariance = Eigen::Map<const RowMajor>(table.rows[i].data());
@@ -72,13 +72,15 @@ RunInstant MakeInstant(double time_s, const Pose& truth, const Pose& estimate, c
 
 }  // namespace
 
-RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth) {
+RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
+                 RunFrame frame) {
   RunFiles run;
   run.name = dir.string();
   const bool has_own_truth = std::filesystem::is_regular_file(dir / truth);
   run.truth = ReadStamped(has_own_truth ? dir / truth : truth);
-  run.estimate = ReadStamped(dir / "trajectory.tum");
-  run.covariances = ReadCovariances(dir / "covariance.csv", run.estimate);
+  const std::string of_frame = frame == RunFrame::kWorld ? "_world" : "";
+  run.estimate = ReadStamped(dir / ("trajectory" + of_frame + ".tum"));
+  run.covariances = ReadCovariances(dir / ("covariance" + of_frame + ".csv"), run.estimate);
   const std::filesystem::path registration = dir / "registration.csv";
   run.has_registration = std::filesystem::exists(registration);
   if (!run.has_registration) return run;

@@ -92,7 +92,7 @@ void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
       earlier.T_world_imu.translation + 0.5 * since_s * (earlier.v_world_imu + state.v_world_imu);
   const Pose placed{turn, position - turn * state.T_world_imu.translation};
   state.T_world_imu = placed * state.T_world_imu;
-  state.T_map_imu = placed * state.T_map_imu;
+  state.T_map_imu = earlier.T_map_imu * earlier.T_world_imu.Inverse() * state.T_world_imu;
   ErrorMatrix by_turn = ErrorMatrix::Identity();
   by_turn.block<3, 3>(kPos, kPos) = turn.toRotationMatrix();
   by_turn.block<3, 3>(kVel, kVel) = turn.toRotationMatrix();

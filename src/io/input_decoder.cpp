@@ -15,6 +15,7 @@ Channels::Channels(const std::string& prefix)
       state(prefix + "STATE"),
       registration(prefix + "REG"),
       status(prefix + "STATUS"),
+      odometry_local(prefix + "ODOM_LOCAL"),
       odometry_base(prefix + "ODOM_BASE"),
       odometry_base_imu_rate(prefix + "ODOM_BASE_IMU"),
       cloud(prefix + "CLOUD"),

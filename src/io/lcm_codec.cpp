@@ -204,6 +204,18 @@ Bytes EncodeOdometry(const NavOutput& nav) {
   return EncodeMessage(message);
 }
 
+// Covariances in the terms of those in world.
+Bytes EncodeLocalOdometry(const NavOutput& nav) {
+  Matrix6 to_map = Matrix6::Identity();
+  to_map.topLeftCorner<3, 3>() = nav.T_map_imu.rotation.toRotationMatrix();
+  NavOutput local = nav;
+  local.T_world_imu = nav.T_map_imu;
+  local.pose_cov = to_map * nav.map_pose_cov * to_map.transpose();
+  local.v_world_imu_mps = nav.v_map_imu_mps;
+  local.velocity_cov = nav.map_velocity_cov;
+  return EncodeOdometry(local);
+}
+
 Bytes EncodeBaseOdometry(const NavOutput& nav) {
   const BaseMotion& base = nav.base.value();
   odometry_t message = OdometryMessage(nav);

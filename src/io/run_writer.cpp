@@ -34,11 +34,11 @@ std::string CovarianceHeader() {
   return header + "\n";
 }
 
-std::string CovarianceRow(const NavOutput& nav) {
-  std::string text = StampText(nav.stamp);
+std::string CovarianceRow(Timestamp stamp, const Matrix6& cov) {
+  std::string text = StampText(stamp);
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) {
-      text += fmt::format(",{:.12e}", nav.pose_cov(row, column));
+      text += fmt::format(",{:.12e}", cov(row, column));
     }
   }
   return text + "\n";
@@ -126,6 +126,17 @@ RunWriter::File RunWriter::Open(const std::string& name) const {
   return file;
 }
 
+RunWriter::Track RunWriter::OpenTrack(const std::string& frame) const {
+  Track track{Open("trajectory" + frame + ".tum"), Open("covariance" + frame + ".csv")};
+  track.covariances.stream << CovarianceHeader();
+  return track;
+}
+
+void RunWriter::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
+  track.poses.stream << TumRow(pose) << '\n';
+  track.covariances.stream << CovarianceRow(pose.stamp, cov);
+}
+
 void RunWriter::Close(File& file) {
   file.stream.close();
   if (!file.stream) throw std::runtime_error("cannot write " + file.path.string() + " in full");
@@ -143,11 +154,10 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   File options_file = Open("options.yaml");
   options_file.stream << PrintResultOptions(options);
   Close(options_file);
-  trajectory_ = Open("trajectory.tum");
+  in_map_ = OpenTrack("");
+  in_world_ = OpenTrack("_world");
   if (options.rig.T_base_imu) base_ = Open("trajectory_base.tum");
   imu_rate_ = Open("trajectory_imu_rate.tum");
-  covariance_ = Open("covariance.csv");
-  covariance_.stream << CovarianceHeader();
   registration_ = Open("registration.csv");
   registration_.stream << RegistrationHeader();
 }
@@ -161,7 +171,7 @@ void RunWriter::Write(const Output& output) {
     return;
   }
   last_imu_rate_ = nav->stamp;
-  imu_rate_.stream << TumRow({nav->stamp, nav->T_world_imu}) << '\n';
+  imu_rate_.stream << TumRow({nav->stamp, nav->T_map_imu}) << '\n';
 }
 
 void RunWriter::WriteScan(const ScanOutput& output) {
@@ -176,9 +186,9 @@ void RunWriter::WriteScan(const ScanOutput& output) {
     return;
   }
   last_scan_ = nav.stamp;
-  trajectory_.stream << TumRow({nav.stamp, nav.T_world_imu}) << '\n';
-  if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_world_base}) << '\n';
-  covariance_.stream << CovarianceRow(nav);
+  WriteRow({nav.stamp, nav.T_map_imu}, nav.map_as_world_cov, in_map_);
+  WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
+  if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 
 void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points) {
@@ -209,7 +219,11 @@ void RunWriter::WriteStats(const RunStats& stats) {
 }
 
 void RunWriter::Finish(const RunStats& stats) {
-  for (File* file : {&trajectory_, &covariance_, &imu_rate_, &registration_}) Close(*file);
+  for (Track* track : {&in_map_, &in_world_}) {
+    Close(track->poses);
+    Close(track->covariances);
+  }
+  for (File* file : {&imu_rate_, &registration_}) Close(*file);
   if (base_) Close(*base_);
   WriteStats(stats);
 }

@@ -16,7 +16,7 @@
 
 #include "lio/calib/clock_offset.hpp"
 #include "lio/filter/filter_history.hpp"
-#include "lio/filter/steady_world.hpp"
+#include "lio/filter/published_estimate.hpp"
 #include "lio/imu/clip_watch.hpp"
 #include "lio/imu/imu_classifier.hpp"
 #include "lio/imu/imu_intake.hpp"
@@ -230,7 +230,7 @@ class Odometry::Impl {
   bool scouts_with_gyro_ = true;
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about
   struct Resumption {
-    Pose T_world_start;  // in the world that was published, in the axes that were believed
+    Pose T_world_start;  // in the axes that were believed
     PassedPoint last_fix;
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here

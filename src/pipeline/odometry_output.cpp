@@ -6,8 +6,9 @@
 
 namespace lio {
 
+// Where no gravity is felt nothing levels a world: it is the map's frame.
 WorldEstimate Odometry::Impl::InPublishedWorld(const Estimate& estimate) const {
-  return options_.filter.steady_world ? InSteadyWorld(estimate) : InFilterWorld(estimate);
+  return g_world_.isZero() ? WithMapAsWorld(estimate) : InWorld(estimate);
 }
 
 NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
@@ -24,6 +25,10 @@ NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
   if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(imu_, estimate.stamp).w_imu_radps;
   nav.T_map_imu = estimate.state.T_map_imu;
   nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
+  const MapVelocity velocity = VelocityInMap(estimate);
+  nav.v_map_imu_mps = velocity.v_map_imu;
+  nav.map_velocity_cov = velocity.cov;
+  nav.map_as_world_cov = WithMapAsWorld(estimate).cov.topLeftCorner<6, 6>();
   if (options_.rig.T_base_imu) {
     nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp), *options_.rig.T_base_imu);
   }
@@ -45,7 +50,7 @@ FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
   filter.nav = MakeNav(estimate);
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
-  filter.g_world_mps2 = InPublishedWorld(estimate).R_world_filter * g_world_;
+  filter.g_world_mps2 = g_world_;
   filter.clock_offset_s = options_.rig.lidar.clock_offset_s;
   if (clock_offset_) {
     filter.clock_offset_s += clock_offset_->offset_s();

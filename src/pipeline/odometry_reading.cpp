@@ -226,8 +226,11 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
     const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
     const Pose& start = resumption_->T_world_start;
     const Pose turn_world = start * turn * start.Inverse();
-    resumption_->last_fix.T_world_imu = turn_world * resumption_->last_fix.T_world_imu;
-    resumption_->last_fix.v_world_imu = turn_world.rotation * resumption_->last_fix.v_world_imu;
+    PassedPoint& fix = resumption_->last_fix;
+    const Pose T_map_world = fix.T_map_imu * fix.T_world_imu.Inverse();
+    fix.T_world_imu = turn_world * fix.T_world_imu;
+    fix.v_world_imu = turn_world.rotation * fix.v_world_imu;
+    fix.T_map_imu = T_map_world * fix.T_world_imu;
   }
   ReadAnewAs(found);
   ClassifyAnew();

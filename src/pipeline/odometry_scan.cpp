@@ -212,7 +212,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   }
   if (is_sound) {
     const WorldEstimate published = InPublishedWorld(estimate);
-    last_fix_ = {middle, published.T_world_imu, published.v_world_imu};
+    last_fix_ = {middle, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu};
   }
   const Timestamp end = outcome.sweep->end;
   const Estimate at_end =

@@ -78,7 +78,8 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   if (runs_by_lidar && loss_) GoOnFromLoss(start, scouting);
   scout_.emplace(start, scouting);
   if (runs_by_lidar) {
-    last_fix_ = {start, scouting.T_world_start, history().head().state.v_world_imu};
+    last_fix_ = {start, scouting.T_world_start, history().head().state.v_world_imu,
+                 scouting.T_world_start};
   }
   classifier_.BeginMap(sweep.start);
   scout_up_map_ = scouting.T_world_start.rotation *
@@ -261,6 +262,7 @@ void Odometry::Impl::TurnByGyro(const Estimate& now, PassedPoint& earlier) const
   const Preintegration turn =
       Preintegrate(samples, samples.front().stamp, samples.back().stamp, biases, {});
   earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
+  earlier.T_map_imu.rotation = earlier.T_map_imu.rotation * turn.rotation;
 }
 
 void Odometry::Impl::ScoutAgain(Timestamp stamp, const std::string& why) {
@@ -301,7 +303,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   const NavState& state = start.estimate.state;
   T_world_start_ = state.T_world_imu;
   const WorldEstimate published = InPublishedWorld(start.estimate);
-  last_fix_ = {start.estimate.stamp, published.T_world_imu, published.v_world_imu};
+  last_fix_ = {start.estimate.stamp, published.T_world_imu, published.v_world_imu, state.T_map_imu};
   classifier_.BeginMap(start.estimate.stamp);
   ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
   BeginScoutingAnew();

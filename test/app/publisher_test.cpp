@@ -40,7 +40,7 @@ TEST_F(PublisherTest, AScanGivesOdometryStateAndRegistration) {
   ScanOutput output;
   output.filter.emplace().cov = Eigen::MatrixXd::Identity(21, 21);
   publisher_.Publish(Output(output));
-  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_STATE", "LIO_REG"));
+  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_LOCAL", "LIO_STATE", "LIO_REG"));
 }
 
 TEST_F(PublisherTest, BeforeTheStartAScanGivesRegistrationOnly) {
@@ -63,8 +63,8 @@ TEST_F(PublisherTest, TheBaseFrameHasChannelsOfItsOwn) {
   nav.source = OdometrySource::kImuPropagated;
   nav.base.emplace();
   publisher_.Publish(Output(nav));
-  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_BASE", "LIO_STATE", "LIO_REG",
-                                         "LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU"));
+  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_LOCAL", "LIO_ODOM_BASE", "LIO_STATE",
+                                         "LIO_REG", "LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU"));
 }
 
 TEST_F(PublisherTest, EachFeatureSetHasAChannelOfItsOwn) {

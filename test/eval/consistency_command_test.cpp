@@ -89,6 +89,15 @@ TEST_F(ConsistencyCommand, EachFolderMayHoldItsOwnTruth) {
   EXPECT_EQ(Run({"own.tum", dirs_[0]}).exit_code, 0);
 }
 
+TEST_F(ConsistencyCommand, JudgesTheWorldsFilesWhenAsked) {
+  const auto without = Run({"--world", InDir("truth.tum"), dirs_[0]});
+  EXPECT_EQ(without.exit_code, 5);
+  EXPECT_THAT(without.err, HasSubstr("trajectory_world.tum"));
+  std::filesystem::rename(dirs_[0] + "/trajectory.tum", dirs_[0] + "/trajectory_world.tum");
+  std::filesystem::rename(dirs_[0] + "/covariance.csv", dirs_[0] + "/covariance_world.csv");
+  EXPECT_EQ(Run({"--world", InDir("truth.tum"), dirs_[0]}).exit_code, 0);
+}
+
 TEST_F(ConsistencyCommand, WrongInputsEndWithTheirCodes) {
   EXPECT_EQ(Run({InDir("truth.tum")}).exit_code, 2);
   EXPECT_EQ(Run({InDir("truth.tum"), dirs_[0], "--unknown"}).exit_code, 2);

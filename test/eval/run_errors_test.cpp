@@ -94,14 +94,14 @@ class LoadRunFiles : public ::testing::Test {
                "t_s,status,fused,nis\n1000.1,converged,1,6.5\n1000.2,converged,0,9\n"
                "1000.3,empty_map,1,0\n1000.4,converged,1,5.5\n");
   }
-  void WriteCovariances(int count, int late_ns) {
+  void WriteCovariances(int count, int late_ns, const std::string& name = "covariance.csv") {
     std::string text = "t_s";
     for (int i = 0; i < 36; ++i) text.append(fmt::format(",c{}", i));
     for (int row = 0; row < count; ++row) {
       text.append(fmt::format("\n1000.{}0000000{}", row, late_ns));
       for (int i = 0; i < 36; ++i) text.append(fmt::format(",{}", i % 7 == 0 ? i + 1 : 0));
     }
-    dir_.Write("a/covariance.csv", text + "\n");
+    dir_.Write("a/" + name, text + "\n");
   }
   RunFiles Load() { return LoadRun(dir_.path() / "a", dir_.path() / "truth.tum"); }
 
@@ -114,6 +114,18 @@ TEST_F(LoadRunFiles, RowsOfTheTablesBelongTogether) {
   EXPECT_EQ(run.covariances[2](1, 1), 8);
   EXPECT_EQ(run.covariances[2](5, 5), 36);
   EXPECT_THAT(run.nis, ::testing::ElementsAre(6.5, 5.5));
+}
+
+TEST_F(LoadRunFiles, TheWorldHasFilesOfItsOwn) {
+  const auto load = [&] {
+    return LoadRun(dir_.path() / "a", dir_.path() / "truth.tum", RunFrame::kWorld);
+  };
+  EXPECT_THAT(load, ThrowsMessage<std::runtime_error>(HasSubstr("trajectory_world.tum")));
+  WriteTum(dir_.path() / "a/trajectory_world.tum", test::Helix(3).poses);
+  EXPECT_THAT(load, ThrowsMessage<std::runtime_error>(HasSubstr("covariance_world.csv")));
+  WriteCovariances(3, 0, "covariance_world.csv");
+  EXPECT_EQ(load().estimate.size(), 3u);
+  EXPECT_EQ(load().nis.size(), 2u);
 }
 
 TEST_F(LoadRunFiles, ARunsOwnTruthGoesFirst) {

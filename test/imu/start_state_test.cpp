@@ -177,6 +177,28 @@ TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
   EXPECT_NEAR(tilt_sq / predicted_tilt_sq, 1.0, 3 * std::sqrt(1.0 / kRuns));
 }
 
+TEST(PlaceInWorld, WorldAndMapGoOnByTheSameMotion) {
+  PassedPoint earlier;
+  earlier.stamp = StampAt(1.0);
+  earlier.T_world_imu = {ExpSo3(Vector3(0.02, 0, 1.0)), Vector3(30, 20, 1)};
+  earlier.v_world_imu = Vector3(2, 0, 0);
+  earlier.T_map_imu = {ExpSo3(Vector3(0.05, 0.01, 0.9)), Vector3(31, 19, 0)};
+  Estimate estimate;
+  estimate.stamp = StampAt(1.5);
+  estimate.state.T_world_imu = {ExpSo3(Vector3(0.03, 0.01, 0)), Vector3(0, 0, 0)};
+  estimate.state.T_map_imu = estimate.state.T_world_imu;
+  estimate.state.v_world_imu = Vector3(1, 0, 0);
+  PlaceInWorld(earlier, estimate);
+  const NavState& state = estimate.state;
+  const Vector3 v_now(std::cos(1.0), std::sin(1.0), 0);
+  const Vector3 expected = Vector3(30, 20, 1) + 0.25 * (earlier.v_world_imu + v_now);
+  EXPECT_LT((state.v_world_imu - v_now).norm(), 1e-3);
+  EXPECT_LT((state.T_world_imu.translation - expected).norm(), 1e-3);
+  const Pose in_world = earlier.T_world_imu.Inverse() * state.T_world_imu;
+  const Pose in_map = earlier.T_map_imu.Inverse() * state.T_map_imu;
+  EXPECT_LT(LogSe3(in_world.Inverse() * in_map).norm(), 1e-12);
+}
+
 TEST(StartState, RefusesToStartWithoutSamples) {
   EXPECT_THROW(StartAtRest({}, StampAt(0.0), Rig{}), std::invalid_argument);
 }

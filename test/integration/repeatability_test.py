@@ -10,7 +10,8 @@ import support
 
 DURATION_S = "6"
 # Files of a run that hold no time of computing.
-EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv", "options.yaml", "map.pcd")
+EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
+         "trajectory_world.tum", "covariance_world.csv", "options.yaml", "map.pcd")
 
 
 def untimed(folder):

@@ -207,6 +207,29 @@ TEST(LcmCodec, OdometryCarriesBothPosesAndTheirCovariancesRowByRow) {
   EXPECT_EQ(message.vel_cov[0][2], 0.5);
 }
 
+TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
+  NavOutput nav;
+  nav.stamp = kStamp;
+  nav.T_world_imu.translation = Vector3(1, 2, 3);
+  nav.T_map_imu = {Quaternion(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), Vector3(4, 5, 6)};
+  nav.map_pose_cov.diagonal() << 0.25, 1.0, 2.0, 3.0, 4.0, 5.0;
+  nav.v_world_imu_mps = Vector3(7, 8, 9);
+  nav.v_map_imu_mps = Vector3(10, 11, 12);
+  nav.map_velocity_cov(0, 2) = 0.5;
+  const auto message = Decoded<odometry_t>(EncodeLocalOdometry(nav));
+  EXPECT_EQ(message.utime, kStamp.Microseconds());
+  EXPECT_EQ(message.pos[0], 4.0);
+  EXPECT_EQ(message.map_pos[0], 4.0);
+  EXPECT_EQ(message.quat[3], std::sqrt(0.5));
+  EXPECT_EQ(message.vel[1], 11.0);
+  EXPECT_EQ(message.vel_cov[0][2], 0.5);
+  // A quarter turn about z: forward in imu is left in map. Rotation stays in imu.
+  EXPECT_NEAR(message.pose_cov[0][0], 1.0, 1e-12);
+  EXPECT_NEAR(message.pose_cov[1][1], 0.25, 1e-12);
+  EXPECT_EQ(message.pose_cov[3][3], 3.0);
+  EXPECT_EQ(message.map_pose_cov[0][0], 0.25);
+}
+
 TEST(LcmCodec, FilterStateCarriesTheFullCovariance) {
   FilterReport report;
   report.nav.stamp = kStamp;

@@ -33,8 +33,10 @@ ScanOutput Scan(Timestamp stamp) {
   ScanOutput output;
   output.filter.emplace();
   output.filter->nav.stamp = stamp;
-  output.filter->nav.T_world_imu = {Quaternion(0.5, -0.5, 0.5, 0.5), Vector3(1, -2, 3.25)};
-  output.filter->nav.pose_cov(0, 1) = 0.125;
+  output.filter->nav.T_map_imu = {Quaternion(0.5, -0.5, 0.5, 0.5), Vector3(1, -2, 3.25)};
+  output.filter->nav.map_as_world_cov(0, 1) = 0.125;
+  output.filter->nav.T_world_imu.translation = Vector3(1, -2, 3.5);
+  output.filter->nav.pose_cov(0, 1) = 0.0625;
   output.scan.stamp = stamp;
   output.scan.status = MatchStatus::kEmptyMap;
   return output;
@@ -85,11 +87,24 @@ TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
   EXPECT_THAT(lines[1], StartsWith("1700000000.000000007,0.000000000000e+00,1.250000000000e-01,"));
 }
 
+TEST_F(RunWriterTest, TheWorldHasATrajectoryAndCovariancesOfItsOwn) {
+  RunWriter writer(out_, Options{});
+  writer.Write(Scan(kStamp));
+  writer.Finish({});
+  EXPECT_THAT(Lines(out_ / "trajectory_world.tum"),
+              ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.500000000 "
+                          "0.000000000 0.000000000 0.000000000 1.000000000"));
+  const auto lines = Lines(out_ / "covariance_world.csv");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], Lines(out_ / "covariance.csv")[0]);
+  EXPECT_THAT(lines[1], StartsWith("1700000000.000000007,0.000000000000e+00,6.250000000000e-02,"));
+}
+
 TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
   Options options;
   options.rig.T_base_imu = Pose{Quaternion::Identity(), Vector3(1, 0, 0)};
   ScanOutput scan = Scan(kStamp);
-  scan.filter->nav.base.emplace().T_world_base.translation = Vector3(0, -2, 3.25);
+  scan.filter->nav.base.emplace().T_map_base.translation = Vector3(0, -2, 3.25);
   RunWriter writer(out_, options);
   writer.Write(scan);
   writer.Finish({});

@@ -32,5 +32,19 @@ TEST(Odometry, TheBaseFramesMotionIsTheImusMovedByHand) {
   }
 }
 
+// Nothing levels a world in which no gravity is felt: it is the map's frame.
+TEST(Odometry, WithoutGravityTheWorldIsTheMap) {
+  Options options = test::DriveRig();
+  options.pipeline.use_imu = false;
+  const RunResult run = RunOdometry(StaticStartDrive(), options);
+  ASSERT_GT(run.scans.size(), 10u);
+  for (const ScanOutput& scan : run.scans) {
+    const NavOutput& nav = scan.filter->nav;
+    EXPECT_EQ(nav.T_world_imu.translation, nav.T_map_imu.translation);
+    EXPECT_EQ(nav.v_world_imu_mps, nav.v_map_imu_mps);
+    EXPECT_EQ(nav.pose_cov, nav.map_as_world_cov);
+  }
+}
+
 }  // namespace
 }  // namespace lio

@@ -226,7 +226,7 @@ TrackError ErrorAgainst(const Motion& motion, const std::vector<ScanOutput>& sca
     if (!output.filter) continue;
     const double t_s = SecondsOf(output.filter->nav.stamp) - shift_s;
     if (t_s < from_s) continue;
-    const Pose& estimate = output.filter->nav.T_world_imu;
+    const Pose& estimate = output.filter->nav.T_map_imu;
     const Pose truth = motion(t_s);
     if (!T_true_world) T_true_world = truth * estimate.Inverse();
     const Pose off = truth.Inverse() * (*T_true_world * estimate);

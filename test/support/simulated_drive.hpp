@@ -60,7 +60,7 @@ struct TrackError {
   double max_tilt_rad = 0.0;  // of the output's vertical against the true one, at any time
   double end_m = 0.0;
 };
-// How far the outputs with stamps from `from_s` on are from the motion. Stamps that were shifted
+// How far the path in map is from the motion, for stamps from `from_s` on. Stamps that were shifted
 // are shifted back by `shift_s`.
 TrackError ErrorAgainst(const Motion& motion, const std::vector<ScanOutput>& scans,
                         double from_s = -1e9, double shift_s = 0.0);

@@ -67,8 +67,10 @@ struct RunOutcome {
   Counters counters;
   TrackingStatus status = TrackingStatus::kInit;
   int num_rows = 0;
-  double end_error_m = 0.0;    // of the motion from the first row to the last
+  double end_error_m = 0.0;    // of the motion in map from the first row to the last
   double end_error_deg = 0.0;  // of the same
+  double end_tilt_of_map_deg = 0.0;
+  double end_tilt_of_world_deg = 0.0;
 };
 
 class RunningEstimator {
@@ -92,9 +94,11 @@ class RunningEstimator {
     outcome.status = odometry_.status();
     outcome.num_rows = static_cast<int>(rows_.size());
     if (rows_.size() < 2) return outcome;
+    const Pose at_end = TruthAt(truth, rows_.back().stamp);
+    outcome.end_tilt_of_map_deg = TiltBetween_deg(at_end, rows_.back().pose);
+    outcome.end_tilt_of_world_deg = TiltBetween_deg(at_end, last_in_world_);
     const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
-    const Pose expected =
-        TruthAt(truth, rows_.front().stamp).Inverse() * TruthAt(truth, rows_.back().stamp);
+    const Pose expected = TruthAt(truth, rows_.front().stamp).Inverse() * at_end;
     const Pose error = expected.Inverse() * motion;
     outcome.end_error_m = error.translation.norm();
     outcome.end_error_deg = LogSo3(error.rotation).norm() * 57.29578;
@@ -109,6 +113,12 @@ class RunningEstimator {
     return Interpolate(truth[k].pose, truth[k + 1].pose,
                        SecondsBetween(truth[k].stamp, stamp) / span_s);
   }
+  // Between what two poses of a body take for up.
+  static double TiltBetween_deg(const Pose& a, const Pose& b) {
+    const Vector3 up_a = a.rotation.conjugate() * Vector3::UnitZ();
+    const Vector3 up_b = b.rotation.conjugate() * Vector3::UnitZ();
+    return std::atan2(up_a.cross(up_b).norm(), up_a.dot(up_b)) * 57.29578;
+  }
   void Match() {
     while (const auto job = odometry_.NextJob()) {
       match_side_.Insert(odometry_.FinishJob(match_side_.Run(*job)));
@@ -120,14 +130,16 @@ class RunningEstimator {
       if (!rows_.empty()) {
         EXPECT_GT(nav.stamp, rows_.back().stamp);
       }
-      EXPECT_TRUE(nav.T_world_imu.translation.allFinite());
-      rows_.push_back({nav.stamp, nav.T_world_imu});
+      EXPECT_TRUE(nav.T_map_imu.translation.allFinite());
+      rows_.push_back({nav.stamp, nav.T_map_imu});
+      last_in_world_ = nav.T_world_imu;
     }
   }
 
   Odometry odometry_;
   MatchSide match_side_;
-  StampedPoses rows_;
+  StampedPoses rows_;  // in map
+  Pose last_in_world_;
 };
 
 inline RunOutcome RunOver(const DriveSpec& spec, bool use_imu) {

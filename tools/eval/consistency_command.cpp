@@ -12,8 +12,9 @@ namespace lio {
 namespace {
 
 constexpr char kFooter[] = R"(
-Each ESTIMATE_DIR is what lio-replay or liod wrote with --out: trajectory.tum, covariance.csv and,
-for the innovations, registration.csv. What each figure means: docs/evaluation.md.
+Each ESTIMATE_DIR is what lio-replay or liod wrote with --out: trajectory.tum and covariance.csv,
+with --world trajectory_world.tum and covariance_world.csv, and, for the innovations,
+registration.csv. What each figure means: docs/evaluation.md.
 
 Examples:
   lio-eval consistency truth.tum runs/seed_*           one truth for all runs
@@ -25,13 +26,15 @@ struct Arguments {
   std::vector<std::string> dirs;
   std::string json;
   std::string plot;
+  bool in_world = false;
 };
 
 int Run(const Arguments& arguments) {
   try {
+    const RunFrame frame = arguments.in_world ? RunFrame::kWorld : RunFrame::kMap;
     std::vector<RunErrors> runs;
     for (const std::string& dir : arguments.dirs) {
-      runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth)));
+      runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth, frame)));
     }
     const Consistency consistency = JudgeConsistency(runs);
     std::cout << ConsistencyText(consistency) << std::flush;
@@ -59,6 +62,8 @@ int ConsistencyMain(int argc, const char* const* argv) {
       ->required()
       ->type_name("FILE");
   app.add_option("ESTIMATE_DIR", arguments.dirs, "Folders of runs")->required()->type_name("");
+  app.add_flag("--world", arguments.in_world,
+               "Judge the poses in world, level at all times, instead of the steady path in map");
   app.add_option("--json", arguments.json, "Write the figures there")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw NEES and NIS over time with their bands")
       ->type_name("FILE.png");

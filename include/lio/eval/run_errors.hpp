@@ -16,7 +16,12 @@
 
 namespace lio {
 
-// What a run left: rows of trajectory.tum with those of covariance.csv, and of registration.csv.
+enum class RunFrame {
+  kMap,    // trajectory.tum by covariance.csv: the steady path
+  kWorld,  // trajectory_world.tum by covariance_world.csv: level at all times
+};
+
+// What a run left: poses with their covariances, and rows of registration.csv.
 struct RunFiles {
   std::string name;  // the folder
   StampedPoses truth;
@@ -27,10 +32,11 @@ struct RunFiles {
   bool has_registration = false;
 };
 
-// Reads DIR/trajectory.tum, DIR/covariance.csv and, where there is one, DIR/registration.csv. The
-// truth is DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error naming
-// file and line, also when the two tables' stamps differ.
-RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth);
+// Reads DIR's two files of `frame` and, where there is one, DIR/registration.csv. The truth is
+// DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error naming file and
+// line, also when the two tables' stamps differ.
+RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
+                 RunFrame frame = RunFrame::kMap);
 
 struct RunInstant {
   double time_s = 0;  // since the run's first row

@@ -12,7 +12,6 @@ struct FilterOptions {
   bool use_standstill = true;       // false: a parked vehicle is a slow one
   bool estimate_clock_offset = false;   // between lidar and IMU, from turns
   double registration_cov_scale = 1.6;  // k of docs/filter.md; above 1 trusts matches less
-  bool steady_world = true;      // false: published poses follow every change of the tilt estimate
   double map_walk_scale = 0.25;  // q of docs/filter.md: how far a map grown from scans drifts
 };
 

@@ -52,11 +52,12 @@ struct PassedPoint {
   Timestamp stamp;
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
+  Pose T_map_imu;
 };
 // How long ago that was; no longer than the body may be thought to have gone straight on.
 double CoastedSince_s(const PassedPoint& earlier, Timestamp now);
 // Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
-// and from its position by the mean of both velocities.
+// and from its position by the mean of both velocities. The map goes on by the same motion.
 void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate);
 
 // The rotation from imu to world that takes `up_imu` to world's z, without turning about it more

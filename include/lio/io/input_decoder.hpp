@@ -23,6 +23,7 @@ struct Channels {
 
   std::string imu, scan, command;                                        // in
   std::string odometry, odometry_imu_rate, state, registration, status;  // out
+  std::string odometry_local;                                            // out, in map
   std::string odometry_base, odometry_base_imu_rate;                     // out, with a base
   std::string cloud, cloud_full;
   std::array<std::string, kNumFeatureSets> features;  // by FeatureSet

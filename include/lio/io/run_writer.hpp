@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The files of one run, the same from lio-replay and from liod --out:
-//   trajectory.tum: a row a scan once started, t x y z qx qy qz qw, imu in world at the sweep's end
-//   trajectory_base.tum: the same rows of base in world, with rig.T_base_imu
-//   covariance.csv: the same rows, t_s and the 6x6 of [position in world; right rotation] of imu
-//   trajectory_imu_rate.tum: a row an inertial sample
+//   trajectory.tum: a row a scan once started, t x y z qx qy qz qw, imu in map at the sweep's end
+//   covariance.csv: the same rows, t_s and the 6x6 of [position; right rotation], of the error that
+//     those poses have in a world that is level as the truth is
+//   trajectory_world.tum, covariance_world.csv: the same of imu in world, which is level, and bent
+//     with each correction of the tilt
+//   trajectory_base.tum: the rows of base in map, with rig.T_base_imu
+//   trajectory_imu_rate.tum: of imu in map, a row an inertial sample
 //   registration.csv: a row a scan, of points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times
 //   options.yaml: the effective options, but for the count of threads
@@ -24,6 +27,7 @@
 
 #include "lio/io/input_decoder.hpp"
 #include "lio/pipeline/odometry.hpp"
+#include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {
 
@@ -54,15 +58,21 @@ class RunWriter {
     std::ofstream stream;
   };
 
+  struct Track {  // poses and their covariances
+    File poses, covariances;
+  };
+
   File Open(const std::string& name) const;
+  Track OpenTrack(const std::string& frame) const;
+  static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
   static void Close(File& file);
   void WriteScan(const ScanOutput& output);
   void WriteStats(const RunStats& stats);
 
   std::filesystem::path folder_;
-  File trajectory_;
+  Track in_map_;
+  Track in_world_;
   std::optional<File> base_;
-  File covariance_;
   File imu_rate_;
   File registration_;
   std::optional<Timestamp> last_scan_;

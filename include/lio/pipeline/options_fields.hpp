@@ -258,8 +258,6 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
         "follow what is left of the offset between lidar and IMU, up to 50 ms; 50 ms more latency");
   visit("registration_cov_scale", o.registration_cov_scale,
         "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
-  visit("steady_world", o.steady_world,
-        "false: published poses follow every change of the tilt estimate");
   visit("map_walk_scale", o.map_walk_scale,
         "how far a map grown from scans drifts; larger widens the covariance", Range{0, 100});
 }

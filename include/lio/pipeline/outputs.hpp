@@ -35,8 +35,9 @@ struct BaseMotion {
   Matrix6 map_pose_cov = Matrix6::Zero();
 };
 
-// The state at one instant. Covariances: position and velocity in world, rotation error on the
-// right (R_true = R Exp(d)), order [position; rotation].
+// The state at one instant: in world, which is level, and in map, which is steady. Covariances:
+// position and velocity in world, rotation error on the right (R_true = R Exp(d)), order
+// [position; rotation].
 struct NavOutput {
   Timestamp stamp;
   std::int64_t scan_seq = -1;  // the last scan that was fused
@@ -46,10 +47,13 @@ struct NavOutput {
   Matrix6 pose_cov = Matrix6::Zero();
   Vector3 v_world_imu_mps = Vector3::Zero();
   Matrix3 velocity_cov = Matrix3::Zero();
-  Vector3 w_imu_radps = Vector3::Zero();   // bias-corrected rate, in imu
-  Pose T_map_imu;                          // smooth pose against the map
+  Vector3 w_imu_radps = Vector3::Zero();  // bias-corrected rate, in imu
+  Pose T_map_imu;
   Matrix6 map_pose_cov = Matrix6::Zero();  // right error [translation; rotation] of T_map_imu
-  std::optional<BaseMotion> base;          // with rig.T_base_imu
+  Vector3 v_map_imu_mps = Vector3::Zero();
+  Matrix3 map_velocity_cov = Matrix3::Zero();  // in map
+  Matrix6 map_as_world_cov = Matrix6::Zero();  // mean square error of T_map_imu as one in world
+  std::optional<BaseMotion> base;              // with rig.T_base_imu
 };
 
 // The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel
@@ -58,7 +62,7 @@ struct FilterReport {
   NavOutput nav;
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();
-  Vector3 g_world_mps2 = Vector3::Zero();  // as known now: a steady world is level as at its start
+  Vector3 g_world_mps2 = Vector3::Zero();  // zero where none is felt
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included; the standard deviation is
   // zero unless it is estimated.
   double clock_offset_s = 0.0;

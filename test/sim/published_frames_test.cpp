@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// World and map, the two frames of what is published, over a drive that starts tilted.
+#include <cmath>
+
+#include "support/simulated_run.hpp"
+
+namespace lio {
+namespace {
+
+// The accelerometer's bias tilts the start; turns and changes of speed tell it from the tilt.
+TEST(PublishedFrames, TheWorldBecomesLevelAndTheMapStaysAsItBegan) {
+  test::SimulatedLog log({.scenario = "street", .lidar = "vlp16", .duration_s = 30.0});
+  log.options.rig.imu.accel_bias_std_mps2 = 0.15;
+  test::RunningEstimator estimator(log.options);
+  for (sim::Message& message : log.messages) {
+    if (auto* imu = std::get_if<sim::ImuMessage>(&message.body)) {
+      imu->sample.f_imu_mps2 += Vector3(0.1, -0.1, 0.0);
+    }
+    estimator.Take(std::move(message));
+  }
+  const test::RunOutcome outcome = estimator.Finish(log.truth);
+  EXPECT_NEAR(outcome.end_tilt_of_map_deg, std::hypot(0.1, 0.1) / 9.81 * 57.29578, 0.3);
+  EXPECT_LT(outcome.end_tilt_of_world_deg, 0.3);
+  EXPECT_LT(outcome.end_error_m, 0.1) << "the path is not bent";
+}
+
+}  // namespace
+}  // namespace lio
