@@ -12,7 +12,7 @@ struct FilterOptions {
   bool use_standstill = true;       // false: a parked vehicle is a slow one
   bool estimate_clock_offset = false;   // between lidar and IMU, from turns
   double registration_cov_scale = 1.6;  // k of docs/filter.md; above 1 trusts matches less
-  double map_walk_scale = 0.25;  // q of docs/filter.md: how far a map grown from scans drifts
+  double map_walk_scale = 0.5;  // q of docs/filter.md: how far a map grown from scans drifts
 };
 
 }  // namespace lio
