@@ -10,7 +10,7 @@ Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
 Runs seeds of a scenario (20, of 40 s) through the whole pipeline, one a core at a time, and judges
 the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves in
 out/monte_carlo/SCENARIO/: a folder a seed with what lio-replay writes and truth.tum, and
-consistency.txt, .json and .png. Seeds that the same programs and settings have done already are
+consistency.txt, .json and .png of the steady path, consistency_world.* of the level world. Seeds that the same programs and settings have done already are
 not done again, so an interrupted run goes on where it was.
   --set KEY=VALUE    override one key of the estimator; may be given again
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
@@ -76,5 +76,10 @@ seq "$first" $((first + runs - 1)) |
   xargs -P "$jobs" -I{} bash -c 'set -e; one_run "$@"' _ {} "${settings[@]}"
 dirs=()
 for seed in $(seq "$first" $((first + runs - 1))); do dirs+=("$root/$seed"); done
-build/bin/lio-eval consistency truth.tum "${dirs[@]}" --json "$root/consistency.json" \
-  --plot "$root/consistency.png" | tee "$root/consistency.txt"
+judge() { # NAME TITLE ARGUMENTS...
+  echo "== $2"
+  build/bin/lio-eval consistency "${@:3}" truth.tum "${dirs[@]}" --json "$root/$1.json" \
+    --plot "$root/$1.png" | tee "$root/$1.txt"
+}
+judge consistency "the steady path: trajectory.tum by covariance.csv"
+judge consistency_world "the level world: trajectory_world.tum by covariance_world.csv" --world
