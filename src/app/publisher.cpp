@@ -11,7 +11,6 @@ void Publisher::Send(const std::string& channel, const Bytes& bytes) {
 void Publisher::Send(const NavOutput& nav) {
   const bool is_imu_rate = nav.source == OdometrySource::kImuPropagated;
   Send(is_imu_rate ? channels_.odometry_imu_rate : channels_.odometry, EncodeOdometry(nav));
-  if (!is_imu_rate) Send(channels_.odometry_local, EncodeLocalOdometry(nav));
   if (!nav.base) return;
   Send(is_imu_rate ? channels_.odometry_base_imu_rate : channels_.odometry_base,
        EncodeBaseOdometry(nav));
@@ -23,6 +22,7 @@ void Publisher::Publish(const Output& output) {
   } else if (const auto* scan = std::get_if<ScanOutput>(&output)) {
     if (scan->filter) {
       Send(scan->filter->nav);
+      Send(channels_.odometry_local, EncodeLocalOdometry(*scan->filter));
       Send(channels_.state, EncodeFilterState(*scan->filter));
     }
     Send(channels_.registration, EncodeRegistration(scan->scan));

@@ -14,7 +14,8 @@ WorldEstimate WithMapAsWorld(const Estimate& estimate) {
   const NavState& state = estimate.state;
   WorldEstimate world = InWorld(estimate);
   world.T_world_imu = state.T_map_imu;
-  world.v_world_imu = VelocityInMap(estimate).v_map_imu;
+  world.v_world_imu =
+      state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * state.v_world_imu);
   Eigen::Matrix<double, kAccelBias, 1> step;
   step << state.T_world_imu.translation - world.T_world_imu.translation,
       LogSo3(world.T_world_imu.rotation.conjugate() * state.T_world_imu.rotation),

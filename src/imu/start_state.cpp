@@ -67,6 +67,22 @@ double MeanVariance(double density, double seen_std, const ImuStatistics& statis
   return std::max(by_density, by_spread);
 }
 
+// Of position, by `coasting_std_m` besides, and of yaw, which turns the velocity along.
+void AddPlacingError(const PassedPoint& earlier, double coasting_std_m, Estimate& estimate) {
+  const NavState& state = estimate.state;
+  const Matrix3 R_then = earlier.T_world_imu.rotation.toRotationMatrix();
+  const Matrix3 rotation_cov_world =
+      R_then * earlier.pose_cov.bottomRightCorner<3, 3>() * R_then.transpose();
+  const double yaw_var = rotation_cov_world(2, 2) + kPlacedStd_rad * kPlacedStd_rad;
+  ErrorVector by_yaw = ErrorVector::Zero();
+  by_yaw.segment<3>(kRot) = state.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+  by_yaw.segment<3>(kVel) = Vector3::UnitZ().cross(state.v_world_imu);
+  estimate.cov += yaw_var * by_yaw * by_yaw.transpose();
+  estimate.cov.block<3, 3>(kPos, kPos) += earlier.pose_cov.topLeftCorner<3, 3>();
+  estimate.cov.diagonal().segment<3>(kPos).array() +=
+      kPlacedStd_m * kPlacedStd_m + coasting_std_m * coasting_std_m;
+}
+
 void AnchorMap(Estimate& estimate) {
   estimate.state.T_map_imu = estimate.state.T_world_imu;
 }
@@ -82,10 +98,19 @@ double CoastedSince_s(const PassedPoint& earlier, Timestamp now) {
   return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kMaxCoast_s);
 }
 
-void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
+void Level(const Quaternion& R_level_imu, PassedPoint& point) {
+  const double yaw_rad = YawOf(point.T_world_imu.rotation) - YawOf(R_level_imu);
+  const Quaternion rotation = ExpSo3(Vector3(0, 0, yaw_rad)) * R_level_imu;
+  point.v_world_imu = rotation * (point.T_world_imu.rotation.conjugate() * point.v_world_imu);
+  point.T_world_imu.rotation = rotation;
+}
+
+void PlaceInWorld(const PassedPoint& earlier, bool has_gravity, Estimate& estimate) {
   NavState& state = estimate.state;
-  const double yaw_rad = YawOf(earlier.T_world_imu.rotation) - YawOf(state.T_world_imu.rotation);
-  const Quaternion turn = ExpSo3(Vector3(0, 0, yaw_rad));
+  const Quaternion& R_then = earlier.T_world_imu.rotation;
+  const Quaternion& R_now = state.T_world_imu.rotation;
+  const Quaternion turn = has_gravity ? ExpSo3(Vector3(0, 0, YawOf(R_then) - YawOf(R_now)))
+                                      : R_then * R_now.conjugate();
   state.v_world_imu = turn * state.v_world_imu;
   const double since_s = CoastedSince_s(earlier, estimate.stamp);
   const Vector3 position =
@@ -97,6 +122,8 @@ void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate) {
   by_turn.block<3, 3>(kPos, kPos) = turn.toRotationMatrix();
   by_turn.block<3, 3>(kVel, kVel) = turn.toRotationMatrix();
   estimate.cov = by_turn * estimate.cov * by_turn.transpose();
+  AddPlacingError(earlier, 0.5 * since_s * (state.v_world_imu - earlier.v_world_imu).norm(),
+                  estimate);
 }
 
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity) {

@@ -205,14 +205,14 @@ Bytes EncodeOdometry(const NavOutput& nav) {
 }
 
 // Covariances in the terms of those in world.
-Bytes EncodeLocalOdometry(const NavOutput& nav) {
+Bytes EncodeLocalOdometry(const FilterReport& report) {
+  NavOutput local = report.nav;
   Matrix6 to_map = Matrix6::Identity();
-  to_map.topLeftCorner<3, 3>() = nav.T_map_imu.rotation.toRotationMatrix();
-  NavOutput local = nav;
-  local.T_world_imu = nav.T_map_imu;
-  local.pose_cov = to_map * nav.map_pose_cov * to_map.transpose();
-  local.v_world_imu_mps = nav.v_map_imu_mps;
-  local.velocity_cov = nav.map_velocity_cov;
+  to_map.topLeftCorner<3, 3>() = local.T_map_imu.rotation.toRotationMatrix();
+  local.T_world_imu = local.T_map_imu;
+  local.pose_cov = to_map * local.map_pose_cov * to_map.transpose();
+  local.v_world_imu_mps = report.v_map_imu_mps;
+  local.velocity_cov = report.map_velocity_cov;
   return EncodeOdometry(local);
 }
 

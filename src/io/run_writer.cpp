@@ -186,7 +186,7 @@ void RunWriter::WriteScan(const ScanOutput& output) {
     return;
   }
   last_scan_ = nav.stamp;
-  WriteRow({nav.stamp, nav.T_map_imu}, nav.map_as_world_cov, in_map_);
+  WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }

@@ -111,6 +111,8 @@ class Odometry::Impl {
   void ScoutAgain(Timestamp stamp, const std::string& why);
   void StartAnew(Timestamp stamp, const std::string& why);
   void StartAnewWhenLost(Timestamp stamp);
+  PassedPoint MakeFix(Timestamp stamp, const Estimate& estimate) const;
+  void TurnResumption(const ImuReading& found);
   void TurnByGyro(const Estimate& now, PassedPoint& earlier) const;
   void StartFrom(StartState start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
@@ -230,8 +232,9 @@ class Odometry::Impl {
   bool scouts_with_gyro_ = true;
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about
   struct Resumption {
-    Pose T_world_start;  // in the axes that were believed
+    Pose T_world_start, T_map_start;  // in the axes that were believed
     PassedPoint last_fix;
+    bool is_by_lidar = false;  // alone: in a world that was not level
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
   struct Loss {                           // of the way, lidar-only
@@ -241,9 +244,9 @@ class Odometry::Impl {
   };
   std::optional<Loss> loss_;  // a map begun anew goes on from here
   int num_scans_in_map_ = 0;  // lidar-only: run since its beginning
-  Pose T_world_start_;
-  bool is_world_unlevel_ = false;  // it began lidar-only: a start anew keeps its attitude
-  PassedPoint last_fix_;           // as published
+  Pose T_world_start_, T_map_start_;
+  bool is_map_by_lidar_ = false;  // it began lidar-only: no reading of the inertial axes is in it
+  PassedPoint last_fix_;          // as published
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU

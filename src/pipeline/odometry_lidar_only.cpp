@@ -12,8 +12,6 @@ constexpr int kUnmatchedWhenLost = 5;  // coasting on is wrong by more with each
 constexpr int kYoungScans = 10;        // with fewer a map is thin, and its cells are of no shape
 constexpr double kTurnLasts_s = 0.5;   // of a body that is not seen
 constexpr Duration kImuIsThere{500'000'000};
-constexpr double kPlacedStd_m = 0.5;     // a start anew is off by this at least ...
-constexpr double kPlacedStd_rad = 0.05;  // ... and this
 
 }  // namespace
 
@@ -93,8 +91,8 @@ void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
 void Odometry::Impl::GoInertial(Timestamp first) {
   use_imu_ = true;
   if (phase_ == Phase::kRunning || loss_) {
-    resumption_ = {T_world_start_, loss_ ? loss_->last_fix : last_fix_};
-    is_world_unlevel_ = true;
+    resumption_ = {T_world_start_, T_map_start_, loss_ ? loss_->last_fix : last_fix_, true};
+    is_map_by_lidar_ = true;
   }
   loss_.reset();
   ready_.clear();

@@ -25,10 +25,6 @@ NavOutput Odometry::Impl::MakeNav(const Estimate& estimate) const {
   if (history_ && !imu_.empty()) nav.w_imu_radps += SampleAt(imu_, estimate.stamp).w_imu_radps;
   nav.T_map_imu = estimate.state.T_map_imu;
   nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
-  const MapVelocity velocity = VelocityInMap(estimate);
-  nav.v_map_imu_mps = velocity.v_map_imu;
-  nav.map_velocity_cov = velocity.cov;
-  nav.map_as_world_cov = WithMapAsWorld(estimate).cov.topLeftCorner<6, 6>();
   if (options_.rig.T_base_imu) {
     nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp), *options_.rig.T_base_imu);
   }
@@ -48,6 +44,10 @@ FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
                                               const ScanReport& report) const {
   FilterReport filter;
   filter.nav = MakeNav(estimate);
+  const MapVelocity velocity = VelocityInMap(estimate);
+  filter.v_map_imu_mps = velocity.v_map_imu;
+  filter.map_velocity_cov = velocity.cov;
+  filter.map_as_world_cov = WithMapAsWorld(estimate).cov.topLeftCorner<6, 6>();
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
   filter.g_world_mps2 = g_world_;
@@ -59,6 +59,7 @@ FilterReport Odometry::Impl::MakeFilterReport(const Estimate& estimate,
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov;
+  filter.cov.topLeftCorner<kAccelBias, kAccelBias>() = InPublishedWorld(estimate).cov;
   return filter;
 }
 

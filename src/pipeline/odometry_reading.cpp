@@ -220,24 +220,28 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
                       FixOf(found, rig));
     return;
   }
-  // What was published since a start with these axes was turned about it.
-  if (resumption_ && !is_world_unlevel_) {
-    const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
-    const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
-    const Pose& start = resumption_->T_world_start;
-    const Pose turn_world = start * turn * start.Inverse();
-    PassedPoint& fix = resumption_->last_fix;
-    const Pose T_map_world = fix.T_map_imu * fix.T_world_imu.Inverse();
-    fix.T_world_imu = turn_world * fix.T_world_imu;
-    fix.v_world_imu = turn_world.rotation * fix.v_world_imu;
-    fix.T_map_imu = T_map_world * fix.T_world_imu;
-  }
+  if (resumption_ && !resumption_->is_by_lidar) TurnResumption(found);
   ReadAnewAs(found);
   ClassifyAnew();
   scouts_with_gyro_ = true;
   has_doubted_ = false;
   Say(stamp, Notice::Severity::kWarning, what);
   BeginScoutingAnew();
+}
+
+// What was published since a start with the axes that were believed was turned about it. The path
+// in map is the lidar's, rigid; the filter's world was bent by a gravity that it took for another.
+void Odometry::Impl::TurnResumption(const ImuReading& found) {
+  const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
+  const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
+  const Pose& T_world_start = resumption_->T_world_start;
+  const Pose T_start_map = resumption_->T_map_start.Inverse();
+  PassedPoint& fix = resumption_->last_fix;
+  const Pose since_start = T_start_map * fix.T_map_imu;
+  const Vector3 v_imu = fix.T_world_imu.rotation.conjugate() * fix.v_world_imu;
+  fix.T_world_imu = T_world_start * turn * since_start;
+  fix.v_world_imu = fix.T_world_imu.rotation * v_imu;
+  if (!is_map_by_lidar_) fix.T_map_imu = resumption_->T_map_start * turn * since_start;
 }
 
 // What could not be in the units that were believed until now comes back.

@@ -210,10 +210,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
     report.stage_ns[static_cast<std::size_t>(Stage::kTotal)] +=
         report.stage_ns[static_cast<std::size_t>(i)];
   }
-  if (is_sound) {
-    const WorldEstimate published = InPublishedWorld(estimate);
-    last_fix_ = {middle, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu};
-  }
+  if (is_sound) last_fix_ = MakeFix(middle, estimate);
   const Timestamp end = outcome.sweep->end;
   const Estimate at_end =
       scout_ && report.fused ? scout_->AtEnd(middle, end, outcome.turn_rate) : history().At(end);

@@ -78,8 +78,7 @@ void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   if (runs_by_lidar && loss_) GoOnFromLoss(start, scouting);
   scout_.emplace(start, scouting);
   if (runs_by_lidar) {
-    last_fix_ = {start, scouting.T_world_start, history().head().state.v_world_imu,
-                 scouting.T_world_start};
+    last_fix_ = MakeFix(start, history().head());
   }
   classifier_.BeginMap(sweep.start);
   scout_up_map_ = scouting.T_world_start.rotation *
@@ -277,7 +276,7 @@ void Odometry::Impl::ScoutAgain(Timestamp stamp, const std::string& why) {
 
 // In the world that was published, from the last pose that was found.
 void Odometry::Impl::StartAnew(Timestamp stamp, const std::string& why) {
-  resumption_ = {T_world_start_, last_fix_};
+  resumption_ = {T_world_start_, T_map_start_, last_fix_, false};
   history_.reset();
   standstill_.Forget();
   last_standstill_.reset();
@@ -291,24 +290,30 @@ void Odometry::Impl::StartAnewWhenLost(Timestamp stamp) {
   StartAnew(stamp, "lost among things to see: the start begins anew");
 }
 
+PassedPoint Odometry::Impl::MakeFix(Timestamp stamp, const Estimate& estimate) const {
+  const WorldEstimate published = InPublishedWorld(estimate);
+  return {stamp, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu,
+          published.cov.topLeftCorner<6, 6>()};
+}
+
 void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
+  const NavState& state = start.estimate.state;
+  g_world_ = start.g_world;
   if (resumption_) {
-    TurnByGyro(start.estimate, resumption_->last_fix);
-    PlaceInWorld(resumption_->last_fix, start.estimate);
-    if (is_world_unlevel_) {
-      start.estimate.state.T_map_imu.rotation = resumption_->last_fix.T_world_imu.rotation;
-    }
+    PassedPoint& fix = resumption_->last_fix;
+    TurnByGyro(start.estimate, fix);
+    const bool has_gravity = !g_world_.isZero();
+    if (resumption_->is_by_lidar && has_gravity) Level(state.T_world_imu.rotation, fix);
+    PlaceInWorld(fix, has_gravity, start.estimate);
     resumption_.reset();
   }
-  const NavState& state = start.estimate.state;
   T_world_start_ = state.T_world_imu;
-  const WorldEstimate published = InPublishedWorld(start.estimate);
-  last_fix_ = {start.estimate.stamp, published.T_world_imu, published.v_world_imu, state.T_map_imu};
+  T_map_start_ = state.T_map_imu;
+  last_fix_ = MakeFix(start.estimate.stamp, start.estimate);
   classifier_.BeginMap(start.estimate.stamp);
   ready_.erase(ready_.begin(), ready_.begin() + static_cast<std::ptrdiff_t>(first_sweep));
   BeginScoutingAnew();
   scouting_since_.reset();
-  g_world_ = start.g_world;
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(imu_, start.estimate.stamp));
   history_->KeepFrom(start.estimate.stamp - ClockMargin());
   for (const ImuSample& sample : imu_) {

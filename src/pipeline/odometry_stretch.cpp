@@ -135,6 +135,9 @@ void Odometry::Impl::GoOnWith(const std::vector<ImuSample>& samples) {
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time.
 void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step step) {
+  if (!history_ && !imu_.empty() && step != ImuIntake::Step::kGap) {
+    SetTimesBy(first.stamp - imu_.back().stamp);
+  }
   sent_.clear();
   imu_.clear();
   mean_before_hole_.reset();

@@ -124,7 +124,8 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
   // Stop gives what is left half a second, which may be too little on a busy machine.
   WaitUntil([&] { return runner.num_matches_done() >= replayed.num_matches; }, "all are matched");
   runner.Stop();
-  for (const char* name : {"trajectory.tum", "covariance.csv", "options.yaml"}) {
+  for (const char* name : {"trajectory.tum", "trajectory_world.tum", "covariance.csv",
+                           "covariance_world.csv", "options.yaml"}) {
     EXPECT_TRUE(Live(name) == test::ReadText(folder_.path() / "replay" / name)) << name;
     EXPECT_FALSE(Live(name).empty()) << name;
   }
@@ -221,6 +222,33 @@ TEST_F(LiveRunnerTest, TheBaseFrameMovesWithTheImu) {
     }
   }
   EXPECT_EQ(NumLines("trajectory_base.tum"), NumLines("trajectory.tum"));
+}
+
+TEST_F(LiveRunnerTest, TheLocalPoseIsTheOneInMap) {
+  std::map<std::string, std::vector<odometry_t>> by_channel;
+  for (const char* channel : {"LIO_ODOM", "LIO_ODOM_LOCAL"}) {
+    bus_->Subscribe(channel, 100'000, [&of = by_channel[channel]](ByteView data, std::int64_t) {
+      of.emplace_back().decode(data.data(), 0, static_cast<int>(data.size()));
+    });
+  }
+  LiveRunner runner(*bus_, SceneOptions(), WithFiles());
+  Play(runner);
+  runner.Stop();
+  while (bus_->Receive(std::chrono::milliseconds(0)) == ReceiveResult::kMessage) {
+  }
+  const auto& world = by_channel["LIO_ODOM"];
+  const auto& local = by_channel["LIO_ODOM_LOCAL"];
+  ASSERT_GT(world.size(), 40u);
+  ASSERT_EQ(world.size(), local.size());
+  double apart_m = 0.0;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    EXPECT_EQ(local[i].utime, world[i].utime);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(local[i].pos[k], world[i].map_pos[k]);
+      apart_m = std::max(apart_m, std::abs(local[i].pos[k] - world[i].pos[k]));
+    }
+  }
+  EXPECT_GT(apart_m, 0.0) << "two poses, not one twice";
 }
 
 TEST_F(LiveRunnerTest, StoppingInTheMiddleLeavesCompleteFilesSoon) {

@@ -63,7 +63,7 @@ TEST_F(PublisherTest, TheBaseFrameHasChannelsOfItsOwn) {
   nav.source = OdometrySource::kImuPropagated;
   nav.base.emplace();
   publisher_.Publish(Output(nav));
-  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_LOCAL", "LIO_ODOM_BASE", "LIO_STATE",
+  EXPECT_THAT(bus_.channels, ElementsAre("LIO_ODOM", "LIO_ODOM_BASE", "LIO_ODOM_LOCAL", "LIO_STATE",
                                          "LIO_REG", "LIO_ODOM_IMU", "LIO_ODOM_BASE_IMU"));
 }
 

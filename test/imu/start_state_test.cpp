@@ -177,26 +177,96 @@ TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
   EXPECT_NEAR(tilt_sq / predicted_tilt_sq, 1.0, 3 * std::sqrt(1.0 / kRuns));
 }
 
-TEST(PlaceInWorld, WorldAndMapGoOnByTheSameMotion) {
-  PassedPoint earlier;
-  earlier.stamp = StampAt(1.0);
-  earlier.T_world_imu = {ExpSo3(Vector3(0.02, 0, 1.0)), Vector3(30, 20, 1)};
-  earlier.v_world_imu = Vector3(2, 0, 0);
-  earlier.T_map_imu = {ExpSo3(Vector3(0.05, 0.01, 0.9)), Vector3(31, 19, 0)};
+PassedPoint Passed() {
+  PassedPoint point;
+  point.stamp = StampAt(1.0);
+  point.T_world_imu = {ExpSo3(Vector3(0.02, 0, 1.0)), Vector3(30, 20, 1)};
+  point.v_world_imu = Vector3(2, 0, 0);
+  point.T_map_imu = {ExpSo3(Vector3(0.05, 0.01, 0.9)), Vector3(31, 19, 0)};
+  point.pose_cov.diagonal() << 0.04, 0.09, 0.01, 1e-6, 1e-6, 4e-6;
+  return point;
+}
+
+// A fresh start half a second later, at its own origin.
+Estimate StartedAnew() {
   Estimate estimate;
   estimate.stamp = StampAt(1.5);
-  estimate.state.T_world_imu = {ExpSo3(Vector3(0.03, 0.01, 0)), Vector3(0, 0, 0)};
+  estimate.state.T_world_imu.rotation = ExpSo3(Vector3(0.03, 0.01, 0));
   estimate.state.T_map_imu = estimate.state.T_world_imu;
   estimate.state.v_world_imu = Vector3(1, 0, 0);
-  PlaceInWorld(earlier, estimate);
+  return estimate;
+}
+
+TEST(PlaceInWorld, WorldAndMapGoOnByTheSameMotion) {
+  const PassedPoint earlier = Passed();
+  Estimate estimate = StartedAnew();
+  PlaceInWorld(earlier, true, estimate);
   const NavState& state = estimate.state;
   const Vector3 v_now(std::cos(1.0), std::sin(1.0), 0);
   const Vector3 expected = Vector3(30, 20, 1) + 0.25 * (earlier.v_world_imu + v_now);
   EXPECT_LT((state.v_world_imu - v_now).norm(), 1e-3);
   EXPECT_LT((state.T_world_imu.translation - expected).norm(), 1e-3);
+  const Vector3 up = state.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+  const Vector3 up_of_start =
+      StartedAnew().state.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+  EXPECT_LT((up - up_of_start).norm(), 1e-12) << "level as the start found it";
   const Pose in_world = earlier.T_world_imu.Inverse() * state.T_world_imu;
   const Pose in_map = earlier.T_map_imu.Inverse() * state.T_map_imu;
   EXPECT_LT(LogSe3(in_world.Inverse() * in_map).norm(), 1e-12);
+}
+
+TEST(PlaceInWorld, WithoutGravityTheAttitudeStays) {
+  Estimate estimate = StartedAnew();
+  PlaceInWorld(Passed(), false, estimate);
+  const Quaternion& rotation = estimate.state.T_world_imu.rotation;
+  EXPECT_LT(LogSo3(rotation.conjugate() * Passed().T_world_imu.rotation).norm(), 1e-12);
+  EXPECT_LT(
+      LogSo3(estimate.state.T_map_imu.rotation.conjugate() * Passed().T_map_imu.rotation).norm(),
+      1e-12);
+}
+
+TEST(PlaceInWorld, PositionAndYawAreAsUnsureAsTheyWereAndMore) {
+  const PassedPoint earlier = Passed();
+  Estimate estimate = StartedAnew();
+  PlaceInWorld(earlier, true, estimate);
+  const double coasted_m = 0.25 * (estimate.state.v_world_imu - earlier.v_world_imu).norm();
+  EXPECT_NEAR(estimate.cov(kPos, kPos), 0.04 + 0.25 + coasted_m * coasted_m, 1e-12);
+  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  const Matrix3 rotation_cov = R * estimate.cov.block<3, 3>(kRot, kRot) * R.transpose();
+  EXPECT_NEAR(rotation_cov(2, 2), 4e-6 + 0.0025, 1e-7);
+  EXPECT_NEAR(rotation_cov(0, 0), 0.0, 1e-12) << "its tilt is the start's";
+  // A yaw error turns the velocity along: in imu it is as sure as the start has it.
+  ErrorVector yaw = ErrorVector::Zero();
+  yaw.segment<3>(kRot) = R.transpose() * Vector3::UnitZ() * 1e-6;
+  yaw.segment<3>(kVel) = Vector3::UnitZ().cross(estimate.state.v_world_imu) * 1e-6;
+  const NavState turned = BoxPlus(estimate.state, yaw);
+  EXPECT_LT((turned.T_world_imu.rotation.conjugate() * turned.v_world_imu -
+             estimate.state.T_world_imu.rotation.conjugate() * estimate.state.v_world_imu)
+                .norm(),
+            1e-11);
+  EXPECT_LT((estimate.cov.block<3, 3>(kVel, kRot) -
+             rotation_cov(2, 2) * 1e12 * yaw.segment<3>(kVel) * yaw.segment<3>(kRot).transpose())
+                .norm(),
+            1e-12);
+}
+
+TEST(Level, TurnsAPointsWorldAndLeavesYawPositionAndMap) {
+  PassedPoint point = Passed();
+  const Quaternion level = Tilted(0.1, -0.05);
+  Level(level, point);
+  const Vector3 up = point.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+  EXPECT_LT((up - level.conjugate() * Vector3::UnitZ()).norm(), 1e-12);
+  EXPECT_EQ(point.T_world_imu.translation, Passed().T_world_imu.translation);
+  EXPECT_EQ(point.T_map_imu.rotation.coeffs(), Passed().T_map_imu.rotation.coeffs());
+  EXPECT_LT((point.T_world_imu.rotation.conjugate() * point.v_world_imu -
+             Passed().T_world_imu.rotation.conjugate() * Passed().v_world_imu)
+                .norm(),
+            1e-12)
+      << "the same in imu";
+  const Vector3 forward = point.T_world_imu.rotation * Vector3::UnitX();
+  const Vector3 forward_before = Passed().T_world_imu.rotation * Vector3::UnitX();
+  EXPECT_NEAR(std::atan2(forward.y(), forward.x()),
+              std::atan2(forward_before.y(), forward_before.x()), 1e-9);
 }
 
 TEST(StartState, RefusesToStartWithoutSamples) {

@@ -59,7 +59,8 @@ class Repeatability(unittest.TestCase):
         for name in ("num_scans", "num_imu", "num_chunks", "num_scans_dropped",
                      "num_chunks_missing"):
             self.assertEqual(live[name], replayed[name], f"{name}: messages were lost")
-        self.check_same(folder, ("trajectory.tum", "covariance.csv"))
+        self.check_same(folder, ("trajectory.tum", "covariance.csv", "trajectory_world.tum",
+                                 "covariance_world.csv"))
 
 
 if __name__ == "__main__":

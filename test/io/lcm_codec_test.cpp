@@ -208,15 +208,16 @@ TEST(LcmCodec, OdometryCarriesBothPosesAndTheirCovariancesRowByRow) {
 }
 
 TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
-  NavOutput nav;
+  FilterReport report;
+  NavOutput& nav = report.nav;
   nav.stamp = kStamp;
   nav.T_world_imu.translation = Vector3(1, 2, 3);
   nav.T_map_imu = {Quaternion(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), Vector3(4, 5, 6)};
   nav.map_pose_cov.diagonal() << 0.25, 1.0, 2.0, 3.0, 4.0, 5.0;
   nav.v_world_imu_mps = Vector3(7, 8, 9);
-  nav.v_map_imu_mps = Vector3(10, 11, 12);
-  nav.map_velocity_cov(0, 2) = 0.5;
-  const auto message = Decoded<odometry_t>(EncodeLocalOdometry(nav));
+  report.v_map_imu_mps = Vector3(10, 11, 12);
+  report.map_velocity_cov(0, 2) = 0.5;
+  const auto message = Decoded<odometry_t>(EncodeLocalOdometry(report));
   EXPECT_EQ(message.utime, kStamp.Microseconds());
   EXPECT_EQ(message.pos[0], 4.0);
   EXPECT_EQ(message.map_pos[0], 4.0);

@@ -34,7 +34,7 @@ ScanOutput Scan(Timestamp stamp) {
   output.filter.emplace();
   output.filter->nav.stamp = stamp;
   output.filter->nav.T_map_imu = {Quaternion(0.5, -0.5, 0.5, 0.5), Vector3(1, -2, 3.25)};
-  output.filter->nav.map_as_world_cov(0, 1) = 0.125;
+  output.filter->map_as_world_cov(0, 1) = 0.125;
   output.filter->nav.T_world_imu.translation = Vector3(1, -2, 3.5);
   output.filter->nav.pose_cov(0, 1) = 0.0625;
   output.scan.stamp = stamp;

@@ -81,6 +81,28 @@ TEST(OdometryLidarOnly, AnInertialUnitThatComesLaterIsUsed) {
   }
 }
 
+// On a body that is pitched by 6 degrees, which the lidar alone cannot know.
+TEST(OdometryLidarOnly, AnInertialUnitThatComesLaterLevelsTheWorldAndLeavesTheMap) {
+  const Pose pitched{ExpSo3(Vector3(0, 0.1, 0)), Vector3::Zero()};
+  test::DriveOptions drive;
+  drive.motion = [pitched](double t_s) { return RestThenDrive()(t_s) * pitched; };
+  drive.to_s = kEnd_s;
+  const Messages messages = test::WithoutImu(test::SimulateDrive(test::Street(), drive), -1.0, 2.6);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  ASSERT_TRUE(HasNotice(run, "started in motion"));
+  EXPECT_EQ(run.status, TrackingStatus::kOk);
+  const test::TrackError error = ErrorAgainst(drive.motion, run.scans);
+  EXPECT_LT(error.end_m, 0.5);
+  EXPECT_LT(error.max_rad, 0.02) << "the map keeps its attitude";
+  const NavOutput& last = run.scans.back().filter->nav;
+  const Vector3 up = last.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+  const Vector3 up_of_map = last.T_map_imu.rotation.conjugate() * Vector3::UnitZ();
+  const Pose truth = drive.motion(test::SecondsOf(last.stamp));
+  const Vector3 true_up = truth.rotation.conjugate() * Vector3::UnitZ();
+  EXPECT_LT((up - true_up).norm(), 0.02);
+  EXPECT_NEAR((up_of_map - true_up).norm(), 0.1, 0.03);
+}
+
 TEST(OdometryLidarOnly, AStrayInertialSampleChangesNothing) {
   Messages messages = test::WithoutImu(StaticStartDrive(), -1.0, kEnd_s);
   const std::size_t num_scans = RunOdometry(messages, test::DriveRig()).scans.size();

@@ -57,8 +57,9 @@ TEST_F(LioReplayTest, TwiceAndOnMoreThreadsItWritesTheSameBytes) {
   ASSERT_EQ(Replay(kLog, "c", {"--map", "--threads", "2"}).exit_code, 0);
   ASSERT_EQ(Replay(kLog, "d", {"--map", "--set", "pipeline.num_threads=3"}).exit_code, 0);
   for (const std::string other : {"b", "c", "d"}) {
-    for (const std::string name : {"trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
-                                   "options.yaml", "map.pcd"}) {
+    for (const std::string name :
+         {"trajectory.tum", "trajectory_imu_rate.tum", "trajectory_world.tum", "covariance.csv",
+          "covariance_world.csv", "options.yaml", "map.pcd"}) {
       EXPECT_TRUE(File("a/" + name) == File(other + "/" + name)) << other << " " << name;
       EXPECT_FALSE(File("a/" + name).empty()) << name;
     }

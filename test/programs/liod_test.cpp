@@ -74,7 +74,8 @@ TEST_F(LiodTest, FedByLogPlayerItWritesReplaysFiles) {
   if (num_lost != 0 || stats["num_imu"] != Stats("replay")["num_imu"]) {
     GTEST_SKIP() << "this machine is too busy to play a log without loss: " << stats.dump();
   }
-  for (const char* name : {"trajectory.tum", "covariance.csv", "options.yaml"}) {
+  for (const char* name : {"trajectory.tum", "trajectory_world.tum", "covariance.csv",
+                           "covariance_world.csv", "options.yaml"}) {
     const std::string text = File("live/" + std::string(name));
     EXPECT_FALSE(text.empty());
     EXPECT_TRUE(text == File("replay/" + std::string(name))) << name;

@@ -147,8 +147,12 @@ void AddFilter(const FilterReport& filter, ByteWriter& writer) {
   writer.Add(nav.velocity_cov);
   writer.Add(nav.w_imu_radps);
   writer.Add(nav.map_pose_cov);
+  writer.Add(filter.v_map_imu_mps);
+  writer.Add(filter.map_velocity_cov);
+  writer.Add(filter.map_as_world_cov);
   if (nav.base) {
     writer.Add(nav.base->T_world_base);
+    writer.Add(nav.base->T_map_base);
     writer.Add(nav.base->velocity_cov);
   }
   writer.Add(filter.gyro_bias_radps);

@@ -10,8 +10,9 @@ Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
 Runs seeds of a scenario (20, of 40 s) through the whole pipeline, one a core at a time, and judges
 the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves in
 out/monte_carlo/SCENARIO/: a folder a seed with what lio-replay writes and truth.tum, and
-consistency.txt, .json and .png of the steady path, consistency_world.* of the level world. Seeds that the same programs and settings have done already are
-not done again, so an interrupted run goes on where it was.
+consistency.txt, .json and .png of the steady path, consistency_world.* of the level world.
+Seeds that the same programs and settings have done already are not done again, so an interrupted
+run goes on where it was.
   --set KEY=VALUE    override one key of the estimator; may be given again
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
   --first N          the first seed (1)

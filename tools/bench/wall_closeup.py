@@ -66,7 +66,7 @@ def rotations(q):
 
 
 class Path:
-    """Poses of imu in world, linear between rows (rotation: normalised quaternions)."""
+    """Poses of imu, linear between rows (rotation: normalised quaternions)."""
 
     def __init__(self, path):
         rows = np.loadtxt(path)

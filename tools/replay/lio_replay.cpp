@@ -32,7 +32,8 @@ struct ReplayArguments {
 
 constexpr const char* kDescription =
     "Runs LiDAR-inertial odometry over an LCM log, as fast as the machine goes.\n\n"
-    "Writes into DIR: trajectory.tum (imu in world, a row a scan), covariance.csv,\n"
+    "Writes into DIR: trajectory.tum (imu in map: the steady path, a row a scan), covariance.csv,\n"
+    "trajectory_world.tum (in world: level at all times), covariance_world.csv,\n"
     "trajectory_imu_rate.tum, registration.csv, stats.json, options.yaml, map.pcd with --map, and\n"
     "trajectory_base.tum where the rig names T_base_imu.\n"
     "The same log and options give the same files byte for byte, but for times of computing.";

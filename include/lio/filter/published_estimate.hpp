@@ -16,13 +16,13 @@ namespace lio {
 struct WorldEstimate {
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
-  NavCov cov = NavCov::Zero();            // mean square error
+  NavCov cov = NavCov::Zero();
 };
 
 // The filter's own.
 WorldEstimate InWorld(const Estimate& estimate);
-// With the map taken for the world: what a reader errs who does so is the filter's variance plus
-// the square of the known step between the two.
+// With the map taken for the world. `cov` is the mean square error of a reader who does so: the
+// filter's plus the square of the known step between the two.
 WorldEstimate WithMapAsWorld(const Estimate& estimate);
 
 struct MapVelocity {

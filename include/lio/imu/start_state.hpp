@@ -53,12 +53,20 @@ struct PassedPoint {
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
   Pose T_map_imu;
+  Matrix6 pose_cov = Matrix6::Zero();  // position in world, right rotation error
 };
+// A start anew is off by this at least.
+inline constexpr double kPlacedStd_m = 0.5;
+inline constexpr double kPlacedStd_rad = 0.05;
 // How long ago that was; no longer than the body may be thought to have gone straight on.
 double CoastedSince_s(const PassedPoint& earlier, Timestamp now);
+// The point in a world that is level by what is known now: `R_level_imu`, of any yaw, is the
+// attitude there. Yaw, position and map stay.
+void Level(const Quaternion& R_level_imu, PassedPoint& point);
 // Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
-// and from its position by the mean of both velocities. The map goes on by the same motion.
-void PlaceInWorld(const PassedPoint& earlier, Estimate& estimate);
+// without gravity its whole attitude, and from its position by the mean of both velocities. The map
+// goes on by the same motion. Position and yaw are as unsure as they were, and some more.
+void PlaceInWorld(const PassedPoint& earlier, bool has_gravity, Estimate& estimate);
 
 // The rotation from imu to world that takes `up_imu` to world's z, without turning about it more
 // than needed, and with the imu's x axis at yaw zero.

@@ -46,8 +46,8 @@ Bytes EncodeImu(const ImuSample& sample, std::int32_t seq);
 // The stamp is truncated to whole microseconds and the points' offsets are moved to match.
 Bytes EncodeChunk(const ScanChunk& chunk);
 Bytes EncodeOdometry(const NavOutput& nav);
-Bytes EncodeLocalOdometry(const NavOutput& nav);  // in map, which is put where world is else
-Bytes EncodeBaseOdometry(const NavOutput& nav);   // needs nav.base
+Bytes EncodeLocalOdometry(const FilterReport& report);  // the same fields, of the pose in map
+Bytes EncodeBaseOdometry(const NavOutput& nav);         // needs nav.base
 Bytes EncodeFilterState(const FilterReport& report);
 Bytes EncodeRegistration(const ScanReport& report);
 Bytes EncodeCloud(const RegisteredCloud& cloud);

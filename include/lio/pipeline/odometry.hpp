@@ -44,7 +44,7 @@ struct Notice {
   std::string text;
 };
 
-// One accepted scan: rows of trajectory.tum, covariance.csv and registration.csv. `filter` is
+// One accepted scan: rows of the trajectories, covariances and registration.csv. `filter` is
 // absent before the start.
 struct ScanOutput {
   std::optional<FilterReport> filter;

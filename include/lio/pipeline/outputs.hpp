@@ -50,16 +50,16 @@ struct NavOutput {
   Vector3 w_imu_radps = Vector3::Zero();  // bias-corrected rate, in imu
   Pose T_map_imu;
   Matrix6 map_pose_cov = Matrix6::Zero();  // right error [translation; rotation] of T_map_imu
-  Vector3 v_map_imu_mps = Vector3::Zero();
-  Matrix3 map_velocity_cov = Matrix3::Zero();  // in map
-  Matrix6 map_as_world_cov = Matrix6::Zero();  // mean square error of T_map_imu as one in world
-  std::optional<BaseMotion> base;              // with rig.T_base_imu
+  std::optional<BaseMotion> base;          // with rig.T_base_imu
 };
 
 // The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel
 // bias, then the right error of T_map_imu [translation; rotation].
 struct FilterReport {
   NavOutput nav;
+  Vector3 v_map_imu_mps = Vector3::Zero();
+  Matrix3 map_velocity_cov = Matrix3::Zero();  // in map
+  Matrix6 map_as_world_cov = Matrix6::Zero();  // mean square error of T_map_imu as one in world
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();
   Vector3 g_world_mps2 = Vector3::Zero();  // zero where none is felt
@@ -67,9 +67,9 @@ struct FilterReport {
   // zero unless it is estimated.
   double clock_offset_s = 0.0;
   double clock_offset_std_s = 0.0;
-  double nis = 0.0;  // normalised innovation squared of the last update
-  int nis_dof = 0;   // 0: no update
-  Eigen::MatrixXd cov;
+  double nis = 0.0;     // normalised innovation squared of the last update
+  int nis_dof = 0;      // 0: no update
+  Eigen::MatrixXd cov;  // that of the pose and velocity in `nav`
 };
 
 enum class MatchStatus : std::int8_t {
