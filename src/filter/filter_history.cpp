@@ -12,12 +12,11 @@ namespace {
 // How many times larger than claimed the covariance of poses is, by translation and rotation, as
 // the innovations of about the last second tell; never smaller. An error that lasts (the sensors'
 // clocks, a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
-Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update) {
+Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update, double max_misfit) {
   static constexpr double kRate = 0.1;  // per pose
   static constexpr double kMaxNis = 100.0;
-  static constexpr double kMaxMisfit = 9.0;  // a filter that is wrong must not shut its eyes
-  const auto next = [](double now, double nis) {
-    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, kMaxMisfit);
+  const auto next = [max_misfit](double now, double nis) {
+    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, max_misfit);
   };
   return {next(misfit.translation, update.nis_translation),
           next(misfit.rotation, update.nis_rotation)};
@@ -175,7 +174,7 @@ void FilterHistory::Fuse(Node& node) const {
     TakeBackMotion(ResidualOf(measurement, node.posterior), node.posterior);
   }
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
-  node.misfit = NextMisfit(node.misfit, node.update);
+  node.misfit = NextMisfit(node.misfit, node.update, options_.max_misfit);
   if (!node.update.fused && node.pose.force) {
     node.update.fused =
         FuseByForce(node.posterior, measurement, node.update.nis, options_.nis_limit);

@@ -32,6 +32,9 @@ struct HistoryOptions {
   double span_s = 3.0;
   double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
   double standstill_nis_limit = kChiSquare3At999;
+  // How many times larger than claimed innovations may say that the covariance of poses is. One
+  // where errors that last are not expected, or judged elsewhere.
+  double max_misfit = 9.0;  // a filter that is wrong must not shut its eyes
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
   double gap_accel_std_mps2 = 3.0;
