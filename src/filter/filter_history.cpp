@@ -12,14 +12,14 @@ namespace {
 // How many times larger than claimed the covariance of poses is, by translation and rotation, as
 // the innovations of about the last second tell; never smaller. An error that lasts (the sensors'
 // clocks, a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
-Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update, double max_misfit) {
+Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update, const Misfit& max) {
   static constexpr double kRate = 0.1;  // per pose
   static constexpr double kMaxNis = 100.0;
-  const auto next = [max_misfit](double now, double nis) {
-    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, max_misfit);
+  const auto next = [](double now, double nis, double max_factor) {
+    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, max_factor);
   };
-  return {next(misfit.translation, update.nis_translation),
-          next(misfit.rotation, update.nis_rotation)};
+  return {next(misfit.translation, update.nis_translation, max.translation),
+          next(misfit.rotation, update.nis_rotation, max.rotation)};
 }
 
 Matrix6 Widened(const Matrix6& cov, const Misfit& misfit) {

@@ -34,8 +34,8 @@ HistoryOptions MakeHistoryOptions(const ScoutOptions& options) {
   history.g_world = Vector3::Zero();
   history.span_s = options.span_s;
   history.nis_limit = options.nis_limit;
-  history.max_misfit = 1.0;  // the alignment judges that
-  history.gap_s = 1e9;  // its samples never have a gap
+  history.max_misfit.translation = 1.0;  // the alignment judges that
+  history.gap_s = 1e9;                   // its samples never have a gap
   return history;
 }
 

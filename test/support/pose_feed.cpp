@@ -48,7 +48,7 @@ class Pass {
     while (drive_.samples[next_sample_].stamp < truth_[next_truth_].stamp) ++next_sample_;
     HistoryOptions options;
     options.noise = settings.imu;
-    options.max_misfit = 1.0;  // white poses
+    options.max_misfit = {1.0, 1.0};  // white poses
     history_.emplace(options, Start(truth_[next_truth_]), drive_.samples[next_sample_]);
     next_pose_ = ++next_truth_;
   }

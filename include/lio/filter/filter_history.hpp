@@ -26,6 +26,12 @@ enum class EventOutcome {
   kGated,        // too far off to be believed
 };
 
+// Factors on the covariance of poses.
+struct Misfit {
+  double translation = 1.0;
+  double rotation = 1.0;
+};
+
 struct HistoryOptions {
   ProcessNoise noise;
   Vector3 g_world = Vector3(0, 0, -9.80665);
@@ -34,7 +40,7 @@ struct HistoryOptions {
   double standstill_nis_limit = kChiSquare3At999;
   // How many times larger than claimed innovations may say that the covariance of poses is. One
   // where errors that last are not expected, or judged elsewhere.
-  double max_misfit = 9.0;  // a filter that is wrong must not shut its eyes
+  Misfit max_misfit{9.0, 9.0};  // a filter that is wrong must not shut its eyes
   // A longer step between samples is a gap: what the sensors did in between is unknown by these.
   double gap_s = 0.03;
   double gap_accel_std_mps2 = 3.0;
@@ -50,12 +56,6 @@ struct PoseEvent {
   bool force = false;  // fuse even beyond the gate, the covariance inflated to what was seen
   // No time has passed where stamps say so: the place is off by what the pose says, the speed not.
   bool is_clock_set = false;
-};
-
-// Factors on the covariance of poses.
-struct Misfit {
-  double translation = 1.0;
-  double rotation = 1.0;
 };
 
 class FilterHistory {
