@@ -12,11 +12,10 @@ constexpr std::size_t kMaxPrefixCharacters = 40;
 
 constexpr const char* kDescription =
     "LiDAR-inertial odometry over LCM.\n\n"
-    "Listens on LIO_IMU and LIO_SCAN; publishes LIO_ODOM (once a scan, level), LIO_ODOM_LOCAL "
-    "(the\n"
-    "steady path), LIO_ODOM_IMU (once an inertial sample), LIO_STATE, LIO_REG, LIO_STATUS (1 Hz),\n"
-    "LIO_CLOUD (2 Hz, thinned) and, when asked for, LIO_CLOUD_FULL. Runs until SIGINT or SIGTERM, "
-    "then ends within a second.";
+    "Listens on LIO_IMU and LIO_SCAN; publishes LIO_ODOM (once a scan, level), LIO_ODOM_LOCAL\n"
+    "(the steady path), LIO_ODOM_IMU (once an inertial sample), LIO_STATE, LIO_REG, LIO_STATUS\n"
+    "(1 Hz), LIO_CLOUD (2 Hz, thinned) and, when asked for, LIO_CLOUD_FULL. Runs until SIGINT or\n"
+    "SIGTERM, then ends within a second.";
 
 constexpr const char* kExamples =
     "Examples:\n"
