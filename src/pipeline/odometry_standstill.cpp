@@ -8,7 +8,7 @@ namespace lio {
 namespace {
 
 // A body at rest sways on its springs by so much, to and fro within so long.
-constexpr double kStandstillStd_mps = 0.004;
+constexpr double kStandstillStd_mps = 0.0025;
 constexpr double kStandstillCorrelation_s = 0.3;
 
 }  // namespace
