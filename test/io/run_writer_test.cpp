@@ -51,6 +51,12 @@ NavOutput ImuRate(Timestamp stamp) {
 
 class RunWriterTest : public ::testing::Test {
  protected:
+  // A run of one scan.
+  void WriteRun(const ScanOutput& scan, const Options& options = {}) {
+    RunWriter writer(out_, options);
+    writer.Write(scan);
+    writer.Finish({});
+  }
   nlohmann::json Stats() { return nlohmann::json::parse(test::ReadText(out_ / "stats.json")); }
 
   test::TempDir folder_;
@@ -58,9 +64,7 @@ class RunWriterTest : public ::testing::Test {
 };
 
 TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
-  RunWriter writer(out_, Options{});
-  writer.Write(Scan(kStamp));
-  writer.Finish({});
+  WriteRun(Scan(kStamp));
   EXPECT_THAT(Lines(out_ / "trajectory.tum"),
               ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.250000000 "
                           "-0.500000000 0.500000000 0.500000000 0.500000000"));
@@ -68,17 +72,13 @@ TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
 
 // Logs that count from zero, their stamps shifted back.
 TEST_F(RunWriterTest, StampsBeforeTheEpochAreRowsToo) {
-  RunWriter writer(out_, Options{});
-  writer.Write(Scan(Timestamp{-40'000'000}));
-  writer.Finish({});
+  WriteRun(Scan(Timestamp{-40'000'000}));
   EXPECT_THAT(Lines(out_ / "trajectory.tum"),
               ElementsAre(testing::StartsWith("-0.040000000 1.000000000 ")));
 }
 
 TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
-  RunWriter writer(out_, Options{});
-  writer.Write(Scan(kStamp));
-  writer.Finish({});
+  WriteRun(Scan(kStamp));
   const auto lines = Lines(out_ / "covariance.csv");
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_THAT(lines[0], StartsWith("t_s,cov_x_x,cov_x_y,"));
@@ -88,9 +88,7 @@ TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
 }
 
 TEST_F(RunWriterTest, TheWorldHasATrajectoryAndCovariancesOfItsOwn) {
-  RunWriter writer(out_, Options{});
-  writer.Write(Scan(kStamp));
-  writer.Finish({});
+  WriteRun(Scan(kStamp));
   EXPECT_THAT(Lines(out_ / "trajectory_world.tum"),
               ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.500000000 "
                           "0.000000000 0.000000000 0.000000000 1.000000000"));
@@ -105,9 +103,7 @@ TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
   options.rig.T_base_imu = Pose{Quaternion::Identity(), Vector3(1, 0, 0)};
   ScanOutput scan = Scan(kStamp);
   scan.filter->nav.base.emplace().T_map_base.translation = Vector3(0, -2, 3.25);
-  RunWriter writer(out_, options);
-  writer.Write(scan);
-  writer.Finish({});
+  WriteRun(scan, options);
   EXPECT_THAT(Lines(out_ / "trajectory_base.tum"),
               ElementsAre("1700000000.000000007 0.000000000 -2.000000000 3.250000000 "
                           "0.000000000 0.000000000 0.000000000 1.000000000"));
@@ -116,11 +112,9 @@ TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
 }
 
 TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
-  RunWriter writer(out_, Options{});
   ScanOutput waiting = Scan(kStamp);
   waiting.filter.reset();
-  writer.Write(waiting);
-  writer.Finish({});
+  WriteRun(waiting);
   EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
   const auto rows = Lines(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
