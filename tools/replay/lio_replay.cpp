@@ -28,6 +28,7 @@ struct ReplayArguments {
   bool writes_map = false;
   double start_s = 0.0;
   double duration_s = std::numeric_limits<double>::infinity();
+  int match_lag = 0;
 };
 
 constexpr const char* kDescription =
@@ -69,17 +70,23 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
       ->type_name("NAME")
       ->capture_default_str();
+  app.add_option("--match-lag", arguments.match_lag,
+                 "Take each match's result N messages late, as liod does under load; a check, since\n"
+                 "the files must be the same")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
   AddOptionsArguments(app, arguments.options);
 }
 
 // Feeds the estimator and carries its outputs to the files.
 class Replay {
  public:
-  Replay(const Options& options, bool writes_map, RunWriter& writer)
+  Replay(const Options& options, const ReplayArguments& arguments, RunWriter& writer)
       : writer_(writer),
         odometry_(options, ThreadCpuNs),
         match_side_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
-        writes_map_(writes_map) {}
+        writes_map_(arguments.writes_map),
+        match_lag_(arguments.match_lag) {}
 
   void Run(LogInput& input) {
     const auto begin = std::chrono::steady_clock::now();
@@ -90,6 +97,8 @@ class Replay {
       if (!refusal_.empty()) return;
     }
     odometry_.Flush();
+    match_lag_ = 0;
+    num_messages_to_wait_ = 0;
     Match();
     Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
@@ -108,16 +117,30 @@ class Replay {
       odometry_.AddChunk(std::get<ScanChunk>(std::move(item.data)), decode_ns_);
       decode_ns_ = 0;
     }
+    --num_messages_to_wait_;
     Match();
   }
 
   void Match() {
-    while (const std::optional<MatchJob> job = odometry_.NextJob()) {
-      if (job->clear_map) map_.Clear();
-      const InsertTask insert = odometry_.FinishJob(match_side_.Run(*job));
+    while (outcome_ || StartMatch()) {
+      if (num_messages_to_wait_ > 0) break;
+      const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
       match_side_.Insert(insert);
       if (writes_map_ && insert.T_map_imu) map_.Add(insert.points_imu, *insert.T_map_imu);
     }
+    TakeOutputs();
+  }
+
+  bool StartMatch() {
+    const std::optional<MatchJob> job = odometry_.NextJob();
+    if (!job) return false;
+    if (job->clear_map) map_.Clear();
+    outcome_ = match_side_.Run(*job);
+    num_messages_to_wait_ = match_lag_;
+    return true;
+  }
+
+  void TakeOutputs() {
     for (const Output& output : odometry_.TakeOutputs()) {
       writer_.Write(output);
       if (const auto* notice = std::get_if<Notice>(&output)) {
@@ -147,6 +170,9 @@ class Replay {
   MatchSide match_side_;
   MapCloud map_;
   bool writes_map_;
+  int match_lag_;
+  std::optional<MatchOutcome> outcome_;  // of the job that is out
+  int num_messages_to_wait_ = 0;         // before it is taken
   std::int64_t decode_ns_ = 0;
   std::string refusal_;
 };
@@ -195,7 +221,7 @@ int Main(int argc, char** argv) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;
   }
-  Replay replay(options, arguments.writes_map, *writer);
+  Replay replay(options, arguments, *writer);
   replay.Run(input);
   if (!replay.refusal().empty()) {
     fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
