@@ -16,7 +16,7 @@
 #include <optional>
 #include <variant>
 
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
 

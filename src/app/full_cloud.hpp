@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
 

@@ -10,7 +10,7 @@ namespace lio {
 
 MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
                          std::function<void(MatchOutcome)> deliver)
-    : match_side_(options, clock, BeamElevations(options.rig.lidar.model)),
+    : worker_(options, clock, BeamElevations(options.rig.lidar.model)),
       collects_map_(collects_map),
       deliver_(std::move(deliver)),
       thread_([this] { Run(); }) {}
@@ -54,13 +54,13 @@ void MatchWorker::Run() {
 
 void MatchWorker::Do(const MatchJob& job) {
   if (job.clear_map) map_cloud_.Clear();
-  deliver_(match_side_.Run(job));
+  deliver_(worker_.Run(job));
 }
 
 void MatchWorker::Do(const InsertTask& insert) {
-  match_side_.Insert(insert);
+  worker_.Insert(insert);
   if (collects_map_ && insert.T_map_imu) map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
-  map_bytes_ = match_side_.matcher().map_size().memory_bytes;
+  map_bytes_ = worker_.matcher().map_size().memory_bytes;
 }
 
 }  // namespace lio

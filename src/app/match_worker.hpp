@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "lio/io/map_cloud.hpp"
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
 
@@ -41,7 +41,7 @@ class MatchWorker {
   void Do(const MatchJob& job);
   void Do(const InsertTask& insert);
 
-  MatchSide match_side_;
+  RegistrationWorker worker_;
   MapCloud map_cloud_;
   bool collects_map_;
   std::function<void(MatchOutcome)> deliver_;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "lio/imu/preintegration.hpp"
+#include "lio/filter/preintegration.hpp"
 
 namespace lio {
 namespace {

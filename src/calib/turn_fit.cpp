@@ -10,8 +10,8 @@
 #include <cmath>
 #include <map>
 
-#include "lio/imu/preintegration.hpp"
-#include "lio/imu/sample_lookup.hpp"
+#include "lio/filter/preintegration.hpp"
+#include "lio/sensor/sample_lookup.hpp"
 
 namespace lio {
 namespace {

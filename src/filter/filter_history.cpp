@@ -133,10 +133,10 @@ void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuS
     add(noise.accel_density, options_.gap_accel_std_mps2, dt);
     add(noise.gyro_density, options_.gap_gyro_std_radps, dt);
   }
-  if (from.is_force_clipped || to.is_force_clipped) {
+  if (from.is_force_saturated || to.is_force_saturated) {
     add(noise.accel_density, options_.clipped_accel_std_mps2, options_.clipped_s);
   }
-  if (from.is_rate_clipped || to.is_rate_clipped) {
+  if (from.is_rate_saturated || to.is_rate_saturated) {
     add(noise.gyro_density, options_.clipped_gyro_std_radps, options_.clipped_s);
   }
   Propagate(estimate, from, to, noise, options_.g_world);
@@ -220,7 +220,7 @@ EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, Upd
   return update.fused ? EventOutcome::kApplied : EventOutcome::kGated;
 }
 
-EventOutcome FilterHistory::AddStandstill(Timestamp stamp, double variance) {
+EventOutcome FilterHistory::AddZeroVelocity(Timestamp stamp, double variance) {
   if (const auto refused = Refuse(stamp, Kind::kStandstill)) return *refused;
   Node node;
   node.stamp = stamp;

@@ -194,8 +194,8 @@ ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp st
   sample.stamp = stamp;
   sample.w_imu_radps = a.w_imu_radps + fraction * (b.w_imu_radps - a.w_imu_radps);
   sample.f_imu_mps2 = a.f_imu_mps2 + fraction * (b.f_imu_mps2 - a.f_imu_mps2);
-  sample.is_rate_clipped = a.is_rate_clipped || b.is_rate_clipped;
-  sample.is_force_clipped = a.is_force_clipped || b.is_force_clipped;
+  sample.is_rate_saturated = a.is_rate_saturated || b.is_rate_saturated;
+  sample.is_force_saturated = a.is_force_saturated || b.is_force_saturated;
   return sample;
 }
 

@@ -71,7 +71,7 @@ Eigen::Matrix<double, kSize, kSize> Whitener(const Eigen::Matrix<double, kSize, 
 
 // A matched pose: position error in imu, rotation error on the right.
 struct PoseTerm {
-  explicit PoseTerm(const ScoutedPose& pose)
+  explicit PoseTerm(const MatchedPose& pose)
       : T_any_imu(pose.T_any_imu), whiten(Whitener<6>(pose.cov)) {}
 
   template <class T>

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "lio/filter/preintegration.hpp"
 #include "lio/imu/moving_start.hpp"
-#include "lio/imu/preintegration.hpp"
 
 namespace lio {
 
@@ -25,7 +25,7 @@ struct Alignment {
 };
 
 struct AlignmentTerms {
-  std::span<const ScoutedPose> poses;
+  std::span<const MatchedPose> poses;
   std::vector<Preintegration> motions;  // from state i to i + 1
   double gravity_mps2 = 0.0;            // 0: none in the accelerometer's reading
   double gyro_bias_std_radps = 0.0;

@@ -24,7 +24,7 @@ constexpr double kAbsurdRatio = 5.0;
 constexpr double kMaxShift = 2.0;  // of clocks, in steps
 
 // With gravity in the forces or without, whichever contradicts less.
-double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuReading& reading,
+double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuConvention& reading,
                        double gravity_mps2) {
   const auto score = [&](double g_mps2) {
     return MotionEvidence::ForceScore(bends, reading.R_imu_sent, reading.force_scale(), g_mps2);
@@ -34,13 +34,13 @@ double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuRea
 
 }  // namespace
 
-ImuClassifier::ImuClassifier(const ImuReading& expected, const Rig& rig)
+ImuClassifier::ImuClassifier(const ImuConvention& expected, const Rig& rig)
     : expected_(expected),
       gravity_mps2_(rig.gravity_mps2),
       lidar_axis_imu_(rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ()) {}
 
 // Lidars stand upright rather than hang or lie: 0 for upright, 2 for hanging.
-double ImuClassifier::Lean(const ImuReading& reading) const {
+double ImuClassifier::Lean(const ImuConvention& reading) const {
   Vector3 force_sum = Vector3::Zero();
   for (const MotionEvidence::Step& step : evidence_.steps()) force_sum += step.f_sent;
   if (force_sum.isZero()) return 0.0;
@@ -53,20 +53,20 @@ std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
   std::vector<Scored> all;
   for (const Matrix3& R : QuarterTurns()) {
     for (const bool is_in_deg : {false, true}) {
-      const ImuReading rates{false, is_in_deg, R};
+      const ImuConvention rates{false, is_in_deg, R};
       if (is_in_deg == expected_.is_in_deg || IsGyroHeard(rates)) ScoreForces(rates, bends, all);
     }
   }
   return all;
 }
 
-void ImuClassifier::ScoreForces(const ImuReading& rates, Bends bends,
+void ImuClassifier::ScoreForces(const ImuConvention& rates, Bends bends,
                                 std::vector<Scored>& all) const {
   const double rate_score = evidence_.RateScore(rates.R_imu_sent, rates.rate_scale());
   const double leaning = kLeaning * std::max(0.0, Lean(rates) - Lean(expected_));
   for (const bool is_in_g : {false, true}) {
     if (keeps_force_unit_ && is_in_g != expected_.is_in_g) continue;
-    const ImuReading reading{is_in_g, rates.is_in_deg, rates.R_imu_sent};
+    const ImuConvention reading{is_in_g, rates.is_in_deg, rates.R_imu_sent};
     for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
       const bool has_gravity = gravity_mps2 > 0.0;
       const double force_score = MotionEvidence::ForceScore(bends, reading.R_imu_sent,
@@ -78,12 +78,12 @@ void ImuClassifier::ScoreForces(const ImuReading& rates, Bends bends,
 }
 
 // The reading among `likely` that differs least from the expected one; absent when several do.
-std::optional<ImuReading> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
-  std::optional<ImuReading> least;
+std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
+  std::optional<ImuConvention> least;
   int least_changes = std::numeric_limits<int>::max();
   bool is_only = false;
   for (const Scored& scored : likely) {
-    const ImuReading& reading = scored.reading;
+    const ImuConvention& reading = scored.reading;
     if (reading == least) continue;
     const int changes = static_cast<int>(reading.is_in_g != expected_.is_in_g) +
                         static_cast<int>(reading.is_in_deg != expected_.is_in_deg) +
@@ -98,7 +98,7 @@ std::optional<ImuReading> ImuClassifier::LeastChange(std::span<const Scored> lik
 
 // Do the gyro's rates say anything of the turns? Noise and vibration of a vehicle at rest do not,
 // however small another unit makes them.
-bool ImuClassifier::IsGyroHeard(const ImuReading& reading) const {
+bool ImuClassifier::IsGyroHeard(const ImuConvention& reading) const {
   return evidence_.RateScore(reading.R_imu_sent, 0.0) >
          evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()) + kRefuted;
 }
@@ -163,7 +163,7 @@ ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   } else if (const double limit = within(in_doubt ? kRefuted : kGivenUp);
              ranking.expected > limit && ExpectedScoreOfOtherClocks() > limit) {
     verdict.finding = Finding::kNotExpected;
-    const std::optional<ImuReading> found = LeastChange(likely);
+    const std::optional<ImuConvention> found = LeastChange(likely);
     if (found && verdict.has_gravity) {
       verdict.finding = Finding::kOtherwise;
       verdict.reading = *found;
@@ -184,11 +184,11 @@ bool ImuClassifier::IsGyroAbsurd() const {
   return 2 * num_absurd >= MotionEvidence::kRecentSteps;
 }
 
-std::string ImuClassifier::Describe(const ImuReading& found, Bends bends) const {
-  const auto rate_error = [&](const ImuReading& reading) {
+std::string ImuClassifier::Describe(const ImuConvention& found, Bends bends) const {
+  const auto rate_error = [&](const ImuConvention& reading) {
     return evidence_.RateError_radps(evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()));
   };
-  const auto force_error = [&](const ImuReading& reading) {
+  const auto force_error = [&](const ImuConvention& reading) {
     return MotionEvidence::ForceError_mps2(bends, LeastForceScore(bends, reading, gravity_mps2_));
   };
   char text[160];
@@ -203,7 +203,7 @@ std::string ImuClassifier::Describe(const ImuReading& found, Bends bends) const 
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2) {
   constexpr double kTolerance = 0.25;  // the bias and scale of poor units, vibration
   const double in_metric = mean_f_sent.norm() / gravity_mps2;
-  const double in_g = ImuReading{true, false}.force_scale() * in_metric;
+  const double in_g = ImuConvention{true, false}.force_scale() * in_metric;
   if (std::abs(in_metric - 1.0) < kTolerance) return ForceAtRest::kMetric;
   if (std::abs(in_g - 1.0) < kTolerance) return ForceAtRest::kInG;
   if (in_g < 0.5) return ForceAtRest::kWithoutGravity;
@@ -229,7 +229,7 @@ bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu) {
   if (noise_radps < kMinNoise_radps) return false;
   const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
   const double rate_hz = static_cast<double>(samples.size() - 1) / span_s;
-  const double noise_if_deg_radps = ImuReading{false, true}.rate_scale() * noise_radps;
+  const double noise_if_deg_radps = ImuConvention{false, true}.rate_scale() * noise_radps;
   return noise_if_deg_radps > kMinShare * imu.gyro_noise_density * std::sqrt(rate_hz);
 }
 

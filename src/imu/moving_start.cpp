@@ -30,7 +30,7 @@ std::string Text(const char* format, Args... args) {
   return text;
 }
 
-std::string DataProblem(std::span<const ImuSample> samples, std::span<const ScoutedPose> poses,
+std::string DataProblem(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from) {
   if (poses.size() < kMinPoses) {
     return Text("only %zu scans were matched, %zu are needed", poses.size(), kMinPoses);
@@ -49,18 +49,18 @@ std::string DataProblem(std::span<const ImuSample> samples, std::span<const Scou
   return {};
 }
 
-std::vector<ScoutedPose> Widened(std::span<const ScoutedPose> poses) {
+std::vector<MatchedPose> Widened(std::span<const MatchedPose> poses) {
   Vector6 floor;
   floor << Vector3::Constant(kPoseStd_m * kPoseStd_m),
       Vector3::Constant(kPoseStd_rad * kPoseStd_rad);
-  std::vector<ScoutedPose> widened(poses.begin(), poses.end());
-  for (ScoutedPose& pose : widened) pose.cov.diagonal() += floor;
+  std::vector<MatchedPose> widened(poses.begin(), poses.end());
+  for (MatchedPose& pose : widened) pose.cov.diagonal() += floor;
   return widened;
 }
 
 // The window's start takes its state from the first two poses, run back by constant velocity.
 Alignment Guess(const AlignmentTerms& terms, Timestamp from) {
-  const std::span<const ScoutedPose> poses = terms.poses;
+  const std::span<const MatchedPose> poses = terms.poses;
   const auto velocity_at = [&](std::size_t i) {
     const std::size_t a = i == 0 ? 0 : i - 1;
     const std::size_t b = std::min(i + 1, poses.size() - 1);
@@ -86,7 +86,7 @@ Alignment Guess(const AlignmentTerms& terms, Timestamp from) {
   return guess;
 }
 
-AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const ScoutedPose> poses,
+AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                          Timestamp from, const Rig& rig, double gravity_mps2) {
   AlignmentTerms terms;
   terms.poses = poses;
@@ -97,7 +97,7 @@ AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const Sco
   noise.gyro_density = rig.imu.gyro_noise_density;
   noise.accel_density = rig.imu.accel_noise_density;
   Timestamp last = from;
-  for (const ScoutedPose& pose : poses) {
+  for (const MatchedPose& pose : poses) {
     terms.motions.push_back(Preintegrate(samples, last, pose.stamp, {}, noise));
     last = pose.stamp;
   }
@@ -179,12 +179,12 @@ std::string EstimateProblem(const Estimate& estimate, const Rig& rig) {
 
 }  // namespace
 
-MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const ScoutedPose> poses,
+MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from, const Rig& rig, bool has_gravity) {
   MovingStart result;
   result.why_not = DataProblem(samples, poses, from);
   if (!result.why_not.empty()) return result;
-  const std::vector<ScoutedPose> widened = Widened(poses);
+  const std::vector<MatchedPose> widened = Widened(poses);
   const AlignmentTerms terms =
       MakeTerms(samples, widened, from, rig, has_gravity ? rig.gravity_mps2 : 0.0);
   const AlignmentResult aligned = Align(terms, Guess(terms, from));

@@ -68,7 +68,7 @@ double MeanVariance(double density, double seen_std, const ImuStatistics& statis
 }
 
 // Of position, by `coasting_std_m` besides, and of yaw, which turns the velocity along.
-void AddPlacingError(const PassedPoint& earlier, double coasting_std_m, Estimate& estimate) {
+void AddPlacingError(const LastFix& earlier, double coasting_std_m, Estimate& estimate) {
   const NavState& state = estimate.state;
   const Matrix3 R_then = earlier.T_world_imu.rotation.toRotationMatrix();
   const Matrix3 rotation_cov_world =
@@ -94,18 +94,18 @@ Quaternion LevelledRotation(const Vector3& up_imu) {
   return ExpSo3(Vector3(0, 0, -YawOf(tilt))) * tilt;
 }
 
-double CoastedSince_s(const PassedPoint& earlier, Timestamp now) {
+double CoastedSince_s(const LastFix& earlier, Timestamp now) {
   return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kMaxCoast_s);
 }
 
-void Level(const Quaternion& R_level_imu, PassedPoint& point) {
+void Level(const Quaternion& R_level_imu, LastFix& point) {
   const double yaw_rad = YawOf(point.T_world_imu.rotation) - YawOf(R_level_imu);
   const Quaternion rotation = ExpSo3(Vector3(0, 0, yaw_rad)) * R_level_imu;
   point.v_world_imu = rotation * (point.T_world_imu.rotation.conjugate() * point.v_world_imu);
   point.T_world_imu.rotation = rotation;
 }
 
-void PlaceInWorld(const PassedPoint& earlier, bool has_gravity, Estimate& estimate) {
+void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate) {
   NavState& state = estimate.state;
   const Quaternion& R_then = earlier.T_world_imu.rotation;
   const Quaternion& R_now = state.T_world_imu.rotation;
@@ -157,13 +157,13 @@ ImuStatistics Summarise(std::span<const ImuSample> samples) {
   return statistics;
 }
 
-bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const Unrest& unrest) {
+bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const VibrationLevel& vibration) {
   const double root_step = std::sqrt(statistics.span_s / std::max(1, statistics.num_samples - 1));
   const auto limit = [&](double density, double unrest_std) {
     return kSpreadFactor * std::hypot(density / root_step, unrest_std);
   };
-  return statistics.gyro_std_radps < limit(imu.gyro_noise_density, unrest.gyro_std_radps) &&
-         statistics.accel_std_mps2 < limit(imu.accel_noise_density, unrest.accel_std_mps2);
+  return statistics.gyro_std_radps < limit(imu.gyro_noise_density, vibration.gyro_std_radps) &&
+         statistics.accel_std_mps2 < limit(imu.accel_noise_density, vibration.accel_std_mps2);
 }
 
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig) {

@@ -267,7 +267,7 @@ Bytes EncodeRegistration(const ScanReport& report) {
   message.fused = report.fused ? 1 : 0;
   message.rmse_m = report.residual_rms_m;
   std::copy_n(report.information_eigenvalues.data(), 6, message.eigenvalues);
-  message.degenerate_mask = static_cast<std::int32_t>(report.weak_mask);
+  message.degenerate_mask = static_cast<std::int32_t>(report.degenerate_mask);
   message.nis = report.nis;
   message.decode_us = Microseconds(report.stage_ns, Stage::kDecode);
   message.reduce_us = Microseconds(report.stage_ns, Stage::kReduce);

@@ -110,7 +110,7 @@ void DecideTime(const TopicChoice& topics, const RosbagOptions& options, CloudRu
 
 void DecideSpin(const TopicChoice& topics, const RosbagOptions& options,
                 const std::optional<BeamTable>& table, CloudRules& rules) {
-  SpinObserver spin;
+  LidarSpinEstimator spin;
   std::vector<CloudObservation> clouds;
   const ProbeCounts counts =
       ForFirstClouds(topics, options, kNumTimeClouds, [&](const ProbedCloud& probed) {

@@ -47,7 +47,7 @@ std::string CovarianceRow(Timestamp stamp, const Matrix6& cov) {
 std::string RegistrationHeader() {
   std::string header =
       "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
-      "weak_mask";
+      "degenerate_mask";
   for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
   for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
   return header + "\n";
@@ -62,7 +62,7 @@ std::string RegistrationRow(const ScanReport& scan) {
       fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", StampText(scan.stamp), scan.scan_seq,
                   scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
                   kMatchStatusNames.at(static_cast<std::size_t>(scan.status)), scan.fused ? 1 : 0,
-                  scan.residual_rms_m, scan.nis, scan.weak_mask);
+                  scan.residual_rms_m, scan.nis, scan.degenerate_mask);
   for (const double eigenvalue : scan.information_eigenvalues) {
     row += fmt::format(",{:.9e}", eigenvalue);
   }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lio/map/edge_on.hpp"
+#include "lio/map/grazing_incidence.hpp"
 
 namespace lio {
 namespace {
@@ -149,7 +149,7 @@ bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch&
   const bool is_plane =
       variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
       thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1] &&
-      !IsSeenEdgeOn(normal, sums.view);
+      !IsGrazing(normal, sums.view);
   if (!is_plane) return false;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);

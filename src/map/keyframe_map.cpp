@@ -50,7 +50,7 @@ Vector3 KeyframeMap::CornerOf(const Block& block) const {
   return kBlockEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
 }
 
-std::int32_t KeyframeMap::AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
+std::int32_t KeyframeMap::AddPoint(const PointWithNormal& shape_map, const Vector3& position_map,
                                    std::int32_t keyframe) {
   const VoxelCell cell = VoxelOf(inverse_voxel_ * position_map);
   if (!IsInRange(cell)) return kNone;
@@ -129,7 +129,7 @@ void KeyframeMap::RemoveKeyframe(std::int32_t keyframe) {
   --num_keyframes_;
 }
 
-void KeyframeMap::Add(std::span<const ShapedPoint> points_kf, const Pose& T_map_kf) {
+void KeyframeMap::Add(std::span<const PointWithNormal> points_kf, const Pose& T_map_kf) {
   const std::int32_t number = Take(free_keyframes_, keyframes_.size());
   if (ToIndex(number) == keyframes_.size()) keyframes_.emplace_back();
   Keyframe& frame = keyframes_[ToIndex(number)];
@@ -138,9 +138,9 @@ void KeyframeMap::Add(std::span<const ShapedPoint> points_kf, const Pose& T_map_
   frame.is_used = true;
   ++num_keyframes_;
   const Eigen::Matrix3f rotation = T_map_kf.rotation.toRotationMatrix().cast<float>();
-  for (const ShapedPoint& point : points_kf) {
-    if (!point.HasShape()) continue;
-    ShapedPoint shape = point;
+  for (const PointWithNormal& point : points_kf) {
+    if (!point.HasNormal()) continue;
+    PointWithNormal shape = point;
     shape.normal = rotation * point.normal;
     const std::int32_t added = AddPoint(shape, T_map_kf * point.position.cast<double>(), number);
     if (added != kNone) frame.points.push_back(added);

@@ -24,7 +24,7 @@ constexpr double kClocksApart_s = 2.0;  // more than any message is late
 
 // Of messages whose units may be any that the option allows.
 double MaxRateSent(ImuUnits units) {
-  ImuReading reading = ReadingOf(units);
+  ImuConvention reading = ConventionOf(units);
   reading.is_in_deg |= units == ImuUnits::kAutomatic;
   return kMaxGyroRate_radps / reading.rate_scale();
 }
@@ -41,7 +41,7 @@ Odometry::Impl::Impl(const Options& options, ClockNs clock)
     : options_(options),
       clock_(clock),
       use_imu_(options.pipeline.use_imu),
-      reading_(ReadingOf(options.rig.imu.units)),
+      reading_(ConventionOf(options.rig.imu.units)),
       classifier_(reading_, options.rig),
       intake_(counters_, MaxRateSent(options.rig.imu.units)),
       standstill_(options.rig.imu) {
@@ -87,8 +87,8 @@ void Odometry::Impl::AddImu(const ImuSample& sample) {
   const std::int64_t begin = Now();
   ImuSample shifted = sample;
   shifted.stamp = sample.stamp + imu_clock_shift_;
-  ImuIntake::Result result = intake_.Add(shifted);
-  if (result.step != ImuIntake::Step::kNone) {
+  ImuPreprocessor::Result result = intake_.Add(shifted);
+  if (result.step != ImuPreprocessor::Step::kNone) {
     TakeStep(std::move(result));
   } else {
     for (const ImuSample& accepted : result.accepted) Accept(accepted);
@@ -119,10 +119,10 @@ void Odometry::Impl::Accept(const ImuSample& sent) {
 // With what the end of a sensor's range hides.
 ImuSample Odometry::Impl::Marked(ImuSample sent) {
   clip_watch_.Mark(sent, reading_.rate_scale(), reading_.force_scale());
-  if (!sent.is_rate_clipped && !sent.is_force_clipped) return sent;
+  if (!sent.is_rate_saturated && !sent.is_force_saturated) return sent;
   if (counters_.num_imu_clipped++ == 0) {
     Say(sent.stamp, Notice::Severity::kWarning,
-        std::string(sent.is_rate_clipped ? "the gyro" : "the accelerometer") +
+        std::string(sent.is_rate_saturated ? "the gyro" : "the accelerometer") +
             " is at the end of its range: scans alone tell how much more it was");
   }
   return sent;

@@ -24,7 +24,7 @@ SweepPtr Odometry::Impl::MovedByClockOffset(const SweepPtr& sweep) {
 
 // Gated ones as well: a wrong offset is what may have them gated.
 void Odometry::Impl::FollowClockOffset(const MatchOutcome& outcome) {
-  if (!outcome.match.IsUsable() || outcome.match.weak_mask != 0) {
+  if (!outcome.match.IsUsable() || outcome.match.degenerate_mask != 0) {
     clock_offset_->Interrupt();
     return;
   }

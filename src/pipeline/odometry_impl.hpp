@@ -14,23 +14,23 @@
 #include <utility>
 #include <vector>
 
-#include "lio/calib/clock_offset.hpp"
+#include "lio/filter/clock_offset.hpp"
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/published_estimate.hpp"
-#include "lio/imu/clip_watch.hpp"
 #include "lio/imu/imu_classifier.hpp"
-#include "lio/imu/imu_intake.hpp"
 #include "lio/imu/moving_start.hpp"
-#include "lio/imu/sample_lookup.hpp"
 #include "lio/imu/start_state.hpp"
-#include "lio/pipeline/arrival_watch.hpp"
+#include "lio/pipeline/constant_velocity_tracker.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
-#include "lio/pipeline/match_side.hpp"
-#include "lio/pipeline/motion_scout.hpp"
 #include "lio/pipeline/odometry.hpp"
-#include "lio/pipeline/scan_gate.hpp"
-#include "lio/pipeline/standstill.hpp"
-#include "lio/scan/scan_assembler.hpp"
+#include "lio/pipeline/registration_worker.hpp"
+#include "lio/pipeline/zero_velocity_detector.hpp"
+#include "lio/sensor/sample_lookup.hpp"
+#include "lio/stream/clock_step_arbiter.hpp"
+#include "lio/stream/imu_preprocessor.hpp"
+#include "lio/stream/saturation_detector.hpp"
+#include "lio/stream/scan_assembler.hpp"
+#include "lio/stream/scan_gate.hpp"
 
 namespace lio {
 
@@ -77,7 +77,7 @@ class Odometry::Impl {
 
   // --- odometry_stretch.cpp
   bool IsBetweenStretches() const { return !new_stretch_.accepted.empty(); }
-  void TakeStep(ImuIntake::Result result);
+  void TakeStep(ImuPreprocessor::Result result);
   ClockStep ClockStepNow() const;
   void HoldSample(const ImuSample& sample);
   void HoldChunk(ScanChunk chunk, std::int64_t decode_ns);
@@ -86,7 +86,7 @@ class Odometry::Impl {
   void EndStretch();
   void ResumeAfterStretch();
   void GoOnWith(const std::vector<ImuSample>& samples);
-  void BeginNewStretch(const ImuSample& first, ImuIntake::Step step);
+  void BeginNewStretch(const ImuSample& first, ImuPreprocessor::Step step);
   void SetTimesBy(Duration by);
   bool IsAfterStepInDoubt(const Sweep& sweep) const;
   std::optional<Pose> GuessIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted);
@@ -111,9 +111,9 @@ class Odometry::Impl {
   void ScoutAgain(Timestamp stamp, const std::string& why);
   void StartAnew(Timestamp stamp, const std::string& why);
   void StartAnewWhenLost(Timestamp stamp);
-  PassedPoint MakeFix(Timestamp stamp, const Estimate& estimate) const;
-  void TurnResumption(const ImuReading& found);
-  void TurnByGyro(const Estimate& now, PassedPoint& earlier) const;
+  LastFix MakeFix(Timestamp stamp, const Estimate& estimate) const;
+  void TurnResumption(const ImuConvention& found);
+  void TurnByGyro(const Estimate& now, LastFix& earlier) const;
   void StartFrom(StartState start, std::size_t first_sweep);
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
@@ -133,8 +133,8 @@ class Odometry::Impl {
   bool AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp);
   std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
   bool AcceptGravity(bool is_there, const std::string& evidence, Timestamp stamp);
-  void Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp);
-  void ReadAnewAs(const ImuReading& found);
+  void Adopt(const ImuConvention& found, const std::string& evidence, Timestamp stamp);
+  void ReadAnewAs(const ImuConvention& found);
   void Refuse(Timestamp stamp, const std::string& why);
 
   // --- odometry_scan.cpp
@@ -151,7 +151,7 @@ class Odometry::Impl {
   bool IsMapYoung() const;
   bool IsPlaceSure(const MatchOutcome& outcome) const;
   void StartAnewByLidar(Timestamp stamp);
-  void GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting);
+  void GoOnFromLoss(Timestamp stamp, TrackerOptions& scouting);
   void TakeLateImu(const ImuSample& sample);
   void GoInertial(Timestamp first);
 
@@ -178,7 +178,7 @@ class Odometry::Impl {
   double nis_limit_ = 0.0;
 
   bool use_imu_;
-  ImuReading reading_;  // of all samples that come
+  ImuConvention reading_;  // of all samples that come
   ImuClassifier classifier_;
   bool is_reading_settled_ = false;  // beyond doubt
   bool is_force_unit_told_ = false;  // by gravity, at rest
@@ -188,13 +188,14 @@ class Odometry::Impl {
   int num_poses_to_judge_ = 0;
   std::uint32_t gated_scans_ = 0;  // a bit a matched scan, the newest lowest
   bool has_doubted_ = false;       // the start was begun anew with this reading
-  ImuIntake intake_;
-  ClipWatch clip_watch_;
+  ImuPreprocessor intake_;
+  SaturationDetector clip_watch_;
   std::deque<ImuSample> sent_;  // accepted, as they came, by stamp, of the last seconds
   std::deque<ImuSample> imu_;   // the same as they are read, but what no gyro can turn
   std::optional<ImuSample> mean_before_hole_;  // as sent; while the stream has one
-  std::optional<Timestamp> cut_;   // samples up to here come too late: a scan has used them
-  ImuIntake::Result new_stretch_;  // after a step, until it is judged and all before it is matched
+  std::optional<Timestamp> cut_;  // samples up to here come too late: a scan has used them
+  ImuPreprocessor::Result
+      new_stretch_;  // after a step, until it is judged and all before it is matched
   bool is_step_judged_ = true;
   Timestamp newest_held_;  // of the inertial stream since the step
   // Stamps of all sensors went forth: did time pass, or was the clock set?
@@ -206,7 +207,7 @@ class Odometry::Impl {
   int feed_depth_ = 0;
   Duration imu_clock_shift_;  // of a clock that stepped alone
   Timestamp newest_chunk_;
-  ArrivalWatch arrivals_;
+  ClockStepArbiter arrivals_;
   struct HeldMessage {
     ImuSample sample;
     std::optional<ScanChunk> chunk;  // absent: it is the sample
@@ -220,9 +221,9 @@ class Odometry::Impl {
   std::deque<SweepPtr> ready_;  // covered by inertial data, not yet done with
 
   Phase phase_ = Phase::kScouting;
-  std::optional<MotionScout> scout_;  // while scouting, or for good without an IMU
+  std::optional<ConstantVelocityTracker> scout_;  // while scouting, or for good without an IMU
   struct Scouted {
-    ScoutedPose pose;  // T_map_imu
+    MatchedPose pose;  // T_map_imu
     bool is_matched = false;
   };
   std::vector<Scouted> scouted_;  // one a sweep of ready_
@@ -233,12 +234,12 @@ class Odometry::Impl {
   Vector3 scout_up_map_ = Vector3::UnitZ();  // about
   struct Resumption {
     Pose T_world_start, T_map_start;  // in the axes that were believed
-    PassedPoint last_fix;
+    LastFix last_fix;
     bool is_by_lidar = false;  // alone: in a world that was not level
   };
   std::optional<Resumption> resumption_;  // a start made anew goes on from here
   struct Loss {                           // of the way, lidar-only
-    PassedPoint last_fix;
+    LastFix last_fix;
     Vector3 w_imu_radps = Vector3::Zero();
     Matrix6 pose_cov = Matrix6::Zero();  // when the map was given up
   };
@@ -246,7 +247,7 @@ class Odometry::Impl {
   int num_scans_in_map_ = 0;  // lidar-only: run since its beginning
   Pose T_world_start_, T_map_start_;
   bool is_map_by_lidar_ = false;  // it began lidar-only: no reading of the inertial axes is in it
-  PassedPoint last_fix_;          // as published
+  LastFix last_fix_;              // as published
   std::optional<Timestamp> scouting_since_;
   Timestamp last_wait_notice_;
   std::optional<FilterHistory> history_;  // while running with an IMU
@@ -255,7 +256,7 @@ class Odometry::Impl {
   std::optional<ClockOffset> clock_offset_;
   double moved_by_s_ = 0.0;  // the stamps of the sweep in flight
   bool has_told_clock_offset_ = false;
-  Standstill standstill_;
+  ZeroVelocityDetector standstill_;
   std::optional<Timestamp> last_standstill_;  // middle of the last sweep that was taken at rest
   KeyframePolicy keyframes_;
   SweepPtr in_flight_;          // the sweep whose job is out

@@ -46,8 +46,8 @@ void Odometry::Impl::StartAnewByLidar(Timestamp stamp) {
 }
 
 // Where the new map begins, by the motion before and after what was not seen.
-void Odometry::Impl::GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting) {
-  const PassedPoint& fix = loss_->last_fix;
+void Odometry::Impl::GoOnFromLoss(Timestamp stamp, TrackerOptions& scouting) {
+  const LastFix& fix = loss_->last_fix;
   const double since_s = CoastedSince_s(fix, stamp);
   const Vector3 turn = std::min(since_s, kTurnLasts_s) * loss_->w_imu_radps;
   const Quaternion rotation = fix.T_world_imu.rotation * ExpSo3(turn);
@@ -68,8 +68,8 @@ void Odometry::Impl::GoOnFromLoss(Timestamp stamp, ScoutOptions& scouting) {
 // An inertial unit that comes up after the lidar. A stray sample is none, nor is one by another
 // clock of use.
 void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
-  const ImuIntake::Result result = intake_.Add(sample);
-  if (result.step != ImuIntake::Step::kNone) late_imu_.clear();
+  const ImuPreprocessor::Result result = intake_.Add(sample);
+  if (result.step != ImuPreprocessor::Step::kNone) late_imu_.clear();
   for (const ImuSample& accepted : result.accepted) {
     const bool is_apart = TellIfClocksApart(accepted.stamp, newest_chunk_);
     if (is_apart) late_imu_.clear();
@@ -83,7 +83,7 @@ void Odometry::Impl::TakeLateImu(const ImuSample& sample) {
   const Duration span = late_imu_.back().stamp - late_imu_.front().stamp;
   if (span < kImuIsThere) return;
   new_stretch_.accepted = std::exchange(late_imu_, {});
-  new_stretch_.step = ImuIntake::Step::kGap;
+  new_stretch_.step = ImuPreprocessor::Step::kGap;
   if (!HasWork()) ResumeAfterStretch();
 }
 

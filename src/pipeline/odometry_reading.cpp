@@ -23,11 +23,11 @@ constexpr double kMaxDoubt_s = 10.0;
 constexpr std::uint32_t kLastScans = 0b11111;
 constexpr int kMaxGated = 2;  // of these
 
-bool HasSameRates(const ImuReading& a, const ImuReading& b) {
+bool HasSameRates(const ImuConvention& a, const ImuConvention& b) {
   return a.is_in_deg == b.is_in_deg && a.R_imu_sent == b.R_imu_sent;
 }
 
-std::string FixOf(const ImuReading& found, const Rig& rig) {
+std::string FixOf(const ImuConvention& found, const Rig& rig) {
   std::string fix = "set rig.imu.units: auto";
   if (found.R_imu_sent == Matrix3::Identity()) {
     const auto units = static_cast<std::size_t>(UnitsOf(found));
@@ -49,7 +49,7 @@ std::string FixOf(const ImuReading& found, const Rig& rig) {
 // A sample that came, in the units and axes that are believed; absent when no gyro can turn so fast
 // in them.
 std::optional<ImuSample> Odometry::Impl::Read(const ImuSample& sent) {
-  const ImuSample sample = Understand(reading_, sent);
+  const ImuSample sample = ToSi(reading_, sent);
   if (sample.w_imu_radps.norm() <= kMaxGyroRate_radps) return sample;
   ++counters_.num_imu_out_of_range;
   return std::nullopt;
@@ -155,7 +155,7 @@ bool Odometry::Impl::IsGyroWild(Timestamp stamp) const {
 bool Odometry::Impl::AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp) {
   ImuSample mean;
   mean.f_imu_mps2 = mean_f_mps2;
-  const Vector3 sent = AsSent(reading_, mean).f_imu_mps2;
+  const Vector3 sent = FromSi(reading_, mean).f_imu_mps2;
   const ForceAtRest force = JudgeForceAtRest(sent, options_.rig.gravity_mps2);
   char seen[80];
   std::snprintf(seen, sizeof seen, "at rest the accelerometer reads %.2f", sent.norm());
@@ -167,7 +167,7 @@ bool Odometry::Impl::AcceptForceAtRest(const Vector3& mean_f_mps2, Timestamp sta
   if (force == ForceAtRest::kWithoutGravity) return true;
   is_force_unit_told_ = true;
   classifier_.KeepForceUnit();
-  ImuReading found = reading_;
+  ImuConvention found = reading_;
   found.is_in_g = force == ForceAtRest::kInG;
   if (found == reading_) return true;
   Adopt(found, seen, stamp);
@@ -183,7 +183,7 @@ bool Odometry::Impl::MayBeDegrees(std::span<const ImuSample> samples) const {
 // the drive tells.
 bool Odometry::Impl::AcceptRatesAtRest(std::span<const ImuSample> samples, Timestamp stamp) {
   if (!MayBeDegrees(samples)) return true;
-  ImuReading found = reading_;
+  ImuConvention found = reading_;
   found.is_in_deg = true;
   char seen[80];
   std::snprintf(seen, sizeof seen, "at rest the gyro's noise is %.2f", RateNoise(samples));
@@ -211,7 +211,8 @@ bool Odometry::Impl::AcceptGravity(bool is_there, const std::string& evidence, T
 }
 
 // Reads all samples so, those of the past seconds included, and begins the start anew with them.
-void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence, Timestamp stamp) {
+void Odometry::Impl::Adopt(const ImuConvention& found, const std::string& evidence,
+                           Timestamp stamp) {
   const Rig& rig = options_.rig;
   const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
   if (rig.imu.units != ImuUnits::kAutomatic) {
@@ -231,12 +232,12 @@ void Odometry::Impl::Adopt(const ImuReading& found, const std::string& evidence,
 
 // What was published since a start with the axes that were believed was turned about it. The path
 // in map is the lidar's, rigid; the filter's world was bent by a gravity that it took for another.
-void Odometry::Impl::TurnResumption(const ImuReading& found) {
+void Odometry::Impl::TurnResumption(const ImuConvention& found) {
   const Matrix3 R_found_believed = found.R_imu_sent * reading_.R_imu_sent.transpose();
   const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
   const Pose& T_world_start = resumption_->T_world_start;
   const Pose T_start_map = resumption_->T_map_start.Inverse();
-  PassedPoint& fix = resumption_->last_fix;
+  LastFix& fix = resumption_->last_fix;
   const Pose since_start = T_start_map * fix.T_map_imu;
   const Vector3 v_imu = fix.T_world_imu.rotation.conjugate() * fix.v_world_imu;
   fix.T_world_imu = T_world_start * turn * since_start;
@@ -245,7 +246,7 @@ void Odometry::Impl::TurnResumption(const ImuReading& found) {
 }
 
 // What could not be in the units that were believed until now comes back.
-void Odometry::Impl::ReadAnewAs(const ImuReading& found) {
+void Odometry::Impl::ReadAnewAs(const ImuConvention& found) {
   counters_.num_imu_out_of_range -= std::ssize(sent_) - std::ssize(imu_);
   imu_.clear();
   reading_ = found;

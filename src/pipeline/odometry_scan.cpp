@@ -130,7 +130,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
       filter.registration_cov_scale * outcome.match.cov + DeskewCov(*outcome.sweep);
   if (last_standstill_) event.measurement.cov *= kAlikeAtRest;
   event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
-  event.measurement.blend_cov = filter.map_walk_scale * outcome.match.held_cov;
+  event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
   event.is_clock_set = outcome.is_clock_set;
   event.force = outcome.is_sought || num_gated_in_a_row_ >= filter.max_gated_in_a_row;
   UpdateResult update;
@@ -163,7 +163,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   report.status = outcome.match.status;
   report.residual_rms_m = outcome.match.residual_rms_m;
   report.information_eigenvalues = outcome.match.eigenvalues;
-  report.weak_mask = outcome.match.weak_mask;
+  report.degenerate_mask = outcome.match.degenerate_mask;
 
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe =
@@ -220,7 +220,8 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
 void Odometry::Impl::UpdateStatus(const MatchOutcome& outcome, bool fused) {
   const TrackingStatus before = status_;
   if (fused) {
-    status_ = outcome.match.weak_mask != 0 ? TrackingStatus::kDegenerate : TrackingStatus::kOk;
+    status_ =
+        outcome.match.degenerate_mask != 0 ? TrackingStatus::kDegenerate : TrackingStatus::kOk;
   } else {
     const double silent_s =
         last_fused_ ? SecondsBetween(*last_fused_, outcome.sweep->end) : kLost_s;

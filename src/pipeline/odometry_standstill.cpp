@@ -16,10 +16,10 @@ constexpr double kStandstillCorrelation_s = 0.3;
 // Measurements whose errors last for a time t tell, d apart, as much as independent ones of 2 t / d
 // times the variance.
 void Odometry::Impl::FuseStandstill(const MatchOutcome& outcome, bool is_fused) {
-  if (!use_imu_ || !options_.filter.use_standstill) return;
+  if (!use_imu_ || !options_.filter.use_zero_velocity) return;
   const Timestamp middle = outcome.sweep->middle();
   if (!is_fused) return;
-  if (outcome.match.weak_mask != 0) {
+  if (outcome.match.degenerate_mask != 0) {
     standstill_.Forget();
     last_standstill_.reset();
     return;
@@ -35,7 +35,7 @@ void Odometry::Impl::FuseStandstill(const MatchOutcome& outcome, bool is_fused) 
       kStandstillCorrelation_s);
   const double num_alike = std::max(1.0, 2.0 * kStandstillCorrelation_s / since_s);
   const double variance = num_alike * kStandstillStd_mps * kStandstillStd_mps;
-  if (history_->AddStandstill(middle, variance) != EventOutcome::kApplied) return;
+  if (history_->AddZeroVelocity(middle, variance) != EventOutcome::kApplied) return;
   last_standstill_ = middle;
   ++counters_.num_standstills;
 }

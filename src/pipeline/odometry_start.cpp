@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "lio/imu/preintegration.hpp"
+#include "lio/filter/preintegration.hpp"
 #include "pipeline/odometry_impl.hpp"
 
 namespace lio {
@@ -14,7 +14,7 @@ constexpr double kMovedDistance_m = 0.05;  // more than scan matching errs over 
 // ... but where the inertial data is as calm as at rest, traffic and bare ground may deceive it by
 // more, and a vehicle that moves without shaking at all is fast.
 constexpr double kMovedDistanceCalm_m = 0.5;
-constexpr Unrest kVeryCalm{0.005, 0.05};
+constexpr VibrationLevel kVeryCalm{0.005, 0.05};
 constexpr double kMovedAngle_rad = 0.01;
 constexpr double kMaxRestWait_s = 1.4;  // shaken, but not moved for this long, counts as rest
 constexpr double kWaitNoticeEvery_s = 1.0;
@@ -65,7 +65,7 @@ std::vector<ImuSample> Odometry::Impl::SamplesBetween(Timestamp from, Timestamp 
 
 void Odometry::Impl::BeginScouting(const Sweep& sweep) {
   last_found_.reset();
-  ScoutOptions scouting;
+  TrackerOptions scouting;
   scouting.span_s = options_.filter.history_s;
   scouting.nis_limit = nis_limit_;
   scouting.sought_v_imu_mps = sought_v_imu_mps_;
@@ -225,7 +225,7 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
     ForgetOldestScouted();
     return;
   }
-  std::vector<ScoutedPose> poses;
+  std::vector<MatchedPose> poses;
   for (const Scouted& scouted : scouted_) {
     if (scouted.is_matched) poses.push_back(scouted.pose);
   }
@@ -254,7 +254,7 @@ void Odometry::Impl::TryStartInMotion(Timestamp stamp) {
 }
 
 // What the body has turned since, as far as its samples are still here.
-void Odometry::Impl::TurnByGyro(const Estimate& now, PassedPoint& earlier) const {
+void Odometry::Impl::TurnByGyro(const Estimate& now, LastFix& earlier) const {
   const std::vector<ImuSample> samples = SamplesBetween(earlier.stamp, now.stamp);
   if (samples.empty()) return;
   const Biases biases{now.state.gyro_bias, now.state.accel_bias};
@@ -290,7 +290,7 @@ void Odometry::Impl::StartAnewWhenLost(Timestamp stamp) {
   StartAnew(stamp, "lost among things to see: the start begins anew");
 }
 
-PassedPoint Odometry::Impl::MakeFix(Timestamp stamp, const Estimate& estimate) const {
+LastFix Odometry::Impl::MakeFix(Timestamp stamp, const Estimate& estimate) const {
   const WorldEstimate published = InPublishedWorld(estimate);
   return {stamp, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu,
           published.cov.topLeftCorner<6, 6>()};
@@ -300,7 +300,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   const NavState& state = start.estimate.state;
   g_world_ = start.g_world;
   if (resumption_) {
-    PassedPoint& fix = resumption_->last_fix;
+    LastFix& fix = resumption_->last_fix;
     TurnByGyro(start.estimate, fix);
     const bool has_gravity = !g_world_.isZero();
     if (resumption_->is_by_lidar && has_gravity) Level(state.T_world_imu.rotation, fix);
@@ -325,7 +325,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   keyframes_.Reset();
   last_fused_ = start.estimate.stamp;
   status_ = TrackingStatus::kOk;
-  const std::string read_as = reading_ == ImuReading{} ? "" : "; " + Describe(reading_);
+  const std::string read_as = reading_ == ImuConvention{} ? "" : "; " + Describe(reading_);
   Say(start.estimate.stamp, Notice::Severity::kInfo, start.how + read_as);
 }
 

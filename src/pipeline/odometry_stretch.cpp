@@ -23,8 +23,8 @@ constexpr double kClockSet_s = 0.1;  // what may be missing where a clock was se
 
 // It is held back, with all that comes meanwhile, until a sweep tells whether the lidar's clock
 // stepped as well.
-void Odometry::Impl::TakeStep(ImuIntake::Result result) {
-  using enum ImuIntake::Step;
+void Odometry::Impl::TakeStep(ImuPreprocessor::Result result) {
+  using enum ImuPreprocessor::Step;
   new_stretch_ = std::move(result);
   is_step_judged_ = false;
   newest_held_ = new_stretch_.accepted.back().stamp;
@@ -86,14 +86,14 @@ void Odometry::Impl::GoOnShifted(Timestamp after_by_lidar) {
 
 // As if there had been no step, or a hole at most.
 void Odometry::Impl::GoOn() {
-  const ImuIntake::Result step = std::exchange(new_stretch_, {});
+  const ImuPreprocessor::Result step = std::exchange(new_stretch_, {});
   GoOnWith(step.accepted);
 }
 
 // The inertial stream has jumped to new_stretch_. What the lidar saw before is matched first, all
 // that comes meanwhile waits: so it does not matter how fast jobs are finished.
 void Odometry::Impl::EndStretch() {
-  if (new_stretch_.step == ImuIntake::Step::kHole) {
+  if (new_stretch_.step == ImuPreprocessor::Step::kHole) {
     if (!arrivals_.HasTimePassed(ClockStepNow())) step_in_doubt_ = {ClockStepNow(), std::nullopt};
     GoOn();
     return;
@@ -111,9 +111,9 @@ void Odometry::Impl::EndStretch() {
 }
 
 void Odometry::Impl::ResumeAfterStretch() {
-  const ImuIntake::Result stretch = std::exchange(new_stretch_, {});
+  const ImuPreprocessor::Result stretch = std::exchange(new_stretch_, {});
   if (use_imu_) {
-    BeginNewStretch(Understand(reading_, stretch.accepted.front()), stretch.step);
+    BeginNewStretch(ToSi(reading_, stretch.accepted.front()), stretch.step);
   } else {
     GoInertial(stretch.accepted.front().stamp);
   }
@@ -134,8 +134,8 @@ void Odometry::Impl::GoOnWith(const std::vector<ImuSample>& samples) {
 
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time.
-void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step step) {
-  if (!history_ && !imu_.empty() && step != ImuIntake::Step::kGap) {
+void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuPreprocessor::Step step) {
+  if (!history_ && !imu_.empty() && step != ImuPreprocessor::Step::kGap) {
     SetTimesBy(first.stamp - imu_.back().stamp);
   }
   sent_.clear();
@@ -154,9 +154,9 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuIntake::Step ste
   Estimate estimate = history_->head();
   const double jump_s = SecondsBetween(estimate.stamp, first.stamp);
   // Where a clock was set, messages went on.
-  const bool is_gap = step == ImuIntake::Step::kGap && jump_s >= 0.0 && jump_s < kMaxGap_s;
+  const bool is_gap = step == ImuPreprocessor::Step::kGap && jump_s >= 0.0 && jump_s < kMaxGap_s;
   double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kClockSet_s, kMaxGap_s);
-  if (step == ImuIntake::Step::kSetRight) unknown_s = kClockSet_s;
+  if (step == ImuPreprocessor::Step::kSetRight) unknown_s = kClockSet_s;
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "lio/registration/known_shift.hpp"
 #include "lio/registration/match_loop.hpp"
-#include "registration/scan_shapes.hpp"
+#include "lio/registration/well_constrained_translation.hpp"
+#include "registration/scan_normals.hpp"
 
 namespace lio {
 namespace {
@@ -41,7 +41,7 @@ KeyframeMapOptions MapOptions(const GicpOptions& options) {
 GicpMatcher::GicpMatcher(const GicpOptions& options)
     : options_(options),
       map_(MapOptions(options)),
-      shapes_(std::make_unique<ScanShapes>(options)) {}
+      shapes_(std::make_unique<ScanNormals>(options)) {}
 
 GicpMatcher::~GicpMatcher() = default;
 
@@ -80,7 +80,7 @@ void GicpMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   if (openness_m_ == 0.0) UpdateOpenness(scan.points_imu);
   if (!IsKeyframe(T_map_imu)) return;
   shapes_->SetScan(scan.points_imu);
-  std::vector<ShapedPoint> points;
+  std::vector<PointWithNormal> points;
   points.reserve(scan.points_imu.size());
   for (const Eigen::Vector3f& point : scan.points_imu) points.push_back(shapes_->At(point));
   map_.Add(points, T_map_imu);
@@ -125,13 +125,13 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
 // The pair's covariance C_q + R C_p R' has its least eigenvalue along the bisector of the normals.
 GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& rotation,
                                       float reach_var) const {
-  const ShapedPoint& source = source_[static_cast<std::size_t>(pair.point)];
-  const ShapedPoint& target = map_.shape(pair.target);
+  const PointWithNormal& source = source_[static_cast<std::size_t>(pair.point)];
+  const PointWithNormal& target = map_.shape(pair.target);
   Term term;
-  if (!source.HasShape() && !uses_shapeless_) return term;
+  if (!source.HasNormal() && !uses_shapeless_) return term;
   float variance = reach_var;
   float bend_var = 0.f;
-  if (source.HasShape()) {
+  if (source.HasNormal()) {
     const Eigen::Vector3f normal = rotation * source.normal;
     const float cosine = normal.dot(target.normal);
     const float aligned = std::abs(cosine);
@@ -161,7 +161,8 @@ MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radi
                                  PoseScores* scores) {
   uses_shapeless_ = false;
   const MatchSums sums = SumTerms(T_map_imu, radius, scores);
-  const bool is_held = sums.num_matched >= kMinMatched && SplitDirections(sums).weak_mask == 0;
+  const bool is_held =
+      sums.num_matched >= kMinMatched && SplitDirections(sums).degenerate_mask == 0;
   if (is_held || !has_shapeless_) return sums;
   uses_shapeless_ = true;
   return SumTerms(T_map_imu, radius, scores);
@@ -184,7 +185,7 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
     const Vector6f score = sums.AddRow(row, -term.distance, term.weight, term.kernel);
     const Eigen::Vector3f tangent = normal.unitOrthogonal();
     for (const Eigen::Vector3f& axis : {tangent, Eigen::Vector3f(normal.cross(tangent))}) {
-      sums.feigned.Add(JacobianRow(point, axis), term.weight * term.tilt_var);
+      sums.noise_information.Add(JacobianRow(point, axis), term.weight * term.tilt_var);
     }
     ++sums.num_matched;
     if (scores == nullptr) continue;
@@ -196,7 +197,8 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
   return sums;
 }
 
-double GicpMatcher::HeldCost(const MatchInput& /*input*/, const Pose& T_map_imu) const {
+double GicpMatcher::FixedCorrespondenceCost(const MatchInput& /*input*/,
+                                            const Pose& T_map_imu) const {
   const Eigen::Matrix3f rotation = paired_at_.rotation.toRotationMatrix().cast<float>();
   double cost = 0.0;
   for (const Pair& pair : pairs_) {
@@ -248,11 +250,11 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   UpdateOpenness(scan);
   if (map_.num_keyframes() == 0) return result;
   shapes_->SetScan(scan);
-  has_shapeless_ = !IsShiftKnown(input);
+  has_shapeless_ = !IsTranslationWellConstrained(input);
   source_.clear();
   for (const Eigen::Vector3f& point : input.points_imu) {
-    const ShapedPoint shaped = shapes_->At(point);
-    if (shaped.HasShape() || has_shapeless_) source_.push_back(shaped);
+    const PointWithNormal shaped = shapes_->At(point);
+    if (shaped.HasNormal() || has_shapeless_) source_.push_back(shaped);
   }
   map_.ChooseSubmap(input.T_map_imu_guess.translation);
   near_.clear();
@@ -263,7 +265,7 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
     Associate(pose, radius);
     const MatchSums sums = Linearize(pose, radius, nullptr);
     if (sums.num_matched < kMinMatched) return std::nullopt;
-    return StepInHeldDirections(SplitDirections(sums), sums.gradient);
+    return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
                       options_.converged_step_m, options_.converged_step_rad};

@@ -86,8 +86,8 @@ void LoamMatcher::Associate(const MatchInput& input, const Pose& T_map_imu,
   }
 }
 
-double LoamMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
-  return terms_->HeldCost(input.points_imu, T_map_imu);
+double LoamMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const {
+  return terms_->FixedCorrespondenceCost(input.points_imu, T_map_imu);
 }
 
 // Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
@@ -137,7 +137,7 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     const DirectionSplit split = SplitDirections(sums);
     const Pose solved = terms_->Solve(input.points_imu, {}, pose);
     const double share = result.iterations > factor * kFullRounds ? 0.5 : 1.0;
-    return share * KeepHeldDirections(split, LogSe3(pose.Inverse() * solved));
+    return share * KeepObservableDirections(split, LogSe3(pose.Inverse() * solved));
   };
   const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,
                       options_.converged_step_rad};

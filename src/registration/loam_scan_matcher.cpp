@@ -111,8 +111,9 @@ void LoamScanMatcher::Associate(const MatchInput& input, std::span<const float> 
   }
 }
 
-double LoamScanMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
-  return terms_->HeldCost(input.points_imu, T_map_last_.Inverse() * T_map_imu);
+double LoamScanMatcher::FixedCorrespondenceCost(const MatchInput& input,
+                                                const Pose& T_map_imu) const {
+  return terms_->FixedCorrespondenceCost(input.points_imu, T_map_last_.Inverse() * T_map_imu);
 }
 
 void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> sweep_ratios,
@@ -159,7 +160,7 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
     if (!sweep_ratios.empty()) return step;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
     const DirectionSplit split = SplitDirections(sums);
-    return KeepHeldDirections(split, step);
+    return KeepObservableDirections(split, step);
   };
   const StopRule rule{options_.max_rounds, options_.converged_step_m, options_.converged_step_rad};
   if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_last_imu, result)) {

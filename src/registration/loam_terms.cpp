@@ -72,8 +72,8 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
     const Vector6f normal_row = row(point, term.axes.col(0));
     sums.information.Add(normal_row, static_cast<float>(term.weight));
     for (int j = 0; j < 2; ++j) {
-      sums.feigned.Add(row(point, term.axes.col(j + 1)),
-                       static_cast<float>(term.weight * term.normal_var[j]));
+      sums.noise_information.Add(row(point, term.axes.col(j + 1)),
+                                 static_cast<float>(term.weight * term.normal_var[j]));
     }
     add_score(term.part, static_cast<float>(term.weight * residual) * normal_row);
     Count(kernel, term.weight, residual * residual, sums);
@@ -91,15 +91,15 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
       sums.information.Add(side_row, static_cast<float>(term.weight));
       add_score(term.part, static_cast<float>(term.weight * axis.dot(across)) * side_row);
     }
-    sums.feigned.Add(row(point, term.direction),
-                     static_cast<float>(2.0 * term.weight * term.direction_var));
+    sums.noise_information.Add(row(point, term.direction),
+                               static_cast<float>(2.0 * term.weight * term.direction_var));
     Count(kernel, term.weight, 0.5 * across.squaredNorm(), sums);
   }
   return sums;
 }
 
-double LoamTerms::HeldCost(std::span<const Eigen::Vector3f> points_imu,
-                           const Pose& T_target_imu) const {
+double LoamTerms::FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
+                                          const Pose& T_target_imu) const {
   double cost = 0.0;
   const auto moved = [&](std::int32_t i) {
     return T_target_imu * points_imu[static_cast<std::size_t>(i)].cast<double>();

@@ -52,7 +52,8 @@ class LoamTerms {
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
                       PoseScores& scores);
   // With those weights.
-  double HeldCost(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu) const;
+  double FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
+                                 const Pose& T_target_imu) const;
 
  private:
   LoamOptions options_;

@@ -26,7 +26,7 @@ Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
 
 void MatchSums::operator+=(const MatchSums& other) {
   information += other.information;
-  feigned += other.feigned;
+  noise_information += other.noise_information;
   gradient += other.gradient;
   weight_sum += other.weight_sum;
   residual_sq_sum += other.residual_sq_sum;
@@ -40,7 +40,7 @@ double MatchSums::curvature_ratio() const {
 }
 
 DirectionSplit SplitDirections(const MatchSums& sums) {
-  return SplitDirections(sums.information.Full(), sums.feigned.Full());
+  return SplitDirections(sums.information.Full(), sums.noise_information.Full());
 }
 
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
@@ -49,14 +49,14 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   // The sandwich wants the robust cost's own curvature, which is less than the information.
   const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
-  result.weak_mask = split.weak_mask;
-  result.held_cov = CovarianceFromScores(split, score_cov / (curvature * curvature));
-  result.cov = result.held_cov + WeakCovariance(split);
+  result.degenerate_mask = split.degenerate_mask;
+  result.observable_cov = CovarianceFromScores(split, score_cov / (curvature * curvature));
+  result.cov = result.observable_cov + DegenerateCovariance(split);
   result.residual_rms_m = std::sqrt(sums.residual_sq_sum / sums.weight_sum);
-  if (split.weak_mask != 0 && result.status == MatchStatus::kConverged) {
+  if (split.degenerate_mask != 0 && result.status == MatchStatus::kConverged) {
     result.status = MatchStatus::kDegenerate;
   }
-  return StepInHeldDirections(split, sums.gradient);
+  return StepInObservableDirections(split, sums.gradient);
 }
 
 void TakeLastStep(const Vector6& step, MatchResult& result) {

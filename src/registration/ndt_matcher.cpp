@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "lio/registration/known_shift.hpp"
 #include "lio/registration/match_loop.hpp"
+#include "lio/registration/well_constrained_translation.hpp"
 #include "registration/ndt_term.hpp"
 
 namespace lio {
@@ -124,7 +124,7 @@ NdtTerm NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
   return MakeNdtTerm(map_.patch(pair.cell), pair.from_mean, num_here, reach_var);
 }
 
-double NdtMatcher::HeldCost(const MatchInput& input, const Pose& T_map_imu) const {
+double NdtMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   double cost = 0.0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -163,9 +163,11 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
                          const Eigen::Vector3f& point, const Eigen::Matrix3f& to_imu,
                          MatchSums& sums, PointScore* score) {
   if (patch.kind == SurfacePatch::Kind::kPlane) {
-    const float feigned = term.rows[0].weight * patch.thickness_var / patch.num_points;
-    sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent1_per_std), feigned);
-    sums.feigned.Add(JacobianRow(point, to_imu * patch.tangent2_per_std), feigned);
+    const float noise_information = term.rows[0].weight * patch.thickness_var / patch.num_points;
+    sums.noise_information.Add(JacobianRow(point, to_imu * patch.tangent1_per_std),
+                               noise_information);
+    sums.noise_information.Add(JacobianRow(point, to_imu * patch.tangent2_per_std),
+                               noise_information);
   }
   ++sums.num_matched;
   if (score != nullptr) score->num_rows = term.num_rows;
@@ -217,12 +219,13 @@ Matrix6 NdtMatcher::ScoreCovariance() {
   return gradients_.Covariance() + kSideStd_m * kSideStd_m * sides;
 }
 
-TurnRate NdtMatcher::TurnRateError(std::span<const float> after_middle_s, double curvature_ratio) {
+TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
+                                   double curvature_ratio) {
   turn_.Reset(map_.cell_capacity());
   for (std::size_t k = 0; k < scores_.size(); ++k) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(scores_[k].num_rows); ++i) {
       const PointScore::OfRow& row = scores_[k].rows[i];
-      turn_.Add(pairs_[k].cell, row.jacobian, row.residual_m, row.weight, after_middle_s[k]);
+      turn_.Add(pairs_[k].cell, row.jacobian, row.residual_m, row.weight, from_mid_sweep_s[k]);
     }
   }
   return turn_.Solve(curvature_ratio);
@@ -230,7 +233,7 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> after_middle_s, double
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   counted_at_.reset();
-  Associate(input.points_imu, T_grid_imu, !IsShiftKnown(input));
+  Associate(input.points_imu, T_grid_imu, !IsTranslationWellConstrained(input));
   scores_.resize(input.points_imu.size());
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
@@ -245,8 +248,8 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     return;
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(), result), result);
-  if (!input.after_middle_s.empty()) {
-    result.turn_rate_error = TurnRateError(input.after_middle_s, sums.curvature_ratio());
+  if (!input.from_mid_sweep_s.empty()) {
+    result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }
 }
 
@@ -257,10 +260,10 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   counted_at_.reset();
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const Reach& reach) -> std::optional<Vector6> {
-    Associate(input.points_imu, pose, !IsShiftKnown(input));
+    Associate(input.points_imu, pose, !IsTranslationWellConstrained(input));
     const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
-    return StepInHeldDirections(SplitDirections(sums), sums.gradient);
+    return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
                       options_.converged_step_m, options_.converged_step_rad};

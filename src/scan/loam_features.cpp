@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/scan/loam_features.hpp"
 
-#include "lio/map/voxel_set.hpp"
+#include "lio/base/voxel_set.hpp"
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/ring_order.hpp"
 #include "scan/loam_ring.hpp"

@@ -12,9 +12,9 @@ namespace lio::sim {
 namespace {
 
 constexpr double kHalfRoad_m = 6.4;
-constexpr double kReach_m = 150.0;    // of the streets from the crossing
-constexpr double kTremble = 0.02;     // of the strength of the body's motion when driving
-constexpr double kParkedAt_m = -1.1;  // from the kerb toward the road
+constexpr double kReach_m = 150.0;       // of the streets from the crossing
+constexpr double kIdleVibration = 0.02;  // of the strength of the body's motion when driving
+constexpr double kParkedAt_m = -1.1;     // from the kerb toward the road
 
 void AddStreet(Town& town, const Path& path) {
   for (const bool left : {true, false}) {
@@ -76,7 +76,7 @@ Scenario MakeParked(const ScenarioOptions& options) {
   plan.knot_interval_s = kCarKnot_s;
   const Drive standing(ego, {}, {}, PlannedSeconds(scenario, options));
   plan.knots = FollowDrive(ego, standing, height, {}, kCarKnot_s, scenario.duration_s);
-  for (BodyKnot& knot : plan.knots) knot.liveliness = kTremble;
+  for (BodyKnot& knot : plan.knots) knot.liveliness = kIdleVibration;
   plan.oscillations = CarOscillations(options.seed);
   AddLane(scenario.world, along.Shifted(-2.2), 11.0, height, random);
   AddLane(scenario.world, along.Shifted(2.2).Reversed(), 9.5, height, random);

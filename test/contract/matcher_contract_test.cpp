@@ -72,7 +72,7 @@ Error ErrorOf(const Pose& estimate, const Pose& truth) {
 
 void ExpectConverged(const MatchResult& result) {
   EXPECT_EQ(result.status, MatchStatus::kConverged);
-  EXPECT_EQ(result.weak_mask, 0u);
+  EXPECT_EQ(result.degenerate_mask, 0u);
   EXPECT_TRUE(result.information.allFinite());
   EXPECT_TRUE(result.cov.allFinite());
 }
@@ -146,7 +146,7 @@ TEST_P(MatcherContract, SaysThatACorridorDoesNotHoldItsAxis) {
   const MatchResult result =
       bench.Match(scan, kTruth * ExpSe3(offset), GuessCov(0.1, 0.5 * kDegree));
   EXPECT_EQ(result.status, MatchStatus::kDegenerate);
-  EXPECT_NE(result.weak_mask, 0u);
+  EXPECT_NE(result.degenerate_mask, 0u);
   // No step along the axis, a huge variance along it, a small one across.
   const Vector3 across = kTruth.rotation.conjugate() * Vector3::UnitY();
   const Matrix3 position_cov = result.cov.topLeftCorner<3, 3>();
@@ -248,7 +248,7 @@ TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   const MatchResult result = bench.matcher().Match(input);
   ExpectConverged(result);
   const auto cost = [&](const Vector6& d) {
-    return bench.matcher().HeldCost(input, result.T_map_imu * ExpSe3(d));
+    return bench.matcher().FixedCorrespondenceCost(input, result.T_map_imu * ExpSe3(d));
   };
   Vector6 step;
   step << Vector3::Constant(1e-3), Vector3::Constant(1e-4);

@@ -136,12 +136,12 @@ TEST(FilterHistory, StandstillBringsTheVelocityToZeroAsFarAsItIsSure) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 0.5);
   const Estimate before = history.head();
-  EXPECT_EQ(history.AddStandstill(StampAt(0.5), 1e6), EventOutcome::kApplied);
+  EXPECT_EQ(history.AddZeroVelocity(StampAt(0.5), 1e6), EventOutcome::kApplied);
   EXPECT_LT(Difference(history.head(), before), 1e-5) << "worth nothing";
-  EXPECT_EQ(history.AddStandstill(StampAt(0.5), 4.0), EventOutcome::kDuplicate);
-  EXPECT_EQ(history.AddStandstill(StampAt(0.4), 1e-4), EventOutcome::kGated)
+  EXPECT_EQ(history.AddZeroVelocity(StampAt(0.5), 4.0), EventOutcome::kDuplicate);
+  EXPECT_EQ(history.AddZeroVelocity(StampAt(0.4), 1e-4), EventOutcome::kGated)
       << "at " << before.state.v_world_imu.norm() << " m/s";
-  EXPECT_EQ(history.AddStandstill(StampAt(-0.1), 1e-4), EventOutcome::kBeforeStart);
+  EXPECT_EQ(history.AddZeroVelocity(StampAt(-0.1), 1e-4), EventOutcome::kBeforeStart);
 }
 
 TEST(FilterHistory, SamplesBetweenAreTheMeasuredOnes) {
@@ -244,8 +244,8 @@ TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
     FilterHistory history = StartedHistory();
     for (int k = 1; k <= 10; ++k) {
       ImuSample sample = SampleAt(0.01 * k);
-      sample.is_rate_clipped = rate;
-      sample.is_force_clipped = force;
+      sample.is_rate_saturated = rate;
+      sample.is_force_saturated = force;
       history.AddImu(sample);
     }
     return history.head().cov;

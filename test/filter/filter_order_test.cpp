@@ -37,7 +37,7 @@ EventOutcome Feed(FilterHistory& history, const Event& event) {
     case Kind::kPose:
       return history.AddPose(StampAt(event.t_s), event.pose);
     case Kind::kStandstill:
-      return history.AddStandstill(StampAt(event.t_s), kStandstillVar);
+      return history.AddZeroVelocity(StampAt(event.t_s), kStandstillVar);
     case Kind::kRebase:
       break;
   }

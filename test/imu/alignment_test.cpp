@@ -34,7 +34,7 @@ struct Window {
       truth.states.push_back(
           {T_any_imu.rotation, T_any_imu.translation, T_any_world.rotation * point.v_world});
       if (i == 0) continue;
-      ScoutedPose pose;
+      MatchedPose pose;
       pose.stamp = At(0.1 * i);
       pose.T_any_imu = T_any_imu;
       pose.cov.diagonal() << Vector3::Constant(0.02 * 0.02), Vector3::Constant(0.003 * 0.003);
@@ -76,7 +76,7 @@ struct Window {
   Pose T_any_world{ExpSo3(Vector3(0.4, -1.2, 2.0)), Vector3(3, -50, 7)};
   test::ImuErrors errors;
   Alignment truth;
-  std::vector<ScoutedPose> poses;
+  std::vector<MatchedPose> poses;
   AlignmentTerms terms;
 };
 
@@ -134,7 +134,7 @@ TEST(Alignment, OneWrongPosePullsLittleAndIsToldByItsMisfit) {
 TEST(Alignment, CovarianceFollowsTheNoise) {
   Window window(test::kGravity);
   const AlignmentResult plain = Align(window.terms, window.truth);
-  for (ScoutedPose& pose : window.poses) pose.cov *= 0.25;
+  for (MatchedPose& pose : window.poses) pose.cov *= 0.25;
   for (Preintegration& motion : window.terms.motions) motion.cov *= 0.25;
   window.terms.poses = window.poses;
   window.terms.gyro_bias_std_radps *= 0.5;

@@ -26,8 +26,8 @@ test::Motion Drive() {
 
 struct DriveCase {
   test::Motion motion = Drive();
-  test::Motion matched;  // what scan matching sees, where it is not the motion
-  ImuReading sent_as;    // how the messages are to be read
+  test::Motion matched;   // what scan matching sees, where it is not the motion
+  ImuConvention sent_as;  // how the messages are to be read
   Vector3 g_world = test::kGravity;
   double to_s = 9.0;
   Vector3 gyro_bias{0.01, -0.008, 0.012};  // a consumer's unit
@@ -40,7 +40,8 @@ struct DriveCase {
   double max_rate_radps = 100.0;              // the gyro saturates
 };
 
-ImuClassifier After(const DriveCase& setup, const ImuReading& expected = {}, const Rig& rig = {}) {
+ImuClassifier After(const DriveCase& setup, const ImuConvention& expected = {},
+                    const Rig& rig = {}) {
   std::mt19937_64 random(3);
   ImuClassifier classifier(expected, rig);
   classifier.BeginMap(StampAt(0.0));
@@ -61,18 +62,19 @@ ImuClassifier After(const DriveCase& setup, const ImuReading& expected = {}, con
       const Quaternion mount = ExpSo3(setup.mount_error_rad);
       sample.w_imu_radps = mount * sample.w_imu_radps;
       sample.f_imu_mps2 = mount * sample.f_imu_mps2;
-      samples.push_back(AsSent(setup.sent_as, sample));
+      samples.push_back(FromSi(setup.sent_as, sample));
     }
     classifier.AddPose({StampAt(t_s), pose}, samples);
   }
   return classifier;
 }
 
-ImuVerdict Classify(const DriveCase& setup, const ImuReading& expected = {}, const Rig& rig = {}) {
+ImuVerdict Classify(const DriveCase& setup, const ImuConvention& expected = {},
+                    const Rig& rig = {}) {
   return After(setup, expected, rig).Judge();
 }
 
-void ExpectFound(const ImuVerdict& verdict, const ImuReading& reading) {
+void ExpectFound(const ImuVerdict& verdict, const ImuConvention& reading) {
   EXPECT_EQ(verdict.finding, Finding::kOtherwise) << Describe(reading);
   EXPECT_EQ(verdict.reading, reading) << Describe(verdict.reading) << " for " << Describe(reading);
   EXPECT_NE(verdict.evidence, "");
@@ -81,7 +83,7 @@ void ExpectFound(const ImuVerdict& verdict, const ImuReading& reading) {
 TEST(ImuClassifier, PlainMessagesAreSettledByADrive) {
   const ImuVerdict verdict = Classify({});
   EXPECT_EQ(verdict.finding, Finding::kAsExpected);
-  EXPECT_EQ(verdict.reading, ImuReading{});
+  EXPECT_EQ(verdict.reading, ImuConvention{});
   EXPECT_EQ(verdict.has_gravity, true);
 }
 
@@ -97,7 +99,7 @@ TEST(ImuClassifier, EveryQuarterTurnIsFound) {
 TEST(ImuClassifier, EveryUnitIsFound) {
   for (const ImuUnits units : {ImuUnits::kG, ImuUnits::kDeg, ImuUnits::kGAndDeg}) {
     DriveCase setup;
-    setup.sent_as = ReadingOf(units);
+    setup.sent_as = ConventionOf(units);
     ExpectFound(Classify(setup), setup.sent_as);
   }
 }
@@ -110,7 +112,7 @@ TEST(ImuClassifier, UnitsAndTurnedAxesAreFoundTogether) {
 
 TEST(ImuClassifier, MessagesInSiAreFoundWhereOthersWereExpected) {
   for (const ImuUnits units : {ImuUnits::kG, ImuUnits::kDeg, ImuUnits::kGAndDeg}) {
-    ExpectFound(Classify({}, ReadingOf(units)), ImuReading{});
+    ExpectFound(Classify({}, ConventionOf(units)), ImuConvention{});
   }
 }
 
@@ -128,7 +130,7 @@ TEST(ImuClassifier, RestLeavesItOpen) {
   for (const ImuUnits units : {ImuUnits::kSi, ImuUnits::kDeg}) {
     DriveCase setup;
     setup.motion = [](double) { return Pose{}; };
-    setup.sent_as = ReadingOf(units);
+    setup.sent_as = ConventionOf(units);
     const Finding finding = Classify(setup).finding;
     EXPECT_NE(finding, Finding::kOtherwise);
     EXPECT_NE(finding, Finding::kAsExpected);

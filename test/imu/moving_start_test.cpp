@@ -44,7 +44,7 @@ SmoothMotion BrakingMotion() {
 // What the estimator is given, and the truth.
 struct Case {
   std::vector<ImuSample> samples;
-  std::vector<ScoutedPose> poses;
+  std::vector<MatchedPose> poses;
   NavState truth;  // in world: at the origin, yaw zero
 };
 

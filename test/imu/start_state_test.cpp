@@ -177,8 +177,8 @@ TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
   EXPECT_NEAR(tilt_sq / predicted_tilt_sq, 1.0, 3 * std::sqrt(1.0 / kRuns));
 }
 
-PassedPoint Passed() {
-  PassedPoint point;
+LastFix Passed() {
+  LastFix point;
   point.stamp = StampAt(1.0);
   point.T_world_imu = {ExpSo3(Vector3(0.02, 0, 1.0)), Vector3(30, 20, 1)};
   point.v_world_imu = Vector3(2, 0, 0);
@@ -198,7 +198,7 @@ Estimate StartedAnew() {
 }
 
 TEST(PlaceInWorld, WorldAndMapGoOnByTheSameMotion) {
-  const PassedPoint earlier = Passed();
+  const LastFix earlier = Passed();
   Estimate estimate = StartedAnew();
   PlaceInWorld(earlier, true, estimate);
   const NavState& state = estimate.state;
@@ -226,7 +226,7 @@ TEST(PlaceInWorld, WithoutGravityTheAttitudeStays) {
 }
 
 TEST(PlaceInWorld, PositionAndYawAreAsUnsureAsTheyWereAndMore) {
-  const PassedPoint earlier = Passed();
+  const LastFix earlier = Passed();
   Estimate estimate = StartedAnew();
   PlaceInWorld(earlier, true, estimate);
   const double coasted_m = 0.25 * (estimate.state.v_world_imu - earlier.v_world_imu).norm();
@@ -251,7 +251,7 @@ TEST(PlaceInWorld, PositionAndYawAreAsUnsureAsTheyWereAndMore) {
 }
 
 TEST(Level, TurnsAPointsWorldAndLeavesYawPositionAndMap) {
-  PassedPoint point = Passed();
+  LastFix point = Passed();
   const Quaternion level = Tilted(0.1, -0.05);
   Level(level, point);
   const Vector3 up = point.T_world_imu.rotation.conjugate() * Vector3::UnitZ();

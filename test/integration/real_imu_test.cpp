@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "lio/filter/filter_history.hpp"
-#include "lio/imu/preintegration.hpp"
+#include "lio/filter/preintegration.hpp"
 #include "support/pose_feed.hpp"
 #include "support/shared_data.hpp"
 

@@ -57,7 +57,7 @@ TEST(AzimuthTime, IsNotMisledByStrayPoints) {
     }
   };
   const test::SpinningLidar lidar;
-  SpinObserver observer;
+  LidarSpinEstimator observer;
   for (int k = 0; k < 10; ++k) {
     const test::SeenCloud cloud = test::MakeCloud(lidar, k, with_strays);
     observer.Add(cloud.points, cloud.rings, cloud.start);

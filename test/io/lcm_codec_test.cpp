@@ -253,7 +253,7 @@ TEST(LcmCodec, RegistrationCarriesEigenvaluesAndStageTimes) {
   report.scan_seq = 3;
   report.status = MatchStatus::kDegenerate;
   report.fused = true;
-  report.weak_mask = 0b101;
+  report.degenerate_mask = 0b101;
   report.information_eigenvalues << 1, 2, 3, 4, 5, 6;
   report.stage_ns[static_cast<std::size_t>(Stage::kMatch)] = 1500;
   const auto message = Decoded<registration_t>(EncodeRegistration(report));

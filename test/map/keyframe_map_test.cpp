@@ -11,18 +11,18 @@
 namespace lio {
 namespace {
 
-ShapedPoint PointAt(const Vector3& position) {
-  ShapedPoint point;
+PointWithNormal PointAt(const Vector3& position) {
+  PointWithNormal point;
   point.position = position.cast<float>();
   point.normal = Eigen::Vector3f::UnitX();
   point.thickness_var = 1e-3f;
   return point;
 }
 
-std::vector<ShapedPoint> RandomPoints(int count, double size, unsigned seed) {
+std::vector<PointWithNormal> RandomPoints(int count, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-size, size);
-  std::vector<ShapedPoint> points;
+  std::vector<PointWithNormal> points;
   for (int i = 0; i < count; ++i) {
     points.push_back(PointAt({uniform(random), uniform(random), uniform(random)}));
   }
@@ -44,12 +44,12 @@ TEST(KeyframeMap, FindsTheExactNearestOfTheSubmap) {
     const auto points = RandomPoints(300, 4.0, static_cast<unsigned>(k));
     map.Add(points, pose);
     if (k == 1 || k == 2) {
-      for (const ShapedPoint& p : points) in_submap.push_back(pose * p.position.cast<double>());
+      for (const PointWithNormal& p : points) in_submap.push_back(pose * p.position.cast<double>());
     }
   }
   const Vector3 place(2003.0, -3000.0, 0);  // between the second and the third
   map.ChooseSubmap(place);
-  for (const ShapedPoint& query_point : RandomPoints(200, 5.0, 77)) {
+  for (const PointWithNormal& query_point : RandomPoints(200, 5.0, 77)) {
     const Vector3 query = place + query_point.position.cast<double>();
     double expected = std::numeric_limits<double>::infinity();
     for (const Vector3& p : in_submap) expected = std::min(expected, (p - query).norm());
@@ -73,7 +73,7 @@ TEST(KeyframeMap, NormalsAreTurnedIntoTheMap) {
 
 TEST(KeyframeMap, PointsWithoutShapeAreLeftOut) {
   KeyframeMap map(KeyframeMapOptions{});
-  ShapedPoint shapeless;
+  PointWithNormal shapeless;
   shapeless.position = {1, 0, 0};
   map.Add(std::vector{shapeless, PointAt({0, 1, 0})}, At(0));
   EXPECT_EQ(map.num_points(), 1u);
@@ -140,7 +140,7 @@ TEST(KeyframeMap, CountsArePerVoxelAndSurviveRemoval) {
   KeyframeMapOptions options;
   options.max_distance_m = 5.0;
   KeyframeMap map(options);
-  const std::vector<ShapedPoint> points(20, PointAt({0.2, 0.2, 0.2}));
+  const std::vector<PointWithNormal> points(20, PointAt({0.2, 0.2, 0.2}));
   map.Add(points, At(0));
   map.Add(points, At(0));
   EXPECT_EQ(map.CountAt({0.3, 0.3, 0.3}), 40);

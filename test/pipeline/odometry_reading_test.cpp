@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lio/imu/imu_reading.hpp"
+#include "lio/imu/imu_convention.hpp"
 #include "support/faulty_drives.hpp"
 
 namespace lio {
@@ -18,17 +18,17 @@ using test::RunOdometry;
 using test::RunResult;
 using test::SecondsOf;
 
-const ImuReading kInG{true, false, Matrix3::Identity()};
-const ImuReading kInDeg{false, true, Matrix3::Identity()};
-const ImuReading kInBoth{true, true, Matrix3::Identity()};
-const ImuReading kZDown{false, false, Vector3(1, -1, -1).asDiagonal()};
-const ImuReading kTurned{
+const ImuConvention kInG{true, false, Matrix3::Identity()};
+const ImuConvention kInDeg{false, true, Matrix3::Identity()};
+const ImuConvention kInBoth{true, true, Matrix3::Identity()};
+const ImuConvention kZDown{false, false, Vector3(1, -1, -1).asDiagonal()};
+const ImuConvention kTurned{
     false, false, ExpSo3(Vector3(0, 0, 0.5 * M_PI)).toRotationMatrix().array().round().matrix()};
 
 // The same drive, its samples as another driver sends them.
-Messages SentAs(Messages messages, const ImuReading& reading) {
+Messages SentAs(Messages messages, const ImuConvention& reading) {
   for (Message& message : messages) {
-    if (message.is_imu) message.sample = AsSent(reading, message.sample);
+    if (message.is_imu) message.sample = FromSi(reading, message.sample);
   }
   return messages;
 }
@@ -63,7 +63,7 @@ double WorstDistance(const test::Motion& motion, const std::vector<ScanOutput>& 
   return worst_m;
 }
 
-void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuReading& reading) {
+void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuConvention& reading) {
   SCOPED_TRACE(Describe(reading));
   EXPECT_TRUE(test::HasNotice(run, "inertial messages: " + Describe(reading)));
   ASSERT_FALSE(run.scans.empty());
@@ -78,7 +78,7 @@ void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuReading& reading
 
 TEST(OdometryReading, AStartInMotionIsRightFromItsFirstRow) {
   const Messages plain = test::MovingStartDrive(6.0);
-  for (const ImuReading& reading : {kInG, kInDeg, kInBoth, kZDown, kTurned}) {
+  for (const ImuConvention& reading : {kInG, kInDeg, kInBoth, kZDown, kTurned}) {
     ExpectTracksFromTheFirstRow(RunOdometry(SentAs(plain, reading), test::DriveRig()), reading);
   }
 }
@@ -99,7 +99,7 @@ TEST(OdometryReading, UnitsOfForceAreFoundAtRest) {
 
 // After a start at rest, axes show with the first turns: rows end before they are wrong.
 TEST(OdometryReading, RatesAndAxesAreFoundAfterAStartAtRest) {
-  for (const ImuReading& reading : {kInDeg, kZDown, kTurned}) {
+  for (const ImuConvention& reading : {kInDeg, kZDown, kTurned}) {
     SCOPED_TRACE(Describe(reading));
     const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), test::DriveRig());
     EXPECT_TRUE(test::HasNotice(run, "inertial messages: " + Describe(reading)));
@@ -119,7 +119,7 @@ TEST(OdometryReading, TheSameComesOutHoweverSlowMatchingIs) {
 TEST(OdometryReading, StatedUnitsAreTaken) {
   const struct {
     ImuUnits units;
-    ImuReading reading;
+    ImuConvention reading;
   } cases[] = {{ImuUnits::kG, kInG}, {ImuUnits::kDeg, kInDeg}, {ImuUnits::kGAndDeg, kInBoth}};
   for (const auto& [units, reading] : cases) {
     const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), WithUnits(units));
@@ -130,7 +130,7 @@ TEST(OdometryReading, StatedUnitsAreTaken) {
 
 TEST(OdometryReading, UnitsOtherThanStatedAreRefusedWithTheFix) {
   const struct {
-    ImuReading reading;
+    ImuConvention reading;
     std::string fix;
   } cases[] = {{kInG, "set rig.imu.units: auto or g"},
                {kInDeg, "set rig.imu.units: auto or deg"},

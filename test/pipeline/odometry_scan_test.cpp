@@ -7,8 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "lio/pipeline/match_side.hpp"
 #include "lio/pipeline/odometry.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 #include "support/faulty_drives.hpp"
 
 namespace lio {
@@ -70,7 +70,7 @@ class AlteredRun {
   }
 
   Odometry odometry_;
-  MatchSide matching_;
+  RegistrationWorker matching_;
   double from_s_;
   Change change_;
 };
@@ -122,7 +122,7 @@ TEST(OdometryScan, TheTotalTimeIsTheSumOfTheStages) {
 TEST(OdometryScan, OneJobIsOutAtATimeAndOthersOutcomesAreLeftOut) {
   const Options options = test::DriveRig();
   Odometry odometry(options);
-  MatchSide matching(options);
+  RegistrationWorker matching(options);
   std::optional<MatchJob> job;
   for (const Message& message : StaticStartDrive()) {
     message.is_imu ? odometry.AddImu(message.sample) : odometry.AddChunk(message.chunk);
@@ -204,12 +204,12 @@ TEST(OdometryScan, WeakDirectionsAreToldAsDegenerate) {
   bool is_weak = true;
   const AlteredRun run(5.0, [&](MatchOutcome& outcome) {
     is_weak = SecondsOf(outcome.sweep->end) < 6.0;
-    if (is_weak) outcome.match.weak_mask = 1u;
+    if (is_weak) outcome.match.degenerate_mask = 1u;
   });
   for (const ScanOutput& row : run.Altered()) {
     const bool was_weak = SecondsOf(row.scan.stamp) < 6.0;
     EXPECT_EQ(row.filter->nav.status, was_weak ? TrackingStatus::kDegenerate : TrackingStatus::kOk);
-    EXPECT_EQ(row.scan.weak_mask, was_weak ? 1u : 0u);
+    EXPECT_EQ(row.scan.degenerate_mask, was_weak ? 1u : 0u);
   }
 }
 

@@ -76,7 +76,7 @@ TEST(Odometry, StandstillEndsWhenTheVehicleDrivesOff) {
   EXPECT_GT(run.counters.num_standstills, 10);
   EXPECT_LE(run.counters.num_standstills, 41) << "scans taken before it drives off";
   Options without = test::DriveRig();
-  without.filter.use_standstill = false;
+  without.filter.use_zero_velocity = false;
   EXPECT_EQ(RunOdometry(messages, without).counters.num_standstills, 0);
 }
 

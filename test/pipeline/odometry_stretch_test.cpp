@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "lio/pipeline/match_side.hpp"
 #include "lio/pipeline/odometry.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 #include "support/faulty_drives.hpp"
 
 namespace lio {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <set>
 
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 #include "support/faulty_drives.hpp"
 
 namespace lio {
@@ -195,7 +195,7 @@ TEST(Odometry, SameBytesForTheSameInput) {
 TEST(Odometry, OverloadDropsTheOldestScansAndCountsThem) {
   const Options options = test::DriveRig();
   Odometry odometry(options);
-  MatchSide matching(options);
+  RegistrationWorker matching(options);
   std::set<std::int64_t> seqs;
   int count = 0;
   for (const Message& message : StaticStartDrive()) {

@@ -69,7 +69,7 @@ TEST(LoamMatcher, UprightEdgesAloneHoldAllButTheHeight) {
   EXPECT_LT(result.T_map_imu.translation.head<2>().norm(), 0.02);
   EXPECT_NEAR(result.T_map_imu.translation.z(), 0.3, 0.05) << "it stays where it was guessed";
   EXPECT_GT(result.cov(2, 2), 100.0);
-  EXPECT_LT(result.held_cov(0, 0), 0.01);
+  EXPECT_LT(result.observable_cov(0, 0), 0.01);
 }
 
 // The tag decides against which map a point is matched.

@@ -71,7 +71,8 @@ TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
   const auto gradient_at = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
     const Pose pose = at * ExpSe3(Vector6(d));
     const auto cost = [&](const Eigen::VectorXd& e) -> Eigen::VectorXd {
-      return Eigen::VectorXd::Constant(1, terms_.HeldCost(points_, pose * ExpSe3(Vector6(e))));
+      return Eigen::VectorXd::Constant(
+          1, terms_.FixedCorrespondenceCost(points_, pose * ExpSe3(Vector6(e))));
     };
     return test::NumericJacobian(cost, Vector6::Zero(), 1e-4).transpose();
   };
@@ -126,7 +127,7 @@ TEST_F(LoamTermsTest, EdgesWeighByTheirOwnAccuracyAndHoldTwoDirections) {
   EXPECT_NEAR(in_map(2, 2), 0.0, 1e-3);
   EXPECT_NEAR(sums.residual_sq_sum, 0.5 * 0.05 * 0.05, 1e-6);  // a mean of two directions
   // The cost: the squared distance of 5 cm, halved.
-  EXPECT_NEAR(terms_.HeldCost(points_, kTruth), 0.5 * weight * 0.05 * 0.05, 1e-4);
+  EXPECT_NEAR(terms_.FixedCorrespondenceCost(points_, kTruth), 0.5 * weight * 0.05 * 0.05, 1e-4);
 }
 
 TEST_F(LoamTermsTest, SolvesToThePoseThatMadeThePoints) {
@@ -135,7 +136,7 @@ TEST_F(LoamTermsTest, SolvesToThePoseThatMadeThePoints) {
   Pose pose = kTruth * ExpSe3(0.05 * Vector6::Ones());
   for (int round = 0; round < 3; ++round) pose = terms_.Solve(points_, {}, pose);
   EXPECT_LT(LogSe3(kTruth.Inverse() * pose).norm(), 1e-5);
-  EXPECT_LT(terms_.HeldCost(points_, pose), 1e-6);
+  EXPECT_LT(terms_.FixedCorrespondenceCost(points_, pose), 1e-6);
 }
 
 TEST_F(LoamTermsTest, ClearedTermsAreGone) {
@@ -143,7 +144,7 @@ TEST_F(LoamTermsTest, ClearedTermsAreGone) {
   terms_.Clear();
   EXPECT_EQ(terms_.size(), 0u);
   EXPECT_EQ(LinearizeAt(kTruth).num_matched, 0);
-  EXPECT_EQ(terms_.HeldCost(points_, kTruth), 0.0);
+  EXPECT_EQ(terms_.FixedCorrespondenceCost(points_, kTruth), 0.0);
 }
 
 }  // namespace

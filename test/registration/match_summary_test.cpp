@@ -90,7 +90,7 @@ MatchSums HeldSums(int num_axes, float residual_m) {
     sums.AddRow(JacobianRow(p, normal), residual_m, 1000.f, RobustKernel(0.f));
     for (int axis = 0; axis < 3; ++axis) {  // normals known to a hundredth
       if (normal[axis] == 0.f) {
-        sums.feigned.Add(JacobianRow(p, Eigen::Vector3f::Unit(axis)), 1000.f * 1e-4f);
+        sums.noise_information.Add(JacobianRow(p, Eigen::Vector3f::Unit(axis)), 1000.f * 1e-4f);
       }
     }
     ++sums.num_matched;
@@ -107,10 +107,10 @@ TEST(Summarise, CovarianceIsTheSandwichWhereAllIsHeld) {
   EXPECT_EQ(result.information, sums.information.Full());
   const Matrix6 inverse = sums.information.Full().inverse();
   EXPECT_LT((result.cov - 3.0 * inverse).norm(), 1e-9 * result.cov.norm() + 1e-15);
-  EXPECT_LT((result.held_cov - result.cov).norm(), 1e-15);
+  EXPECT_LT((result.observable_cov - result.cov).norm(), 1e-15);
   EXPECT_LT((step + inverse * sums.gradient).norm(), 1e-9);
   EXPECT_NEAR(result.residual_rms_m, 0.02, 1e-7);
-  EXPECT_EQ(result.weak_mask, 0u);
+  EXPECT_EQ(result.degenerate_mask, 0u);
   EXPECT_EQ(result.status, MatchStatus::kConverged);
   EXPECT_GT(result.eigenvalues[0], 0.0);
 }
@@ -136,10 +136,10 @@ TEST(Summarise, ADirectionThatNothingHoldsIsWeak) {
   MatchResult result;
   result.status = MatchStatus::kConverged;
   const Vector6 step = Summarise(sums, sums.information.Full(), result);
-  EXPECT_EQ(result.weak_mask, 1u);
+  EXPECT_EQ(result.degenerate_mask, 1u);
   EXPECT_EQ(result.status, MatchStatus::kDegenerate);
   EXPECT_NEAR(std::sqrt(result.cov(2, 2)), 100.0, 0.1);
-  EXPECT_LT(std::sqrt(result.held_cov(2, 2)), 1e-6);
+  EXPECT_LT(std::sqrt(result.observable_cov(2, 2)), 1e-6);
   EXPECT_LT(std::sqrt(result.cov(0, 0)), 0.1);
   EXPECT_NEAR(step[2], 0.0, 1e-9);
 }
@@ -150,7 +150,7 @@ TEST(Summarise, OtherStatesThanConvergedAreKept) {
   const MatchSums sums = HeldSums(2, 0.02f);
   Summarise(sums, sums.information.Full(), result);
   EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
-  EXPECT_NE(result.weak_mask, 0u);
+  EXPECT_NE(result.degenerate_mask, 0u);
 }
 
 }  // namespace

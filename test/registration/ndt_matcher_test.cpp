@@ -81,7 +81,7 @@ TEST(NdtMatcher, RecoversKnownOffsetsOnAStreet) {
     const Vector6 error = ErrorOf(result, truth);
     EXPECT_LT(error.head<3>().norm(), 0.01) << guess_error.transpose();
     EXPECT_LT(error.tail<3>().norm(), 1e-3) << guess_error.transpose();
-    EXPECT_EQ(result.weak_mask, 0u);
+    EXPECT_EQ(result.degenerate_mask, 0u);
     EXPECT_LT(result.residual_rms_m, 0.05);
     EXPECT_GT(result.num_matched, 2000);
   }
@@ -129,8 +129,8 @@ TEST(NdtMatcher, PostsHoldAlongAnOpenRoadWhereTheShiftIsUnknown) {
   const MatchResult held = result_with(1.0);
   ASSERT_TRUE(held.IsUsable());
   EXPECT_LT(ErrorOf(held, OnRoad(12.4)).head<2>().norm(), 0.05);
-  EXPECT_EQ(held.weak_mask, 0u);
-  EXPECT_NE(result_with(0.0).weak_mask, 0u);
+  EXPECT_EQ(held.degenerate_mask, 0u);
+  EXPECT_NE(result_with(0.0).degenerate_mask, 0u);
 }
 
 TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
@@ -142,14 +142,14 @@ TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
   const MatchResult result = corridor.MatchFrom(truth, guess_error, 0.2);
   ASSERT_EQ(result.status, MatchStatus::kDegenerate);
   EXPECT_TRUE(result.IsUsable());
-  EXPECT_EQ(result.weak_mask, 1u);
+  EXPECT_EQ(result.degenerate_mask, 1u);
   const Matrix3 R = truth.rotation.toRotationMatrix();
   const Matrix3 cov_world = R * result.cov.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_GT(cov_world(0, 0), 50.0 * 50.0);
   const Matrix3 known = cov_world.inverse();  // given the two others: the weak one leans a little
   EXPECT_GT(known(1, 1), 1 / (0.02 * 0.02));
   EXPECT_GT(known(2, 2), 1 / (0.02 * 0.02));
-  const Matrix3 held_world = R * result.held_cov.topLeftCorner<3, 3>() * R.transpose();
+  const Matrix3 held_world = R * result.observable_cov.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_LT(held_world(0, 0), 0.02 * 0.02);
   // Held directions are found, the weak one is left where the guess was.
   const Vector3 error = result.T_map_imu.translation - truth.translation;

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "lio/imu/imu_reading.hpp"
+#include "lio/imu/imu_convention.hpp"
 #include "lio/sim/scenario.hpp"
 
 namespace lio::sim {
@@ -158,7 +158,7 @@ TEST(ImuSimulator, VariantsAreWhatTheEstimatorReadsThemAs) {
   const Matrix3 turned = (Matrix3() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished();
   const struct {
     ImuVariant variant;
-    ImuReading reading;
+    ImuConvention reading;
   } cases[] = {{ImuVariant::kInG, {true, false}},
                {ImuVariant::kInDeg, {false, true}},
                {ImuVariant::kInGAndDeg, {true, true}},
@@ -166,7 +166,7 @@ TEST(ImuSimulator, VariantsAreWhatTheEstimatorReadsThemAs) {
                {ImuVariant::kTurned, {false, false, turned}}};
   const ImuSample normal = last(ImuVariant::kNormal);
   for (const auto& [variant, reading] : cases) {
-    const ImuSample read = Understand(reading, last(variant));
+    const ImuSample read = ToSi(reading, last(variant));
     EXPECT_LT((read.w_imu_radps - normal.w_imu_radps).norm(), 1e-9) << Describe(reading);
     EXPECT_LT((read.f_imu_mps2 - normal.f_imu_mps2).norm(), 1e-9) << Describe(reading);
   }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Starts at 20 m/s on a motorway with a lidar that looks down: rings on the road move with the
-// sensor, and but for what stands beside it nothing tells of the way along (match_side_shift.cpp).
+// sensor, and but for what stands beside it nothing tells of the way along
+// (registration_worker_shift.cpp).
 #include <gtest/gtest.h>
 
 #include "support/simulated_run.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "lio/filter/filter_history.hpp"
-#include "lio/imu/preintegration.hpp"
+#include "lio/filter/preintegration.hpp"
 #include "support/random_state.hpp"
 
 namespace lio::test {

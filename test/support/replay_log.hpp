@@ -8,7 +8,7 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/run_writer.hpp"
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 
 namespace lio::test {
 
@@ -22,11 +22,11 @@ inline Replayed ReplayLog(const std::filesystem::path& log, const Options& optio
   LogInput input(log, LogInputOptions());
   RunWriter writer(out, options);
   Odometry odometry(options, ThreadCpuNs);
-  MatchSide match_side(options, ThreadCpuNs);
+  RegistrationWorker worker(options, ThreadCpuNs);
   std::int64_t num_matches = 0;
   const auto match = [&] {
     for (; const auto job = odometry.NextJob(); ++num_matches) {
-      match_side.Insert(odometry.FinishJob(match_side.Run(*job)));
+      worker.Insert(odometry.FinishJob(worker.Run(*job)));
     }
     for (const Output& output : odometry.TakeOutputs()) writer.Write(output);
   };

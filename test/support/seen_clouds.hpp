@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "lio/io/spin_observer.hpp"
+#include "lio/io/lidar_spin_estimator.hpp"
 #include "support/spinning_lidar.hpp"
 
 namespace lio::test {
@@ -44,7 +44,7 @@ inline void RingByRing(std::vector<SeenPoint>& seen) {
 // Decides on ten clouds and gives the largest error of the rebuilt times of later ones [s].
 inline double WorstError(const SpinningLidar& lidar, auto&& arrange, bool with_rings = true,
                          bool stamp_is_end = false, double stamp_jitter_s = 0.0) {
-  SpinObserver observer;
+  LidarSpinEstimator observer;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> jitter(-stamp_jitter_s, stamp_jitter_s);
   const auto rings = [&](const SeenCloud& cloud) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 #include "support/random_state.hpp"
 
 namespace lio::test {
@@ -104,7 +104,7 @@ class SlowMatching {
     outcome_.reset();
   }
 
-  MatchSide matching_;
+  RegistrationWorker matching_;
   int lag_;
   int held_for_ = 0;
   std::optional<MatchOutcome> outcome_;
@@ -211,7 +211,7 @@ std::string Bytes(const std::vector<ScanOutput>& scans) {
          {scan.stamp.ns, scan.scan_seq, std::int64_t{scan.num_raw}, std::int64_t{scan.num_used},
           std::int64_t{scan.num_matched}, std::int64_t{scan.iterations},
           std::int64_t{static_cast<int>(scan.status)}, std::int64_t{scan.fused},
-          std::int64_t{scan.weak_mask}}) {
+          std::int64_t{scan.degenerate_mask}}) {
       writer.Add(value);
     }
     writer.Add(scan.residual_rms_m);

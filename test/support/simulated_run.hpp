@@ -12,8 +12,8 @@
 #include "lio/io/log_input.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/trajectory_file.hpp"
-#include "lio/pipeline/match_side.hpp"
 #include "lio/pipeline/odometry.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 #include "lio/sim/recorder.hpp"
 #include "support/temp_dir.hpp"
 
@@ -75,7 +75,7 @@ struct RunOutcome {
 
 class RunningEstimator {
  public:
-  explicit RunningEstimator(const Options& options) : odometry_(options), match_side_(options) {}
+  explicit RunningEstimator(const Options& options) : odometry_(options), worker_(options) {}
 
   void Take(sim::Message message) {
     if (const auto* imu = std::get_if<sim::ImuMessage>(&message.body)) {
@@ -121,7 +121,7 @@ class RunningEstimator {
   }
   void Match() {
     while (const auto job = odometry_.NextJob()) {
-      match_side_.Insert(odometry_.FinishJob(match_side_.Run(*job)));
+      worker_.Insert(odometry_.FinishJob(worker_.Run(*job)));
     }
     for (const Output& output : odometry_.TakeOutputs()) {
       const auto* scan = std::get_if<ScanOutput>(&output);
@@ -137,7 +137,7 @@ class RunningEstimator {
   }
 
   Odometry odometry_;
-  MatchSide match_side_;
+  RegistrationWorker worker_;
   StampedPoses rows_;  // in map
   Pose last_in_world_;
 };

@@ -104,7 +104,7 @@ void StartInMotion(benchmark::State& state) {
   Rig rig;
   std::vector<ImuSample> samples;
   Estimate estimate = Start();
-  std::vector<ScoutedPose> poses;
+  std::vector<MatchedPose> poses;
   for (int i = 0; i <= 400; ++i) {  // 2 s at 200 Hz
     samples.push_back(SampleAt(0.005 * i));
     if (i > 0)

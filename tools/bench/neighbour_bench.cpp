@@ -16,7 +16,7 @@ namespace {
 constexpr int kNumKeyframes = 20;
 
 struct Submap {
-  std::vector<std::vector<ShapedPoint>> keyframes;
+  std::vector<std::vector<PointWithNormal>> keyframes;
   std::vector<Pose> poses;
   std::vector<Eigen::Vector3f> points;   // all of them, map frame
   std::vector<Eigen::Vector3f> queries;  // a scan near its place
@@ -37,9 +37,9 @@ struct Submap {
         }
         return;
       }
-      std::vector<ShapedPoint> shaped;
+      std::vector<PointWithNormal> shaped;
       for (const Eigen::Vector3f& p : scan.points) {
-        ShapedPoint point;
+        PointWithNormal point;
         point.position = p;
         point.thickness_var = 1e-3f;
         shaped.push_back(point);

@@ -11,10 +11,10 @@
 
 #include "commands.hpp"
 #include "lio/calib/rotation_calibration.hpp"
+#include "lio/calib/scan_poses.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/progress_bar.hpp"
-#include "lio/pipeline/scan_poses.hpp"
 
 namespace lio {
 namespace {

@@ -14,7 +14,7 @@
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/run_writer.hpp"
-#include "lio/pipeline/match_side.hpp"
+#include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
 namespace {
@@ -70,9 +70,10 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
       ->type_name("NAME")
       ->capture_default_str();
-  app.add_option("--match-lag", arguments.match_lag,
-                 "Take each match's result N messages late, as liod does under load; a check, since\n"
-                 "the files must be the same")
+  app.add_option(
+         "--match-lag", arguments.match_lag,
+         "Take each match's result N messages late, as liod does under load; a check, since\n"
+         "the files must be the same")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
   AddOptionsArguments(app, arguments.options);
@@ -84,7 +85,7 @@ class Replay {
   Replay(const Options& options, const ReplayArguments& arguments, RunWriter& writer)
       : writer_(writer),
         odometry_(options, ThreadCpuNs),
-        match_side_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
+        worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
         writes_map_(arguments.writes_map),
         match_lag_(arguments.match_lag) {}
 
@@ -125,7 +126,7 @@ class Replay {
     while (outcome_ || StartMatch()) {
       if (num_messages_to_wait_ > 0) break;
       const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
-      match_side_.Insert(insert);
+      worker_.Insert(insert);
       if (writes_map_ && insert.T_map_imu) map_.Add(insert.points_imu, *insert.T_map_imu);
     }
     TakeOutputs();
@@ -135,7 +136,7 @@ class Replay {
     const std::optional<MatchJob> job = odometry_.NextJob();
     if (!job) return false;
     if (job->clear_map) map_.Clear();
-    outcome_ = match_side_.Run(*job);
+    outcome_ = worker_.Run(*job);
     num_messages_to_wait_ = match_lag_;
     return true;
   }
@@ -167,7 +168,7 @@ class Replay {
 
   RunWriter& writer_;
   Odometry odometry_;
-  MatchSide match_side_;
+  RegistrationWorker worker_;
   MapCloud map_;
   bool writes_map_;
   int match_lag_;

@@ -67,7 +67,7 @@ class FilterHistory {
   // `result`, when given, is filled under kApplied and kGated.
   EventOutcome AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result = nullptr);
   // No velocity but for noise of `variance` an axis, (m/s)^2; gated like poses.
-  EventOutcome AddStandstill(Timestamp stamp, double variance);
+  EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
   // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
   EventOutcome AddRebase(Timestamp stamp);
 

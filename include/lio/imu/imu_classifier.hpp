@@ -32,14 +32,14 @@ struct ImuVerdict {
     kOtherwise     // `reading` fits, the expected one does not
   };
   Finding finding = Finding::kOpen;
-  ImuReading reading;               // the expected one, or what was found instead
+  ImuConvention reading;            // the expected one, or what was found instead
   std::optional<bool> has_gravity;  // in the accelerometer's reading; absent while unclear
   std::string evidence;             // for people; kOtherwise only
 };
 
 class ImuClassifier {
  public:
-  ImuClassifier(const ImuReading& expected, const Rig& rig);
+  ImuClassifier(const ImuConvention& expected, const Rig& rig);
 
   // It was told at rest: forces that scan matching does not see are no other unit's.
   void KeepForceUnit() { keeps_force_unit_ = true; }
@@ -65,7 +65,7 @@ class ImuClassifier {
  private:
   using Bends = std::span<const MotionEvidence::Bend>;
   struct Scored {
-    ImuReading reading;
+    ImuConvention reading;
     bool has_gravity = false;
     double score = 0.0;
   };
@@ -79,14 +79,14 @@ class ImuClassifier {
 
   Ranking Rank(Bends bends) const;
   std::vector<Scored> ScoreAll(Bends bends) const;
-  void ScoreForces(const ImuReading& rates, Bends bends, std::vector<Scored>& all) const;
-  std::optional<ImuReading> LeastChange(std::span<const Scored> likely) const;
-  bool IsGyroHeard(const ImuReading& reading) const;
+  void ScoreForces(const ImuConvention& rates, Bends bends, std::vector<Scored>& all) const;
+  std::optional<ImuConvention> LeastChange(std::span<const Scored> likely) const;
+  bool IsGyroHeard(const ImuConvention& reading) const;
   double ExpectedScoreOfOtherClocks() const;
-  double Lean(const ImuReading& reading) const;
-  std::string Describe(const ImuReading& found, Bends bends) const;
+  double Lean(const ImuConvention& reading) const;
+  std::string Describe(const ImuConvention& found, Bends bends) const;
 
-  ImuReading expected_;
+  ImuConvention expected_;
   bool keeps_force_unit_ = false;
   double gravity_mps2_;
   Vector3 lidar_axis_imu_;  // up, where the lidar stands

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "lio/imu/imu_reading.hpp"
+#include "lio/imu/imu_convention.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {

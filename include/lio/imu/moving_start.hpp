@@ -26,7 +26,7 @@
 namespace lio {
 
 // A pose from scan matching, in any frame that does not move.
-struct ScoutedPose {
+struct MatchedPose {
   Timestamp stamp;
   Pose T_any_imu;
   Matrix6 cov = Matrix6::Zero();  // right error [m; rad], as scan matching gives it
@@ -42,7 +42,7 @@ struct MovingStart {
 
 // `samples` reach from about `from` to the last pose; `from` is not after the first pose. Without
 // `has_gravity` the accelerometer's reading is taken as acceleration alone.
-MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const ScoutedPose> poses,
+MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from, const Rig& rig, bool has_gravity);
 
 }  // namespace lio

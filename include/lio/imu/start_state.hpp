@@ -26,13 +26,13 @@ struct ImuStatistics {
 ImuStatistics Summarise(std::span<const ImuSample> samples);
 
 // What shakes a body: of each of the three axes, 1 sigma.
-struct Unrest {
+struct VibrationLevel {
   double gyro_std_radps = 0.0;
   double accel_std_mps2 = 0.0;
 };
-// Is the spread no more than this unrest and the sensors' noise make, which is the more the faster
-// they are read?
-bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const Unrest& unrest);
+// Is the spread no more than this vibration and the sensors' noise make, which is the more the
+// faster they are read?
+bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const VibrationLevel& vibration);
 
 // Is gravity in the accelerometer's reading? `automatic` goes by the mean's length at rest or in
 // smooth motion: nearer to g than to zero.
@@ -48,7 +48,7 @@ struct StartState {
 StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig);
 
 // Where the body was, and how fast.
-struct PassedPoint {
+struct LastFix {
   Timestamp stamp;
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
@@ -59,14 +59,14 @@ struct PassedPoint {
 inline constexpr double kPlacedStd_m = 0.5;
 inline constexpr double kPlacedStd_rad = 0.05;
 // How long ago that was; no longer than the body may be thought to have gone straight on.
-double CoastedSince_s(const PassedPoint& earlier, Timestamp now);
+double CoastedSince_s(const LastFix& earlier, Timestamp now);
 // The point in a world that is level by what is known now: `R_level_imu`, of any yaw, is the
 // attitude there. Yaw, position and map stay.
-void Level(const Quaternion& R_level_imu, PassedPoint& point);
+void Level(const Quaternion& R_level_imu, LastFix& point);
 // Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
 // without gravity its whole attitude, and from its position by the mean of both velocities. The map
 // goes on by the same motion. Position and yaw are as unsure as they were, and some more.
-void PlaceInWorld(const PassedPoint& earlier, bool has_gravity, Estimate& estimate);
+void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate);
 
 // The rotation from imu to world that takes `up_imu` to world's z, without turning about it more
 // than needed, and with the imu's x axis at yaw zero.

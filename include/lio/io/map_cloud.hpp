@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
-#include "lio/map/voxel_key.hpp"
+#include "lio/base/voxel_key.hpp"
 
 namespace lio {
 

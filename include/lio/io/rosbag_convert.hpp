@@ -11,9 +11,9 @@
 #include <string>
 
 #include "lio/io/bag_reader.hpp"
+#include "lio/io/lidar_spin_estimator.hpp"
 #include "lio/io/point_time.hpp"
 #include "lio/io/ring_rule.hpp"
-#include "lio/io/spin_observer.hpp"
 #include "lio/io/stream_stats.hpp"
 #include "lio/io/truth_source.hpp"
 

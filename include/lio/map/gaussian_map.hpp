@@ -18,8 +18,8 @@
 
 #include "lio/base/parallel.hpp"
 #include "lio/base/rotation.hpp"
-#include "lio/map/voxel_index.hpp"
-#include "lio/registration/ndt_options.hpp"
+#include "lio/base/voxel_index.hpp"
+#include "lio/map/ndt_options.hpp"
 
 namespace lio {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
-#include "lio/map/shaped_point.hpp"
-#include "lio/map/voxel_index.hpp"
+#include "lio/base/voxel_index.hpp"
+#include "lio/map/point_with_normal.hpp"
 
 namespace lio {
 
@@ -34,7 +34,7 @@ class KeyframeMap {
   // Adds a keyframe of the points that have a shape, given in the keyframe's own frame; then drops
   // keyframes farther than max_distance_m from it and, beyond the bound on points, those longest
   // not part of a submap, never the new one.
-  void Add(std::span<const ShapedPoint> points_kf, const Pose& T_map_kf);
+  void Add(std::span<const PointWithNormal> points_kf, const Pose& T_map_kf);
 
   // The keyframes nearest to a place, and those nearest to it on the convex hull of all (seen from
   // above). Height differences count three times: storeys above are no neighbours.
@@ -48,7 +48,7 @@ class KeyframeMap {
   // The better it is the shorter the search; the result is the same but for ties.
   Hit FindNearest(const Vector3& query_map, double radius_m, std::int32_t near = -1) const;
   // Shape in the map's frame; its position is from the corner of its block.
-  const ShapedPoint& shape(std::int32_t point) const { return points_[ToIndex(point)].shape; }
+  const PointWithNormal& shape(std::int32_t point) const { return points_[ToIndex(point)].shape; }
 
   // Points of the submap's and other keyframes in the voxel around it.
   int CountAt(const Vector3& point_map) const;
@@ -84,7 +84,7 @@ class KeyframeMap {
     std::array<std::int32_t, kVoxels> first_node;
   };
   struct Point {
-    ShapedPoint shape;
+    PointWithNormal shape;
     std::int32_t block = kNone;
     std::int32_t voxel = 0;  // of the block
   };
@@ -100,7 +100,7 @@ class KeyframeMap {
 
   static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
   Vector3 CornerOf(const Block& block) const;
-  std::int32_t AddPoint(const ShapedPoint& shape_map, const Vector3& position_map,
+  std::int32_t AddPoint(const PointWithNormal& shape_map, const Vector3& position_map,
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lio/base/rotation.hpp"
-#include "lio/map/voxel_index.hpp"
+#include "lio/base/voxel_index.hpp"
 
 namespace lio {
 

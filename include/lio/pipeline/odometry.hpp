@@ -31,9 +31,9 @@ namespace lio {
 // CPU clock for stage times; the core has none of its own. Null: no times.
 using ClockNs = std::int64_t (*)();
 
-struct MatchJob;      // match_side.hpp
-struct MatchOutcome;  // match_side.hpp
-struct InsertTask;    // match_side.hpp
+struct MatchJob;      // registration_worker.hpp
+struct MatchOutcome;  // registration_worker.hpp
+struct InsertTask;    // registration_worker.hpp
 
 // A human-readable event with a severity, e.g. why the start still waits.
 struct Notice {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "lio/filter/filter_options.hpp"
+#include "lio/map/ndt_options.hpp"
 #include "lio/registration/gicp_options.hpp"
 #include "lio/registration/loam_options.hpp"
-#include "lio/registration/ndt_options.hpp"
 #include "lio/scan/loam_feature_options.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/sensor/rig.hpp"

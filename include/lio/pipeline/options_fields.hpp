@@ -252,7 +252,7 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
         "a pose farther off than this quantile is not fused", Range{0.5, 0.999999999});
   visit("max_gated_in_a_row", o.max_gated_in_a_row,
         "then it is fused all the same, as a motion that was not seen", Range{1, 1000});
-  visit("use_standstill", o.use_standstill,
+  visit("use_zero_velocity", o.use_zero_velocity,
         "a vehicle that stands still, to IMU and lidar together, has no velocity");
   visit("estimate_clock_offset", o.estimate_clock_offset,
         "follow what is left of the offset between lidar and IMU, up to 50 ms; 50 ms more latency");

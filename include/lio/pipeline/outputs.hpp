@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "lio/base/counters.hpp"
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
+#include "lio/registration/match_status.hpp"
 
 namespace lio {
 
@@ -72,15 +74,6 @@ struct FilterReport {
   Eigen::MatrixXd cov;  // that of the pose and velocity in `nav`
 };
 
-enum class MatchStatus : std::int8_t {
-  kConverged = 0,
-  kMaxIterations = 1,
-  kTooFewPoints = 2,
-  kEmptyMap = 3,  // nothing to match against yet: the scan starts the map
-  kDiverged = 4,
-  kDegenerate = 5,  // converged, with weak directions
-};
-
 enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };
 inline constexpr int kNumStages = 7;
 using StageTimes = std::array<std::int64_t, kNumStages>;  // ns of CPU work, indexed by Stage
@@ -97,37 +90,9 @@ struct ScanReport {
   bool fused = false;
   double residual_rms_m = 0.0;
   Vector6 information_eigenvalues = Vector6::Zero();  // ascending
-  unsigned weak_mask = 0;                             // bit i: eigenvalue i is a weak direction
+  unsigned degenerate_mask = 0;                       // bit i: eigenvalue i is a weak direction
   double nis = 0.0;
   StageTimes stage_ns{};
-};
-
-// A count of everything that was lost, refused or odd: zero on a clean log. And of standstills.
-struct Counters {
-  std::int64_t num_imu = 0;
-  std::int64_t num_imu_nonfinite = 0;
-  std::int64_t num_imu_duplicate = 0;
-  std::int64_t num_imu_late = 0;  // stamped before what was already fused
-  std::int64_t num_imu_out_of_range = 0;
-  std::int64_t num_imu_clipped = 0;  // an axis at the end of its range
-  std::int64_t num_imu_gaps = 0;
-  std::int64_t num_chunks = 0;
-  std::int64_t num_chunks_duplicate = 0;
-  std::int64_t num_chunks_late = 0;
-  std::int64_t num_chunks_missing = 0;
-  std::int64_t num_chunks_bad = 0;  // inconsistent index, count or time span
-  std::int64_t num_points_nonfinite = 0;
-  std::int64_t num_scans = 0;  // sweeps closed, empty ones included
-  std::int64_t num_scans_empty = 0;
-  std::int64_t num_scans_dropped = 0;  // overload, live only
-  std::int64_t num_scans_late = 0;
-  std::int64_t num_scans_without_imu = 0;
-  std::int64_t num_scan_gaps = 0;
-  std::int64_t num_matches_rejected = 0;
-  std::int64_t num_gated = 0;
-  std::int64_t num_standstills = 0;  // scans taken at rest, and fused as such
-  std::int64_t num_clock_jumps = 0;
-  std::int64_t num_restarts = 0;
 };
 
 // Registered points for viewers: in the map's frame.

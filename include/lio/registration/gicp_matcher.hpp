@@ -34,7 +34,7 @@
 
 namespace lio {
 
-class ScanShapes;
+class ScanNormals;
 
 class GicpMatcher final : public ScanMatcher {
  public:
@@ -45,7 +45,7 @@ class GicpMatcher final : public ScanMatcher {
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   void Clear() override;
   MapSize map_size() const override;
-  double HeldCost(const MatchInput& input, const Pose& T_map_imu) const override;
+  double FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const override;
 
   std::size_t num_keyframes() const { return map_.num_keyframes(); }
   double openness_m() const { return openness_m_; }
@@ -80,15 +80,15 @@ class GicpMatcher final : public ScanMatcher {
 
   GicpOptions options_;
   KeyframeMap map_;
-  std::unique_ptr<ScanShapes> shapes_;
-  std::vector<ShapedPoint> source_;  // the scan's points that are matched
-  std::vector<std::int32_t> near_;   // each one's last neighbour; kUnknown, kNowhere
-  std::vector<Pair> pairs_;          // of the current iteration, in the points' order
-  Pose paired_at_;                   // where the pairs' offsets hold
-  Pose sought_at_;                   // where their neighbours were sought
-  bool is_far_off_ = false;          // the guess may be
-  bool has_shapeless_ = false;       // source_ has points of no known shape, ...
-  bool uses_shapeless_ = false;      // ... which count
+  std::unique_ptr<ScanNormals> shapes_;
+  std::vector<PointWithNormal> source_;  // the scan's points that are matched
+  std::vector<std::int32_t> near_;       // each one's last neighbour; kUnknown, kNowhere
+  std::vector<Pair> pairs_;              // of the current iteration, in the points' order
+  Pose paired_at_;                       // where the pairs' offsets hold
+  Pose sought_at_;                       // where their neighbours were sought
+  bool is_far_off_ = false;              // the guess may be
+  bool has_shapeless_ = false;           // source_ has points of no known shape, ...
+  bool uses_shapeless_ = false;          // ... which count
   PoseScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };

@@ -33,7 +33,7 @@ class LoamMatcher final : public ScanMatcher {
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   void Clear() override;
   MapSize map_size() const override;
-  double HeldCost(const MatchInput& input, const Pose& T_map_imu) const override;
+  double FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const override;
 
  private:
   void Associate(const MatchInput& input, const Pose& T_map_imu, const SearchRadius& radius);

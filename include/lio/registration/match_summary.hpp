@@ -6,8 +6,8 @@
 #pragma once
 
 #include "lio/registration/cluster_scores.hpp"
+#include "lio/registration/degenerate_directions.hpp"
 #include "lio/registration/scan_matcher.hpp"
-#include "lio/registration/weak_directions.hpp"
 
 namespace lio {
 
@@ -67,7 +67,7 @@ struct MatchSums {
   double curvature_ratio() const;
 
   TermSum information;
-  TermSum feigned;  // information that the noise of the map's directions alone would show
+  TermSum noise_information;  // information that the noise of the map's directions alone would show
   Vector6 gradient = Vector6::Zero();
   double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
   double residual_sq_sum = 0.0;  // weighted so [m^2]

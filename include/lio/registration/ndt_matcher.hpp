@@ -20,10 +20,10 @@
 
 #include "lio/base/parallel.hpp"
 #include "lio/map/gaussian_map.hpp"
+#include "lio/map/ndt_options.hpp"
+#include "lio/registration/intra_sweep_rate_estimator.hpp"
 #include "lio/registration/match_summary.hpp"
-#include "lio/registration/ndt_options.hpp"
 #include "lio/registration/scan_matcher.hpp"
-#include "lio/registration/turn_sums.hpp"
 
 namespace lio {
 
@@ -36,7 +36,7 @@ class NdtMatcher final : public ScanMatcher {
 
   MatchResult Match(const MatchInput& input) override;
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
-  double HeldCost(const MatchInput& input, const Pose& T_map_imu) const override;
+  double FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const override;
   void Clear() override;
   void SetUp(const Vector3& up_map) override;
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
@@ -81,7 +81,7 @@ class NdtMatcher final : public ScanMatcher {
                       const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
   Matrix6 ScoreCovariance();
-  TurnRate TurnRateError(std::span<const float> after_middle_s, double curvature_ratio);
+  TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
@@ -93,7 +93,7 @@ class NdtMatcher final : public ScanMatcher {
   std::vector<PointScore> scores_;       // of the last match, one a point
   PoseScores gradients_;                 // by cell
   std::array<PoseScores, 2> per_metre_;  // by upright cell, a metre along its two directions
-  TurnSums turn_;
+  IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // of the last count; older counts are void
 };

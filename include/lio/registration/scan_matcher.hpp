@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
-#include "lio/pipeline/outputs.hpp"
+#include "lio/registration/match_status.hpp"
 #include "lio/scan/feature_tag.hpp"
 
 namespace lio {
@@ -42,7 +42,7 @@ struct MatchInput {
   // each side (trunks, bushes) are left out where it is known better than they can tell.
   double shift_std_m = 1.0;
   // Of points_imu, when each was seen; only where the turn within the sweep is asked for.
-  std::span<const float> after_middle_s = {};
+  std::span<const float> from_mid_sweep_s = {};
 };
 
 struct MatchResult {
@@ -50,9 +50,9 @@ struct MatchResult {
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
   Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
   Matrix6 cov = Matrix6::Zero();          // of T_map_imu, right error; large along weak directions
-  Matrix6 held_cov = Matrix6::Zero();     // the same without the part along weak directions
-  Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
-  unsigned weak_mask = 0;                 // bit i: eigenvalue i is not held by the scene
+  Matrix6 observable_cov = Matrix6::Zero();  // the same without the part along weak directions
+  Vector6 eigenvalues = Vector6::Zero();     // of the information, rotations scaled to metres
+  unsigned degenerate_mask = 0;              // bit i: eigenvalue i is not held by the scene
   int num_matched = 0;
   // Points where the map knows a surface, near or far from it; 0 where the method does not tell.
   int num_in_map = 0;
@@ -78,7 +78,7 @@ class ScanMatcher {
   virtual void SetUp(const Vector3& /*up_map*/) {}
   // The cost at a pose with the correspondences and weights of the last Match, which had this
   // input, held; its second derivative at the solution is the information. For tests and diagnosis.
-  virtual double HeldCost(const MatchInput& input, const Pose& T_map_imu) const = 0;
+  virtual double FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const = 0;
 
   struct MapSize {
     std::size_t num_cells = 0;

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lio/map/voxel_set.hpp"
+#include "lio/base/voxel_set.hpp"
 #include "lio/scan/loam_feature_options.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lio/map/voxel_key.hpp"
+#include "lio/base/voxel_key.hpp"
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/calib/scan_poses.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lio {
+namespace {
+
+constexpr Duration kWait{300'000'000};  // a sweep still open so long after its end is closed
+// How far a known path may be off.
+constexpr double kPathStd_m = 0.05;
+constexpr double kPathStd_rad = 0.005;
+
+Options LidarAsBody(Options options) {
+  options.rig.T_imu_lidar = Pose::Identity();
+  return options;
+}
+
+}  // namespace
+
+ScanPoses::ScanPoses(const Options& options, const SweepPath* path)
+    : path_(path), matching_(LidarAsBody(options)) {}
+
+void ScanPoses::Add(ScanChunk chunk) {
+  const Timestamp stamp = chunk.stamp;
+  assembler_.Add(std::move(chunk), 0);
+  assembler_.CloseUpTo(stamp - kWait);
+  MatchClosed();
+}
+
+void ScanPoses::Finish() {
+  assembler_.CloseAll();
+  MatchClosed();
+}
+
+void ScanPoses::MatchClosed() {
+  while (std::optional<Sweep> sweep = assembler_.Take()) {
+    const bool is_late = last_found_ && sweep->start <= *last_found_;
+    if (sweep->points.empty() || is_late) continue;
+    Match(std::make_shared<const Sweep>(std::move(*sweep)));
+  }
+}
+
+MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
+  if (!scout_) scout_.emplace(sweep->start, TrackerOptions{});
+  scout_->AdvanceTo(sweep->end);
+  const FilterHistory& history = scout_->history();
+  const Estimate predicted = history.At(sweep->middle());
+  MatchJob job;
+  job.T_any_imu = history.Trajectory(sweep->start, sweep->end);
+  job.T_map_imu_guess = predicted.state.T_map_imu;
+  job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.refine_deskew = true;
+  if (last_found_) {
+    job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+  }
+  job.sweep = std::move(sweep);
+  return job;
+}
+
+MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
+  MatchJob job;
+  job.T_any_imu = path_->Between(sweep->start, sweep->end);
+  job.T_map_imu_guess = path_->At(sweep->middle());
+  job.guess_cov.diagonal() << Vector3::Constant(kPathStd_m * kPathStd_m),
+      Vector3::Constant(kPathStd_rad * kPathStd_rad);
+  job.sweep = std::move(sweep);
+  return job;
+}
+
+// The pose to grow the map at: in the mean of what was matched and what was expected.
+Pose ScanPoses::TellTracker(Timestamp middle, const MatchResult& match) {
+  scout_->Tell(middle, match);
+  return scout_->history().At(middle).state.T_map_imu;
+}
+
+void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
+  const Timestamp middle = sweep->middle();
+  MatchJob job = path_ != nullptr ? JobAlongPath(std::move(sweep)) : JobByTracker(std::move(sweep));
+  job.clear_map = !last_found_;  // the first scan makes the map
+  MatchOutcome outcome = matching_.Run(job);
+  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  if (!outcome.match.IsUsable() && !starts_map) {
+    ++num_unmatched_;
+    return;
+  }
+  const Pose T_map_lidar =
+      path_ != nullptr ? outcome.match.T_map_imu : TellTracker(middle, outcome.match);
+  if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
+    keyframes_.Accept(T_map_lidar);
+    matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});
+  }
+  last_found_ = middle;
+  found_.push_back({middle, starts_map ? T_map_lidar : outcome.match.T_map_imu});
+}
+
+}  // namespace lio

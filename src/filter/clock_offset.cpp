@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/clock_offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "lio/base/chi_square.hpp"
+#include "lio/filter/preintegration.hpp"
+#include "lio/sensor/sample_lookup.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kMaxTurn_s = 0.35;            // longer ones, across lost scans, are left out
+constexpr double kMinRateChange_radps = 0.05;  // less tells nothing, ...
+constexpr double kTurnStd_rad = 1e-3;          // besides what registration and gyro claim
+constexpr double kMinRateChangeInNoise = 6.0;  // ... nor does less than this of the gyro's noise
+constexpr double kWalk_s_per_sqrt_s = 2e-5;    // oscillators drift by 10 us a second
+constexpr double kMaxStd_s = 0.02;             // nobody's clocks are known worse
+constexpr double kKnownStd_s = 2e-3;           // from then on stamps are moved ...
+constexpr double kMaxStep_s = 2e-3;            // ... by so much more or less a scan
+
+// What a change of the rate must exceed to be more than the gyro's noise and a car's trembling.
+double MinRateChange(std::span<const ImuSample> samples, const ImuRig& imu) {
+  const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
+  const double noise_radps =
+      imu.gyro_noise_density * std::sqrt(static_cast<double>(samples.size()) / span_s);
+  return std::max(kMinRateChange_radps, kMinRateChangeInNoise * noise_radps);
+}
+
+}  // namespace
+
+double ClockOffset::std_s() const {
+  return std::sqrt(var_s2_);
+}
+
+void ClockOffset::Interrupt() {
+  last_.reset();
+  samples_.clear();
+}
+
+void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
+  for (const ImuSample& sample : samples) {
+    if (samples_.empty() || sample.stamp > samples_.back().stamp) samples_.push_back(sample);
+  }
+  if (last_ && scan.stamp > last_->stamp) Update(scan);
+  Follow();
+  last_ = scan;
+  const Timestamp begin = scan.stamp - Duration::FromSeconds(kMaxTurn_s);
+  while (!samples_.empty() && samples_.front().stamp < begin) samples_.pop_front();
+}
+
+void ClockOffset::Update(const Scan& scan) {
+  const double span_s = SecondsBetween(last_->stamp, scan.stamp);
+  var_s2_ =
+      std::min(var_s2_ + kWalk_s_per_sqrt_s * kWalk_s_per_sqrt_s * span_s, kMaxStd_s * kMaxStd_s);
+  if (span_s > kMaxTurn_s || samples_.size() < 3) return;
+  const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
+  ProcessNoise noise;
+  noise.gyro_density = imu_.gyro_noise_density;
+  const Preintegration gyro =
+      Preintegrate(samples, last_->stamp, scan.stamp, {scan.gyro_bias, Vector3::Zero()}, noise);
+  const Quaternion matched = last_->R_map_imu.conjugate() * scan.R_map_imu;
+  const Vector3 residual = LogSo3(gyro.rotation.conjugate() * matched);
+  const Vector3 w = SampleAt(samples, scan.stamp).w_imu_radps - scan.gyro_bias;
+  const Vector3 w_last =
+      gyro.rotation.conjugate() * (SampleAt(samples, last_->stamp).w_imu_radps - scan.gyro_bias);
+  const Vector3 h = w - w_last;
+  if (h.norm() < MinRateChange(samples, imu_)) return;
+
+  const Vector3 innovation =
+      residual + w * scan.moved_by_s - w_last * last_->moved_by_s - h * offset_s_;
+  const double turn_var = scan.rotation_var + last_->rotation_var + kTurnStd_rad * kTurnStd_rad +
+                          imu_.gyro_noise_density * imu_.gyro_noise_density * span_s;
+  const Matrix3 S = var_s2_ * h * h.transpose() + turn_var * Matrix3::Identity();
+  const Vector3 weighted = S.inverse() * innovation;
+  if (innovation.dot(weighted) > kChiSquare3At999) return;
+  offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
+  var_s2_ = 1.0 / (1.0 / var_s2_ + h.squaredNorm() / turn_var);
+}
+
+void ClockOffset::Follow() {
+  if (std_s() > kKnownStd_s) return;
+  move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kMaxStep_s, kMaxStep_s);
+}
+
+}  // namespace lio

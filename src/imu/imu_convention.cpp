@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/imu_convention.hpp"
+
+#include <numbers>
+
+namespace lio {
+namespace {
+
+constexpr double kStandardGravity_mps2 = 9.80665;  // what data sheets mean by 1 g
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+// "x -y -z": what the messages call the axes of imu, in its order.
+std::string AxisNames(const Matrix3& R_imu_sent) {
+  std::string names;
+  for (const auto& row : R_imu_sent.rowwise()) {
+    Eigen::Index axis = 0;
+    row.cwiseAbs().maxCoeff(&axis);
+    names += names.empty() ? "" : " ";
+    names += row(axis) < 0.0 ? "-" : "";
+    names += "xyz"[axis];
+  }
+  return names;
+}
+
+}  // namespace
+
+double ImuConvention::force_scale() const {
+  return is_in_g ? kStandardGravity_mps2 : 1.0;
+}
+
+double ImuConvention::rate_scale() const {
+  return is_in_deg ? kRadPerDeg : 1.0;
+}
+
+// Signed permutations of the axes that keep the handedness.
+std::array<Matrix3, kNumQuarterTurns> QuarterTurns() {
+  std::array<Matrix3, kNumQuarterTurns> turns;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const auto x = static_cast<Eigen::Index>(i / 8);
+    const Eigen::Index y = (x + 1 + (i & 4 ? 1 : 0)) % 3;
+    const Vector3 to_x = (i & 1 ? -1.0 : 1.0) * Vector3::Unit(x);
+    const Vector3 to_y = (i & 2 ? -1.0 : 1.0) * Vector3::Unit(y);
+    turns[i] << to_x.transpose(), to_y.transpose(), to_x.cross(to_y).transpose();
+  }
+  return turns;
+}
+
+ImuSample ToSi(const ImuConvention& reading, ImuSample sent) {
+  sent.w_imu_radps = reading.rate_scale() * (reading.R_imu_sent * sent.w_imu_radps);
+  sent.f_imu_mps2 = reading.force_scale() * (reading.R_imu_sent * sent.f_imu_mps2);
+  return sent;
+}
+
+ImuSample FromSi(const ImuConvention& reading, ImuSample sample) {
+  sample.w_imu_radps = reading.R_imu_sent.transpose() * sample.w_imu_radps / reading.rate_scale();
+  sample.f_imu_mps2 = reading.R_imu_sent.transpose() * sample.f_imu_mps2 / reading.force_scale();
+  return sample;
+}
+
+ImuConvention ConventionOf(ImuUnits units) {
+  ImuConvention reading;
+  reading.is_in_g = units == ImuUnits::kG || units == ImuUnits::kGAndDeg;
+  reading.is_in_deg = units == ImuUnits::kDeg || units == ImuUnits::kGAndDeg;
+  return reading;
+}
+
+ImuUnits UnitsOf(const ImuConvention& reading) {
+  if (reading.is_in_g) return reading.is_in_deg ? ImuUnits::kGAndDeg : ImuUnits::kG;
+  return reading.is_in_deg ? ImuUnits::kDeg : ImuUnits::kSi;
+}
+
+std::string Describe(const ImuConvention& reading) {
+  std::string text = reading.is_in_g ? "accelerometer in g" : "accelerometer in m/s^2";
+  text += reading.is_in_deg ? ", gyro in deg/s" : ", gyro in rad/s";
+  if (reading.R_imu_sent == Matrix3::Identity()) return text;
+  text += ", its " + AxisNames(reading.R_imu_sent) + " are the rig's x y z";
+  if (reading.R_imu_sent(2, 2) < -0.5) text += " (z down)";
+  return text;
+}
+
+}  // namespace lio

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "lio/pipeline/registration_worker.hpp"
+#include "relocalization/place_guesses.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kSigmas = 3.0;
+constexpr double kMinRange_m = 1.5;
+constexpr double kMaxRange_m = 5.0;
+constexpr std::size_t kMaxViews = 8;
+constexpr float kApart_m = 1.5f;
+
+// A linear update of the imu's place along the level axes' x and y.
+void HoldAt(const FoundShift& found, const Quaternion& R_level_map, MatchResult& match) {
+  const Matrix3 R_level_imu = (R_level_map * match.T_map_imu.rotation).toRotationMatrix();
+  Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();
+  H.leftCols<3>() = R_level_imu.topRows<2>();
+  const Eigen::Vector2d residual =
+      found.position_m - (R_level_map * match.T_map_imu.translation).head<2>();
+  const Eigen::Matrix2d innovation_cov = H * match.cov * H.transpose() + found.cov;
+  const Eigen::Matrix<double, 6, 2> gain = match.cov * H.transpose() * innovation_cov.inverse();
+  match.T_map_imu = match.T_map_imu * ExpSe3(gain * residual);
+  const Matrix6 left = Matrix6::Identity() - gain * H;
+  match.cov = left * match.cov * left.transpose() + gain * found.cov * gain.transpose();
+}
+
+}  // namespace
+
+// Where surfaces leave a direction free, by the things that stand along the way.
+void RegistrationWorker::HoldByView(const MatchJob& job, MatchOutcome& outcome) {
+  MatchResult& match = outcome.match;
+  const Quaternion R_level_map = LevelOf(job.up_map);
+  const auto place_m = [&]() -> Eigen::Vector2f {
+    return (R_level_map * match.T_map_imu.translation).head<2>().cast<float>();
+  };
+  const bool is_apart = views_.empty() || (place_m() - views_.back().position_m).norm() >= kApart_m;
+  if (match.degenerate_mask == 0 && !is_apart) return;
+  BirdsEyeView view(Levelled(outcome.points_imu, R_level_map * match.T_map_imu.rotation));
+  if (match.degenerate_mask != 0 && !views_.empty()) {
+    const double std_m =
+        std::sqrt(std::max(0.0, match.cov.topLeftCorner<3, 3>().diagonal().maxCoeff()));
+    const auto range_m = static_cast<float>(std::clamp(kSigmas * std_m, kMinRange_m, kMaxRange_m));
+    if (const auto found = FindShift(views_, view, place_m(), range_m)) {
+      HoldAt(*found, R_level_map, match);
+    }
+  }
+  if (!is_apart) return;
+  if (views_.size() == kMaxViews) views_.erase(views_.begin());
+  views_.push_back({place_m(), std::move(view)});
+}
+
+}  // namespace lio

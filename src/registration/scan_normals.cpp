@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "registration/scan_normals.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "lio/base/rotation.hpp"
+#include "lio/map/grazing_incidence.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kMinPoints = 6.0;
+// A surface is this much thinner than wide, wide enough in both directions (as a share of the
+// voxel) and its normal known this well.
+constexpr double kMaxThicknessRatio = 0.1;
+constexpr double kMinWidthPerVoxel = 0.3;
+constexpr double kMaxNormalStd_rad = 0.1;
+// A surface z = k x^2 / 2 seen over [-a, a] is a^2 / 3 wide and k^2 a^4 / 45 thick, both variances;
+// a distance o away it has bent by k o^2 / 2, whose square is this much thickness / width^2 o^4.
+constexpr double kBend = 1.25;
+constexpr float kOverlapVoxels = 2.f;  // points so near to the next level's range count there too
+
+VoxelCell CellAt(const Eigen::Vector3f& point, float inverse_voxel) {
+  return {FloorToInt(point.x() * inverse_voxel), FloorToInt(point.y() * inverse_voxel),
+          FloorToInt(point.z() * inverse_voxel)};
+}
+
+}  // namespace
+
+std::size_t ScanNormals::LevelOf(float range_m) const {
+  std::size_t level = 0;
+  while (level + 1 < kNumLevels && range_m > levels_[level].max_range_m) ++level;
+  return level;
+}
+
+void ScanNormals::AddTo(Level& level, const Eigen::Vector3f& point) {
+  const VoxelCell cell = CellAt(point, 1.f / level.voxel_m);
+  const VoxelIndex::Added added = level.index.FindOrAdd(PackVoxel(cell[0], cell[1], cell[2]));
+  if (added.is_new) level.moments.emplace_back();
+  Moments& m = level.moments[static_cast<std::size_t>(added.voxel)];
+  const Vector3 p = point.cast<double>();
+  m.count += 1.0;
+  m.x += p.x();
+  m.y += p.y();
+  m.z += p.z();
+  m.xx += p.x() * p.x();
+  m.xy += p.x() * p.y();
+  m.xz += p.x() * p.z();
+  m.yy += p.y() * p.y();
+  m.yz += p.y() * p.z();
+  m.zz += p.z() * p.z();
+}
+
+void ScanNormals::SetScan(std::span<const Eigen::Vector3f> points) {
+  auto voxel_m = static_cast<float>(options_.shape_voxel_m);
+  for (Level& level : levels_) {
+    level.voxel_m = voxel_m;
+    level.max_range_m = voxel_m / static_cast<float>(options_.shape_voxel_rad);
+    level.index.Clear();
+    level.moments.clear();
+    voxel_m *= 2.f;
+  }
+  for (const Eigen::Vector3f& point : points) {
+    const float range = point.norm();
+    const std::size_t at = LevelOf(range);
+    AddTo(levels_[at], point);
+    const float overlap = kOverlapVoxels * levels_[at].voxel_m;
+    if (at + 1 < kNumLevels && range + overlap > levels_[at].max_range_m) {
+      AddTo(levels_[at + 1], point);
+    }
+    if (at > 0 && range - overlap < levels_[at - 1].max_range_m) AddTo(levels_[at - 1], point);
+  }
+}
+
+PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
+  PointWithNormal shaped;
+  shaped.position = point;
+  const Level& level = levels_[LevelOf(point.norm())];
+  Moments sum;
+  const VoxelCell centre = CellAt(point, 1.f / level.voxel_m);
+  const auto add = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::int32_t voxel = level.index.Find(PackVoxel(x, y, z));
+    if (voxel == VoxelIndex::kNone) return;
+    const Moments& m = level.moments[static_cast<std::size_t>(voxel)];
+    sum.count += m.count;
+    sum.x += m.x;
+    sum.y += m.y;
+    sum.z += m.z;
+    sum.xx += m.xx;
+    sum.xy += m.xy;
+    sum.xz += m.xz;
+    sum.yy += m.yy;
+    sum.yz += m.yz;
+    sum.zz += m.zz;
+  };
+  ForEachVoxel({centre[0] - 1, centre[1] - 1, centre[2] - 1},
+               {centre[0] + 1, centre[1] + 1, centre[2] + 1}, add);
+  if (sum.count < kMinPoints) return shaped;
+  const Vector3 mean = Vector3(sum.x, sum.y, sum.z) / sum.count;
+  Matrix3 cov;
+  cov << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
+  cov = cov / sum.count - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
+  eigen.computeDirect(cov);
+  const Vector3 variance = eigen.eigenvalues();  // ascending
+  const double min_width = kMinWidthPerVoxel * level.voxel_m;
+  if (variance[1] < min_width * min_width) return shaped;
+  if (variance[0] > kMaxThicknessRatio * variance[1]) return shaped;
+  const double thickness_var =
+      std::max(variance[0], options_.surface_std_m * options_.surface_std_m);
+  const double normal_var = thickness_var / (sum.count * variance[1]);
+  if (normal_var > kMaxNormalStd_rad * kMaxNormalStd_rad) return shaped;
+  const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
+  if (IsGrazing(normal, point)) return shaped;
+  shaped.normal = normal;
+  shaped.thickness_var = static_cast<float>(thickness_var);
+  shaped.normal_var = static_cast<float>(normal_var);
+  shaped.bend_var = static_cast<float>(kBend * thickness_var / (variance[1] * variance[1]));
+  return shaped;
+}
+
+}  // namespace lio

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The surface around each point of a scan, from the moments of the 27 voxels around it: one pass to
+// sum them up, no search. Voxels grow with range as beams spread: each range has its level, twice
+// as coarse as the one before.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "lio/base/voxel_index.hpp"
+#include "lio/map/point_with_normal.hpp"
+#include "lio/registration/gicp_options.hpp"
+
+namespace lio {
+
+class ScanNormals {
+ public:
+  explicit ScanNormals(const GicpOptions& options) : options_(options) {}
+
+  // Sums up a scan; forgets the one before.
+  void SetScan(std::span<const Eigen::Vector3f> points);
+  // Shape of the surface at a point of the scan; none where too few points are around, where they
+  // lie along a line, as those of a single ring do, or where they make no surface.
+  PointWithNormal At(const Eigen::Vector3f& point) const;
+
+ private:
+  struct Moments {  // of points from the scan's origin, double: 100 m squared leaves 1e-12 m^2
+    double count = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  };
+  struct Level {
+    float voxel_m = 0.f;
+    float max_range_m = 0.f;
+    VoxelIndex index;
+    std::vector<Moments> moments;
+  };
+  static constexpr std::size_t kNumLevels = 6;
+
+  std::size_t LevelOf(float range_m) const;
+  static void AddTo(Level& level, const Eigen::Vector3f& point);
+
+  GicpOptions options_;
+  std::array<Level, kNumLevels> levels_;
+};
+
+}  // namespace lio

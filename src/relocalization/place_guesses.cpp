@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "relocalization/place_guesses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lio/relocalization/place_search.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kSigmas = 2.0;
+constexpr double kMaxShift_m = 60.0;  // farther off the views do not overlap
+constexpr double kGuessedStd_m = 0.5;
+constexpr double kGuessedStd_rad = 0.03;
+
+double LargestStd(const Matrix3& cov) {
+  return std::sqrt(std::max(0.0, cov.diagonal().maxCoeff()));
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
+                                      const Quaternion& R_level_imu) {
+  const Eigen::Matrix3f R = R_level_imu.toRotationMatrix().cast<float>();
+  std::vector<Eigen::Vector3f> levelled;
+  levelled.reserve(points_imu.size());
+  for (const Eigen::Vector3f& point : points_imu) levelled.emplace_back(R * point);
+  return levelled;
+}
+
+Quaternion LevelOf(const Vector3& up_map) {
+  return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
+}
+
+Matrix6 GuessedPlaceCov() {
+  Matrix6 cov = Matrix6::Zero();
+  cov.diagonal() << Vector3::Constant(kGuessedStd_m * kGuessedStd_m),
+      Vector3::Constant(kGuessedStd_rad * kGuessedStd_rad);
+  return cov;
+}
+
+std::vector<Pose> GuessPlaces(const PlacedScan& earlier, const PlacedScan& now, const Matrix6& cov,
+                              const Quaternion& R_level_map) {
+  const Quaternion R_level_imu = R_level_map * earlier.T_map_imu.rotation;
+  const Vector3 moved_level =
+      R_level_map * (now.T_map_imu.translation - earlier.T_map_imu.translation);
+  const double turned_rad = YawOf(R_level_map * now.T_map_imu.rotation * R_level_imu.conjugate());
+  const double shift_m = kSigmas * LargestStd(cov.topLeftCorner<3, 3>());
+  const double turn_rad = kSigmas * LargestStd(cov.bottomRightCorner<3, 3>());
+  const Vector3 range_m =
+      (0.5 * moved_level.cwiseAbs().array() + shift_m).min(kMaxShift_m).matrix();
+  const FlatPose middle{0.5f * moved_level.head<2>().cast<float>(), static_cast<float>(turned_rad)};
+  const FlatRange range{range_m.head<2>().cast<float>(),
+                        static_cast<float>(std::min(turn_rad, std::numbers::pi))};
+  const BirdsEyeView view_then(Levelled(earlier.points_imu, R_level_imu));
+  const BirdsEyeView view_now(Levelled(now.points_imu, R_level_imu));
+  std::vector<Pose> guesses;
+  for (const FlatPose& flat : FindPlaces(view_then, view_now, middle, range)) {
+    const Vector3 shift_level(flat.shift_m.x(), flat.shift_m.y(), moved_level.z());
+    const Quaternion turn = ExpSo3(Vector3(0, 0, static_cast<double>(flat.turn_rad)));
+    guesses.push_back({R_level_map.conjugate() * turn * R_level_imu,
+                       earlier.T_map_imu.translation + R_level_map.conjugate() * shift_level});
+  }
+  guesses.push_back(earlier.T_map_imu);
+  return guesses;
+}
+
+}  // namespace lio

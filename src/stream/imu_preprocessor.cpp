@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/stream/imu_preprocessor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "lio/sensor/sample_lookup.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kMaxForce_mps2 = 2000.0;  // beyond any accelerometer (200 g)
+constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is one whatever follows
+constexpr Duration kJitter{80'000'000};    // a shorter step back is none
+constexpr double kHole = 1.5;              // in mean steps
+constexpr Duration kSameStretch{200'000'000};
+constexpr Duration kGap{200'000'000};
+constexpr std::size_t kConfirmations = 5;
+// A clock that was set right steps forward by what it had gone back, but for so much ...
+constexpr double kMaxSetRight_s = 0.1;
+constexpr double kSetRightShare = 0.25;  // ... and no more than this share of it.
+
+bool IsAsLong(double step_s, double as_s) {
+  return as_s > 0.0 && std::abs(step_s - as_s) < std::min(kMaxSetRight_s, kSetRightShare * as_s);
+}
+
+}  // namespace
+
+bool ImuPreprocessor::IsSane(const ImuSample& sample) {
+  if (!sample.w_imu_radps.allFinite() || !sample.f_imu_mps2.allFinite()) {
+    ++counters_->num_imu_nonfinite;
+    return false;
+  }
+  if (sample.w_imu_radps.norm() > max_rate_ || sample.f_imu_mps2.norm() > kMaxForce_mps2) {
+    ++counters_->num_imu_out_of_range;
+    return false;
+  }
+  return true;
+}
+
+bool ImuPreprocessor::IsFar(Timestamp stamp) const {
+  return Abs(stamp - *newest_) > kJump;
+}
+
+double ImuPreprocessor::MeanStep_s() const {
+  if (recent_.size() < 2) return 0.0;
+  return SecondsBetween(recent_.front().stamp, recent_.back().stamp) /
+         static_cast<double>(recent_.size() - 1);
+}
+
+double ImuPreprocessor::ClockStepTo_s(Timestamp stamp) const {
+  return SecondsBetween(*newest_, stamp) - MeanStep_s();
+}
+
+bool ImuPreprocessor::IsBehindHole(Timestamp stamp) const {
+  return stamp - *newest_ > kGap;
+}
+
+bool ImuPreprocessor::MayBeSetRight(Timestamp stamp) const {
+  const Timestamp first = suspects_.empty() ? stamp : suspects_.front().stamp;
+  return stamp >= first && IsAsLong(ClockStepTo_s(first), is_behind_s_);
+}
+
+// Is it of a time of which other samples have told, and none of them itself?
+bool ImuPreprocessor::Contradicts(const ImuSample& sample) const {
+  const auto next = FirstNotBefore(recent_, sample.stamp);
+  if (next == recent_.begin()) return true;  // it would have been told before the first that was
+  if (next->stamp == sample.stamp) {
+    return next->w_imu_radps != sample.w_imu_radps || next->f_imu_mps2 != sample.f_imu_mps2;
+  }
+  return SecondsBetween(std::prev(next)->stamp, next->stamp) < kHole * MeanStep_s();
+}
+
+bool ImuPreprocessor::IsSuspect(const ImuSample& sample) const {
+  if (!newest_) return false;
+  if (IsFar(sample.stamp) || IsBehindHole(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
+  const Duration least = suspects_.empty() ? kJitter : Duration{};
+  return *newest_ - sample.stamp > least && Contradicts(sample);
+}
+
+std::vector<ImuSample> ImuPreprocessor::Release() {
+  std::vector<ImuSample> released;
+  for (const ImuSample& sample : std::exchange(suspects_, {})) {
+    if (IsFar(sample.stamp)) {
+      ++counters_->num_imu_out_of_range;
+    } else {
+      if (IsBehindHole(sample.stamp)) ++counters_->num_imu_gaps;
+      released.push_back(sample);
+      Accept(sample);
+    }
+  }
+  return released;
+}
+
+ImuPreprocessor::Result ImuPreprocessor::Confirm() {
+  Result result;
+  const Timestamp first = suspects_.front().stamp;
+  result.before = *newest_;
+  result.clock_step_s = ClockStepTo_s(first);
+  if (first < *newest_) {
+    ++counters_->num_clock_jumps;
+    result.step = Step::kSetBack;
+    result.undoes_hole = IsAsLong(-result.clock_step_s, hole_s_);
+    is_behind_s_ = result.undoes_hole ? 0.0 : is_behind_s_ - result.clock_step_s;
+  } else if (MayBeSetRight(first)) {
+    ++counters_->num_clock_jumps;
+    result.step = Step::kSetRight;
+    is_behind_s_ = 0.0;
+  } else {
+    ++counters_->num_imu_gaps;
+    result.step = IsFar(first) ? Step::kGap : Step::kHole;
+    is_behind_s_ = 0.0;
+  }
+  hole_s_ = result.step == Step::kHole ? result.clock_step_s : 0.0;
+  result.accepted = std::exchange(suspects_, {});
+  if (result.step != Step::kHole) {
+    recent_.clear();
+    newest_.reset();
+  }
+  step_after_ = first;
+  for (const ImuSample& accepted : result.accepted) Accept(accepted);
+  return result;
+}
+
+std::vector<ImuSample> ImuPreprocessor::Flush() {
+  return newest_ ? Release() : std::vector<ImuSample>{};
+}
+
+void ImuPreprocessor::ForgetHole() {
+  hole_s_ = 0.0;
+}
+
+void ImuPreprocessor::ShiftBy(Duration shift) {
+  for (ImuSample& sample : recent_) {
+    if (sample.stamp >= step_after_) sample.stamp = sample.stamp + shift;
+  }
+  newest_ = recent_.back().stamp;
+  ForgetHole();
+}
+
+void ImuPreprocessor::Accept(const ImuSample& sample) {
+  InsertByStamp(recent_, sample);
+  if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
+  while (*newest_ - recent_.front().stamp > kJump) recent_.pop_front();
+}
+
+ImuPreprocessor::Result ImuPreprocessor::Add(const ImuSample& sample) {
+  ++counters_->num_imu;
+  if (!IsSane(sample)) return {};
+  Result result;
+  if (!suspects_.empty() && Abs(sample.stamp - suspects_.back().stamp) > kSameStretch) {
+    result.accepted = Release();
+  }
+  if (!IsSuspect(sample)) {
+    for (const ImuSample& held : Release()) result.accepted.push_back(held);
+    Accept(sample);
+    result.accepted.push_back(sample);
+    return result;
+  }
+  suspects_.push_back(sample);
+  if (suspects_.size() < kConfirmations) return result;
+  return Confirm();
+}
+
+}  // namespace lio

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/stream/scan_assembler.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lio {
+namespace {
+
+constexpr Duration kMaxOffset{500'000'000};  // no lidar turns slower than twice a second
+constexpr Duration kMaxSweepSpan{500'000'000};
+constexpr Duration kJitter{20'000'000};
+constexpr Duration kApart{1'000'000'000};  // sweeps that follow each other are nearer
+constexpr std::size_t kMaxOpenSweeps = 2;
+constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
+
+Duration LastOffset(const ScanChunk& chunk) {
+  std::uint32_t last = 0;
+  for (const LidarPoint& point : chunk.points) last = std::max(last, point.t_offset_ns);
+  return Duration{last};
+}
+
+bool IsUsable(const ScanChunk& chunk) {
+  return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count;
+}
+
+}  // namespace
+
+// The same number far away in time is another sweep, after a restart of the sender.
+bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
+  return scan_seq == chunk.scan_seq && sensor_id == chunk.sensor_id &&
+         chunk.stamp - first < kMaxSweepSpan && last - chunk.stamp < kMaxSweepSpan;
+}
+
+// Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
+bool ScanAssembler::IsTornOff(const ScanChunk& chunk, Timestamp last) const {
+  if (span_ == Duration{}) return false;
+  const Duration reach = span_ + kJitter;
+  return std::any_of(open_.begin(), open_.end(), [&](const Partial& partial) {
+    return partial.name.Names(chunk) &&
+           (chunk.stamp - partial.name.last > reach || partial.name.first - last > reach);
+  });
+}
+
+ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
+  for (Partial& partial : open_) {
+    if (!partial.name.Names(chunk)) continue;
+    return static_cast<int>(partial.chunks.size()) == chunk.chunk_count ? &partial : nullptr;
+  }
+  const bool is_late = std::any_of(closed_names_.begin(), closed_names_.end(),
+                                   [&](const SweepName& name) { return name.Names(chunk); });
+  if (is_late) return nullptr;
+  if (open_.size() == kMaxOpenSweeps) CloseOneFor(chunk.stamp);
+  Partial partial;
+  partial.name = {chunk.scan_seq, chunk.sensor_id, chunk.stamp, chunk.stamp};
+  partial.chunks.resize(static_cast<std::size_t>(chunk.chunk_count));
+  for (ScanChunk& slot : partial.chunks) slot.chunk_count = 0;
+  const auto after = std::find_if(open_.begin(), open_.end(),
+                                  [&](const Partial& p) { return chunk.stamp < p.name.first; });
+  return &*open_.insert(after, std::move(partial));
+}
+
+void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
+  ++counters_->num_chunks;
+  const Duration last_offset = LastOffset(chunk);
+  const Timestamp last = chunk.stamp + last_offset;
+  if (!IsUsable(chunk) || last_offset > kMaxOffset || IsTornOff(chunk, last)) {
+    ++counters_->num_chunks_bad;
+    return;
+  }
+  Partial* partial = FindOrOpen(chunk);
+  if (partial == nullptr) {
+    ++counters_->num_chunks_late;
+    return;
+  }
+  ScanChunk& slot = partial->chunks[static_cast<std::size_t>(chunk.chunk_index)];
+  if (slot.chunk_count != 0) {
+    ++counters_->num_chunks_duplicate;
+    return;
+  }
+  partial->name.first = std::min(partial->name.first, chunk.stamp);
+  partial->name.last = std::max(partial->name.last, last);
+  partial->decode_ns += decode_ns;
+  slot = std::move(chunk);
+  ++partial->num_received;
+  while (!open_.empty() &&
+         open_.front().num_received == static_cast<int>(open_.front().chunks.size())) {
+    Close(0);
+  }
+}
+
+void ScanAssembler::CloseUpTo(Timestamp stamp) {
+  const auto end = [&](const SweepName& name) { return std::max(name.last, name.first + span_); };
+  while (!open_.empty() && end(open_.front().name) < stamp) Close(0);
+}
+
+void ScanAssembler::CloseAll() {
+  while (!open_.empty()) Close(0);
+}
+
+void ScanAssembler::CloseStretch(Timestamp end, Timestamp next_begin) {
+  for (std::size_t i = open_.size(); i-- > 0;) {
+    const Timestamp at = open_[i].name.first;
+    if (Abs(at - end) < Abs(at - next_begin)) Close(i);
+  }
+}
+
+// The oldest, unless stamps have jumped: what was left of before the jump will never be whole.
+void ScanAssembler::CloseOneFor(Timestamp stamp) {
+  const bool newest_is_apart = Abs(stamp - open_.back().name.first) > kApart;
+  const bool oldest_is_apart = Abs(stamp - open_.front().name.first) > kApart;
+  Close(newest_is_apart && !oldest_is_apart ? open_.size() - 1 : 0);
+}
+
+void ScanAssembler::Close(std::size_t at) {
+  Partial partial = std::move(open_[at]);
+  open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(at));
+  Sweep sweep;
+  sweep.start = partial.name.first;
+  sweep.end = partial.name.last;
+  sweep.scan_seq = partial.name.scan_seq;
+  sweep.decode_ns = partial.decode_ns;
+  sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
+  counters_->num_chunks_missing += sweep.num_missing_chunks;
+  if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kMaxSweepSpan);
+  if (partial.chunks.size() == 1) {
+    sweep.points = std::move(partial.chunks.front().points);
+  } else {
+    std::size_t num_points = 0;
+    for (const ScanChunk& chunk : partial.chunks) num_points += chunk.points.size();
+    sweep.points.reserve(num_points);
+    for (const ScanChunk& chunk : partial.chunks) {
+      const auto shift = static_cast<std::uint32_t>((chunk.stamp - sweep.start).ns);
+      for (LidarPoint point : chunk.points) {
+        point.t_offset_ns += shift;
+        sweep.points.push_back(point);
+      }
+    }
+  }
+  closed_names_.push_back(partial.name);
+  if (closed_names_.size() > kMaxClosedNames) closed_names_.pop_front();
+  closed_.push_back(std::move(sweep));
+}
+
+std::optional<Sweep> ScanAssembler::Take() {
+  if (closed_.empty()) return std::nullopt;
+  Sweep sweep = std::move(closed_.front());
+  closed_.pop_front();
+  return sweep;
+}
+
+}  // namespace lio

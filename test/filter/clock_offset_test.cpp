@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/filter/clock_offset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/smooth_motion.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kScan_s = 0.1;
+constexpr double kTurnStd_rad = 5e-4;
+
+ImuRig Rig() {
+  ImuRig rig;
+  rig.gyro_noise_density = 5e-4;
+  return rig;
+}
+
+// Ten scans a second of a lidar whose clock is `offset_s` behind the IMU's.
+struct Drive {
+  test::SmoothMotion motion;
+  double offset_s = 0.02;
+  double outlier_rad = 0.0;  // of every tenth scan
+
+  void Run(ClockOffset& clock, int from_scan, int to_scan) {
+    const test::ImuErrors errors{gyro_bias, Vector3::Zero(), Rig().gyro_noise_density, 0.0};
+    for (int k = from_scan; k < to_scan; ++k) {
+      const double moved_by_s = clock.move_by_s();
+      const double seen_s = kScan_s * (k + 0.5);  // by the IMU's clock
+      const double stamp_s = seen_s - offset_s + moved_by_s;
+      const Vector3 error = test::NormalVector(random, kTurnStd_rad) +
+                            (k % 10 == 0 ? outlier_rad : 0.0) * Vector3::UnitX();
+      const std::vector<ImuSample> samples = test::ReadImu(
+          motion, stamp_s - 0.5 * kScan_s, stamp_s + 0.5 * kScan_s, 100.0, errors, random);
+      clock.Add({Timestamp{} + Duration::FromSeconds(stamp_s), moved_by_s,
+                 motion.At(seen_s).T_world_imu.rotation * ExpSo3(error),
+                 kTurnStd_rad * kTurnStd_rad, gyro_bias},
+                samples);
+    }
+  }
+
+  const Vector3 gyro_bias{0.003, -0.002, 0.001};
+  std::mt19937_64 random{5};
+};
+
+TEST(ClockOffset, AWalkShowsItToAMillisecond) {
+  for (const double offset_s : {0.02, -0.035, 0.0}) {
+    ClockOffset clock(Rig());
+    Drive drive{test::WalkMotion(), offset_s};
+    drive.Run(clock, 0, 200);
+    EXPECT_NEAR(clock.offset_s(), offset_s, 1e-3);
+    EXPECT_LT(std::abs(clock.offset_s() - offset_s), 4.0 * clock.std_s());
+    EXPECT_LT(clock.std_s(), 1e-3);
+    EXPECT_NEAR(clock.move_by_s(), offset_s, 1e-3) << "stamps are moved by what is known";
+  }
+}
+
+TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {
+  test::SmoothMotion straight;
+  straight.x.speed = 28.0;
+  ClockOffset clock(Rig());
+  Drive{straight}.Run(clock, 0, 600);
+  EXPECT_EQ(clock.offset_s(), 0.0) << "before anything is known";
+  EXPECT_EQ(clock.move_by_s(), 0.0);
+
+  Drive drive{test::WalkMotion()};
+  drive.Run(clock, 1000, 1200);
+  const double found_s = clock.offset_s();
+  Drive{straight}.Run(clock, 2000, 8000);
+  EXPECT_EQ(clock.offset_s(), found_s) << "ten minutes later";
+  EXPECT_LT(clock.std_s(), 2e-3);
+}
+
+TEST(ClockOffset, StaysWithinItsBounds) {
+  ClockOffset clock(Rig());
+  Drive{test::WalkMotion(), 0.08}.Run(clock, 0, 300);
+  EXPECT_LE(clock.offset_s(), ClockOffset::kMax_s);
+  EXPECT_LE(clock.move_by_s(), ClockOffset::kMax_s);
+}
+
+TEST(ClockOffset, WrongMatchesDoNotMoveIt) {
+  ClockOffset clock(Rig());
+  Drive{test::WalkMotion(), 0.02, 0.05}.Run(clock, 0, 300);
+  EXPECT_NEAR(clock.offset_s(), 0.02, 2e-3);
+}
+
+TEST(ClockOffset, StampsAreMovedSlowly) {
+  ClockOffset clock(Rig());
+  Drive drive{test::WalkMotion(), 0.03};
+  double last_s = 0.0;
+  for (int k = 0; k < 100; ++k) {
+    drive.Run(clock, k, k + 1);
+    EXPECT_LE(std::abs(clock.move_by_s() - last_s), 2e-3 + 1e-12);
+    last_s = clock.move_by_s();
+  }
+  EXPECT_NEAR(last_s, 0.03, 1e-3);
+}
+
+TEST(ClockOffset, ATurnAcrossALostScanIsLeftOut) {
+  ClockOffset clock(Rig());
+  Drive drive{test::WalkMotion()};
+  for (int k = 0; k < 50; ++k) {
+    drive.Run(clock, k, k + 1);
+    clock.Interrupt();
+  }
+  EXPECT_EQ(clock.offset_s(), 0.0);
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A scan that is not found where it was guessed.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "lio/pipeline/registration_worker.hpp"
+#include "support/simulated_drive.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+
+test::Motion Driving() {
+  return [](double t_s) { return test::WindingDrive(0.0)(t_s + 4.0); };
+}
+
+MatchJob JobFor(double start_s, const Vector6& guess_error) {
+  std::mt19937_64 random(static_cast<unsigned>(1000 * start_s));
+  auto sweep = std::make_shared<Sweep>();
+  sweep->start = StampAt(start_s);
+  sweep->end = StampAt(start_s + 0.1);
+  sweep->points = test::CastSweep(test::Street(), test::TestLidar(), Driving(), start_s, random);
+  MatchJob job;
+  job.sweep = sweep;
+  for (int i = 0; i <= 10; ++i) {
+    job.T_any_imu.push_back({StampAt(start_s + 0.01 * i), Driving()(start_s + 0.01 * i)});
+  }
+  job.T_map_imu_guess = Driving()(start_s + 0.05) * ExpSe3(guess_error);
+  job.guess_cov.diagonal() << Vector3::Constant(0.01), Vector3::Constant(2.5e-5);
+  return job;
+}
+
+// That nothing is known of its place but for metres and a fifth of a radian.
+MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
+  MatchJob job = JobFor(start_s, guess_error);
+  job.guess_cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
+  job.seek_place = MatchJob::SeekPlace::kAnywhere;
+  job.refine_deskew = true;
+  job.since_last_fix_s = 0.5;
+  return job;
+}
+
+void FillMap(RegistrationWorker& side) {
+  for (int i = 0; i < 10; ++i) {
+    MatchOutcome outcome = side.Run(JobFor(0.1 * i, Vector6::Zero()));
+    side.Insert(
+        {.points_imu = std::move(outcome.points_imu), .T_map_imu = Driving()(0.1 * i + 0.05)});
+  }
+}
+
+// As after a clock that jumped: the motion of a second that never was.
+Vector6 FarAhead() {
+  Vector6 error;
+  error << 12.0, 3.0, 1.5, 0.0, 0.0, 0.3;
+  return error;
+}
+
+TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
+  RegistrationWorker side(test::DriveRig());
+  FillMap(side);
+  const MatchOutcome outcome = side.Run(UnsureJobFor(0.93, FarAhead()));
+  ASSERT_TRUE(outcome.match.IsUsable());
+  EXPECT_TRUE(outcome.is_sought);
+  const Pose error = Driving()(0.98).Inverse() * outcome.match.T_map_imu;
+  EXPECT_LT(error.translation.norm(), 0.1);
+  EXPECT_LT(LogSo3(error.rotation).norm(), 0.01);
+}
+
+TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {
+  RegistrationWorker side(test::DriveRig());
+  FillMap(side);
+  const MatchOutcome outcome = side.Run(UnsureJobFor(1.0, Vector6::Zero()));
+  EXPECT_TRUE(outcome.match.IsUsable());
+  EXPECT_FALSE(outcome.is_sought);
+}
+
+TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
+  RegistrationWorker side(test::DriveRig());
+  FillMap(side);
+  MatchJob job = UnsureJobFor(0.93, FarAhead());
+  job.seek_place = MatchJob::SeekPlace::kNowhere;
+  EXPECT_FALSE(side.Run(job).is_sought);
+}
+
+// After stamps that went a second forth: did the vehicle drive on, or was the clock set?
+TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
+  for (const bool was_set : {true, false}) {
+    RegistrationWorker side(test::DriveRig());
+    FillMap(side);
+    const Vector6 way = FarAhead();
+    MatchJob job = JobFor(0.93, was_set ? way : Vector6(Vector6::Zero()));
+    job.T_map_imu_if_clock_set =
+        Driving()(0.98) * ExpSe3(was_set ? Vector6(Vector6::Zero()) : Vector6(-way));
+    const MatchOutcome outcome = side.Run(job);
+    EXPECT_EQ(outcome.is_clock_set, was_set);
+    ASSERT_TRUE(outcome.match.IsUsable());
+    EXPECT_LT((Driving()(0.98).Inverse() * outcome.match.T_map_imu).translation.norm(), 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace lio

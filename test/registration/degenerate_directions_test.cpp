@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/degenerate_directions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <random>
+
+#include "support/random_state.hpp"
+
+namespace lio {
+namespace {
+
+// Information of a scene that holds every direction, rotations in another unit than translations.
+Matrix6 FullInformation(std::mt19937_64& random) {
+  Vector6 scale;
+  scale << 100, 100, 100, 2000, 2000, 2000;
+  return scale.asDiagonal() * test::RandomCovariance<6>(random, 1.0) * scale.asDiagonal();
+}
+
+Matrix6 SmallNoise() {
+  return 1e-3 * Matrix6::Identity();
+}
+
+// Takes all information along `direction` away.
+Matrix6 Without(const Matrix6& information, const Vector6& direction) {
+  const Vector6 lost = information * direction;
+  return information - lost * lost.transpose() / direction.dot(lost);
+}
+
+TEST(DegenerateDirections, HeldSceneHasNone) {
+  std::mt19937_64 random(1);
+  const DirectionSplit split = SplitDirections(FullInformation(random), SmallNoise());
+  EXPECT_EQ(split.degenerate_mask, 0u);
+  EXPECT_EQ(split.num_degenerate(), 0);
+  EXPECT_TRUE(DegenerateCovariance(split).isZero());
+  EXPECT_TRUE((split.eigenvalues.tail<5>().array() >= split.eigenvalues.head<5>().array()).all());
+}
+
+TEST(DegenerateDirections, StepIsGaussNewtonsWhereAllIsHeld) {
+  std::mt19937_64 random(2);
+  const Matrix6 H = FullInformation(random);
+  const Vector6 g = test::RandomVector<6>(random);
+  const Vector6 expected = -H.ldlt().solve(g);
+  const Vector6 step = StepInObservableDirections(SplitDirections(H, SmallNoise()), g);
+  EXPECT_LT((step - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(DegenerateDirections, CovarianceIsTheSandwichWhereAllIsHeld) {
+  std::mt19937_64 random(3);
+  const Matrix6 H = FullInformation(random);
+  const Matrix6 scores = FullInformation(random);
+  const Matrix6 expected = H.inverse() * scores * H.inverse();
+  const Matrix6 cov = CovarianceFromScores(SplitDirections(H, SmallNoise()), scores);
+  EXPECT_LT((cov - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(DegenerateDirections, DirectionWithoutInformationIsWeakAndNotStepped) {
+  std::mt19937_64 random(4);
+  Vector6 along = Vector6::Zero();
+  along.head<3>() = Vector3(1, 2, -1).normalized();
+  const Matrix6 H = Without(FullInformation(random), along);
+  const DirectionSplit split = SplitDirections(H, SmallNoise());
+  ASSERT_EQ(split.num_degenerate(), 1);
+  EXPECT_EQ(split.degenerate_mask, 1u);  // eigenvalues ascend: the first one
+
+  const Vector6 gradient = H * test::RandomVector<6>(random);
+  const Vector6 step = StepInObservableDirections(split, gradient);
+  EXPECT_LT((H * step + gradient).norm(), 1e-6 * gradient.norm()) << "solved where it is held";
+  const Vector6 scaled_step = split.Scale().cwiseProduct(step);
+  EXPECT_NEAR(scaled_step.dot(split.directions.col(0)), 0.0, 1e-9);
+}
+
+TEST(DegenerateDirections, WeakDirectionHasALargeVariance) {
+  std::mt19937_64 random(5);
+  const Vector6 along = Vector6::Unit(0);
+  const Matrix6 H = Without(FullInformation(random), along);
+  const DirectionSplit split = SplitDirections(H, SmallNoise());
+  const Matrix6 weak = DegenerateCovariance(split);
+  EXPECT_GT(weak(0, 0), 1e3);  // of (100 m)^2, less what of the direction is rotation
+  EXPECT_LT((H * weak).norm(), 1e-6 * H.norm() * weak.norm()) << "along the weak one alone";
+  const Matrix6 held = CovarianceFromScores(split, H);
+  const Vector6 v = split.Scale().cwiseProduct(split.directions.col(0));
+  EXPECT_LT(std::abs(v.dot(held * v)), 1e-9);
+}
+
+// What counts is the information against what the normals' own noise would feign, not its size.
+TEST(DegenerateDirections, InformationBelowTheNoisesIsWeak) {
+  const Matrix6 H = 1e4 * Matrix6::Identity();
+  Matrix6 noise_information = Matrix6::Identity();
+  EXPECT_EQ(SplitDirections(H, noise_information).num_degenerate(), 0);
+  noise_information(1, 1) = 0.5e4;
+  const DirectionSplit split =
+      SplitDirections(H + Matrix6(Vector6::Unit(1).asDiagonal()), noise_information);
+  EXPECT_EQ(split.num_degenerate(), 1);
+  EXPECT_GT(DegenerateCovariance(split)(1, 1), 9e3);
+  EXPECT_NEAR(DegenerateCovariance(split)(0, 0), 0.0, 1e-9);
+}
+
+TEST(DegenerateDirections, NoInformationAtAllIsAllWeak) {
+  const DirectionSplit split = SplitDirections(Matrix6::Zero(), Matrix6::Zero());
+  EXPECT_EQ(split.num_degenerate(), 6);
+  EXPECT_TRUE(StepInObservableDirections(split, Vector6::Ones()).isZero());
+  EXPECT_TRUE(CovarianceFromScores(split, Matrix6::Identity()).isZero());
+}
+
+TEST(DegenerateDirections, UnitOfRotationsDoesNotMatter) {
+  std::mt19937_64 random(6);
+  const Matrix6 H = Without(FullInformation(random), Vector6::Unit(0));
+  Vector6 unit;
+  unit << 1, 1, 1, 50, 50, 50;
+  const Matrix6 in_unit = unit.asDiagonal() * H * unit.asDiagonal();
+  const DirectionSplit a = SplitDirections(H, SmallNoise());
+  const DirectionSplit b =
+      SplitDirections(in_unit, unit.asDiagonal() * SmallNoise() * unit.asDiagonal());
+  EXPECT_EQ(a.degenerate_mask, b.degenerate_mask);
+  EXPECT_LT((a.eigenvalues - b.eigenvalues).norm(), 1e-9 * a.eigenvalues.norm());
+}
+
+}  // namespace
+}  // namespace lio
