@@ -72,7 +72,7 @@ MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
 
 // The pose to grow the map at: in the mean of what was matched and what was expected.
 Pose ScanPoses::TellTracker(Timestamp middle, const MatchResult& match) {
-  scout_->Tell(middle, match);
+  scout_->AddMatch(middle, match);
   return scout_->history().At(middle).state.T_map_imu;
 }
 

@@ -14,7 +14,7 @@ constexpr double kAccelDensity = 1.5;      // m/s^2/sqrt(Hz): 0.5 m/s in a sweep
 constexpr double kTurnAccelDensity = 1.0;  // rad/s^2/sqrt(Hz): 0.3 rad/s in a sweep
 constexpr double kStartVelocityStd_mps = 15.0;
 constexpr double kStartTurnRateStd_radps = 1.0;
-constexpr double kSoughtVelocityStd_mps = 1.5;
+constexpr double kVelocitySeedStd_mps = 1.5;
 constexpr double kKnownVelocityStd_mps = 2.0;
 constexpr double kKnownTurnRateStd_radps = 0.3;
 constexpr double kUnseen_s = 0.5;
@@ -42,13 +42,13 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
 Estimate Start(Timestamp start, const TrackerOptions& options) {
   Estimate estimate;
   estimate.stamp = start;
-  const bool is_known = options.motion.has_value();
+  const bool is_known = options.seed.motion.has_value();
   double turn_rate_std_radps = is_known ? kKnownTurnRateStd_radps : kStartTurnRateStd_radps;
   if (options.first_rate_radps) turn_rate_std_radps = kGyroBiasStd_radps;
   double velocity_std_mps = is_known ? kKnownVelocityStd_mps : kStartVelocityStd_mps;
-  if (!is_known && options.sought_v_imu_mps) {
-    estimate.state.v_world_imu = *options.sought_v_imu_mps;
-    velocity_std_mps = kSoughtVelocityStd_mps;
+  if (!is_known && options.seed.v_imu_mps) {
+    estimate.state.v_world_imu = *options.seed.v_imu_mps;
+    velocity_std_mps = kVelocitySeedStd_mps;
   }
   const auto set = [&](int at, double std) {
     estimate.cov.block<3, 3>(at, at) = std * std * Matrix3::Identity();
@@ -57,7 +57,7 @@ Estimate Start(Timestamp start, const TrackerOptions& options) {
   set(kVel, velocity_std_mps);
   set(kGyroBias, turn_rate_std_radps);
   if (is_known) {
-    const NavState& motion = *options.motion;
+    const NavState& motion = *options.seed.motion;
     estimate.state.v_world_imu = motion.T_world_imu.rotation.conjugate() * motion.v_world_imu;
     estimate.state.gyro_bias = motion.gyro_bias;
   }
@@ -109,7 +109,7 @@ void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
   }
 }
 
-void ConstantVelocityTracker::Tell(Timestamp middle, const MatchResult& match) {
+void ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
   if (match.IsUsable()) {
     PoseEvent event;
     event.measurement.T_map_imu = match.T_map_imu;

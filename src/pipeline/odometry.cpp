@@ -2,282 +2,225 @@
 // SPDX-License-Identifier: MIT
 #include "lio/pipeline/odometry.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "lio/base/chi_square.hpp"
-#include "pipeline/odometry_impl.hpp"
+#include "lio/pipeline/mode.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kHole_s = 0.15;           // between inertial samples
-constexpr double kMeanBeforeHole_s = 1.1;  // both steps of a walker: over one alone he turns
-constexpr Duration kBridgeEdge{1'000'000};
-constexpr double kNoImuAtAll_s = 2.0;         // scans alone for this long: the log has no IMU
-constexpr std::size_t kMaxLookedBackOn = 80;  // sweeps: 4 s of a fast lidar
-constexpr double kImuBuffer_s = 6.0;          // raw samples kept for a start that looks back
-constexpr Duration kStampSlack{20'000'000};
-constexpr double kClocksApart_s = 2.0;  // more than any message is late
+// An initialization may match all the sweeps that it looks back on anew, which is no overload: 4 s
+// of a fast lidar.
+constexpr std::size_t kMaxLookedBackOn = 80;
 
-// Of messages whose units may be any that the option allows.
-double MaxRateSent(ImuUnits units) {
-  ImuConvention reading = ConventionOf(units);
-  reading.is_in_deg |= units == ImuUnits::kAutomatic;
-  return kMaxGyroRate_radps / reading.rate_scale();
-}
-
-std::string JoinFaults(const std::vector<OptionFault>& faults) {
+const Options& Validated(const Options& options) {
+  const std::vector<OptionFault> faults = Validate(options);
+  if (faults.empty()) return options;
   std::string text = "unusable options:";
   for (const OptionFault& fault : faults) text += " " + fault.key + ": " + fault.message + ";";
-  return text;
+  throw std::invalid_argument(text);
+}
+
+StreamOptions MakeStreamOptions(const Options& options) {
+  StreamOptions stream;
+  stream.use_imu = options.pipeline.use_imu;
+  stream.units = options.rig.imu.units;
+  stream.lidar_clock_offset_s = options.rig.lidar.clock_offset_s;
+  if (options.filter.estimate_clock_offset) stream.clock_margin_s = ClockOffset::kMax_s;
+  stream.incomplete_sweep_wait_s = options.pipeline.incomplete_sweep_wait_s;
+  return stream;
 }
 
 }  // namespace
 
-Odometry::Impl::Impl(const Options& options, ClockNs clock)
-    : options_(options),
-      clock_(clock),
-      use_imu_(options.pipeline.use_imu),
-      reading_(ConventionOf(options.rig.imu.units)),
-      classifier_(reading_, options.rig),
-      intake_(counters_, MaxRateSent(options.rig.imu.units)),
-      standstill_(options.rig.imu) {
-  const std::vector<OptionFault> faults = Validate(options);
-  if (!faults.empty()) throw std::invalid_argument(JoinFaults(faults));
-  nis_limit_ = ChiSquareQuantile6(options.filter.gate_probability);
-  if (options.filter.estimate_clock_offset && use_imu_) clock_offset_.emplace(options.rig.imu);
-}
+class Odometry::Impl {
+ public:
+  Impl(const Options& options, ClockNs clock)
+      : options_(Validated(options)),
+        clock_(clock),
+        stream_(MakeStreamOptions(options), counters_),
+        convention_(options_.rig, stream_.imu()),
+        clocks_(options_),
+        mode_(std::make_unique<Mode>(Initializing(MakeContext(), {}))) {}
 
-void Odometry::Impl::Say(Timestamp stamp, Notice::Severity severity, std::string text) {
-  outputs_.emplace_back(Notice{stamp, severity, std::move(text)});
-}
+  void AddImu(const ImuSample& sample) {
+    const std::int64_t begin_ns = NowNs();
+    stream_.AddImu(sample);
+    ConsumeEvents();
+    filter_ns_ += NowNs() - begin_ns;
+  }
 
-HistoryOptions Odometry::Impl::MakeHistoryOptions() const {
-  const ImuRig& imu = options_.rig.imu;
-  HistoryOptions history;
-  history.noise = {imu.gyro_noise_density, imu.accel_noise_density, imu.gyro_bias_walk_density,
-                   imu.accel_bias_walk_density};
-  history.g_world = g_world_;
-  history.span_s = options_.filter.history_s;
-  history.nis_limit = nis_limit_;
-  return history;
-}
+  void AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+    stream_.AddChunk(std::move(chunk), decode_ns);
+    ConsumeEvents();
+  }
 
-std::optional<Timestamp> Odometry::Impl::NewestImu() const {
-  if (sent_.empty()) return std::nullopt;
-  return sent_.back().stamp;
-}
+  void Flush() {
+    stream_.Flush();
+    ConsumeEvents();
+  }
 
-void Odometry::Impl::AddImu(const ImuSample& sample) {
-  if (!options_.pipeline.use_imu || is_refused_) {
-    ++counters_.num_imu;
-    return;
+  std::optional<MatchJob> NextJob() {
+    const std::size_t next = NextSweepOf(*mode_);
+    if (in_flight_ || next >= sweeps_.size()) return std::nullopt;
+    const std::int64_t begin_ns = NowNs();
+    MatchJob job = std::visit([&](auto& mode) { return MakeJob(mode, sweeps_[next]); }, *mode_);
+    in_flight_ = sweeps_[next];
+    job.filter_ns = std::exchange(filter_ns_, 0) + NowNs() - begin_ns;
+    return job;
   }
-  if (IsBetweenStretches()) {
-    HoldSample(sample);
-    return;
-  }
-  if (!use_imu_) {
-    TakeLateImu(sample);
-    return;
-  }
-  const std::int64_t begin = Now();
-  ImuSample shifted = sample;
-  shifted.stamp = sample.stamp + imu_clock_shift_;
-  ImuPreprocessor::Result result = intake_.Add(shifted);
-  if (result.step != ImuPreprocessor::Step::kNone) {
-    TakeStep(std::move(result));
-  } else {
-    for (const ImuSample& accepted : result.accepted) Accept(accepted);
-  }
-  filter_ns_ += Now() - begin;
-  OpenGate();
-}
 
-bool Odometry::Impl::HasWork() const {
-  return in_flight_ || ready_.size() > (phase_ == Phase::kScouting ? scouted_.size() : 0);
-}
+  InsertTask FinishJob(MatchOutcome outcome) {
+    InsertTask insert;
+    const SweepPtr in_flight = std::exchange(in_flight_, nullptr);
+    counters_.num_points_nonfinite += outcome.num_nonfinite;
+    const std::size_t next = NextSweepOf(*mode_);
+    const bool is_current = in_flight && outcome.sweep == in_flight && next < sweeps_.size() &&
+                            sweeps_[next] == in_flight;
+    if (is_current) {
+      GoOn(std::visit([&](auto& mode) { return Finish(mode, outcome, insert); }, *mode_));
+      insert.points_imu = std::move(outcome.points_imu);
+      insert.tags = std::move(outcome.tags);
+    }
+    ConsumeEvents();
+    return insert;
+  }
 
-void Odometry::Impl::Accept(const ImuSample& sent) {
-  if (cut_ && sent.stamp <= *cut_) {
-    ++counters_.num_imu_late;
-    return;
+  void ShedLoad() {
+    const std::size_t first = NextSweepOf(*mode_) + (in_flight_ ? 1 : 0);
+    auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
+    if (KindOf(*mode_) == ModeKind::kInitializing) limit += kMaxLookedBackOn;
+    while (sweeps_.size() > limit + first) {
+      sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(first));
+      ++counters_.num_scans_dropped;
+    }
   }
-  if (sent_.empty() || sent.stamp > sent_.back().stamp) BridgeTo(sent.stamp);
-  if (!Keep(Marked(sent))) {
-    ++counters_.num_imu_duplicate;
-    return;
-  }
-  const Timestamp newest = sent_.back().stamp;
-  if (history_ && !imu_.empty() && imu_.back().stamp == newest) EmitImuRate();
-  assembler_.CloseUpTo(newest - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
-}
 
-// With what the end of a sensor's range hides.
-ImuSample Odometry::Impl::Marked(ImuSample sent) {
-  clip_watch_.Mark(sent, reading_.rate_scale(), reading_.force_scale());
-  if (!sent.is_rate_saturated && !sent.is_force_saturated) return sent;
-  if (counters_.num_imu_clipped++ == 0) {
-    Say(sent.stamp, Notice::Severity::kWarning,
-        std::string(sent.is_rate_saturated ? "the gyro" : "the accelerometer") +
-            " is at the end of its range: scans alone tell how much more it was");
-  }
-  return sent;
-}
+  std::vector<Output> TakeOutputs() { return outputs_.Take(); }
+  const Counters& counters() const { return counters_; }
+  TrackingStatus status() const { return StatusOf(*mode_); }
 
-// As it came and, where it can be in the units that are believed, as it is read. False: there is
-// one of its stamp already.
-bool Odometry::Impl::Keep(const ImuSample& sent) {
-  if (!InsertByStamp(sent_, sent)) return false;
-  const Timestamp oldest = sent_.back().stamp - Duration::FromSeconds(kImuBuffer_s);
-  while (sent_.front().stamp < oldest) sent_.pop_front();
-  while (!imu_.empty() && imu_.front().stamp < oldest) imu_.pop_front();
-  const std::optional<ImuSample> sample = Read(sent);
-  if (!sample) return true;
-  InsertByStamp(imu_, *sample);
-  if (history_) history_->AddImu(*sample);
-  return true;
-}
+ private:
+  using Next = std::optional<Transition>;
 
-// Across a hole in the stream neither its last sample holds nor a line to the next one: a walker's
-// steps would be taken for a turn and a push. What holds is the mean of the time before it.
-void Odometry::Impl::BridgeTo(Timestamp stamp) {
-  if (!sent_.empty() && SecondsBetween(sent_.back().stamp, stamp) > kHole_s) {
-    for (const Timestamp at : {sent_.back().stamp + kBridgeEdge, stamp - kBridgeEdge}) AddHeld(at);
+  ModeContext MakeContext() {
+    return {options_, ChiSquareQuantile6(options_.filter.gate_probability),
+            clock_,   counters_,
+            outputs_, stream_,
+            sweeps_,  convention_,
+            clocks_};
   }
-  mean_before_hole_.reset();
-}
+  std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
+  bool IsIdle() const { return !in_flight_ && sweeps_.size() <= NextSweepOf(*mode_); }
 
-// What the unit would send at `stamp`, of which nothing came.
-void Odometry::Impl::AddHeld(Timestamp stamp) {
-  if (!mean_before_hole_) {
-    const Timestamp from = sent_.back().stamp - Duration::FromSeconds(kMeanBeforeHole_s);
-    const ImuStatistics before =
-        Summarise(std::vector<ImuSample>(FirstNotBefore(sent_, from), sent_.cend()));
-    mean_before_hole_ = sent_.back();
-    mean_before_hole_->w_imu_radps = before.mean_w_radps;
-    mean_before_hole_->f_imu_mps2 = before.mean_f_mps2;
+  void ConsumeEvents() {
+    while (const std::optional<StreamEvent> event = stream_.Next(IsIdle())) {
+      GoOn(std::visit([&](const auto& content) { return Consume(content); }, *event));
+    }
   }
-  mean_before_hole_->stamp = stamp;
-  Keep(*mean_before_hole_);
-}
 
-void Odometry::Impl::AddRawChunk(ScanChunk chunk, std::int64_t decode_ns) {
-  chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.rig.lidar.clock_offset_s);
-  AddChunk(std::move(chunk), decode_ns);
-}
+  // Changes the mode where that is asked for.
+  void GoOn(Next transition) {
+    if (transition) {
+      if (transition->trigger != Trigger::kStarted && transition->trigger != Trigger::kNoImu &&
+          transition->trigger != Trigger::kRetry && transition->trigger != Trigger::kContradicted) {
+        ++counters_.num_restarts;
+      }
+      mode_ = std::make_unique<Mode>(BuildNext(*mode_, std::move(*transition), MakeContext()));
+    }
+    const auto* tracking = std::get_if<Tracking>(mode_.get());
+    stream_.SetBegin(tracking ? std::optional(tracking->begin()) : std::nullopt);
+    if (transition && std::holds_alternative<Rejected>(*mode_)) {
+      sweeps_.clear();
+      stream_.Reject();
+    }
+  }
 
-void Odometry::Impl::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
-  if (is_refused_) {
-    ++counters_.num_chunks;
-    return;
+  Next Consume(const ImuReady& event) {
+    if (auto* tracking = std::get_if<Tracking>(mode_.get())) tracking->AddImu(event);
+    return std::nullopt;
   }
-  if (IsBetweenStretches()) {
-    HoldChunk(std::move(chunk), decode_ns);
-    return;
+  Next Consume(const SweepReady& event) {
+    auto* tracking = std::get_if<Tracking>(mode_.get());
+    if (tracking && sweeps_.empty()) tracking->AddSweep(*event.sweep);
+    sweeps_.push_back(event.sweep);
+    return std::nullopt;
   }
-  const Timestamp stamp = chunk.stamp;
-  newest_chunk_ = stamp;
-  if (!intake_.is_in_doubt()) arrivals_.Note(stamp, intake_.newest());
-  assembler_.Add(std::move(chunk), decode_ns);
-  if (!use_imu_ || sent_.empty()) {
-    assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.pipeline.incomplete_sweep_wait_s));
+  Next Consume(const SegmentStarts& event) {
+    if (auto* tracking = std::get_if<Tracking>(mode_.get())) {
+      tracking->StartSegment(event);
+      return std::nullopt;
+    }
+    auto* initializing = std::get_if<Initializing>(mode_.get());
+    return initializing ? initializing->StartSegment(event) : std::nullopt;
   }
-  OpenGate();
-}
+  Next Consume(const AmbiguousClockStep& event) {
+    if (auto* tracking = std::get_if<Tracking>(mode_.get())) tracking->TakeClockStep(event);
+    if (auto* initializing = std::get_if<Initializing>(mode_.get())) {
+      initializing->TakeClockStep(event);
+    }
+    return std::nullopt;
+  }
+  Next Consume(const ImuAbsent& event) {
+    clocks_.Stop();
+    outputs_.Notify(event.stamp, Notice::Severity::kWarning,
+                    event.evidence + ": lidar-only odometry");
+    return std::nullopt;
+  }
+  Next Consume(const ImuAppeared& event) {
+    sweeps_.clear();
+    clocks_.Restart();
+    outputs_.Notify(event.first, Notice::Severity::kWarning,
+                    "inertial samples have come: initialization begins again, with them");
+    if (const auto* lidar_only = std::get_if<LidarOnly>(mode_.get())) {
+      return lidar_only->TakeImu(event);
+    }
+    auto* initializing = std::get_if<Initializing>(mode_.get());
+    return initializing ? initializing->TakeImu(event) : std::nullopt;
+  }
+  Next Consume(const StreamEnded& /*event*/) {
+    auto* initializing = std::get_if<Initializing>(mode_.get());
+    return initializing ? initializing->EndStream() : std::nullopt;
+  }
+  Next Consume(const Notice& notice) {
+    if (notice.severity == Notice::Severity::kInfo) {
+      outputs_.NotifyWaiting(notice.stamp, notice.text);
+    } else {
+      outputs_.Add(notice);
+    }
+    return std::nullopt;
+  }
 
-void Odometry::Impl::Flush() {
-  is_flushed_ = true;
-  if (is_refused_) return;
-  if (IsBetweenStretches()) {
-    if (!is_step_judged_) EndStretch();
-    return;
+  MatchJob MakeJob(Initializing& mode, SweepPtr& sweep) { return mode.MakeJob(sweep); }
+  MatchJob MakeJob(LidarOnly& mode, SweepPtr& sweep) { return mode.MakeJob(sweep); }
+  MatchJob MakeJob(Tracking& mode, SweepPtr& sweep) {
+    sweep = clocks_.Moved(sweep);
+    return mode.MakeJob(sweep);
   }
-  for (const ImuSample& sample : intake_.Flush()) Accept(sample);
-  assembler_.CloseAll();
-  OpenGate();
-  gate_.Flush();
-  if (use_imu_ && sent_.empty() && !gate_.empty()) {
-    GoLidarOnly("the log ended without inertial samples");
-  }
-  OpenGate();
-  if (!use_imu_ && phase_ == Phase::kScouting && !in_flight_ && IsLastScouted()) RunLidarOnly();
-  while (!gate_.empty()) {
-    if (gate_.oldest().start > sent_.back().stamp) ++counters_.num_scans_without_imu;
-    Admit(gate_.Force());
-  }
-}
+  MatchJob MakeJob(Rejected& /*mode*/, SweepPtr& /*sweep*/) { return {}; }
 
-void Odometry::Impl::GoLidarOnly(const std::string& why) {
-  use_imu_ = false;
-  clock_offset_.reset();
-  Say(gate_.oldest().end, Notice::Severity::kWarning, why + ": lidar-only odometry");
-}
+  Next Finish(auto& mode, const MatchOutcome& outcome, InsertTask& insert) {
+    return mode.FinishJob(outcome, insert);
+  }
+  Next Finish(Rejected& /*mode*/, const MatchOutcome& /*outcome*/, InsertTask& /*insert*/) {
+    return std::nullopt;
+  }
 
-void Odometry::Impl::OpenGate() {
-  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
-  if (use_imu_ && sent_.empty() && gate_.waiting_span_s() > kNoImuAtAll_s) {
-    GoLidarOnly("no inertial samples come");
-  }
-  if (!use_imu_) {
-    while (SweepPtr sweep = gate_.Force()) ready_.push_back(std::move(sweep));
-    return;
-  }
-  std::optional<Timestamp> passed = NewestImu();
-  if (passed) *passed = *passed - ClockMargin();
-  while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
-  if (passed && !gate_.empty()) TellIfClocksApart(*passed, gate_.oldest().start);
-}
-
-bool Odometry::Impl::TellIfClocksApart(Timestamp imu, Timestamp lidar) {
-  const double ahead_s = SecondsBetween(imu, lidar);
-  if (std::abs(ahead_s) < kClocksApart_s) return false;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "scans are stamped %.1f s %s the inertial samples and cannot be used: the sensors "
-                "need one clock, or rig.lidar.clock_offset_s",
-                std::abs(ahead_s), ahead_s > 0.0 ? "after" : "before");
-  SayWaiting(imu, text);
-  return true;
-}
-
-void Odometry::Impl::Admit(SweepPtr sweep) {
-  const Timestamp earliest = history_ ? history_->start_stamp() : sent_.front().stamp;
-  if (sweep->start + kStampSlack < earliest) {
-    ++counters_.num_scans_without_imu;
-    TellIfClocksApart(earliest, sweep->start);
-    return;
-  }
-  // From here on nothing may change what the scan was deskewed and predicted with.
-  const Timestamp until = sweep->end + ClockMargin();
-  const auto bracket = FirstNotBefore(sent_, until);
-  if (bracket == sent_.end()) {
-    AddHeld(until);
-    cut_ = until;
-  } else {
-    cut_ = bracket->stamp;
-  }
-  if (history_ && ready_.empty()) history_->KeepFrom(sweep->start - ClockMargin());
-  ready_.push_back(std::move(sweep));
-}
-
-void Odometry::Impl::ShedLoad() {
-  auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
-  // The sweep in flight is the front one, but for those a start looks back on. It may match all of
-  // them anew, which is no overload.
-  std::size_t first = in_flight_ ? 1 : 0;
-  if (phase_ == Phase::kScouting) {
-    first += scouted_.size();
-    limit += kMaxLookedBackOn;
-  }
-  while (ready_.size() > limit + first) {
-    ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(first));
-    ++counters_.num_scans_dropped;
-  }
-}
+  Options options_;
+  ClockNs clock_;
+  Counters counters_;
+  OutputQueue outputs_;
+  SensorStream stream_;
+  std::deque<SweepPtr> sweeps_;
+  ImuConventionMonitor convention_;
+  ClockOffsetFollower clocks_;
+  std::unique_ptr<Mode> mode_;
+  SweepPtr in_flight_;          // the sweep whose job is out
+  std::int64_t filter_ns_ = 0;  // CPU time of the filter since the last job
+};
 
 Odometry::Odometry(const Options& options, ClockNs clock)
     : impl_(std::make_unique<Impl>(options, clock)) {}
@@ -289,7 +232,7 @@ void Odometry::AddImu(const ImuSample& sample) {
   impl_->AddImu(sample);
 }
 void Odometry::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
-  impl_->AddRawChunk(std::move(chunk), decode_ns);
+  impl_->AddChunk(std::move(chunk), decode_ns);
 }
 void Odometry::Flush() {
   impl_->Flush();

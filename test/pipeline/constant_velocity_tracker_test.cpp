@@ -32,8 +32,8 @@ double StdOf(const Estimate& estimate, int at) {
 }
 
 TEST(ConstantVelocityTracker, BeginsAtTheOriginAtRestAndUnsureOfIt) {
-  const ConstantVelocityTracker scout(StampAt(1.0), {});
-  const Estimate& head = scout.history().head();
+  const ConstantVelocityTracker tracker(StampAt(1.0), {});
+  const Estimate& head = tracker.history().head();
   EXPECT_EQ(head.stamp, StampAt(1.0));
   EXPECT_EQ(head.state.T_map_imu.translation, Vector3(Vector3::Zero()));
   EXPECT_EQ(head.state.v_world_imu, Vector3(Vector3::Zero()));
@@ -44,11 +44,11 @@ TEST(ConstantVelocityTracker, BeginsAtTheOriginAtRestAndUnsureOfIt) {
 
 TEST(ConstantVelocityTracker, MayBeginElsewhereInTheWorldAndUnsureOfIt) {
   TrackerOptions options;
-  options.sought_v_imu_mps = Vector3(20, 1, 0);
+  options.seed.v_imu_mps = Vector3(20, 1, 0);
   options.T_world_start = {ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(5, 6, 7)};
   options.start_cov = 4.0 * Matrix6::Identity();
-  const ConstantVelocityTracker scout(StampAt(1.0), options);
-  const Estimate& head = scout.history().head();
+  const ConstantVelocityTracker tracker(StampAt(1.0), options);
+  const Estimate& head = tracker.history().head();
   EXPECT_EQ(head.state.T_world_imu.translation, Vector3(5, 6, 7));
   EXPECT_EQ(head.state.T_map_imu.translation, Vector3(5, 6, 7));
   EXPECT_LT((head.state.v_world_imu - Vector3(-1, 20, 0)).norm(), 1e-9);
@@ -56,25 +56,25 @@ TEST(ConstantVelocityTracker, MayBeginElsewhereInTheWorldAndUnsureOfIt) {
   EXPECT_EQ(StdOf(head, kMapPose), 0.0);
 }
 
-TEST(ConstantVelocityTracker, ASoughtVelocityIsWhereItBegins) {
+TEST(ConstantVelocityTracker, AVelocitySeedIsWhereItBegins) {
   TrackerOptions options;
-  options.sought_v_imu_mps = Vector3(20, 1, 0);
-  const ConstantVelocityTracker scout(StampAt(0.0), options);
-  EXPECT_EQ(scout.history().head().state.v_world_imu, Vector3(20, 1, 0));
-  EXPECT_LT(StdOf(scout.history().head(), kVel), 5.0);  // surer than of nothing, ...
-  EXPECT_GT(StdOf(scout.history().head(), kVel), 1.0);  // ... but only sought
+  options.seed.v_imu_mps = Vector3(20, 1, 0);
+  const ConstantVelocityTracker tracker(StampAt(0.0), options);
+  EXPECT_EQ(tracker.history().head().state.v_world_imu, Vector3(20, 1, 0));
+  EXPECT_LT(StdOf(tracker.history().head(), kVel), 5.0);  // surer than of nothing, ...
+  EXPECT_GT(StdOf(tracker.history().head(), kVel), 1.0);  // ... but it is only a seed
 }
 
-// An earlier scout looked along y and drove that way: the new one's x.
+// An earlier tracker looked along y and drove that way: the new one's x.
 TEST(ConstantVelocityTracker, AKnownMotionIsTakenIntoTheBodysAxes) {
   TrackerOptions options;
-  options.sought_v_imu_mps = Vector3(99, 99, 99);  // what is known counts
-  options.motion.emplace();
-  options.motion->T_world_imu = {ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(50, 60, 0)};
-  options.motion->v_world_imu = {0, 5, 0};
-  options.motion->gyro_bias = {0, 0, -0.3};
-  const ConstantVelocityTracker scout(StampAt(0.0), options);
-  const Estimate& head = scout.history().head();
+  options.seed.v_imu_mps = Vector3(99, 99, 99);  // what is known counts
+  options.seed.motion.emplace();
+  options.seed.motion->T_world_imu = {ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(50, 60, 0)};
+  options.seed.motion->v_world_imu = {0, 5, 0};
+  options.seed.motion->gyro_bias = {0, 0, -0.3};
+  const ConstantVelocityTracker tracker(StampAt(0.0), options);
+  const Estimate& head = tracker.history().head();
   EXPECT_LT((head.state.v_world_imu - Vector3(5, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(head.state.T_world_imu.translation, Vector3(Vector3::Zero()));
   EXPECT_EQ(head.state.gyro_bias, Vector3(0, 0, -0.3));
@@ -85,16 +85,16 @@ TEST(ConstantVelocityTracker, AKnownMotionIsTakenIntoTheBodysAxes) {
 // Velocity is a random walk of 1.5 m/s^2/sqrt(Hz): after 4 s 3 m/s more, in squares.
 TEST(ConstantVelocityTracker, GoesStraightOnWithGrowingDoubt) {
   TrackerOptions options;
-  options.sought_v_imu_mps = Vector3(10, 0, 0);
-  ConstantVelocityTracker scout(StampAt(0.0), options);
-  const double std_at_first = StdOf(scout.history().head(), kVel);
-  scout.AdvanceTo(StampAt(4.0));
-  const Estimate& head = scout.history().head();
+  options.seed.v_imu_mps = Vector3(10, 0, 0);
+  ConstantVelocityTracker tracker(StampAt(0.0), options);
+  const double std_at_first = StdOf(tracker.history().head(), kVel);
+  tracker.AdvanceTo(StampAt(4.0));
+  const Estimate& head = tracker.history().head();
   EXPECT_EQ(head.stamp, StampAt(4.0));
   EXPECT_LT((head.state.T_map_imu.translation - Vector3(40, 0, 0)).norm(), 1e-6);
   EXPECT_NEAR(StdOf(head, kVel), std::hypot(std_at_first, 3.0), 1e-6);
-  scout.AdvanceTo(StampAt(3.0));
-  EXPECT_EQ(scout.history().head().stamp, StampAt(4.0)) << "never backwards";
+  tracker.AdvanceTo(StampAt(3.0));
+  EXPECT_EQ(tracker.history().head().stamp, StampAt(4.0)) << "never backwards";
 }
 
 // 5 m/s on a circle: matched poses teach velocity and turn rate.
@@ -104,65 +104,65 @@ TEST(ConstantVelocityTracker, WithoutAGyroPosesTeachTheTurnRate) {
     return Pose{ExpSo3(Vector3(0, 0, turned)),
                 12.5 * Vector3(std::sin(turned), 1.0 - std::cos(turned), 0)};
   };
-  ConstantVelocityTracker scout(StampAt(0.0), {});
+  ConstantVelocityTracker tracker(StampAt(0.0), {});
   for (int i = 1; i <= 20; ++i) {
-    scout.AdvanceTo(StampAt(0.1 * i));
+    tracker.AdvanceTo(StampAt(0.1 * i));
     PoseEvent event;
     event.measurement.T_map_imu = circle(0.1 * i);
     event.measurement.cov = 1e-4 * Matrix6::Identity();
-    ASSERT_EQ(scout.history().AddPose(StampAt(0.1 * i), event), EventOutcome::kApplied) << i;
+    ASSERT_EQ(tracker.history().AddPose(StampAt(0.1 * i), event), EventOutcome::kApplied) << i;
   }
-  const NavState& state = scout.history().head().state;
+  const NavState& state = tracker.history().head().state;
   EXPECT_NEAR(-state.gyro_bias.z(), 0.4, 0.02);
   EXPECT_NEAR(state.v_world_imu.norm(), 5.0, 0.1);
-  scout.AdvanceTo(StampAt(2.1));
-  const Pose off = circle(2.1).Inverse() * scout.history().head().state.T_map_imu;
+  tracker.AdvanceTo(StampAt(2.1));
+  const Pose off = circle(2.1).Inverse() * tracker.history().head().state.T_map_imu;
   EXPECT_LT(off.translation.norm(), 0.03);
 }
 
 TEST(ConstantVelocityTracker, ASweepsEndIsByTheTurnRateThatItShows) {
-  ConstantVelocityTracker scout(StampAt(0.0), {});
-  scout.AdvanceTo(StampAt(0.1));
+  ConstantVelocityTracker tracker(StampAt(0.0), {});
+  tracker.AdvanceTo(StampAt(0.1));
   PoseEvent event;
   event.measurement.cov = 1e-6 * Matrix6::Identity();
-  ASSERT_EQ(scout.history().AddPose(StampAt(0.05), event), EventOutcome::kApplied);
+  ASSERT_EQ(tracker.history().AddPose(StampAt(0.05), event), EventOutcome::kApplied);
   const TurnRate shown{Vector3(0, 0, 0.4), 1e-6 * Matrix3::Identity()};
-  const Estimate plain = scout.AtEnd(StampAt(0.05), StampAt(0.1), {});
-  const Estimate turned = scout.AtEnd(StampAt(0.05), StampAt(0.1), shown);
+  const Estimate plain = tracker.AtEnd(StampAt(0.05), StampAt(0.1), {});
+  const Estimate turned = tracker.AtEnd(StampAt(0.05), StampAt(0.1), shown);
   EXPECT_EQ(turned.stamp, StampAt(0.1));
   EXPECT_LT(LogSo3(plain.state.T_map_imu.rotation).norm(), 1e-9);
   EXPECT_NEAR(LogSo3(turned.state.T_map_imu.rotation).z(), 0.4 * 0.05, 1e-3);
   EXPECT_LT(StdOf(turned, kMapPose + 5), StdOf(plain, kMapPose + 5));
   // The filter itself goes on as before.
-  EXPECT_EQ(scout.history().head().state.gyro_bias, Vector3(Vector3::Zero()));
+  EXPECT_EQ(tracker.history().head().state.gyro_bias, Vector3(Vector3::Zero()));
 }
 
 TEST(ConstantVelocityTracker, AGyroTurnsItAndForcesDoNotMoveIt) {
-  ConstantVelocityTracker scout(StampAt(0.0), WithGyro({0, 0, 0.2}));
-  EXPECT_DOUBLE_EQ(StdOf(scout.history().head(), kGyroBias), 0.02);
+  ConstantVelocityTracker tracker(StampAt(0.0), WithGyro({0, 0, 0.2}));
+  EXPECT_DOUBLE_EQ(StdOf(tracker.history().head(), kGyroBias), 0.02);
   // A rate that falls from 0.2 to 0 within half a second turns by 0.05.
-  scout.AddRate(Reading(0.5, {0, 0, 0}, {3, 2, 9.8}));
-  const NavState& state = scout.history().head().state;
+  tracker.AddRate(Reading(0.5, {0, 0, 0}, {3, 2, 9.8}));
+  const NavState& state = tracker.history().head().state;
   EXPECT_LT((LogSo3(state.T_map_imu.rotation) - Vector3(0, 0, 0.05)).norm(), 1e-9);
   EXPECT_EQ(state.T_map_imu.translation, Vector3(Vector3::Zero()));
   EXPECT_EQ(state.v_world_imu, Vector3(Vector3::Zero()));
 }
 
 TEST(ConstantVelocityTracker, TheLastRateHolds) {
-  ConstantVelocityTracker scout(StampAt(0.0), WithGyro({0, 0, 0.3}));
-  scout.AddRate(Reading(0.1, {0, 0, 0.5}));
-  scout.AdvanceTo(StampAt(1.1));
+  ConstantVelocityTracker tracker(StampAt(0.0), WithGyro({0, 0, 0.3}));
+  tracker.AddRate(Reading(0.1, {0, 0, 0.5}));
+  tracker.AdvanceTo(StampAt(1.1));
   // 0.1 s at 0.4 in the mean, then 1 s at 0.5.
-  EXPECT_LT((LogSo3(scout.history().head().state.T_map_imu.rotation) - Vector3(0, 0, 0.54)).norm(),
+  EXPECT_LT((LogSo3(tracker.history().head().state.T_map_imu.rotation) - Vector3(0, 0, 0.54)).norm(),
             1e-9);
 }
 
 TEST(ConstantVelocityTracker, ReadingsThatAreNotNewOrNotWantedAreLeftOut) {
-  ConstantVelocityTracker scout(StampAt(1.0), WithGyro({0, 0, 0}));
-  scout.AddRate(Reading(0.9, {0, 0, 5}));
-  scout.AddRate(Reading(1.0, {0, 0, 5}));
-  scout.AdvanceTo(StampAt(2.0));
-  EXPECT_LT(LogSo3(scout.history().head().state.T_map_imu.rotation).norm(), 1e-12);
+  ConstantVelocityTracker tracker(StampAt(1.0), WithGyro({0, 0, 0}));
+  tracker.AddRate(Reading(0.9, {0, 0, 5}));
+  tracker.AddRate(Reading(1.0, {0, 0, 5}));
+  tracker.AdvanceTo(StampAt(2.0));
+  EXPECT_LT(LogSo3(tracker.history().head().state.T_map_imu.rotation).norm(), 1e-12);
   ConstantVelocityTracker without(StampAt(1.0), {});
   without.AddRate(Reading(1.5, {0, 0, 5}));
   EXPECT_EQ(without.history().head().stamp, StampAt(1.0));
@@ -170,28 +170,28 @@ TEST(ConstantVelocityTracker, ReadingsThatAreNotNewOrNotWantedAreLeftOut) {
 
 TEST(ConstantVelocityTracker, ASetClockKeepsThePlaceAndDoubtsTheVelocity) {
   TrackerOptions options;
-  options.motion.emplace();
-  options.motion->v_world_imu = {10, 0, 0};
-  ConstantVelocityTracker scout(StampAt(100.0), options);
-  scout.AdvanceTo(StampAt(101.0));
-  const Estimate before = scout.history().head();
-  scout.SetClock(StampAt(3.0));
-  const Estimate after = scout.history().head();
+  options.seed.motion.emplace();
+  options.seed.motion->v_world_imu = {10, 0, 0};
+  ConstantVelocityTracker tracker(StampAt(100.0), options);
+  tracker.AdvanceTo(StampAt(101.0));
+  const Estimate before = tracker.history().head();
+  tracker.SetClock(StampAt(3.0));
+  const Estimate after = tracker.history().head();
   EXPECT_EQ(after.stamp, StampAt(3.0));
   EXPECT_EQ(after.state.T_map_imu.translation, before.state.T_map_imu.translation);
   EXPECT_EQ(after.state.v_world_imu, before.state.v_world_imu);
   EXPECT_NEAR(after.cov(kVel, kVel) - before.cov(kVel, kVel), 4.0, 1e-9);
-  scout.AdvanceTo(StampAt(4.0));
-  EXPECT_NEAR(scout.history().head().state.T_map_imu.translation.x(), 20.0, 1e-6);
+  tracker.AdvanceTo(StampAt(4.0));
+  EXPECT_NEAR(tracker.history().head().state.T_map_imu.translation.x(), 20.0, 1e-6);
 }
 
 // A clock that was set, from zero at the start of the machine to the present: no walk through it.
 TEST(ConstantVelocityTracker, FarAheadItGoesOnWithoutFillingTheTime) {
-  ConstantVelocityTracker scout(StampAt(0.0), {});
+  ConstantVelocityTracker tracker(StampAt(0.0), {});
   const Timestamp end = StampAt(1.7e9);
-  scout.AdvanceTo(end);
-  EXPECT_EQ(scout.history().head().stamp, end);
-  EXPECT_LT(scout.history().head().state.T_world_imu.translation.norm(), 1e-9);
+  tracker.AdvanceTo(end);
+  EXPECT_EQ(tracker.history().head().stamp, end);
+  EXPECT_LT(tracker.history().head().state.T_world_imu.translation.norm(), 1e-9);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Lidar odometry by a constant-velocity model, built from the filter itself: inertial samples that
-// read no force, no gravity, wide process noise. Serves lidar-only operation, and scouts the first
-// seconds before the inertial filter starts. The turn rate is either estimated like the velocity,
-// as the negative gyro bias of samples that read nothing, or that of the gyro.
+// read no force, no gravity, wide process noise. It serves lidar-only operation, and it tracks the
+// first seconds before the inertial filter starts. The turn rate is either estimated like the
+// velocity, as the negative gyro bias of samples that read nothing, or that of the gyro.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,20 @@
 
 namespace lio {
 
+// What is known of the motion before anything is matched.
+struct MotionSeed {
+  // Velocity seed: by correlative alignment of bird's-eye views, in the imu's axes [m/s].
+  std::optional<Vector3> v_imu_mps;
+  // Motion prior: velocity and, without a gyro, turn rate of an earlier tracker's state.
+  std::optional<NavState> motion;
+};
+
 struct TrackerOptions {
   double span_s = 3.0;      // of its history
   double nis_limit = 22.5;  // see FilterHistory
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
-  // To begin with: a velocity in the body's axes that was only sought, or velocity and, without a
-  // gyro, turn rate of an earlier scout's state.
-  std::optional<Vector3> sought_v_imu_mps;
-  std::optional<NavState> motion;
+  MotionSeed seed;
   // Where it begins, and what is unknown of that in the world; its map begins there.
   Pose T_world_start;
   Matrix6 start_cov = Matrix6::Zero();
@@ -35,16 +40,16 @@ class ConstantVelocityTracker {
   // A gyro's reading, with a gyro only. Samples not after the newest are left out.
   void AddRate(const ImuSample& sample);
   // Fills the time up to `stamp`, the end of a sweep; with a gyro its last rate holds. Far ahead it
-  // goes on there as by SetClock().
+  // continues there as by SetClock().
   void AdvanceTo(Timestamp stamp);
-  // What matching found at the middle of a sweep. Not gated. A usable match moves the estimate; an
-  // empty map begins where the estimate stands.
-  void Tell(Timestamp middle, const MatchResult& match);
+  // Fuses what matching found at the middle of a sweep, without a gate. A usable match moves the
+  // estimate; an empty map begins at the estimate.
+  void AddMatch(Timestamp middle, const MatchResult& match);
   // The estimate at the end of a sweep whose middle is the newest match's, by the turn rate that
-  // the sweep itself shows, if it does. The filter does without: what is systematic in that rate
-  // would go into the next sweeps' deskew and, with them, into the map, and grow.
+  // the sweep itself shows, if it does. The filter does not use that rate: its systematic errors
+  // would enter the next sweeps' deskew and, with them, the map, and grow.
   Estimate AtEnd(Timestamp middle, Timestamp end, const std::optional<TurnRate>& shown) const;
-  // Goes on at another time, unsure of the velocity and of what happened in between.
+  // Continues at another time, unsure of the velocity and of what happened in between.
   void SetClock(Timestamp stamp);
   FilterHistory& history() { return history_; }
   const FilterHistory& history() const { return history_; }

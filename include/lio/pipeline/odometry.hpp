@@ -21,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include "lio/base/notice.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/sensor/imu_sample.hpp"
@@ -34,15 +35,6 @@ using ClockNs = std::int64_t (*)();
 struct MatchJob;      // registration_worker.hpp
 struct MatchOutcome;  // registration_worker.hpp
 struct InsertTask;    // registration_worker.hpp
-
-// A human-readable event with a severity, e.g. why the start still waits.
-struct Notice {
-  // kError: the configuration contradicts the data, and all that follows is ignored.
-  enum class Severity { kInfo, kWarning, kError };
-  Timestamp stamp;
-  Severity severity = Severity::kInfo;
-  std::string text;
-};
 
 // One accepted scan: rows of the trajectories, covariances and registration.csv. `filter` is
 // absent before the start.

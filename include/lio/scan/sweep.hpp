@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "lio/sensor/scan_chunk.hpp"
@@ -23,5 +24,7 @@ struct Sweep {
   // as large, and go with the filter's process noise (docs/filter.md).
   Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
 };
+
+using SweepPtr = std::shared_ptr<const Sweep>;
 
 }  // namespace lio

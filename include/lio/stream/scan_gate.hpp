@@ -6,15 +6,12 @@
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <optional>
 
 #include "lio/base/counters.hpp"
 #include "lio/scan/sweep.hpp"
 
 namespace lio {
-
-using SweepPtr = std::shared_ptr<const Sweep>;
 
 class ScanGate {
  public:

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Follows what is left of the offset between the clocks of lidar and IMU
+// (filter.estimate_clock_offset), moves sweeps by it, and announces it once it is known.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lio/filter/clock_offset.hpp"
+#include "lio/filter/filter_history.hpp"
+#include "lio/pipeline/match_job.hpp"
+#include "lio/pipeline/options.hpp"
+
+namespace lio {
+
+class ClockOffsetFollower {
+ public:
+  // Does nothing unless the options ask for it.
+  explicit ClockOffsetFollower(const Options& options);
+
+  // Begins anew, knowing nothing.
+  void Restart();
+  // There is no IMU any more.
+  void Stop() { offset_.reset(); }
+  // A scan was lost: the next turn is not measured.
+  void Interrupt();
+
+  // The sweep, its stamps moved by the offset as known now.
+  [[nodiscard]] SweepPtr Moved(const SweepPtr& sweep);
+  // A scan that matching has dealt with. Gated ones as well: a wrong offset is what may have them
+  // gated. Returns what to announce, once for each time the offset becomes known.
+  [[nodiscard]] std::optional<std::string> AddScan(const MatchOutcome& outcome,
+                                                   const FilterHistory& history);
+
+  bool is_running() const { return offset_.has_value(); }
+  // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
+  double total_s() const;
+  double std_s() const { return offset_ ? offset_->std_s() : 0.0; }
+
+ private:
+  const Options* options_;
+  std::optional<ClockOffset> offset_;
+  double moved_by_s_ = 0.0;  // the stamps of the sweep in flight
+  bool is_announced_ = false;
+};
+
+}  // namespace lio

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What initialization and lidar-only odometry share: sweeps tracked by the constant-velocity model.
+#pragma once
+
+#include <span>
+
+#include "lio/pipeline/constant_velocity_tracker.hpp"
+#include "lio/pipeline/match_job.hpp"
+#include "lio/pipeline/options.hpp"
+
+namespace lio {
+
+// Where a track that begins with this sweep begins: with a known motion at the sweep's start, else
+// at its middle, where its first pose will be.
+[[nodiscard]] Timestamp TrackStart(const Sweep& sweep, const MotionSeed& seed);
+
+// Roughly up in imu, in whatever unit and sign forces come. Where gravity is not in them they point
+// anywhere: then along the lidar's axis.
+[[nodiscard]] Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig);
+
+// Advances the tracker to the sweep's end. A sweep that lies before its newest event means that
+// stamps went back: the tracker goes on at that time, and so does `last_located`.
+void AdvanceTo(const Sweep& sweep, ConstantVelocityTracker& tracker,
+               std::optional<Timestamp>& last_located);
+
+// A tracking job by the constant-velocity model: the deskew is refined, and degenerate directions
+// are held by bird's-eye views.
+[[nodiscard]] MatchJob MakeCoarseJob(const SweepPtr& sweep, const ConstantVelocityTracker& tracker,
+                                     std::optional<Timestamp> last_located, const Vector3& up_map);
+
+}  // namespace lio

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// From the filter's estimate to what is published: pose, velocity and covariances in world and map,
+// and in the rig's base frame.
+#pragma once
+
+#include "lio/filter/nav_state.hpp"
+#include "lio/imu/start_state.hpp"
+#include "lio/pipeline/clock_offset_follower.hpp"
+#include "lio/pipeline/options.hpp"
+#include "lio/pipeline/outputs.hpp"
+#include "lio/stream/imu_buffer.hpp"
+
+namespace lio {
+
+// What a report says besides the estimate. References are borrowed for the call.
+struct ReportContext {
+  const Options& options;
+  Vector3 g_world;        // zero where no gravity is felt: the world is then the map's frame
+  std::int64_t last_seq;  // of the last scan that was fused
+  TrackingStatus status;
+  const ImuBuffer* imu;  // null without an IMU
+  const ClockOffsetFollower& clocks;
+};
+
+[[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);
+[[nodiscard]] FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report,
+                                            const ReportContext& context);
+// The pose of a sound scan, as published: a start made anew goes on from here.
+[[nodiscard]] LastFix MakeFix(Timestamp stamp, const Estimate& estimate, const Vector3& g_world);
+
+}  // namespace lio

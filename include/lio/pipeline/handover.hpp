@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What crosses a change of mode, and nothing else does: where the estimate was last sound, in world
+// and in map, and what is remembered of the scans so far. A mode keeps its own up to date, and the
+// mode that follows begins with it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "lio/imu/start_state.hpp"
+#include "lio/stream/clock_step_arbiter.hpp"
+
+namespace lio {
+
+// Stamps went forth, and it is open whether time passed or the clocks were set.
+struct ClockStepInDoubt {
+  ClockStep stamps;
+  std::optional<Pose> T_map_imu_before;  // absent: the filter's history still has it
+};
+
+struct Handover {
+  enum class Origin : std::int8_t {
+    kNone,       // nothing has been published yet
+    kInertial,   // a start with an IMU, in a level world
+    kLidar,      // lidar-only: the world was not level
+    kLostLidar,  // the same, and the way was lost
+  };
+  Origin origin = Origin::kNone;
+  LastFix last_fix;                 // the last sound scan, as it was published
+  Pose T_world_start, T_map_start;  // where the mode began, in the axes that were believed then
+  bool is_map_by_lidar = false;     // it began lidar-only: no IMU convention is in its axes
+  Vector3 w_imu_radps = Vector3::Zero();    // kLostLidar: the turn rate when the map was given up,
+  Matrix6 pose_cov = Matrix6::Zero();       // and the covariance of [position; rotation] in world
+  std::int64_t last_seq = -1;               // of the last scan that was fused
+  std::optional<Timestamp> last_fused;      // end of the last sweep that was fused
+  std::optional<Timestamp> last_located;    // middle of the last sweep whose pose was found
+  std::optional<Timestamp> last_published;  // at the IMU's rate
+  std::optional<ClockStepInDoubt> clock_step;
+
+  // The clock was set: all that is remembered is as long ago by the new one.
+  void ShiftTimesBy(Duration by) {
+    for (std::optional<Timestamp>* stamp : {&last_fused, &last_located}) {
+      if (*stamp) **stamp = **stamp + by;
+    }
+    last_fix.stamp = last_fix.stamp + by;
+  }
+};
+
+}  // namespace lio

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The mode before the first state is known. To build it is the reset: nothing of an earlier try is
+// left but the handover.
+//
+// Does, over sweeps that it keeps and looks back on:
+//   1. velocity seed: correlative alignment of the first sweeps' bird's-eye views (FindVelocity),
+//   2. coarse track: the same sweeps are matched by a constant-velocity model, with the gyro's
+//   rates
+//      where they are trusted; once the motion is clear, again from the first one on, with the
+//      motion as a prior, since the first sweeps were skewed by a motion that was not known,
+//   3. align: at rest from a second of inertial samples, in motion by least squares over the coarse
+//      track and the samples (moving_start.hpp).
+// Meanwhile ImuConventionMonitor judges units and axes. Without an IMU the motion of step 2 is all
+// that is asked for.
+//
+// Ends with a transition: kStarted, kNoImu, kRetry or kContradicted.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/imu/moving_start.hpp"
+#include "lio/pipeline/mode_context.hpp"
+#include "lio/pipeline/transition.hpp"
+
+namespace lio {
+
+struct InitializingParameters {
+  // At rest scan matching moves by less than this over a second, ...
+  double moved_distance_m = 0.05;
+  double moved_angle_rad = 0.01;
+  // ... but where the IMU is as calm as at rest, traffic and bare ground may deceive it by more,
+  // and a vehicle that moves without shaking at all is fast.
+  double moved_distance_calm_m = 0.5;
+  VibrationLevel calm{0.005, 0.05};
+  double max_rest_wait_s = 1.4;  // shaken, but not moved for this long, counts as rest
+  // An initialization looks back this far at most; the inertial buffer holds more.
+  double max_window_s = 3.5;
+  std::size_t min_scans_at_rest = 3;
+  std::size_t min_samples_at_rest = 3;
+  // Scans from which the motion may be known, and after which lidar-only odometry begins anyway.
+  std::size_t min_scans_for_motion = 4;
+  std::size_t max_scans_for_motion = 8;
+  double motion_velocity_std_mps = 1.0;  // the motion is known when it is surer than this
+  // Where after so many scans no velocity is clear, the track starts from rest.
+  std::size_t max_scans_for_velocity = 8;
+  // A scan whose place in the map is less sure would blur the map.
+  double max_insert_std_m = 0.3;
+};
+
+inline constexpr InitializingParameters kInitializing;
+
+class Initializing {
+ public:
+  // `since`: the first sweep of an earlier try whose waiting time goes on.
+  Initializing(const ModeContext& context, Handover handover,
+               std::optional<Timestamp> since = std::nullopt);
+
+  // Index into context.sweeps of the sweep to match next; those before are looked back on.
+  std::size_t next_sweep() const { return scans_.size(); }
+  [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
+  // The outcome of that job. `insert` gets the pose for the map where the scan grows it.
+  [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
+                                                    InsertTask& insert);
+  [[nodiscard]] std::optional<Transition> StartSegment(const SegmentStarts& segment);
+  [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
+  // No more sweeps come: without an IMU what is known of the motion must do.
+  [[nodiscard]] std::optional<Transition> EndStream();
+  void TakeClockStep(const AmbiguousClockStep& step);
+
+  TrackingStatus status() const { return TrackingStatus::kInit; }
+
+ private:
+  struct Scan {
+    MatchedPose pose;  // T_map_imu
+    bool is_matched = false;
+  };
+
+  void BeginTrack(const Sweep& sweep);
+  void FinishVelocitySearch(const MatchOutcome& outcome);
+  void AddScan(const MatchOutcome& outcome, InsertTask& insert);
+  bool IsMotionKnown(Timestamp sweep_end, const Estimate& estimate) const;
+  bool IsLastScan() const;
+  bool HasMovedSince(std::size_t first, bool is_calm) const;
+  bool IsVeryCalm(Timestamp stamp) const;
+  bool IsInDoubt(Timestamp stamp) const;
+  void ForgetOldestScan();
+
+  // initializing_start.cpp
+  std::optional<Transition> JudgeConvention(Timestamp stamp);
+  std::optional<Transition> TryStart(Timestamp stamp);
+  std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
+  std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
+  std::optional<Transition> TryStartInMotion(Timestamp stamp);
+  std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
+  std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp,
+                                             bool& is_accepted);
+  std::optional<Transition> CheckGravity(bool is_there, const std::string& evidence,
+                                         Timestamp stamp) const;
+  Transition SetConvention(const ImuConvention& found, const std::string& evidence,
+                           Timestamp stamp);
+  void TurnHandover(const ImuConvention& found);
+  void TurnByGyro(const Estimate& now, LastFix& earlier) const;
+  Transition Retry() const;
+  Transition Reject(Timestamp stamp, const std::string& why) const;
+  Transition GoLidarOnly() const;
+  Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
+
+  ModeContext context_;
+  Handover handover_;
+  std::optional<Timestamp> since_;  // start of the first sweep that was tracked
+  bool has_velocity_seed_ = false;  // the search for it is over
+  MotionSeed seed_;
+  std::optional<ConstantVelocityTracker> tracker_;
+  std::vector<Scan> scans_;            // one each of the front ones of context.sweeps
+  Vector3 up_map_ = Vector3::UnitZ();  // roughly
+};
+
+}  // namespace lio

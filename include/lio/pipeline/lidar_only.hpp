@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The mode without an IMU: scans are tracked by the constant-velocity model. A path that is lost
+// would go on straight, wherever that leads; so after a few scans that match nowhere a new map
+// begins, in the world that was published.
+#pragma once
+
+#include <optional>
+
+#include "lio/pipeline/health.hpp"
+#include "lio/pipeline/keyframe_policy.hpp"
+#include "lio/pipeline/mode_context.hpp"
+#include "lio/pipeline/transition.hpp"
+
+namespace lio {
+
+struct LidarOnlyParameters {
+  int warm_up_scans = 10;          // with fewer a map is thin, and its cells are rank-deficient
+  double turn_unseen_for_s = 0.5;  // a body that is not seen goes on turning for so long
+};
+
+inline constexpr LidarOnlyParameters kLidarOnly;
+
+class LidarOnly {
+ public:
+  // Begins with the first sweep, along the seed's motion; after a loss at the handover's last fix.
+  LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed);
+
+  std::size_t next_sweep() const { return 0; }
+  [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
+  [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
+                                                    InsertTask& insert);
+  [[nodiscard]] Transition TakeImu(const ImuAppeared& event) const;
+
+  TrackingStatus status() const { return health_.status(); }
+
+ private:
+  void BeginTrack(const Sweep& sweep);
+  void StartAtLastFix(Timestamp start, TrackerOptions& options) const;
+  // A scan grows the map where its place is beyond doubt: in the first one that was located after
+  // some that were not, it is not yet.
+  bool IsPlaceSure(const MatchOutcome& outcome) const;
+  ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
+  void Publish(const MatchOutcome& outcome, const ScanReport& report);
+  Transition RestartWhenLost(Timestamp sweep_end) const;
+
+  ModeContext context_;
+  Handover handover_;
+  MotionSeed seed_;
+  Health health_;
+  KeyframePolicy keyframes_;
+  std::optional<ConstantVelocityTracker> tracker_;  // from the first sweep on
+  Vector3 up_map_ = Vector3::UnitZ();               // roughly
+  int num_scans_ = 0;                               // that have been tracked
+};
+
+}  // namespace lio

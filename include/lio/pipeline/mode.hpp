@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The mode of the estimator. To build a mode is the reset; what it begins with comes by the
+// transition that asked for it (transition.hpp has the table).
+#pragma once
+
+#include <variant>
+
+#include "lio/pipeline/initializing.hpp"
+#include "lio/pipeline/lidar_only.hpp"
+#include "lio/pipeline/tracking.hpp"
+
+namespace lio {
+
+// The configuration contradicts the data: all that follows is ignored.
+struct Rejected {
+  std::size_t next_sweep() const { return 0; }
+  TrackingStatus status() const { return TrackingStatus::kInit; }
+};
+
+using Mode = std::variant<Initializing, Tracking, LidarOnly, Rejected>;
+
+ModeKind KindOf(const Mode& mode);
+TrackingStatus StatusOf(const Mode& mode);
+// Index of the sweep to match next in the queue of those that wait.
+std::size_t NextSweepOf(const Mode& mode);
+
+// Builds the mode that the table names; throws std::logic_error where it names none.
+[[nodiscard]] Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context);
+
+}  // namespace lio

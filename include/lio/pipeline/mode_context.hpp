@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What every mode works with. Odometry owns all of it and outlives the modes; none of it is about
+// the motion, so nothing of a motion crosses a change of mode here (handover.hpp is for that).
+#pragma once
+
+#include <deque>
+
+#include "lio/base/counters.hpp"
+#include "lio/pipeline/clock_offset_follower.hpp"
+#include "lio/pipeline/imu_convention_monitor.hpp"
+#include "lio/pipeline/options.hpp"
+#include "lio/pipeline/output_queue.hpp"
+#include "lio/stream/sensor_stream.hpp"
+
+namespace lio {
+
+struct ModeContext {
+  const Options& options;
+  double nis_limit;  // of the gate, from filter.gate_probability
+  ClockNs clock;     // null: no stage times
+  Counters& counters;
+  OutputQueue& outputs;
+  SensorStream& stream;
+  // Sweeps that inertial samples cover, oldest first. An initialization looks back on the front
+  // ones, so a mode begins with those that the one before has left.
+  std::deque<SweepPtr>& sweeps;
+  ImuConventionMonitor& convention;
+  ClockOffsetFollower& clocks;
+
+  std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
+};
+
+inline void NotifyLost(Timestamp stamp, OutputQueue& outputs) {
+  outputs.Notify(stamp, Notice::Severity::kWarning,
+                 "lost: no scan has matched the map for two seconds; the pose drifts");
+}
+
+}  // namespace lio

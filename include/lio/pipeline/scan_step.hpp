@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The two steps of a scan that every mode shares: the job that matches it, predicted by a filter,
+// and the fusion of what matching found. Pure functions of their arguments.
+#pragma once
+
+#include <optional>
+
+#include "lio/filter/filter_history.hpp"
+#include "lio/pipeline/match_job.hpp"
+#include "lio/pipeline/options.hpp"
+
+namespace lio {
+
+struct ScanStepParameters {
+  // Where inertial samples are missing a sweep may be bent by more than this after the deskew (10
+  // cm at 20 m): it is deskewed again along what the match found.
+  double unsure_turn_rad = 0.005;
+  // A shift since the last located scan that is less sure than this is beyond what matching
+  // reaches: correlative alignment betters the prior.
+  double align_prior_from_std_m = 0.7;
+  // The least time that a prior is taken to have run free, so that rates by it stay finite.
+  double min_since_last_fix_s = 0.01;
+};
+
+inline constexpr ScanStepParameters kScanStep;
+
+// A job that tracks the sweep from the filter's prediction for its middle. `last_located`: the
+// middle of the last sweep that was located, if there is one.
+[[nodiscard]] MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
+                                       std::optional<Timestamp> last_located);
+
+struct FusionSettings {
+  double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
+  // Factor on the covariance of matches, for errors that are alike from scan to scan.
+  double alike_factor = 1.0;
+  bool grows_map = false;  // the scan will be inserted
+  bool force = false;      // fuse even beyond the gate
+};
+
+// Fuses a usable match at the sweep's middle. The measurement's covariance is that of the match and
+// of what errors of the motion within the sweep leave in the deskewed scan. `nis` is filled with
+// the normalised innovation squared.
+[[nodiscard]] EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settings,
+                                     const FilterOptions& filter, FilterHistory& history,
+                                     double& nis);
+
+// What matching did, for registration.csv: all but the filter's part.
+[[nodiscard]] ScanReport MakeScanReport(const MatchOutcome& outcome);
+
+// Adds the filter's time to the stage times, and their total.
+void CompleteTimes(const StageTimes& stage_ns, std::int64_t filter_ns, ScanReport& report);
+
+}  // namespace lio

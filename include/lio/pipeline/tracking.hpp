@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The mode that this program is for: the error-state filter propagates with the IMU and fuses the
+// pose of each scan, matched against the map. Zero-velocity updates, the clock-offset filter and
+// the watch on the IMU convention stand beside it. A gap of the inertial stream or a step of its
+// clock is carried over; a state that is lost, or contradicted by matching, ends the mode.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lio/pipeline/estimate_report.hpp"
+#include "lio/pipeline/health.hpp"
+#include "lio/pipeline/keyframe_policy.hpp"
+#include "lio/pipeline/mode_context.hpp"
+#include "lio/pipeline/transition.hpp"
+#include "lio/pipeline/zero_velocity_updater.hpp"
+
+namespace lio {
+
+struct TrackingParameters {
+  // A longer gap between segments may as well be a clock that was set: the doubt about the motion
+  // meanwhile is that of so long a time.
+  double max_gap_s = 3.0;
+  // What may be missing where a clock was set.
+  double clock_set_s = 0.1;
+};
+
+inline constexpr TrackingParameters kTracking;
+
+class Tracking {
+ public:
+  // Begins at start.estimate with the samples in the stream's buffer.
+  Tracking(const ModeContext& context, Handover handover, const StartState& start, bool is_at_rest);
+
+  void AddImu(const ImuReady& event);
+  void AddSweep(const Sweep& sweep);  // that joins an empty queue
+  void TakeClockStep(const AmbiguousClockStep& step);
+  // Carries the state over a gap or a step of the clock, unsure of what happened in between.
+  void StartSegment(const SegmentStarts& segment);
+
+  std::size_t next_sweep() const { return 0; }
+  [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep) const;
+  [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
+                                                    InsertTask& insert);
+
+  TrackingStatus status() const { return health_.status(); }
+  Timestamp begin() const { return history_.start_stamp(); }
+
+ private:
+  bool IsAfterClockStep(const Sweep& sweep) const;
+  std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
+  void SettleClockStep(const MatchOutcome& outcome);
+  ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
+  void UpdateBesides(const MatchOutcome& outcome, bool is_fused);
+  void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
+               bool rebases_map, InsertTask& insert);
+  std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
+  Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
+  void PublishAtImuRate();
+  ReportContext MakeReportContext() const;
+  Timestamp EarliestOf(const Sweep& sweep) const;
+
+  ModeContext context_;
+  Handover handover_;
+  Vector3 g_world_;  // zero where no gravity is felt
+  FilterHistory history_;
+  Health health_;
+  KeyframePolicy keyframes_;
+  ZeroVelocityUpdater zero_velocity_;
+  bool is_first_scan_ = true;
+};
+
+}  // namespace lio

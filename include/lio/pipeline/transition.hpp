@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The table of transitions between modes: the only ones there are. docs/design.md draws it, and a
+// test checks that both agree.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "lio/imu/start_state.hpp"
+#include "lio/pipeline/constant_velocity_tracker.hpp"
+#include "lio/pipeline/handover.hpp"
+
+namespace lio {
+
+enum class ModeKind : std::int8_t { kInitializing, kTracking, kLidarOnly, kRejected };
+
+enum class Trigger : std::int8_t {
+  kStarted,            // the first state is known
+  kNoImu,              // no inertial samples come, and the motion is known roughly
+  kRetry,              // what was tracked is of no use: other convention, gap, window over
+  kContradicted,       // the configuration contradicts the data
+  kLost,               // scans that see enough match nowhere
+  kConventionDoubted,  // matching and IMU contradict each other
+  kImuAppeared,        // inertial samples have come, after the lidar
+};
+
+struct TransitionRule {
+  ModeKind from;
+  Trigger trigger;
+  ModeKind to;
+};
+
+inline constexpr std::array kTransitions{
+    TransitionRule{ModeKind::kInitializing, Trigger::kStarted, ModeKind::kTracking},
+    TransitionRule{ModeKind::kInitializing, Trigger::kNoImu, ModeKind::kLidarOnly},
+    TransitionRule{ModeKind::kInitializing, Trigger::kRetry, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kInitializing, Trigger::kContradicted, ModeKind::kRejected},
+    TransitionRule{ModeKind::kInitializing, Trigger::kImuAppeared, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kLost, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuAppeared, ModeKind::kInitializing},
+};
+
+// Absent: there is no such transition.
+constexpr std::optional<ModeKind> TargetOf(ModeKind from, Trigger trigger) {
+  for (const TransitionRule& rule : kTransitions) {
+    if (rule.from == from && rule.trigger == trigger) return rule.to;
+  }
+  return std::nullopt;
+}
+
+std::string_view NameOf(ModeKind kind);
+std::string_view NameOf(Trigger trigger);
+
+// A mode asks for the mode that follows it, and gives what that begins with.
+struct Transition {
+  Trigger trigger = Trigger::kRetry;
+  Handover handover = {};
+  std::optional<StartState> start = std::nullopt;  // kStarted
+  bool is_at_rest = false;                         // kStarted: from a rest
+  MotionSeed seed = {};                            // kNoImu
+  std::optional<Timestamp> initializing_since =
+      std::nullopt;  // kRetry: the first sweep of the first try
+};
+
+}  // namespace lio

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// From raw messages, in the order in which they arrive, to events in the order in which the
+// estimator must consume them. It is the only owner of inertial samples and chunks: it validates,
+// buffers, assembles sweeps, holds them until inertial samples cover them, and judges gaps and
+// steps of the clocks by stamps and by the order of arrival; it asks no wall clock.
+//
+//   stream.AddImu(sample);
+//   while (auto event = stream.Next(is_idle)) Consume(*event);
+//
+// `is_idle`: every sweep that was given out has been matched. A step of the inertial clock waits
+// for that, and what comes meanwhile waits behind it, so the events do not depend on how fast scans
+// are matched. The consumer handles each event before it asks for the next one.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "lio/base/counters.hpp"
+#include "lio/sensor/rig.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+#include "lio/stream/clock_step_arbiter.hpp"
+#include "lio/stream/imu_buffer.hpp"
+#include "lio/stream/imu_preprocessor.hpp"
+#include "lio/stream/saturation_detector.hpp"
+#include "lio/stream/scan_assembler.hpp"
+#include "lio/stream/scan_gate.hpp"
+#include "lio/stream/stream_event.hpp"
+
+namespace lio {
+
+struct StreamOptions {
+  bool use_imu = true;
+  ImuUnits units = ImuUnits::kAutomatic;
+  double lidar_clock_offset_s = 0.0;  // added to the lidar's stamps
+  // A sweep's stamps may still be moved by this much before it is matched, while an IMU is there.
+  double clock_margin_s = 0.0;
+  double incomplete_sweep_wait_s = 0.05;  // a sweep is closed when stamps are this far past its end
+};
+
+class SensorStream {
+ public:
+  // Counts into `counters`, which outlives this.
+  SensorStream(const StreamOptions& options, Counters& counters);
+
+  void AddImu(const ImuSample& sample);
+  void AddChunk(ScanChunk chunk, std::int64_t decode_ns);
+  // No more messages come: what is still open is closed.
+  void Flush();
+  // Nothing of this stream is wanted: messages are counted and dropped.
+  void Reject();
+
+  [[nodiscard]] std::optional<StreamEvent> Next(bool is_idle);
+
+  // The estimator can use sweeps from this time on; absent: from the first inertial sample on.
+  void SetBegin(std::optional<Timestamp> begin) { begin_ = begin; }
+  void SetConvention(const ImuConvention& convention) { imu_.SetConvention(convention); }
+
+  const ImuBuffer& imu() const { return imu_; }
+  bool has_imu() const { return has_imu_; }  // false: lidar-only
+  bool is_flushed() const { return life_ != Life::kOpen; }
+  Duration clock_margin() const;
+
+ private:
+  struct Message {
+    ImuSample sample;
+    std::optional<ScanChunk> chunk;  // absent: it is the sample
+    std::int64_t decode_ns = 0;
+  };
+  enum class State {
+    kFlowing,
+    kJudgingStep,     // the inertial clock stepped; did the lidar's as well?
+    kWaitingForIdle,  // the step is judged; sweeps before it are being matched
+  };
+
+  enum class Life {
+    kOpen,
+    kFlushed,  // no more messages come
+    kClosed,   // and all that was open is closed
+    kRejected,
+  };
+  struct PendingStep {
+    ImuPreprocessor::Result result;  // its samples come first once the step is judged
+    std::size_t num_examined = 0;    // messages of inbox_, to judge the step by
+    Timestamp newest_examined;       // of the inertial samples since the step
+  };
+
+  bool Advance(bool is_idle);
+  void Process(Message message);
+  void ProcessImu(const ImuSample& sample);
+  void ProcessChunk(ScanChunk chunk, std::int64_t decode_ns);
+  void AcceptAll(const std::vector<ImuSample>& samples);
+  void Accept(const ImuSample& sent);
+  ImuSample MarkSaturated(ImuSample sent);
+  void Emit(std::vector<ImuReady> ready);
+  void Notify(Timestamp stamp, Notice::Severity severity, std::string text);
+
+  // Sweeps.
+  void CloseSweepsBefore(Timestamp stamp);
+  void TakeClosedSweeps();
+  void OpenGate();
+  void Admit(SweepPtr sweep);
+  bool NotifyIfClocksApart(Timestamp imu, Timestamp lidar);
+  void GoLidarOnly(const std::string& evidence);
+  void CloseAll();
+
+  // Steps of the inertial clock: sensor_stream_step.cpp.
+  void TakeStep(ImuPreprocessor::Result step);
+  ClockStep StampsOfStep() const;
+  void JudgeBy(const Message& message);
+  void ShiftImuClock(Timestamp after_by_lidar);
+  void EndStep();
+  void StartSegment();
+  void TakeLateImu(const ImuSample& sample);
+
+  StreamOptions options_;
+  Counters* counters_;
+  bool has_imu_;
+  Life life_ = Life::kOpen;
+  State state_ = State::kFlowing;
+  std::deque<Message> inbox_;  // not processed yet
+  std::deque<StreamEvent> events_;
+  ImuPreprocessor preprocessor_;
+  SaturationDetector saturation_;
+  ImuBuffer imu_;
+  ClockStepArbiter arbiter_;
+  ScanAssembler assembler_;
+  ScanGate gate_;
+  PendingStep step_;
+  Duration imu_clock_shift_;  // of an inertial clock that stepped alone
+  Timestamp newest_chunk_;
+  std::vector<ImuSample> late_imu_;  // the first ones, where the lidar has begun alone
+  std::optional<Timestamp> begin_;
+};
+
+}  // namespace lio

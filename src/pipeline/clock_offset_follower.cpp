@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/clock_offset_follower.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+namespace lio {
+namespace {
+
+constexpr double kKnownStd_s = 1e-3;  // 1 cm at 10 m/s: an offset known so well is announced
+
+}  // namespace
+
+ClockOffsetFollower::ClockOffsetFollower(const Options& options) : options_(&options) {
+  if (options.pipeline.use_imu) Restart();
+}
+
+void ClockOffsetFollower::Restart() {
+  if (options_->filter.estimate_clock_offset) offset_.emplace(options_->rig.imu);
+}
+
+void ClockOffsetFollower::Interrupt() {
+  if (offset_) offset_->Interrupt();
+}
+
+double ClockOffsetFollower::total_s() const {
+  return options_->rig.lidar.clock_offset_s + (offset_ ? offset_->offset_s() : 0.0);
+}
+
+SweepPtr ClockOffsetFollower::Moved(const SweepPtr& sweep) {
+  moved_by_s_ = offset_ ? offset_->move_by_s() : 0.0;
+  const Duration by = Duration::FromSeconds(moved_by_s_);
+  if (by.ns == 0) return sweep;
+  auto moved = std::make_shared<Sweep>(*sweep);
+  moved->start = moved->start + by;
+  moved->end = moved->end + by;
+  return moved;
+}
+
+std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outcome,
+                                                        const FilterHistory& history) {
+  if (!offset_) return std::nullopt;
+  if (!outcome.match.IsUsable() || outcome.match.degenerate_mask != 0) {
+    offset_->Interrupt();
+    return std::nullopt;
+  }
+  const Sweep& sweep = *outcome.sweep;
+  const std::vector<ImuSample> samples = history.SamplesBetween(sweep.start, sweep.end);
+  const Matrix3 rotation_cov = outcome.match.cov.bottomRightCorner<3, 3>();
+  offset_->Add({sweep.middle(), moved_by_s_, outcome.match.T_map_imu.rotation,
+                options_->filter.registration_cov_scale * rotation_cov.trace() / 3.0,
+                history.At(sweep.middle()).state.gyro_bias},
+               samples);
+  if (is_announced_ || offset_->std_s() > kKnownStd_s) return std::nullopt;
+  is_announced_ = true;
+  return fmt::format(
+      "clocks: the lidar's stamps are {:.1f} ms {} the IMU's (1 sigma {:.1f} ms): set "
+      "rig.lidar.clock_offset_s: {:.4f}",
+      1e3 * std::abs(total_s()), total_s() < 0 ? "ahead of" : "behind", 1e3 * offset_->std_s(),
+      total_s());
+}
+
+}  // namespace lio

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/estimate_report.hpp"
+
+#include <iterator>
+
+#include "lio/filter/published_estimate.hpp"
+#include "lio/pipeline/base_motion.hpp"
+#include "lio/sensor/sample_lookup.hpp"
+
+namespace lio {
+namespace {
+
+// Where no gravity is felt nothing levels a world: it is the map's frame.
+WorldEstimate InPublishedWorld(const Estimate& estimate, const Vector3& g_world) {
+  return g_world.isZero() ? WithMapAsWorld(estimate) : InWorld(estimate);
+}
+
+// The variance of the noise in the published rate: white noise of the gyro's density over the time
+// of one sample [(rad/s)^2].
+double RateVariance(Timestamp stamp, const ReportContext& context) {
+  if (context.imu == nullptr) return 0.0;
+  const std::deque<ImuSample>& samples = context.imu->samples();
+  const auto after = FirstNotBefore(samples, stamp);
+  if (after == samples.begin() || after == samples.end()) return 0.0;
+  const double step_s = SecondsBetween(std::prev(after)->stamp, after->stamp);
+  const double density = context.options.rig.imu.gyro_noise_density;
+  return density * density / step_s;
+}
+
+}  // namespace
+
+NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
+  NavOutput nav;
+  nav.stamp = estimate.stamp;
+  nav.scan_seq = context.last_seq;
+  nav.status = context.status;
+  const WorldEstimate published = InPublishedWorld(estimate, context.g_world);
+  nav.T_world_imu = published.T_world_imu;
+  nav.pose_cov = published.cov.topLeftCorner<6, 6>();
+  nav.v_world_imu_mps = published.v_world_imu;
+  nav.velocity_cov = published.cov.block<3, 3>(kVel, kVel);
+  nav.w_imu_radps = -estimate.state.gyro_bias;
+  if (context.imu != nullptr && !context.imu->samples().empty()) {
+    nav.w_imu_radps += SampleAt(context.imu->samples(), estimate.stamp).w_imu_radps;
+  }
+  nav.T_map_imu = estimate.state.T_map_imu;
+  nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
+  if (const auto& T_base_imu = context.options.rig.T_base_imu) {
+    nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp, context), *T_base_imu);
+  }
+  return nav;
+}
+
+FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report,
+                              const ReportContext& context) {
+  FilterReport filter;
+  filter.nav = MakeNav(estimate, context);
+  const MapVelocity velocity = VelocityInMap(estimate);
+  filter.v_map_imu_mps = velocity.v_map_imu;
+  filter.map_velocity_cov = velocity.cov;
+  filter.map_as_world_cov = WithMapAsWorld(estimate).cov.topLeftCorner<6, 6>();
+  filter.gyro_bias_radps = estimate.state.gyro_bias;
+  filter.accel_bias_mps2 = estimate.state.accel_bias;
+  filter.g_world_mps2 = context.g_world;
+  filter.clock_offset_s = context.clocks.total_s();
+  filter.clock_offset_std_s = context.clocks.std_s();
+  filter.nis = report.nis;
+  filter.nis_dof = report.fused ? 6 : 0;
+  filter.cov = estimate.cov;
+  filter.cov.topLeftCorner<kAccelBias, kAccelBias>() =
+      InPublishedWorld(estimate, context.g_world).cov;
+  return filter;
+}
+
+LastFix MakeFix(Timestamp stamp, const Estimate& estimate, const Vector3& g_world) {
+  const WorldEstimate published = InPublishedWorld(estimate, g_world);
+  return {stamp, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu,
+          published.cov.topLeftCorner<6, 6>()};
+}
+
+}  // namespace lio

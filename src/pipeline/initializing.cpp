@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/initializing.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "lio/pipeline/coarse_tracking.hpp"
+#include "lio/sensor/sample_lookup.hpp"
+
+namespace lio {
+namespace {
+
+// The largest of three standard deviations that belong together.
+double LargestStd(const Estimate& estimate, int at) {
+  return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
+}
+
+}  // namespace
+
+Initializing::Initializing(const ModeContext& context, Handover handover,
+                           std::optional<Timestamp> since)
+    : context_(context), handover_(std::move(handover)), since_(since) {}
+
+MatchJob Initializing::MakeJob(const SweepPtr& sweep) {
+  const bool is_first = scans_.empty();
+  if (is_first) {
+    BeginTrack(*sweep);
+  } else {
+    AdvanceTo(*sweep, *tracker_, handover_.last_located);
+  }
+  for (const ImuSample& sample : context_.stream.imu().samples()) {
+    if (sample.stamp <= sweep->end) tracker_->AddRate(sample);
+  }
+  tracker_->AdvanceTo(sweep->end);
+  MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
+  if (is_first) job.map_action = MapAction::kClear;
+  if (!has_velocity_seed_) job.task = FindVelocity{};
+  return job;
+}
+
+void Initializing::BeginTrack(const Sweep& sweep) {
+  handover_.last_located.reset();
+  const ImuBuffer& imu = context_.stream.imu();
+  TrackerOptions options;
+  options.span_s = context_.options.filter.history_s;
+  options.nis_limit = context_.nis_limit;
+  options.seed = seed_;
+  const Timestamp start = TrackStart(sweep, seed_);
+  if (context_.stream.has_imu() && context_.convention.trusts_gyro() && !imu.samples().empty()) {
+    options.first_rate_radps = SampleAt(imu.samples(), start).w_imu_radps;
+  }
+  tracker_.emplace(start, options);
+  context_.convention.BeginMap(sweep.start);
+  up_map_ = options.T_world_start.rotation *
+            MeanUp(imu.Between(sweep.start, sweep.end), context_.options.rig);
+}
+
+std::optional<Transition> Initializing::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
+  if (!has_velocity_seed_) {
+    FinishVelocitySearch(outcome);
+    return std::nullopt;
+  }
+  AddScan(outcome, insert);
+  const Timestamp end = outcome.sweep->end;
+  const Estimate estimate = tracker_->history().At(outcome.sweep->middle());
+  const bool has_imu = context_.stream.has_imu();
+  if (IsMotionKnown(end, estimate)) {
+    seed_.motion = estimate.state;
+    if (!has_imu) return GoLidarOnly();
+    scans_.clear();
+    return std::nullopt;
+  }
+  if (!has_imu) {
+    const bool is_enough = scans_.size() >= kInitializing.max_scans_for_motion || IsLastScan();
+    return is_enough ? std::optional(GoLidarOnly()) : std::nullopt;
+  }
+  if (auto transition = JudgeConvention(end)) return transition;
+  return TryStart(end);
+}
+
+// The first scans only tell how fast they were taken; then they are matched.
+void Initializing::FinishVelocitySearch(const MatchOutcome& outcome) {
+  scans_.push_back({{outcome.sweep->middle(), outcome.match.T_map_imu, Matrix6::Zero()}, false});
+  if (!outcome.v_map_imu_mps && scans_.size() < kInitializing.max_scans_for_velocity &&
+      !IsLastScan()) {
+    return;
+  }
+  seed_.v_imu_mps = outcome.v_map_imu_mps;  // the map's axes are those of the first sweep
+  has_velocity_seed_ = true;
+  scans_.clear();
+}
+
+void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
+  const Timestamp middle = outcome.sweep->middle();
+  const bool is_matched = outcome.match.IsUsable();
+  tracker_->AddMatch(middle, outcome.match);
+  const Estimate estimate = tracker_->history().At(middle);
+  const NavState& state = estimate.state;
+  if (LargestStd(estimate, kMapPose) < kInitializing.max_insert_std_m) {
+    insert.T_map_imu = state.T_map_imu;
+  }
+  scans_.push_back(
+      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, outcome.match.cov},
+       is_matched});
+  if (is_matched && context_.stream.has_imu()) {
+    context_.convention.AddPose({middle, outcome.match.T_map_imu});
+  }
+  handover_.last_located = middle;
+  if (!since_) since_ = outcome.sweep->start;
+}
+
+// Known for the first time: then the scans are matched again.
+bool Initializing::IsMotionKnown(Timestamp sweep_end, const Estimate& estimate) const {
+  return !seed_.motion && scans_.size() >= kInitializing.min_scans_for_motion &&
+         HasMovedSince(0, context_.stream.has_imu() && IsVeryCalm(sweep_end)) &&
+         LargestStd(estimate, kVel) < kInitializing.motion_velocity_std_mps;
+}
+
+bool Initializing::IsLastScan() const {
+  return context_.stream.is_flushed() && scans_.size() == context_.sweeps.size();
+}
+
+bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
+  const Pose motion = scans_[first].pose.T_any_imu.Inverse() * scans_.back().pose.T_any_imu;
+  const double distance_m = motion.translation.norm();
+  if (is_calm) return distance_m > kInitializing.moved_distance_calm_m;
+  return distance_m > kInitializing.moved_distance_m ||
+         LogSo3(motion.rotation).norm() > kInitializing.moved_angle_rad;
+}
+
+bool Initializing::IsVeryCalm(Timestamp stamp) const {
+  const Timestamp begin = stamp - Duration::FromSeconds(context_.options.start.rest_s);
+  const ImuStatistics statistics = Summarise(context_.stream.imu().Between(begin, stamp));
+  return statistics.num_samples >= 3 &&
+         IsCalm(statistics, context_.options.rig.imu, kInitializing.calm);
+}
+
+void Initializing::ForgetOldestScan() {
+  context_.sweeps.pop_front();
+  scans_.erase(scans_.begin());
+}
+
+std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segment) {
+  Handover handover = handover_;
+  if (segment.last_imu && segment.step != ImuPreprocessor::Step::kGap) {
+    handover.ShiftTimesBy(segment.first.stamp - *segment.last_imu);
+    context_.clocks.Interrupt();
+  }
+  context_.sweeps.clear();
+  ++context_.counters.num_restarts;
+  context_.outputs.Notify(segment.first.stamp, Notice::Severity::kWarning,
+                          "the IMU's stamps jumped: initialization begins again");
+  return Transition{.trigger = Trigger::kRetry, .handover = std::move(handover)};
+}
+
+std::optional<Transition> Initializing::TakeImu(const ImuAppeared& /*event*/) {
+  Handover handover = handover_;
+  if (handover.origin == Handover::Origin::kLostLidar) {
+    handover.origin = Handover::Origin::kLidar;
+    handover.is_map_by_lidar = true;
+  }
+  return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+}
+
+std::optional<Transition> Initializing::EndStream() {
+  if (context_.stream.has_imu() || !IsLastScan()) return std::nullopt;
+  return GoLidarOnly();
+}
+
+void Initializing::TakeClockStep(const AmbiguousClockStep& step) {
+  handover_.clock_step = {step.stamps, std::nullopt};
+}
+
+Transition Initializing::Retry() const {
+  return {.trigger = Trigger::kRetry, .handover = handover_, .initializing_since = since_};
+}
+
+Transition Initializing::GoLidarOnly() const {
+  return {.trigger = Trigger::kNoImu, .handover = handover_, .seed = seed_};
+}
+
+}  // namespace lio

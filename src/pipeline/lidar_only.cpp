@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/lidar_only.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "lio/pipeline/coarse_tracking.hpp"
+#include "lio/pipeline/estimate_report.hpp"
+#include "lio/pipeline/scan_step.hpp"
+
+namespace lio {
+
+LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed)
+    : context_(context),
+      handover_(std::move(handover)),
+      seed_(seed),
+      health_(false, TrackingStatus::kInit, handover_.last_fused, context.counters) {}
+
+MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
+  const bool is_first = !tracker_;
+  if (is_first) {
+    BeginTrack(*sweep);
+  } else {
+    AdvanceTo(*sweep, *tracker_, handover_.last_located);
+  }
+  tracker_->AdvanceTo(sweep->end);
+  MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
+  if (num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
+  if (is_first) job.map_action = MapAction::kClear;
+  if (handover_.last_located) {
+    job.task = Relocalize{std::get<Track>(job.task), {SearchRegion::kAnywhere, {}}};
+  }
+  return job;
+}
+
+void LidarOnly::BeginTrack(const Sweep& sweep) {
+  handover_.last_located.reset();
+  TrackerOptions options;
+  options.span_s = context_.options.filter.history_s;
+  options.nis_limit = context_.nis_limit;
+  options.seed = seed_;
+  const Timestamp start = TrackStart(sweep, seed_);
+  if (handover_.origin == Handover::Origin::kLostLidar) StartAtLastFix(start, options);
+  tracker_.emplace(start, options);
+  handover_.origin = Handover::Origin::kLidar;
+  handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());
+  context_.convention.BeginMap(sweep.start);
+  up_map_ = options.T_world_start.rotation * MeanUp({}, context_.options.rig);
+}
+
+// The new map begins where the motion before and after the scans that were not located leads.
+void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
+  const LastFix& fix = handover_.last_fix;
+  const double since_s = CoastedSince_s(fix, start);
+  const Vector3 turn = std::min(since_s, kLidarOnly.turn_unseen_for_s) * handover_.w_imu_radps;
+  const Quaternion rotation = fix.T_world_imu.rotation * ExpSo3(turn);
+  Vector3 v_world_mps = fix.v_world_imu;
+  if (seed_.motion) {
+    const Vector3 v_imu_mps =
+        seed_.motion->T_world_imu.rotation.conjugate() * seed_.motion->v_world_imu;
+    v_world_mps = 0.5 * (v_world_mps + rotation * v_imu_mps);
+  }
+  options.T_world_start = {rotation, fix.T_world_imu.translation + since_s * v_world_mps};
+  Vector6 least;
+  least << Vector3::Constant(kPlacedStd_m * kPlacedStd_m),
+      Vector3::Constant(kPlacedStd_rad * kPlacedStd_rad);
+  options.start_cov = handover_.pose_cov;
+  options.start_cov.diagonal() += least;
+}
+
+bool LidarOnly::IsPlaceSure(const MatchOutcome& outcome) const {
+  return health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+}
+
+std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
+  const std::int64_t begin_ns = context_.NowNs();
+  const Timestamp middle = outcome.sweep->middle();
+  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  const bool is_place_sure = IsPlaceSure(outcome);
+  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu) && is_place_sure;
+  ScanReport report = Fuse(outcome, is_keyframe);
+  if (starts_map) (void)tracker_->history().AddRebase(middle);
+  const Estimate estimate = tracker_->history().At(middle);
+  if (starts_map || (report.fused && is_keyframe)) {
+    insert.T_map_imu = estimate.state.T_map_imu;
+    keyframes_.Accept(estimate.state.T_map_imu);
+  }
+  if (report.fused || starts_map) {
+    handover_.last_located = middle;
+    handover_.last_seq = outcome.sweep->scan_seq;
+  }
+  ++num_scans_;
+  const Health::Verdict verdict =
+      health_.AddScan(outcome.sweep->end, outcome.match, outcome.num_used, report.fused);
+  handover_.last_fused = health_.last_fused();
+  if (verdict.is_newly_lost) NotifyLost(outcome.sweep->end, context_.outputs);
+  if (report.fused && is_place_sure) {
+    handover_.last_fix = MakeFix(middle, estimate, Vector3::Zero());
+  }
+  CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
+  Publish(outcome, report);
+  context_.sweeps.pop_front();
+  if (!verdict.restarts) return std::nullopt;
+  return RestartWhenLost(outcome.sweep->end);
+}
+
+ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
+  ScanReport report = MakeScanReport(outcome);
+  if (!outcome.match.IsUsable()) return report;
+  FusionSettings settings;
+  settings.grows_map = is_keyframe;
+  settings.force =
+      outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
+  const EventOutcome fused =
+      FuseMatch(outcome, settings, context_.options.filter, tracker_->history(), report.nis);
+  health_.AddFusion(fused);
+  report.fused = fused == EventOutcome::kApplied;
+  return report;
+}
+
+void LidarOnly::Publish(const MatchOutcome& outcome, const ScanReport& report) {
+  const Timestamp end = outcome.sweep->end;
+  const Estimate at_end = report.fused
+                              ? tracker_->AtEnd(outcome.sweep->middle(), end, outcome.turn_rate)
+                              : tracker_->history().At(end);
+  const ReportContext context{context_.options, Vector3::Zero(), handover_.last_seq,
+                              health_.status(), nullptr,         context_.clocks};
+  context_.outputs.Add(ScanOutput{MakeFilterReport(at_end, report, context), report});
+}
+
+Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {
+  const Estimate estimate = tracker_->history().At(sweep_end);
+  Handover handover = handover_;
+  handover.origin = Handover::Origin::kLostLidar;
+  handover.w_imu_radps = -estimate.state.gyro_bias;
+  handover.pose_cov = estimate.cov.topLeftCorner<6, 6>();
+  context_.outputs.Notify(sweep_end, Notice::Severity::kWarning,
+                          "lost: scans see enough but match the map nowhere, so the map begins "
+                          "anew at the last pose that was found");
+  return {.trigger = Trigger::kLost, .handover = std::move(handover)};
+}
+
+Transition LidarOnly::TakeImu(const ImuAppeared& /*event*/) const {
+  Handover handover = handover_;
+  handover.origin = Handover::Origin::kLidar;
+  handover.is_map_by_lidar = true;
+  return {.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+}
+
+}  // namespace lio

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/mode.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace lio {
+
+ModeKind KindOf(const Mode& mode) {
+  return static_cast<ModeKind>(mode.index());
+}
+
+TrackingStatus StatusOf(const Mode& mode) {
+  return std::visit([](const auto& current) { return current.status(); }, mode);
+}
+
+std::size_t NextSweepOf(const Mode& mode) {
+  return std::visit([](const auto& current) { return current.next_sweep(); }, mode);
+}
+
+std::string_view NameOf(ModeKind kind) {
+  constexpr std::array<std::string_view, 4> kNames{"Initializing", "Tracking", "LidarOnly",
+                                                   "Rejected"};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+std::string_view NameOf(Trigger trigger) {
+  constexpr std::array<std::string_view, 7> kNames{
+      "started", "no IMU", "retry", "contradicted", "lost", "convention doubted", "IMU appeared"};
+  return kNames.at(static_cast<std::size_t>(trigger));
+}
+
+Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context) {
+  const std::optional<ModeKind> to = TargetOf(KindOf(mode), transition.trigger);
+  if (!to) {
+    throw std::logic_error(fmt::format("no transition from {} by '{}'", NameOf(KindOf(mode)),
+                                       NameOf(transition.trigger)));
+  }
+  switch (*to) {
+    case ModeKind::kInitializing:
+      return Initializing(context, std::move(transition.handover), transition.initializing_since);
+    case ModeKind::kTracking:
+      return Tracking(context, std::move(transition.handover), transition.start.value(),
+                      transition.is_at_rest);
+    case ModeKind::kLidarOnly:
+      return LidarOnly(context, std::move(transition.handover), transition.seed);
+    case ModeKind::kRejected:
+      break;
+  }
+  return Rejected{};
+}
+
+}  // namespace lio

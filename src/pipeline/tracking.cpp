@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/tracking.hpp"
+
+#include <utility>
+
+#include "lio/pipeline/estimate_report.hpp"
+#include "lio/pipeline/scan_step.hpp"
+#include "lio/sensor/sample_lookup.hpp"
+#include "pipeline/history_options.hpp"
+
+namespace lio {
+
+Tracking::Tracking(const ModeContext& context, Handover handover, const StartState& start,
+                   bool is_at_rest)
+    : context_(context),
+      handover_(std::move(handover)),
+      g_world_(start.g_world),
+      history_(MakeHistoryOptions(context.options, context.nis_limit, start.g_world),
+               start.estimate, SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
+      health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
+      zero_velocity_(context.options.rig.imu, is_at_rest) {
+  history_.KeepFrom(start.estimate.stamp - context_.stream.clock_margin());
+  for (const ImuSample& sample : context_.stream.imu().samples()) {
+    if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
+  }
+}
+
+void Tracking::AddImu(const ImuReady& event) {
+  (void)history_.AddImu(event.sample);
+  if (!event.is_made_up) PublishAtImuRate();
+}
+
+void Tracking::PublishAtImuRate() {
+  const Estimate& head = history_.head();
+  const auto& last = handover_.last_published;
+  if (is_first_scan_ || (last && head.stamp <= *last)) return;
+  handover_.last_published = head.stamp;
+  NavOutput nav = MakeNav(head, MakeReportContext());
+  nav.source = OdometrySource::kImuPropagated;
+  context_.outputs.Add(nav);
+}
+
+ReportContext Tracking::MakeReportContext() const {
+  return {context_.options,       g_world_,       handover_.last_seq, health_.status(),
+          &context_.stream.imu(), context_.clocks};
+}
+
+// A sweep may still be moved in time before it is matched.
+Timestamp Tracking::EarliestOf(const Sweep& sweep) const {
+  return sweep.start - context_.stream.clock_margin();
+}
+
+void Tracking::AddSweep(const Sweep& sweep) {
+  history_.KeepFrom(EarliestOf(sweep));
+}
+
+MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
+  MatchJob job = MakeTrackingJob(sweep, history_, handover_.last_located);
+  if (is_first_scan_) job.map_action = MapAction::kClear;
+  const NavState& predicted = history_.At(sweep->middle()).state;
+  job.prior.up_map = predicted.T_map_imu.rotation *
+                     (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
+  if (handover_.last_located && IsAfterClockStep(*sweep)) {
+    job.task = Relocalize{std::get<Track>(job.task),
+                          {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
+  }
+  return job;
+}
+
+std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
+  const std::int64_t begin_ns = context_.NowNs();
+  const Timestamp end = outcome.sweep->end;
+  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+  ScanReport report = Fuse(outcome, is_keyframe);
+  UpdateBesides(outcome, report.fused);
+  const Health::Verdict verdict =
+      health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
+  GrowMap(outcome, report, is_keyframe, verdict.rebases_map, insert);
+  if (report.fused || starts_map) {
+    handover_.last_fused = end;
+    handover_.last_located = outcome.sweep->middle();
+    handover_.last_seq = outcome.sweep->scan_seq;
+  }
+  is_first_scan_ = false;
+  if (verdict.is_newly_lost) NotifyLost(end, context_.outputs);
+  if (report.fused && is_sound) {
+    handover_.last_fix =
+        MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);
+  }
+  CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
+  context_.outputs.Add(
+      ScanOutput{MakeFilterReport(history_.At(end), report, MakeReportContext()), report});
+  context_.sweeps.pop_front();
+  const auto& sweeps = context_.sweeps;
+  history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(EarliestOf(*sweeps.front())));
+  return JudgeSelf(end, verdict.restarts);
+}
+
+ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
+  ScanReport report = MakeScanReport(outcome);
+  if (!outcome.match.IsUsable()) return report;
+  context_.convention.AddPose({outcome.sweep->middle(), outcome.match.T_map_imu});
+  FusionSettings settings;
+  settings.gyro_density = context_.options.rig.imu.gyro_noise_density;
+  settings.alike_factor = zero_velocity_.match_cov_factor();
+  settings.grows_map = is_keyframe;
+  settings.force =
+      outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
+  const EventOutcome fused =
+      FuseMatch(outcome, settings, context_.options.filter, history_, report.nis);
+  health_.AddFusion(fused);
+  report.fused = fused == EventOutcome::kApplied;
+  return report;
+}
+
+// The filters that stand beside this one.
+void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused) {
+  if (is_fused) {
+    SettleClockStep(outcome);
+    if (context_.options.filter.use_zero_velocity &&
+        zero_velocity_.AddFusedScan(outcome, g_world_, history_)) {
+      ++context_.counters.num_standstills;
+    }
+  }
+  if (const auto news = context_.clocks.AddScan(outcome, history_)) {
+    context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kInfo, *news);
+  }
+}
+
+// Where the map has nothing to match against, it is grown at the predicted pose.
+void Tracking::GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
+                       bool rebases_map, InsertTask& insert) {
+  const Timestamp middle = outcome.sweep->middle();
+  const bool begins_map = outcome.match.status == MatchStatus::kEmptyMap || rebases_map;
+  if (begins_map) (void)history_.AddRebase(middle);
+  if (!begins_map && !(report.fused && is_keyframe)) return;
+  insert.T_map_imu = history_.At(middle).state.T_map_imu;
+  keyframes_.Accept(*insert.T_map_imu);
+}
+
+std::optional<Transition> Tracking::JudgeSelf(Timestamp sweep_end, bool restarts) {
+  const bool is_contradicted = context_.convention.IsContradicted(
+      {sweep_end, health_.num_unmatched_in_a_row(), health_.NumGatedLately(),
+       history_.head().state.gyro_bias});
+  if (is_contradicted) {
+    context_.clocks.Restart();  // the offset was found with wrong rates
+    return Restart(Trigger::kConventionDoubted, sweep_end,
+                   "scan matching and the IMU disagree: initialization begins again to find out "
+                   "whether the IMU's units or axes are others");
+  }
+  if (!restarts) return std::nullopt;
+  return Restart(Trigger::kLost, sweep_end,
+                 "lost: scans see enough but match the map nowhere, so initialization begins "
+                 "again at the last pose that was found");
+}
+
+Transition Tracking::Restart(Trigger trigger, Timestamp stamp, const std::string& why) const {
+  context_.outputs.Notify(stamp, Notice::Severity::kWarning, why);
+  Handover handover = handover_;
+  handover.origin = Handover::Origin::kInertial;
+  return {.trigger = trigger, .handover = std::move(handover)};
+}
+
+}  // namespace lio

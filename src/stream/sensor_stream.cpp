@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/stream/sensor_stream.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "lio/stream/stream_parameters.hpp"
+
+namespace lio {
+namespace {
+
+// The largest rate that a message can hold, in any of the units that the option allows.
+double MaxRateSent(ImuUnits units) {
+  ImuConvention convention = ConventionOf(units);
+  convention.is_in_deg |= units == ImuUnits::kAutomatic;
+  return kMaxGyroRate_radps / convention.rate_scale();
+}
+
+}  // namespace
+
+SensorStream::SensorStream(const StreamOptions& options, Counters& counters)
+    : options_(options),
+      counters_(&counters),
+      has_imu_(options.use_imu),
+      preprocessor_(counters, MaxRateSent(options.units)),
+      imu_(ConventionOf(options.units), counters),
+      assembler_(counters),
+      gate_(counters) {}
+
+Duration SensorStream::clock_margin() const {
+  return Duration::FromSeconds(has_imu_ ? options_.clock_margin_s : 0.0);
+}
+
+void SensorStream::Notify(Timestamp stamp, Notice::Severity severity, std::string text) {
+  events_.emplace_back(Notice{stamp, severity, std::move(text)});
+}
+
+void SensorStream::AddImu(const ImuSample& sample) {
+  if (!options_.use_imu || life_ == Life::kRejected) {
+    ++counters_->num_imu;
+    return;
+  }
+  inbox_.push_back({sample, std::nullopt, 0});
+}
+
+void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  if (life_ == Life::kRejected) {
+    ++counters_->num_chunks;
+    return;
+  }
+  chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.lidar_clock_offset_s);
+  inbox_.push_back({{}, std::move(chunk), decode_ns});
+}
+
+void SensorStream::Flush() {
+  if (life_ == Life::kOpen || life_ == Life::kClosed) life_ = Life::kFlushed;
+}
+
+void SensorStream::Reject() {
+  life_ = Life::kRejected;
+  state_ = State::kFlowing;
+  step_ = {};
+  events_.clear();
+  for (const Message& message : std::exchange(inbox_, {})) {
+    ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
+  }
+}
+
+std::optional<StreamEvent> SensorStream::Next(bool is_idle) {
+  while (events_.empty()) {
+    if (!Advance(is_idle)) return std::nullopt;
+  }
+  StreamEvent event = std::move(events_.front());
+  events_.pop_front();
+  return event;
+}
+
+// One unit of work; false when there is none.
+bool SensorStream::Advance(bool is_idle) {
+  if (state_ == State::kWaitingForIdle) {
+    if (!is_idle) return false;
+    StartSegment();
+    return true;
+  }
+  if (state_ == State::kJudgingStep) {
+    if (step_.num_examined < inbox_.size()) {
+      JudgeBy(inbox_[step_.num_examined++]);
+    } else if (life_ == Life::kFlushed) {
+      EndStep();
+    } else {
+      return false;
+    }
+    return true;
+  }
+  if (!step_.result.accepted.empty()) {
+    AcceptAll(std::exchange(step_, {}).result.accepted);
+    OpenGate();
+    return true;
+  }
+  if (!inbox_.empty()) {
+    Message message = std::move(inbox_.front());
+    inbox_.pop_front();
+    Process(std::move(message));
+    return true;
+  }
+  if (life_ != Life::kFlushed) return false;
+  CloseAll();
+  return true;
+}
+
+void SensorStream::Process(Message message) {
+  if (message.chunk) {
+    ProcessChunk(std::move(*message.chunk), message.decode_ns);
+  } else if (has_imu_) {
+    ProcessImu(message.sample);
+  } else {
+    TakeLateImu(message.sample);
+  }
+}
+
+void SensorStream::ProcessImu(const ImuSample& sample) {
+  ImuSample shifted = sample;
+  shifted.stamp = sample.stamp + imu_clock_shift_;
+  ImuPreprocessor::Result result = preprocessor_.Add(shifted);
+  if (result.step != ImuPreprocessor::Step::kNone) {
+    TakeStep(std::move(result));
+  } else {
+    AcceptAll(result.accepted);
+  }
+  if (state_ == State::kFlowing && step_.result.accepted.empty()) OpenGate();
+}
+
+void SensorStream::ProcessChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  const Timestamp stamp = chunk.stamp;
+  newest_chunk_ = stamp;
+  if (!preprocessor_.is_in_doubt()) arbiter_.Note(stamp, preprocessor_.newest());
+  assembler_.Add(std::move(chunk), decode_ns);
+  if (!has_imu_ || !imu_.newest()) CloseSweepsBefore(stamp);
+  OpenGate();
+}
+
+void SensorStream::AcceptAll(const std::vector<ImuSample>& samples) {
+  for (const ImuSample& sample : samples) Accept(sample);
+}
+
+void SensorStream::Accept(const ImuSample& sent) {
+  if (imu_.IsFrozen(sent.stamp)) {
+    ++counters_->num_imu_late;
+    return;
+  }
+  std::vector<ImuReady> ready;
+  const bool is_new = imu_.Add(MarkSaturated(sent), ready);
+  Emit(std::move(ready));
+  if (!is_new) {
+    ++counters_->num_imu_duplicate;
+    return;
+  }
+  CloseSweepsBefore(*imu_.newest());
+}
+
+ImuSample SensorStream::MarkSaturated(ImuSample sent) {
+  const ImuConvention& convention = imu_.convention();
+  saturation_.Mark(sent, convention.rate_scale(), convention.force_scale());
+  if (!sent.is_rate_saturated && !sent.is_force_saturated) return sent;
+  if (counters_->num_imu_clipped++ == 0) {
+    Notify(sent.stamp, Notice::Severity::kWarning,
+           fmt::format("the {} is saturated: the motion beyond its range is estimated from scans "
+                       "alone; use a sensor of a wider range",
+                       sent.is_rate_saturated ? "gyro" : "accelerometer"));
+  }
+  return sent;
+}
+
+void SensorStream::Emit(std::vector<ImuReady> ready) {
+  for (ImuReady& event : ready) events_.emplace_back(std::move(event));
+}
+
+void SensorStream::CloseSweepsBefore(Timestamp stamp) {
+  assembler_.CloseUpTo(stamp - Duration::FromSeconds(options_.incomplete_sweep_wait_s));
+}
+
+void SensorStream::TakeClosedSweeps() {
+  while (std::optional<Sweep> sweep = assembler_.Take()) gate_.Add(std::move(*sweep));
+}
+
+void SensorStream::OpenGate() {
+  TakeClosedSweeps();
+  const std::optional<Timestamp> newest = imu_.newest();
+  if (has_imu_ && !newest && gate_.waiting_span_s() > kStream.no_imu_after_s) {
+    GoLidarOnly("no inertial samples come");
+  }
+  if (!has_imu_) {
+    while (SweepPtr sweep = gate_.Force()) events_.emplace_back(SweepReady{std::move(sweep)});
+    return;
+  }
+  std::optional<Timestamp> passed = newest;
+  if (passed) *passed = *passed - clock_margin();
+  while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
+  if (passed && !gate_.empty()) NotifyIfClocksApart(*passed, gate_.oldest().start);
+}
+
+void SensorStream::GoLidarOnly(const std::string& evidence) {
+  has_imu_ = false;
+  events_.emplace_back(ImuAbsent{gate_.oldest().end, evidence});
+}
+
+bool SensorStream::NotifyIfClocksApart(Timestamp imu, Timestamp lidar) {
+  const double ahead_s = SecondsBetween(imu, lidar);
+  if (std::abs(ahead_s) < kStream.clocks_apart_s) return false;
+  const std::string text = fmt::format(
+      "scans are stamped {:.1f} s {} the inertial samples and cannot be used: give both sensors "
+      "one clock, or set rig.lidar.clock_offset_s",
+      std::abs(ahead_s), ahead_s > 0.0 ? "after" : "before");
+  events_.emplace_back(Notice{imu, Notice::Severity::kInfo, text});
+  return true;
+}
+
+void SensorStream::Admit(SweepPtr sweep) {
+  const Timestamp earliest = begin_ ? *begin_ : imu_.sent().front().stamp;
+  if (sweep->start + kStream.stamp_slack < earliest) {
+    ++counters_->num_scans_without_imu;
+    NotifyIfClocksApart(earliest, sweep->start);
+    return;
+  }
+  // From here on nothing may change what the scan is deskewed and predicted with.
+  std::vector<ImuReady> ready;
+  imu_.FreezeUpTo(sweep->end + clock_margin(), ready);
+  Emit(std::move(ready));
+  events_.emplace_back(SweepReady{std::move(sweep)});
+}
+
+void SensorStream::CloseAll() {
+  life_ = Life::kClosed;
+  AcceptAll(preprocessor_.Flush());
+  assembler_.CloseAll();
+  OpenGate();
+  gate_.Flush();
+  if (has_imu_ && !imu_.newest() && !gate_.empty()) {
+    GoLidarOnly("the log ended without inertial samples");
+  }
+  OpenGate();
+  while (!gate_.empty()) {
+    if (gate_.oldest().start > *imu_.newest()) ++counters_->num_scans_without_imu;
+    Admit(gate_.Force());
+  }
+  events_.emplace_back(StreamEnded{});
+}
+
+}  // namespace lio
