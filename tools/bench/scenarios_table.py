@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Prints one Markdown row for each scenario that tools/bench/scenarios.sh has run."""
+"""Prints two Markdown tables, a row for each scenario that tools/bench/scenarios.sh has run."""
 import csv
 import json
 import pathlib
 import sys
 
-HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | closing gap cm | z drift cm "
-          "| tilt deg | step mm | scans | converged | weak | no match | not fused | ms a scan | MB |")
+ERRORS = ("| scenario | path m | APE se3 cm | drift % | end cm | gap cm | z drift cm | tilt deg "
+          "| step mm |")
+MATCHES = "| scenario | scans | converged | degenerate | no match | not fused | ms a scan | MB |"
 CLOSED_RATIO = 0.01  # a way that ends this near its start, by its length, is closed
 
 
@@ -21,7 +22,7 @@ def closing_gap(score):
 
 
 def status_counts(matches):
-    """Converged, with weak directions, neither; and how many of all were not fused."""
+    """Converged, with degenerate directions, neither; and how many of all were not fused."""
     counts = {"converged": 0, "degenerate": 0}
     for match in matches:
         counts[match["status"]] = counts.get(match["status"], 0) + 1
@@ -30,30 +31,32 @@ def status_counts(matches):
     return [counts["converged"], counts["degenerate"], others, unfused]
 
 
-def row(root, name):
+def rows(root, name):
+    """The scenario's row of each table."""
     folder = root / name
     score = json.loads((folder / "eval.json").read_text())
     stats = json.loads((folder / "run" / "stats.json").read_text())
     with open(folder / "run" / "registration.csv", encoding="utf-8") as file:
         matches = list(csv.DictReader(file))
     drift = score["drift"]["translation_percent"] if score["drift"]["num_segments"] else None
-    cells = [name, f"{score['path_length_m']:.0f}",
-             f"{100 * score['ape']['position_m']['rmse']:.2f}",
-             "-" if drift is None else f"{drift:.3f}",
-             f"{100 * score['end']['error_m']:.1f}", closing_gap(score),
-             f"{100 * score['z_drift']['end_m']:.1f}", f"{score['tilt_deg']['rmse']:.2f}",
-             f"{1000 * score['step']['translation_m']['median']:.2f}", str(len(matches)),
-             *(str(count) for count in status_counts(matches)),
-             f"{stats['stage_ms']['total']['median']:.1f}", f"{stats['rss_peak_mb']:.0f}"]
-    return "| " + " | ".join(cells) + " |"
+    errors = [name, f"{score['path_length_m']:.0f}",
+              f"{100 * score['ape']['position_m']['rmse']:.2f}",
+              "-" if drift is None else f"{drift:.3f}",
+              f"{100 * score['end']['error_m']:.1f}", closing_gap(score),
+              f"{100 * score['z_drift']['end_m']:.1f}", f"{score['tilt_deg']['rmse']:.2f}",
+              f"{1000 * score['step']['translation_m']['median']:.2f}"]
+    counts = [name, str(len(matches)), *(str(count) for count in status_counts(matches)),
+              f"{stats['stage_ms']['total']['median']:.1f}", f"{stats['rss_peak_mb']:.0f}"]
+    return ["| " + " | ".join(cells) + " |" for cells in (errors, counts)]
 
 
 def main():
     root = pathlib.Path(sys.argv[1])
-    print(HEADER)
-    print("|" + "---|" * (HEADER.count("|") - 1))
-    for name in sys.argv[2:]:
-        print(row(root, name))
+    columns = list(zip(*(rows(root, name) for name in sys.argv[2:])))
+    for header, table in zip((ERRORS, MATCHES), columns):
+        if header != ERRORS:
+            print()
+        print(header, "|" + "---|" * (header.count("|") - 1), *table, sep="\n")
 
 
 if __name__ == "__main__":
