@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads a ROS 1 bag from front to back. The index at its end is used for two things only: to know
-// all topics early, and to tell how much of a cut bag is missing.
+// Reads a ROS 1 bag from front to back. The index at its end serves only two purposes: to know all
+// topics early, and to find how much of a truncated bag is missing.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -15,7 +15,7 @@ namespace lio {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar's message
+constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar message is larger
 constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
 
 class Rosbag1Reader : public BagReader {
@@ -53,9 +53,9 @@ class Rosbag1Reader : public BagReader {
   std::unique_ptr<ByteSource> inside_;  // content of the present chunk
   std::uint64_t chunk_begin_ = 0;       // file positions of the present chunk's data
   std::uint64_t chunk_end_ = 0;
-  std::uint64_t chunk_missing_ = 0;     // bytes of the last chunk that the file does not have
-  std::uint64_t chunk_inflated_ = 0;    // what the present chunk should inflate to
-  std::uint64_t chunk_understood_ = 0;  // how far its records were sound
+  std::uint64_t chunk_missing_ = 0;     // bytes of the last chunk that are missing from the file
+  std::uint64_t chunk_inflated_ = 0;    // size to which the present chunk should inflate
+  std::uint64_t chunk_understood_ = 0;  // bytes of the chunk's records that were sound
   bool finished_ = false;
 
   RecordHeader bag_header_;
@@ -87,7 +87,7 @@ void Rosbag1Reader::ReadBagHeader() {
   const RecordStatus status = ReadRecordHeader(*outside_, bag_header_);
   if (status != RecordStatus::kOk || bag_header_.op != RecordOp::kBagHeader) {
     damage_.cut_short = true;
-    Damage("no bag header");
+    Damage("there is no bag header");
     damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
     finished_ = true;
     return;
@@ -132,7 +132,8 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
   if (status != RecordStatus::kOk || (!fits && header.op != RecordOp::kChunk)) {
     damage_.cut_short = true;
     damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
-    Damage(status == RecordStatus::kBroken ? "no record" : "the file ends inside a record");
+    Damage(status == RecordStatus::kBroken ? "bytes that are no record"
+                                           : "the file ends inside a record");
     return Step::kEnd;
   }
   if (header.op == RecordOp::kChunk) {
@@ -193,7 +194,7 @@ Rosbag1Reader::Step Rosbag1Reader::StepInside(BagMessage& message) {
   return Step::kGoOn;
 }
 
-// `status`: kEnd when the chunk ended between two records, as it should.
+// `status` is kEnd when the chunk ended between two records, as it should.
 void Rosbag1Reader::LeaveChunk(RecordStatus status) {
   if (status != RecordStatus::kEnd && chunk_end_ == size_) {
     damage_.cut_short = true;
@@ -234,7 +235,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   }
   if (!sound) {
     ++damage_.num_messages_damaged;
-    Damage("a message record without topic, time or sane length");
+    Damage("a message record without topic or time, or of impossible length");
     return Step::kGoOn;
   }
   if (!begin_time_) begin_time_ = header.time;
@@ -246,7 +247,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   return Step::kMessage;
 }
 
-// False when the source ends inside.
+// Returns false when the source ends inside.
 bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& source) {
   std::vector<std::uint8_t> data;
   if (header.data_bytes > kMaxConnectionBytes) return false;
@@ -278,7 +279,7 @@ void Rosbag1Reader::Finish() {
   if (index > 0 && !complete) {
     damage_.cut_short = true;
     Damage(std::to_string(num_chunks_) + " of " + std::to_string(bag_header_.num_chunks) +
-           " chunks are there");
+           " chunks exist");
   }
 }
 

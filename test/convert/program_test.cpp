@@ -191,7 +191,7 @@ TEST_F(ConvertProgram, ADamagedMessageInASoundBagIsPassedOverAndIs5) {
   const ProgramResult result = Run({"rosbag", Path("drive.bag"), Path("o.lcm")});
   ExpectOneLine(result, 5);
   EXPECT_THAT(result.out, HasSubstr("/points: 11 sweeps"));
-  EXPECT_THAT(result.out, HasSubstr("1 messages passed over, /points"));
+  EXPECT_THAT(result.out, HasSubstr("1 messages skipped, /points"));
 }
 
 TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {

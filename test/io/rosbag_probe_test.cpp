@@ -77,7 +77,8 @@ TEST_F(RosbagProbe, WhatWasDecidedIsSaidInWords) {
   EXPECT_EQ(rules.point_time_text, "field 'timestamp' in s since an epoch, sweeps of 100.9 ms");
   EXPECT_THAT(rules.stamp_text, StartsWith("sweep start: "));
   EXPECT_EQ(rules.fields, "x y z intensity(float32) timestamp(float64) ring(uint16)");
-  EXPECT_EQ(rules.ring.description, "from the ring field, counted from above, turned round");
+  EXPECT_EQ(rules.ring.description,
+            "from the ring field, counted from above and therefore reversed");
 }
 
 TEST_F(RosbagProbe, WithoutTimesTheSpinIsMeasured) {
@@ -138,7 +139,7 @@ TEST_F(RosbagProbe, DamagedCloudsAreCountedInTheRefusal) {
                  std::vector<std::uint8_t>(10));
   }
   writer.Close();
-  EXPECT_EQ(FaultOfProbe(), "/points: not one cloud with returns can be read (4 damaged)");
+  EXPECT_EQ(FaultOfProbe(), "/points: no cloud with returns can be read (4 damaged)");
 }
 
 TEST_F(RosbagProbe, TheFirstCloudsMayBeEmptyOrDamaged) {

@@ -143,7 +143,7 @@ TEST(RosbagReport, DamageIsNamedWithItsPlace) {
   RosbagReport report = LidarReport();
   report.num_damaged["/points: too short"] = 3;
   EXPECT_TRUE(report.IsDamaged());
-  EXPECT_THAT(Text(report), HasSubstr("damaged      3 messages passed over, /points: too short\n"));
+  EXPECT_THAT(Text(report), HasSubstr("damaged      3 messages skipped, /points: too short\n"));
   report.damage.not_closed = true;
   EXPECT_THAT(Text(report),
               AllOf(HasSubstr("the bag was never closed, it has no index: 0 bytes lost"),
