@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// EvaluationJson.
+// Tests EvaluationJson.
 #include <gtest/gtest.h>
 
 #include "eval/example_evaluation.hpp"
@@ -13,7 +13,7 @@ using test::kFiles;
 using test::StatsFrom;
 using Json = nlohmann::ordered_json;
 
-// Programs read these: a key that goes away breaks them.
+// Programs read these keys: removing one breaks them.
 TEST(EvaluationJson, KeysAreStable) {
   const auto json = EvaluationJson(ExampleEvaluation(false), kFiles);
   for (const char* pointer : {"/truth",
@@ -100,7 +100,7 @@ void ExpectStats(const Json& json, double first) {
           {"rmse", first}, {"mean", first + 0.1}, {"median", first + 0.2}, {"max", first + 0.3}}));
 }
 
-// Each figure stands under its own key: all are different.
+// Each figure is under its own key: all have different values.
 TEST(EvaluationJson, FiguresStandUnderTheirKeys) {
   Evaluation e;
   e.path_length_m = 1.5;

@@ -90,7 +90,7 @@ TEST_F(RosbagProbe, WithoutTimesTheSpinIsMeasured) {
     EXPECT_NEAR(rules.spin.rate_radps, 2.0 * M_PI / 0.1, 0.1) << name;
     const bool has_field = name == "VelodyneWithZeroTimes";
     EXPECT_THAT(rules.point_time_text,
-                HasSubstr(has_field ? "for field 'time' is constant" : "have no time field"));
+                HasSubstr(has_field ? "because field 'time' is constant" : "have no time field"));
   }
 }
 
