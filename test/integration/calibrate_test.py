@@ -62,12 +62,12 @@ class Calibrate(unittest.TestCase):
             1e3 * offset_error_s, 1e3 * found["offset_std_s"], error_deg, std_deg))
         self.assertLess(abs(offset_error_s), 1e-3)
         self.assertLess(error_deg, 0.2)
-        # What it says of itself is no idle claim.
+        # The stated uncertainty must agree with the error.
         self.assertLess(abs(offset_error_s), 4 * found["offset_std_s"])
         self.assertLess(error_deg, 4 * std_deg)
         self.assertLess(found["offset_std_s"], 2e-4)
         self.assertAlmostEqual(found["rotation_from_configured_deg"], angle_deg(turn), delta=0.2)
-        # The file it writes serves as configuration after another one.
+        # The written file serves as configuration after another one.
         support.run_well("lio-replay", "--config", folder / "config.yaml", "--config", rig,
                          "--duration", "3", folder / "log.lcm", "--out",
                          support.WORK / "calibrate-replay")

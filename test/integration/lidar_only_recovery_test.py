@@ -37,7 +37,7 @@ class LidarOnlyRecovery(unittest.TestCase):
 
     def test_a_drive_through_unseen_streets_goes_on_from_about_where_it_is(self):
         ape_m, restarts = self.run_with("lidar_gap:start=15,duration=5", "street", "hdl32e")
-        self.assertLess(ape_m, 7.0)  # of 38 m unseen, braking
+        self.assertLess(ape_m, 7.0)  # 38 m are unseen, while braking
         self.assertEqual(restarts, 1)
 
 

@@ -40,16 +40,16 @@ class Recovery(unittest.TestCase):
         ape_m, _ = self.run_with("stamp_jump:offset=-2,start=10,duration=1")
         self.assertLess(ape_m, 0.05)
 
-    # Its stamps come a second time, so they look like those of samples that are late. While they are
-    # wrong the path, by its stamps, is off by the way of 0.5 s.
+    # The stamps come a second time, so the samples look late. While the stamps are wrong, the path,
+    # by its stamps, is off by the distance travelled in 0.5 s.
     def test_a_clock_that_steps_back_by_less_than_a_second_is_seen_to(self):
         ape_m, stats = self.run_with("stamp_jump:offset=-0.5,start=10,duration=3")
         self.assertEqual(stats["num_clock_jumps"], 2)
         self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
         self.assertLess(ape_m, 0.4)
 
-    # A host's clock that is set forth and back takes both sensors along. By the stamps alone it is as if
-    # nothing had come for a second and a half; the scans tell that nothing moved meanwhile.
+    # When a host's clock is set forward and back, it takes both sensors along. By the stamps alone
+    # nothing came for a second and a half; the scans show that nothing moved meanwhile.
     def test_clocks_that_are_set_forth_are_told_from_a_gap(self):
         for scenario in ("street", "campus"):
             _, stats = self.run_with("stamp_jump:offset=1.5,start=10,duration=0.5", scenario=scenario)

@@ -9,7 +9,7 @@ import unittest
 import support
 
 DURATION_S = "6"
-# Files of a run that hold no time of computing.
+# These files of a run hold no computing times.
 EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
          "trajectory_world.tum", "covariance_world.csv", "options.yaml", "map.pcd")
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Conversion of bags that are hurt, or whose messages are.
+// Tests the conversion of damaged bags and of bags with damaged messages.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -18,7 +18,7 @@ using test::kRecordingBegin;
 using test::RosbagConversion;
 using test::TestCloud;
 
-// Bags whose tenth messages are spoilt by `spoil`.
+// Writes bags in which every tenth message is damaged by `spoil`.
 class SpoiltBag : public RosbagConversion {
  protected:
   RosbagReport ConvertSpoilt(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// ProbeClouds: what a recording's first clouds tell of how they are to be read.
+// Tests ProbeClouds, which finds the rules for reading a recording from its first clouds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class RosbagProbe : public test::RosbagConversion {
     }
     return "nothing thrown";
   }
-  // A bag of 30 sweeps of Velodyne's layout, each passed through `change`.
+  // Writes a bag of 30 sweeps in Velodyne's layout, each passed through `change`.
   void WriteClouds(const std::function<void(TestCloud&)>& change) {
     options_.input = dir_.path() / "clouds.bag";
     test::Bag1Writer writer(options_.input);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// FormatReport, on reports made by hand.
+// Tests FormatReport on reports made by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ RosbagOptions SomeOptions() {
   return options;
 }
 
-// Eleven sweeps of 100 points within a second, received 105 ms after their stamps, and no IMU.
+// Reports eleven sweeps of 100 points within a second, received 105 ms after their stamps, and no
+// IMU.
 RosbagReport LidarReport() {
   RosbagReport report;
   report.topics.lidar = "/points";

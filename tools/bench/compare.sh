@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Every registration method over one log: see usage.
+# Runs every registration method over one log: see usage.
 set -euo pipefail
 
 usage() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Is the covariance true? See usage.
+# Tests whether the covariance agrees with the errors, over many seeds: see usage.
 set -euo pipefail
 
 usage() {
@@ -66,7 +66,7 @@ one_run() { # SEED SETTINGS...
     --out "$dir" >"$dir/sim.log"
   build/bin/lio-replay --config "$dir/config.yaml" "${@:2}" "$dir/log.lcm" --out "$dir" \
     2>"$dir/replay.log" || code=$?
-  rm "$dir/log.lcm" # up to a gigabyte
+  rm "$dir/log.lcm" # it takes up to a gigabyte
   ((code == 0)) || { cat "$dir/replay.log" >&2 && return "$code"; }
   echo "$id" >"$dir/id"
   echo "seed $1 is done" >&2

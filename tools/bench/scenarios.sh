@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The estimator over every scenario of the simulator: see usage.
+# Runs the estimator over every scenario of the simulator: see usage.
 set -euo pipefail
 
 usage() {

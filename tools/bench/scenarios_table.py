@@ -9,7 +9,7 @@ import sys
 
 HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | closing gap cm | z drift cm "
           "| tilt deg | step mm | scans | converged | weak | no match | not fused | ms a scan | MB |")
-CLOSED_RATIO = 0.01  # a way that ends this near its start, by its length, is closed
+CLOSED_RATIO = 0.01  # a path that ends this near its start, relative to its length, is closed
 
 
 def closing_gap(score):

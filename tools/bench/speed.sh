@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# How fast is the whole pipeline? See usage.
+# Measures the speed of the whole pipeline: see usage.
 set -euo pipefail
 
 usage() {

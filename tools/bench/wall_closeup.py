@@ -23,12 +23,12 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "plot"))
 import plot_style as style  # noqa: E402
 from plot_style import plt  # noqa: E402
 
-NEAR_M = 15.0  # of the start: poses from which points are taken
+NEAR_M = 15.0  # points are taken from poses this near the start
 RANGE_M = 30.0
-STEP_M = 0.3  # between scans that are taken: at rest each sees the same points again
+STEP_M = 0.3  # between scans that are taken: at rest all would show the same points
 CELL_M = 2.5  # size of a patch
-MIN_POINTS = 250  # a pass
-FLAT_M = 0.05  # a patch with more scatter than this is no surface
+MIN_POINTS = 250  # per pass
+FLAT_M = 0.05  # a patch with more scatter than this is not flat
 HALF_VIEW_M = 0.15
 SYNC = 0xEDA1DA01
 POINT = np.dtype([("xyz", "<f4", 3), ("t_ns", "<u4"), ("intensity", "<u2"), ("ring", "<u2")])

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Recorded drives to LCM logs: the command line; the work is done in lio_io.
+// This is the command line of lio-convert, which converts recorded drives to LCM logs; lio_io does
+// the work.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -40,7 +41,7 @@ constexpr const char* kAboutOdometry =
     "A KITTI odometry sequence: velodyne/, times.txt, calib.txt. Poses (default\n"
     "../../poses/NN.txt) are turned from the camera's frame into the lidar's.";
 
-// No output may take the place of the recording.
+// No output may replace the recording.
 void Guard(const std::filesystem::path& input,
            const std::vector<std::optional<std::filesystem::path>>& outputs) {
   for (const auto& output : outputs) {
@@ -48,7 +49,8 @@ void Guard(const std::filesystem::path& input,
   }
 }
 
-// A bar while `convert` runs, then its summary; the exit code tells whether something was lost.
+// Shows a progress bar while `convert` runs, then its summary; the exit code says whether something
+// was lost.
 template <typename Options, typename Convert>
 int Run(Options& options, Convert&& convert) {
   const auto report = [&] {

@@ -9,7 +9,7 @@ import plot_style as style
 import point_cloud
 from plot_style import ListedColormap, np, plt
 
-# Without the darkest third, which would vanish on the dark ground of the map picture.
+# The darkest third is left out, because it would vanish on the dark ground of the map picture.
 HEIGHTS = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.3, 1, 256)))
 CELLS = 1000
 
@@ -31,7 +31,7 @@ def draw_cloud(axes, points, low, high, colour_by_height):
     points = points[((points[:, :2] > low) & (points[:, :2] < high)).all(axis=1)]
     if not len(points):
         return None
-    points = points[np.argsort(points[:, 2], kind="stable")]  # the last to fill a cell stays
+    points = points[np.argsort(points[:, 2], kind="stable")]  # the last point to fill a cell stays
     cell = max(high - low) / CELLS
     column, row = ((points[:, :2] - low) / cell).astype(int).T
     heights = np.full((int(row.max()) + 1, int(column.max()) + 1), np.nan)

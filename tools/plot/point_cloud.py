@@ -5,7 +5,7 @@ import numpy as np
 
 TYPES = {("F", 4): "<f4", ("F", 8): "<f8", ("U", 1): "<u1", ("U", 2): "<u2", ("U", 4): "<u4",
          ("U", 8): "<u8", ("I", 1): "<i1", ("I", 2): "<i2", ("I", 4): "<i4", ("I", 8): "<i8"}
-MAX_POINTS = 4_000_000  # a picture shows no more
+MAX_POINTS = 4_000_000  # a picture cannot show more
 
 
 class BadCloud(Exception):
