@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""lio-log calibrate on a simulated walk whose clocks disagree and whose configuration is wrong."""
+"""Tests lio-log calibrate on a simulated walk with a clock offset and a wrong configuration."""
 import json
 import math
 import re
@@ -16,7 +16,7 @@ FAULTS = ("--fault", f"clock_offset:offset={OFFSET_S},channel=lidar", "--fault",
 
 
 def times(a, b):
-    """Product of quaternions w x y z."""
+    """Returns the product of quaternions w x y z."""
     (w, x, y, z), (p, q, r, s) = a, b
     return (w * p - x * q - y * r - z * s, w * q + x * p + y * s - z * r,
             w * r - x * s + y * p + z * q, w * s + x * r - y * q + z * p)

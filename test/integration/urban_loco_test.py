@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
+"""Tests bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
 import unittest
 
 import support

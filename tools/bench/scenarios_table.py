@@ -8,12 +8,13 @@ import pathlib
 import sys
 
 HEADER = ("| scenario | path m | APE se3 cm | drift % | end error cm | closing gap cm | z drift cm "
-          "| tilt deg | step mm | scans | converged | weak | no match | not fused | ms a scan | MB |")
+          "| tilt deg | step mm | scans | converged | degenerate | no match | not fused "
+          "| ms a scan | MB |")
 CLOSED_RATIO = 0.01  # a path that ends this near its start, relative to its length, is closed
 
 
 def closing_gap(score):
-    """Between first and last position, where the truth has none; else a dash."""
+    """Returns the distance from first to last position if the true path is closed; else a dash."""
     end = score["end"]
     if end["truth_gap_m"] > CLOSED_RATIO * score["path_length_m"]:
         return "-"
@@ -21,7 +22,7 @@ def closing_gap(score):
 
 
 def status_counts(matches):
-    """Converged, with weak directions, neither; and how many of all were not fused."""
+    """Counts scans: converged, with degenerate directions, neither; and all that were not fused."""
     counts = {"converged": 0, "degenerate": 0}
     for match in matches:
         counts[match["status"]] = counts.get(match["status"], 0) + 1

@@ -9,7 +9,7 @@ MAX_POINTS = 4_000_000  # a picture cannot show more
 
 
 class BadCloud(Exception):
-    """The file is no PCD that can be read; the text says why."""
+    """Says that the file is no readable PCD; the text gives the reason."""
 
 
 def _header(stream):
@@ -77,7 +77,7 @@ def _compressed(stream, names, types, counts, num_points):
 
 
 def read_xyz(path):
-    """The finite points, N x 3; raises BadCloud or OSError."""
+    """Returns the finite points, N x 3; raises BadCloud or OSError."""
     with open(path, "rb") as stream:
         header = _header(stream)
         names, types, counts, num_points = _layout(header)

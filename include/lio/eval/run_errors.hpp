@@ -18,7 +18,7 @@
 namespace lio {
 
 enum class RunFrame {
-  kMap,    // trajectory.tum with covariance.csv: the smooth path
+  kMap,    // trajectory.tum with covariance.csv: the steady path
   kWorld,  // trajectory_world.tum with covariance_world.csv: always level
 };
 
