@@ -122,7 +122,7 @@ void NoteAssociation(const Association& association, std::vector<std::string>& n
 }
 
 // Returns the angle between the directions of travel as the two bodies see them, from start to end.
-// When the path determines no alignment, it is the only evidence of a rotation offset.
+// It is the only evidence of a rotation offset when the path determines no alignment.
 double HeadingOffsetDeg(const PosePairs& pairs) {
   const Pose truth = pairs.front().truth.Inverse() * pairs.back().truth;
   const Pose estimate = pairs.front().estimate.Inverse() * pairs.back().estimate;

@@ -22,7 +22,7 @@ class CloudToSweep {
       : rules_(&rules), spin_rate_(rules.spin.rate_radps) {}
 
   CloudStatus Convert(const RosCloud& cloud, TimedSweep& sweep);
-  const CloudPoints& points() const { return points_; }  // of the last cloud
+  const CloudPoints& points() const { return points_; }  // points of the last cloud
 
  private:
   std::optional<std::vector<std::int64_t>> Instants(const RosCloud& cloud,

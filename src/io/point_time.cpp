@@ -86,7 +86,7 @@ TimeAnchor AnchorOfOffsets(const std::vector<CloudObservation>& clouds, double u
                            PointTimeRule& rule) {
   const double last = unit_s * Median(Collect(clouds, [](const auto& c) { return c.raw_last; }));
   const double first = unit_s * Median(Collect(clouds, [](const auto& c) { return c.raw_first; }));
-  constexpr double kSlack = 0.1;  // of a sweep
+  constexpr double kSlack = 0.1;  // share of a sweep
   if (last < kSlack * rule.sweep_s) {
     rule.stamp = wishes.stamp.value_or(StampMeaning::kSweepEnd);
     rule.stamp_reason = "point times are negative, up to it";

@@ -139,7 +139,7 @@ class Rosbag2Reader : public BagReader {
   std::size_t next_file_ = 0;
   Database database_;  // declared before its statement, closed after it
   Statement rows_;
-  std::map<std::int64_t, std::size_t> topic_of_id_;  // of the open file
+  std::map<std::int64_t, std::size_t> topic_of_id_;  // topics of the open file
   std::vector<BagTopic> topics_;
   std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
   std::optional<Timestamp> begin_time_;

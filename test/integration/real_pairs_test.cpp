@@ -70,8 +70,8 @@ class RealPair : public testing::TestWithParam<MatchMethod> {
  protected:
   struct Matched {
     Pose T_target_source;
-    double cost;           // with the correspondences of the result, there ...
-    double cost_at_given;  // ... and at the transform that came with the data
+    double cost;           // at the result, with its correspondences
+    double cost_at_given;  // at the transform that came with the data
   };
   static Matched MatchFromIdentity(const Sweep& target, const Sweep& source, const Pose& given) {
     Options options = test::MethodOptions(GetParam());

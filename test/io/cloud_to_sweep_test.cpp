@@ -65,9 +65,9 @@ TEST(CloudToSweep, RingsFollowTheirRule) {
   rules.ring.ring_of_source = {15, 14, 13, 12, 11, 10, 9, 8};
   TimedSweep sweep;
   ASSERT_EQ(Convert(rules, ThreePoints(), sweep), CloudStatus::kOk);
-  EXPECT_EQ(sweep.points[0].ring, 13);  // of 2
-  EXPECT_EQ(sweep.points[1].ring, 10);  // of 5
-  EXPECT_EQ(sweep.points[2].ring, 8);   // of 7
+  EXPECT_EQ(sweep.points[0].ring, 13);  // source ring 2
+  EXPECT_EQ(sweep.points[1].ring, 10);  // source ring 5
+  EXPECT_EQ(sweep.points[2].ring, 8);   // source ring 7
 }
 
 TEST(CloudToSweep, IntensitiesOfZeroToOneAreScaled) {

@@ -61,7 +61,7 @@ inline PublishedCloud Publish(const Driver& driver, const SpinningLidar& lidar, 
 struct Recording {
   std::vector<Timestamp> starts;
   std::vector<Timestamp> received;
-  std::vector<std::vector<SeenPoint>> points;  // by time
+  std::vector<std::vector<SeenPoint>> points;  // in the order of time
 };
 
 using WriteMessage = std::function<void(const std::string& topic, const std::string& type,

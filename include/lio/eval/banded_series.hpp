@@ -18,7 +18,7 @@ struct TimedValue {
   double time_s = 0;
   double value = 0;
 };
-using TimedValues = std::vector<TimedValue>;  // of one run, in the order of time
+using TimedValues = std::vector<TimedValue>;  // values of one run, in the order of time
 
 double Mean(const TimedValues& values);  // 0 for no values
 
@@ -41,7 +41,7 @@ BandedSeries MakeBandedSeries(const std::vector<TimedValues>& runs, int dof);
 // Holds the autocorrelation averaged over runs: that of white values stays within +-1.96 / sqrt(N),
 // N the number of products.
 struct Whiteness {
-  std::vector<double> autocorrelation;  // of lag 1, 2, ... 20
+  std::vector<double> autocorrelation;  // at lags 1, 2, ... 20
   std::vector<double> band;             // half width for each lag
   double share_in_band = 0;
 };

@@ -69,7 +69,7 @@ struct Evaluation {
   Drift drift;
   EndErrors end;
   std::optional<HeightDrift> height;
-  std::vector<std::string> notes;  // what a reader of the figures must know, one line each
+  std::vector<std::string> notes;  // caveats about the figures, one line each
 };
 
 // Throws std::runtime_error as Associate does.

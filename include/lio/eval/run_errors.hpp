@@ -43,7 +43,7 @@ struct RunInstant {
   double time_s = 0;  // since the run's first row
   Vector6 error;      // position in world [m]; rotation d, R_true = R_estimate Exp(d) [rad]
   Matrix6 cov;        // in the order of `error`
-  Matrix6 cov_world;  // with the rotation block in world axes, which separates tilt and yaw
+  Matrix6 cov_world;  // its rotation block is in world axes, which separates tilt and yaw
   Vector3 rotation_error_world;
 };
 

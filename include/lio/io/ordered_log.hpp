@@ -44,8 +44,9 @@ class OrderedLog {
   void WriteUpTo(std::int64_t utime);
 
   EventLogWriter writer_;
-  std::multimap<std::int64_t, Event> held_;  // by utime; equal ones stay in the order of insertion
-  std::int64_t newest_ = INT64_MIN;          // largest utime added
+  std::multimap<std::int64_t, Event>
+      held_;                         // keyed by utime; equal ones stay in the order of insertion
+  std::int64_t newest_ = INT64_MIN;  // largest utime added
   std::int64_t last_written_ = INT64_MIN;
   std::int64_t num_late_ = 0;
   std::int64_t num_events_ = 0;

@@ -37,7 +37,7 @@ class RingObserver {
 
  private:
   struct Elevations {
-    std::vector<double> sum_rad;  // by source number
+    std::vector<double> sum_rad;  // one per source number
     std::vector<std::int64_t> count;
 
     void Add(std::size_t number, double elevation_rad);

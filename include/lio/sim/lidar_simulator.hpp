@@ -76,7 +76,7 @@ class LidarSimulator {
   LidarSetup setup_;
   const Scene* scene_;
   const Trajectory* trajectory_;
-  std::vector<Vector3> column_directions_;  // of each beam, when the column's heading is 0
+  std::vector<Vector3> column_directions_;  // each beam's, when the column's heading is 0
   std::vector<std::size_t> firing_order_;   // beams sorted by firing time
   double weakest_echo_ = 0.0;               // strength at which half of the echoes are lost
 };

@@ -48,7 +48,7 @@ inline constexpr int kNumMaterials = 26;
 
 struct MaterialTraits {
   std::string_view name;
-  double reflectivity = 0.3;      // of a matt surface at 905 nm, 0..1; above 1: retroreflective
+  double reflectivity = 0.3;      // a matt surface's at 905 nm, 0..1; above 1: retroreflective
   double specular = 0.0;          // share of the light that is reflected as by a mirror
   std::array<float, 3> colour{};  // used in pictures, 0..1
 };

@@ -16,8 +16,8 @@ struct PictureOptions {
   int width = 960;
   int height = 640;
   int samples = 3;              // per pixel and axis
-  double elevation_deg = 66.0;  // of the view; 90 is straight down
-  double azimuth_deg = -60.0;   // of the viewer, from x
+  double elevation_deg = 66.0;  // viewer's elevation; 90 looks straight down
+  double azimuth_deg = -60.0;   // viewer's azimuth from x
 };
 
 struct Picture {

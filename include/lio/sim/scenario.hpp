@@ -35,7 +35,7 @@ struct Scenario {
   // Pictures from above leave out everything that is this much higher than the sensor's path, or
   // lies above a plane of this slope there.
   double ceiling_m = 1e9;
-  double view_width_m = 300.0;  // of a longer path only this part around the body is drawn
+  double view_width_m = 300.0;  // only this part of a longer path is drawn, around the body
   double view_share = 0.35;     // the body is drawn where it is at this share of the log
   Vector2 ceiling_slope_ratio = Vector2::Zero();
 };
