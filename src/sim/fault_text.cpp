@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Parses and describes the written form of faults.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -24,10 +26,11 @@ struct KindText {
   std::vector<std::pair<std::string, double>> keys;
 };
 
-const std::vector<KindText>& Kinds() {
+// These faults lose, repeat or delay messages.
+std::vector<KindText> DeliveryKinds() {
   using K = FaultKind;
   using C = FaultChannel;
-  static const std::vector<KindText> kinds = {
+  return {
       {K::kImuGap,
        "imu_gap",
        "all IMU samples are lost",
@@ -64,6 +67,14 @@ const std::vector<KindText>& Kinds() {
        false,
        C::kLidar,
        {{"ratio", 0.05}, {"start", 0}, {"duration", kToTheEnd}}},
+  };
+}
+
+// These faults change the content of messages or of the configuration.
+std::vector<KindText> ContentKinds() {
+  using K = FaultKind;
+  using C = FaultChannel;
+  return {
       {K::kStampJump,
        "stamp_jump",
        "stamps jump by offset [s], forward or back",
@@ -113,6 +124,14 @@ const std::vector<KindText>& Kinds() {
        C::kLidar,
        {{"yaw_deg", 3}, {"pitch_deg", 0}, {"roll_deg", 0}, {"x", 0}, {"y", 0}, {"z", 0}}},
   };
+}
+
+const std::vector<KindText>& Kinds() {
+  static const std::vector<KindText> kinds = [] {
+    std::vector<KindText> all = DeliveryKinds();
+    std::ranges::move(ContentKinds(), std::back_inserter(all));
+    return all;
+  }();
   return kinds;
 }
 

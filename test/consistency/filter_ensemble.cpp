@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "consistency/filter_ensemble.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
-#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -236,19 +237,17 @@ EnsembleResult RunEnsemble(const EnsembleOptions& options) {
 
 std::string Table(const EnsembleResult& result) {
   std::string text = "  block        NEES/dof  in band    1, 2, 3 sigma\n";
-  char row[160];
   for (std::size_t b = 0; b < Blocks().size(); ++b) {
     const SigmaShares& s = result.shares[b];
-    std::snprintf(row, sizeof row, "  %-10s %10.4g %7.0f %%   %.3f %.3f %.3f\n",
-                  Blocks()[b].name.c_str(), result.blocks[b].average_per_dof,
-                  100.0 * result.blocks[b].share_in_band, s[0], s[1], s[2]);
-    text += row;
+    text += fmt::format("  {:<10} {:>10.4g} {:>7.0f} %   {:.3f} {:.3f} {:.3f}\n", Blocks()[b].name,
+                        result.blocks[b].average_per_dof, 100.0 * result.blocks[b].share_in_band,
+                        s[0], s[1], s[2]);
   }
-  std::snprintf(row, sizeof row,
-                "  %-10s %10.4g %7.0f %%   lag 1 %+.3f, %.0f %% of 20 lags white\n", "NIS",
-                result.nis.average_per_dof, 100.0 * result.nis.share_in_band,
-                result.whiteness.autocorrelation.front(), 100.0 * result.whiteness.share_in_band);
-  return text + row;
+  return text +
+         fmt::format("  {:<10} {:>10.4g} {:>7.0f} %   lag 1 {:+.3f}, {:.0f} % of 20 lags white\n",
+                     "NIS", result.nis.average_per_dof, 100.0 * result.nis.share_in_band,
+                     result.whiteness.autocorrelation.front(),
+                     100.0 * result.whiteness.share_in_band);
 }
 
 }  // namespace lio::test

@@ -50,6 +50,21 @@ std::string ScenarioTable() {
   return table;
 }
 
+std::string Footer() {
+  return ScenarioTable() +
+         "\nFaults with their defaults; start and duration are seconds of the log:\n" +
+         sim::DescribeFaults() + R"(
+Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
+(velocity, biases, rates) and config.yaml, which lio-replay and liod read with --config.
+
+Examples:
+  lio-sim --scenario street --out out/street
+  lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
+  lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
+  lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
+)";
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
       {"normal", sim::ImuVariant::kNormal},
@@ -99,18 +114,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "number of threads; the files do not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  app.footer(ScenarioTable() +
-             "\nFaults with their defaults; start and duration are seconds of the log:\n" +
-             sim::DescribeFaults() + R"(
-Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
-(velocity, biases, rates) and config.yaml, which lio-replay and liod read with --config.
-
-Examples:
-  lio-sim --scenario street --out out/street
-  lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
-  lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
-  lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
-)");
+  app.footer(Footer());
 }
 
 sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& scenario) {
