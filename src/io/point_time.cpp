@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::array kUnits = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
-constexpr double kMaxDelaySeconds =
-    1.0;  // a longer delay between stamp and reception means different clocks
+// A longer delay between stamp and reception means different clocks.
+constexpr double kMaxDelaySeconds = 1.0;
 constexpr double kEarliestDelaySeconds = -0.02;  // slightly negative delays are clock jitter
 constexpr double kMaxFromStampSeconds = 10.0;    // points this far from their stamp are damage
-constexpr double kMinEpochSeconds = 1.0;         // a sweep that begins later than this counts from
-                                                 // some epoch, not from the stamp
-// A delay of this many sweeps or more means that the stamp is the start of the sweep. Less than
-// one, because the last returns of a sweep may be missing.
+// A sweep that begins later than this counts from some epoch, not from the stamp.
+constexpr double kMinEpochSeconds = 1.0;
+// A delay of this many sweeps or more means that the stamp is the start of the sweep. It is
+// less than one, because the last returns of a sweep may be missing.
 constexpr double kStartDelayRatio = 0.8;
 
 bool IsSweep(double seconds) {
