@@ -65,7 +65,7 @@ TEST(ConstantVelocityTracker, ASoughtVelocityIsWhereItBegins) {
   EXPECT_GT(StdOf(scout.history().head(), kVel), 1.0);  // ... but only sought
 }
 
-// An earlier scout looked along y and drove that way: the new one's x.
+// An earlier tracker looked along y and drove that way, which is x of the new one.
 TEST(ConstantVelocityTracker, AKnownMotionIsTakenIntoTheBodysAxes) {
   TrackerOptions options;
   options.sought_v_imu_mps = Vector3(99, 99, 99);  // what is known counts
