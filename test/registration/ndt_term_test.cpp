@@ -41,7 +41,7 @@ TEST(NdtTerm, APlaneIsHeldAlongItsNormal) {
 
 // The variance contains the error of the mean, and that of the tilt times the square of the point's
 // distance in spreads: for 10 points here and 40 in the cell, one spread along x and two along y,
-// it grows by 1 + (1 + 1 + 4) / 4.
+// it grows by the factor 1 + (1 + 1 + 4) / 4.
 TEST(NdtTerm, FarFromItsMeanAPlaneIsLessSure) {
   const NdtTerm term = MakeNdtTerm(Floor(), {0.5f, 0.5f, 0}, 10.f, 0.f);
   EXPECT_FLOAT_EQ(term.rows[0].weight, 1.f / (0.0004f * 2.5f));
