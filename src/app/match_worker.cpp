@@ -53,7 +53,7 @@ void MatchWorker::Run() {
 }
 
 void MatchWorker::Do(const MatchJob& job) {
-  if (job.clear_map) map_cloud_.Clear();
+  if (job.map_action == MapAction::kClear) map_cloud_.Clear();
   deliver_(worker_.Run(job));
 }
 

@@ -50,11 +50,11 @@ MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
   const Estimate predicted = history.At(sweep->middle());
   MatchJob job;
   job.T_any_imu = history.Trajectory(sweep->start, sweep->end);
-  job.T_map_imu_guess = predicted.state.T_map_imu;
-  job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
-  job.refine_deskew = true;
+  job.prior.T_map_imu = predicted.state.T_map_imu;
+  job.prior.cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.refines_deskew = true;
   if (last_found_) {
-    job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+    job.prior.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
   }
   job.sweep = std::move(sweep);
   return job;
@@ -63,8 +63,8 @@ MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
 MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
   MatchJob job;
   job.T_any_imu = path_->Between(sweep->start, sweep->end);
-  job.T_map_imu_guess = path_->At(sweep->middle());
-  job.guess_cov.diagonal() << Vector3::Constant(kPathStd_m * kPathStd_m),
+  job.prior.T_map_imu = path_->At(sweep->middle());
+  job.prior.cov.diagonal() << Vector3::Constant(kPathStd_m * kPathStd_m),
       Vector3::Constant(kPathStd_rad * kPathStd_rad);
   job.sweep = std::move(sweep);
   return job;
@@ -79,7 +79,7 @@ Pose ScanPoses::TellTracker(Timestamp middle, const MatchResult& match) {
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   const Timestamp middle = sweep->middle();
   MatchJob job = path_ != nullptr ? JobAlongPath(std::move(sweep)) : JobByTracker(std::move(sweep));
-  job.clear_map = !last_found_;  // the first scan makes the map
+  if (!last_found_) job.map_action = MapAction::kClear;  // the first scan makes the map
   MatchOutcome outcome = matching_.Run(job);
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   if (!outcome.match.IsUsable() && !starts_map) {

@@ -140,6 +140,7 @@ class Odometry::Impl {
   // --- odometry_scan.cpp
   FilterHistory& history() { return scout_ ? scout_->history() : *history_; }
   MatchJob MakeJob(const SweepPtr& sweep, bool clear_map);
+  std::optional<SearchRequest> MakeSearch(const Sweep& sweep, const Pose& T_map_imu_predicted);
   InsertTask TakeOutcome(MatchOutcome outcome);
   void FinishRunning(MatchOutcome& outcome, InsertTask& insert);
   Matrix6 DeskewCov(const Sweep& sweep);

@@ -32,7 +32,7 @@ bool Odometry::Impl::IsMapYoung() const {
 // A scan grows the map where its place is beyond doubt: in the first one that was found after some
 // that were not, it is not yet.
 bool Odometry::Impl::IsPlaceSure(const MatchOutcome& outcome) const {
-  return num_unmatched_in_a_row_ == 0 && !outcome.is_sought;
+  return num_unmatched_in_a_row_ == 0 && !outcome.is_relocalized;
 }
 
 // Without an inertial unit a path that was lost goes on straight, wherever that leads: better on a

@@ -49,29 +49,37 @@ MatchJob Odometry::Impl::MakeJob(const SweepPtr& sweep, bool clear_map) {
   MatchJob job;
   job.sweep = sweep;
   job.T_any_imu = history().Trajectory(sweep->start, sweep->end);
-  job.T_map_imu_guess = predicted.state.T_map_imu;
-  job.guess_cov = predicted.cov.bottomRightCorner<6, 6>();
-  job.clear_map = clear_map;
-  job.hold_by_view = scout_.has_value();
-  job.is_map_young = IsMapYoung();
-  const double turn_var = job.guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  job.refine_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
-  job.up_map = UpInMap(predicted.state);
-  job.T_map_imu_if_clock_set = GuessIfClockSet(*sweep, predicted.state.T_map_imu);
+  job.prior.T_map_imu = predicted.state.T_map_imu;
+  job.prior.cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.prior.up_map = UpInMap(predicted.state);
+  if (IsMapYoung()) job.map_action = MapAction::kWarmUp;
+  if (clear_map) job.map_action = MapAction::kClear;
+  const double turn_var = job.prior.cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  job.refines_deskew = scout_ || turn_var > kUnsureTurn_rad * kUnsureTurn_rad;
+  Track track{.aligns_prior = false, .holds_degenerate = scout_.has_value()};
   if (last_found_) {
-    job.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+    job.prior.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
     const Matrix3 velocity_cov = predicted.cov.block<3, 3>(kVel, kVel);
     const double velocity_std_mps = std::sqrt(velocity_cov.diagonal().maxCoeff());
-    job.shift_std_m = velocity_std_mps * job.since_last_fix_s;
-    if (job.shift_std_m > kSeekStd_m) job.seek = MatchJob::Seek::kShift;
-    if (phase_ == Phase::kRunning) {
-      using enum MatchJob::SeekPlace;
-      if (IsAfterStepInDoubt(*sweep)) job.seek_place = kWhereHeld;
-      if (!use_imu_) job.seek_place = kAnywhere;
-    }
+    job.prior.shift_std_m = velocity_std_mps * job.prior.since_last_fix_s;
+    track.aligns_prior = job.prior.shift_std_m > kSeekStd_m;
   }
-  if (phase_ == Phase::kScouting && !has_sought_) job.seek = MatchJob::Seek::kVelocity;
+  if (phase_ == Phase::kScouting && !has_sought_) {
+    job.task = FindVelocity{};
+  } else if (const auto search = MakeSearch(*sweep, predicted.state.T_map_imu)) {
+    job.task = Relocalize{track, *search};
+  } else {
+    job.task = track;
+  }
   return job;
+}
+
+std::optional<SearchRequest> Odometry::Impl::MakeSearch(const Sweep& sweep,
+                                                        const Pose& T_map_imu_predicted) {
+  if (phase_ != Phase::kRunning || !last_found_) return {};
+  if (!use_imu_) return SearchRequest{SearchRegion::kAnywhere, {}};
+  if (!IsAfterStepInDoubt(sweep)) return {};
+  return SearchRequest{SearchRegion::kObservable, GuessIfClockSet(sweep, T_map_imu_predicted)};
 }
 
 InsertTask Odometry::Impl::FinishJob(MatchOutcome outcome) {
@@ -132,7 +140,7 @@ bool Odometry::Impl::Fuse(const MatchOutcome& outcome, bool grows_map, ScanRepor
   event.measurement.new_content_share = grows_map ? outcome.match.new_content_share : 0.0;
   event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
   event.is_clock_set = outcome.is_clock_set;
-  event.force = outcome.is_sought || num_gated_in_a_row_ >= filter.max_gated_in_a_row;
+  event.force = outcome.is_relocalized || num_gated_in_a_row_ >= filter.max_gated_in_a_row;
   UpdateResult update;
   const EventOutcome fused = history().AddPose(outcome.sweep->middle(), event, &update);
   report.nis = update.nis;

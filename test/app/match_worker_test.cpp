@@ -51,7 +51,7 @@ TEST(MatchWorker, ANewMapForgetsTheOldOnesPoints) {
   MatchWorker worker(Options{}, ThreadCpuNs, true, [](const MatchOutcome&) {});
   worker.Tell(SomePoints());
   MatchJob job = EmptyJob(1);
-  job.clear_map = true;
+  job.map_action = MapAction::kClear;
   worker.Tell(std::move(job));
   worker.Finish();
   EXPECT_TRUE(worker.map_cloud().points_map().empty());

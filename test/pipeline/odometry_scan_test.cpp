@@ -143,20 +143,20 @@ TEST(OdometryScan, JobsCoverTheirSweepAndGuessWhereItWasTaken) {
   const test::Motion motion = test::RestThenDrive();
   int num_clearing = 0;
   for (const MatchJob& job : run.jobs) {
-    num_clearing += job.clear_map;
+    num_clearing += job.map_action == MapAction::kClear;
     EXPECT_LE(job.T_any_imu.front().stamp, job.sweep->start);
     EXPECT_GE(job.T_any_imu.back().stamp, job.sweep->end);
     const double middle_s = SecondsOf(job.sweep->middle());
     if (middle_s < 2.0) continue;
-    const Pose off = motion(middle_s).Inverse() * job.T_map_imu_guess;
+    const Pose off = motion(middle_s).Inverse() * job.prior.T_map_imu;
     EXPECT_LT(off.translation.norm(), 0.1) << middle_s;
-    EXPECT_NEAR(job.since_last_fix_s, 0.1, 0.01);
-    EXPECT_EQ(job.seek, MatchJob::Seek::kNothing);
-    EXPECT_GT((motion(middle_s).rotation * job.up_map).z(), 0.0);
+    EXPECT_NEAR(job.prior.since_last_fix_s, 0.1, 0.01);
+    EXPECT_FALSE(std::get<Track>(job.task).aligns_prior);
+    EXPECT_GT((motion(middle_s).rotation * job.prior.up_map).z(), 0.0);
   }
   EXPECT_GE(num_clearing, 1);
-  EXPECT_TRUE(run.jobs.front().clear_map);
-  EXPECT_FALSE(run.jobs.back().clear_map);
+  EXPECT_EQ(run.jobs.front().map_action, MapAction::kClear);
+  EXPECT_EQ(run.jobs.back().map_action, MapAction::kKeep);
 }
 
 TEST(OdometryScan, RejectedMatchesLeaveThePredictionAndAreCounted) {
@@ -174,7 +174,7 @@ TEST(OdometryScan, RejectedMatchesLeaveThePredictionAndAreCounted) {
     variance = now;
   }
   EXPECT_EQ(run.counters().num_matches_rejected, static_cast<std::int64_t>(rows.size()));
-  EXPECT_NEAR(run.jobs.back().since_last_fix_s, 0.1 * static_cast<double>(rows.size()), 0.05);
+  EXPECT_NEAR(run.jobs.back().prior.since_last_fix_s, 0.1 * static_cast<double>(rows.size()), 0.05);
   EXPECT_LT(test::ErrorAgainst(test::RestThenDrive(), run.scans).end_m, 0.3);
 }
 

@@ -28,18 +28,18 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
   for (int i = 0; i <= 10; ++i) {
     job.T_any_imu.push_back({StampAt(start_s + 0.01 * i), Driving()(start_s + 0.01 * i)});
   }
-  job.T_map_imu_guess = Driving()(start_s + 0.05) * ExpSe3(guess_error);
-  job.guess_cov.diagonal() << Vector3::Constant(0.01), Vector3::Constant(2.5e-5);
+  job.prior.T_map_imu = Driving()(start_s + 0.05) * ExpSe3(guess_error);
+  job.prior.cov.diagonal() << Vector3::Constant(0.01), Vector3::Constant(2.5e-5);
   return job;
 }
 
 // Returns a job whose pose is known only to metres and a fifth of a radian.
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   MatchJob job = JobFor(start_s, guess_error);
-  job.guess_cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
-  job.seek_place = MatchJob::SeekPlace::kAnywhere;
-  job.refine_deskew = true;
-  job.since_last_fix_s = 0.5;
+  job.prior.cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
+  job.task = Relocalize{{}, {SearchRegion::kAnywhere, {}}};
+  job.refines_deskew = true;
+  job.prior.since_last_fix_s = 0.5;
   return job;
 }
 
@@ -63,7 +63,7 @@ TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
   FillMap(side);
   const MatchOutcome outcome = side.Run(UnsureJobFor(0.93, FarAhead()));
   ASSERT_TRUE(outcome.match.IsUsable());
-  EXPECT_TRUE(outcome.is_sought);
+  EXPECT_TRUE(outcome.is_relocalized);
   const Pose error = Driving()(0.98).Inverse() * outcome.match.T_map_imu;
   EXPECT_LT(error.translation.norm(), 0.1);
   EXPECT_LT(LogSo3(error.rotation).norm(), 0.01);
@@ -74,15 +74,15 @@ TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {
   FillMap(side);
   const MatchOutcome outcome = side.Run(UnsureJobFor(1.0, Vector6::Zero()));
   EXPECT_TRUE(outcome.match.IsUsable());
-  EXPECT_FALSE(outcome.is_sought);
+  EXPECT_FALSE(outcome.is_relocalized);
 }
 
 TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);
   MatchJob job = UnsureJobFor(0.93, FarAhead());
-  job.seek_place = MatchJob::SeekPlace::kNowhere;
-  EXPECT_FALSE(side.Run(job).is_sought);
+  job.task = Track{};
+  EXPECT_FALSE(side.Run(job).is_relocalized);
 }
 
 // After stamps jumped by a second, the vehicle may have driven on, or the clock may have been set.
@@ -92,8 +92,9 @@ TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
     FillMap(side);
     const Vector6 way = FarAhead();
     MatchJob job = JobFor(0.93, was_set ? way : Vector6(Vector6::Zero()));
-    job.T_map_imu_if_clock_set =
+    const Pose alternative =
         Driving()(0.98) * ExpSe3(was_set ? Vector6(Vector6::Zero()) : Vector6(-way));
+    job.task = Relocalize{{}, {SearchRegion::kAlternative, alternative}};
     const MatchOutcome outcome = side.Run(job);
     EXPECT_EQ(outcome.is_clock_set, was_set);
     ASSERT_TRUE(outcome.match.IsUsable());

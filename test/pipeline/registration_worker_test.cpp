@@ -36,9 +36,9 @@ MatchJob JobFor(const std::shared_ptr<const Sweep>& sweep,
   for (int i = 0; i <= 10; ++i) {
     job.T_any_imu.push_back({StampAt(start_s + 0.01 * i), Driving()(start_s + 0.01 * i)});
   }
-  job.T_map_imu_guess = Driving()(start_s + 0.05) * ExpSe3(guess_error);
-  job.guess_cov = 0.01 * Matrix6::Identity();
-  job.guess_cov.bottomRightCorner<3, 3>() *= 0.0025;
+  job.prior.T_map_imu = Driving()(start_s + 0.05) * ExpSe3(guess_error);
+  job.prior.cov = 0.01 * Matrix6::Identity();
+  job.prior.cov.bottomRightCorner<3, 3>() *= 0.0025;
   return job;
 }
 
@@ -89,7 +89,7 @@ TEST(RegistrationWorker, JobMayClearTheMap) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);
   MatchJob job = JobFor(SweepFrom(1.0));
-  job.clear_map = true;
+  job.map_action = MapAction::kClear;
   EXPECT_EQ(side.Run(job).match.status, MatchStatus::kEmptyMap);
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
 }
@@ -108,7 +108,7 @@ TEST(RegistrationWorker, SweepShowsTheTurnRateThatTheGuessHasWrong) {
     pose.pose.rotation = pose.pose.rotation * ExpSo3(from_mid_sweep_s * rate_error);
   }
   EXPECT_FALSE(side.Run(job).turn_rate) << "nobody asked";
-  job.refine_deskew = true;
+  job.refines_deskew = true;
   const MatchOutcome outcome = side.Run(job);
   ASSERT_TRUE(outcome.turn_rate);
   EXPECT_LT((outcome.turn_rate->w_imu_radps - true_rate).norm(), 0.2 * rate_error.norm());
@@ -122,14 +122,14 @@ TEST(RegistrationWorker, DeskewIsRefinedWhenTheMotionIsOnlyGuessed) {
     RegistrationWorker side(test::DriveRig());
     FillMap(side);
     MatchJob job = JobFor(SweepFrom(1.0));
-    job.refine_deskew = refine;
-    job.since_last_fix_s = 0.1;
+    job.refines_deskew = refine;
+    job.prior.since_last_fix_s = 0.1;
     const Vector6 velocity_error = velocity_error_mps * Vector6::Unit(0);
     for (StampedPose& pose : job.T_any_imu) {
       const double since_s = SecondsBetween(job.sweep->middle(), pose.stamp) + 0.1;
       pose.pose = pose.pose * ExpSe3(since_s * velocity_error);
     }
-    job.T_map_imu_guess = job.T_map_imu_guess * ExpSe3(0.1 * velocity_error);
+    job.prior.T_map_imu = job.prior.T_map_imu * ExpSe3(0.1 * velocity_error);
     MatchOutcome outcome = side.Run(job);
     EXPECT_TRUE(outcome.match.IsUsable());
     return outcome;

@@ -31,7 +31,11 @@ FOLLOW_CLOCK = ("--set", "filter.estimate_clock_offset=true")
 
 STREET = lio_sim("street", "vlp16", XSENS, 14)
 STREET_CLOCKS_SET = faulty("street", XSENS, "stamp_jump:channel=both,start=6,offset=1.2,duration=2")
+IMU_COMES_LATE = faulty("street", XSENS, "imu_gap:start=0,duration=6")
+BOTH_GAP = faulty("street", XSENS, "imu_gap:start=7,duration=2", "lidar_gap:start=7,duration=2")
 CAMPUS = lio_sim("campus", "vlp16", CONSUMER, 14)
+CAMPUS_TURNED_MOVING = lio_sim("campus", "vlp16", CONSUMER, 12, "--imu-variant", "turned",
+                               "--moving-start")
 
 CASES = (
     # every scenario, every lidar, both inertial units
@@ -62,13 +66,12 @@ CASES = (
     Case("lidar-only-clock-back",
          faulty("street", XSENS, "stamp_jump:channel=lidar,start=6,offset=-2,duration=20"),
          replay=LIDAR_ONLY),
-    Case("imu-comes-late", faulty("street", XSENS, "imu_gap:start=0,duration=6")),
+    Case("imu-comes-late", IMU_COMES_LATE),
     Case("imu-never-comes", faulty("campus", CONSUMER, "imu_gap:start=0,duration=60")),
     # faults
     Case("imu-gap", faulty("campus", CONSUMER, "imu_gap:start=6,duration=0.7")),
     Case("imu-gap-long", faulty("street", XSENS, "imu_gap:start=7,duration=3.5")),
-    Case("both-gap", faulty("street", XSENS, "imu_gap:start=7,duration=2",
-                            "lidar_gap:start=7,duration=2")),
+    Case("both-gap", BOTH_GAP),
     Case("lidar-gap", faulty("suburb", XSENS, "lidar_gap:start=6,duration=3")),
     Case("drop", faulty("street", CONSUMER, "drop:ratio=0.2")),
     Case("duplicate-reorder", faulty("campus", XSENS, "duplicate:ratio=0.1", "reorder:ratio=0.1")),
@@ -95,8 +98,7 @@ CASES = (
     Case("imu-turned", lio_sim("loop", "vlp16", XSENS, 16, "--imu-variant", "turned")),
     Case("imu-deg-moving", lio_sim("street", "vlp16", XSENS, 12, "--imu-variant", "in-deg",
                                    "--moving-start")),
-    Case("imu-turned-moving", lio_sim("campus", "vlp16", CONSUMER, 12, "--imu-variant", "turned",
-                                      "--moving-start")),
+    Case("imu-turned-moving", CAMPUS_TURNED_MOVING),
     Case("imu-refused", lio_sim("street", "vlp16", XSENS, 12, "--imu-variant", "in-deg"),
          replay=("--set", "rig.imu.units=si")),
     Case("imu-gravity-removed", lio_sim("street", "vlp16", XSENS, 12, "--imu-variant",
@@ -105,6 +107,9 @@ CASES = (
     Case("lag-street", STREET, lag=9),
     Case("lag-clocks-set", STREET_CLOCKS_SET, lag=17),
     Case("lag-campus", CAMPUS, lag=14),
+    Case("lag-both-gap", BOTH_GAP, lag=13),
+    Case("lag-imu-comes-late", IMU_COMES_LATE, lag=11),
+    Case("lag-imu-turned-moving", CAMPUS_TURNED_MOVING, lag=8),
     # real and realistic recordings
     Case("kitti", real="kitti_raw_0005_first80.tar.xz", config="config/kitti_raw.yaml"),
     Case("kitti-lidar-only", real="kitti_raw_0005_first80.tar.xz", config="config/kitti_raw.yaml",

@@ -135,7 +135,7 @@ class Replay {
   bool StartMatch() {
     const std::optional<MatchJob> job = odometry_.NextJob();
     if (!job) return false;
-    if (job->clear_map) map_.Clear();
+    if (job->map_action == MapAction::kClear) map_.Clear();
     outcome_ = worker_.Run(*job);
     num_messages_to_wait_ = match_lag_;
     return true;

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
+#include "lio/relocalization/birds_eye_hold.hpp"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "lio/pipeline/registration_worker.hpp"
 #include "relocalization/place_guesses.hpp"
 
 namespace lio {
@@ -30,29 +32,32 @@ void HoldAt(const FoundShift& found, const Quaternion& R_level_map, MatchResult&
   match.cov = left * match.cov * left.transpose() + gain * found.cov * gain.transpose();
 }
 
+Eigen::Vector2f PositionOf(const MatchResult& match, const Quaternion& R_level_map) {
+  return (R_level_map * match.T_map_imu.translation).head<2>().cast<float>();
+}
+
+float SearchRange_m(const MatchResult& match) {
+  const double std_m =
+      std::sqrt(std::max(0.0, match.cov.topLeftCorner<3, 3>().diagonal().maxCoeff()));
+  return static_cast<float>(std::clamp(kSigmas * std_m, kMinRange_m, kMaxRange_m));
+}
+
 }  // namespace
 
-// Where surfaces leave a direction free, by the things that stand along the way.
-void RegistrationWorker::HoldByView(const MatchJob& job, MatchOutcome& outcome) {
-  MatchResult& match = outcome.match;
-  const Quaternion R_level_map = LevelOf(job.up_map);
-  const auto place_m = [&]() -> Eigen::Vector2f {
-    return (R_level_map * match.T_map_imu.translation).head<2>().cast<float>();
-  };
-  const bool is_apart = views_.empty() || (place_m() - views_.back().position_m).norm() >= kApart_m;
+void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quaternion& R_level_map,
+                         MatchResult& match) {
+  const Eigen::Vector2f matched_m = PositionOf(match, R_level_map);
+  const bool is_apart = views_.empty() || (matched_m - views_.back().position_m).norm() >= kApart_m;
   if (match.degenerate_mask == 0 && !is_apart) return;
-  BirdsEyeView view(Levelled(outcome.points_imu, R_level_map * match.T_map_imu.rotation));
+  BirdsEyeView view(Levelled(points_imu, R_level_map * match.T_map_imu.rotation));
   if (match.degenerate_mask != 0 && !views_.empty()) {
-    const double std_m =
-        std::sqrt(std::max(0.0, match.cov.topLeftCorner<3, 3>().diagonal().maxCoeff()));
-    const auto range_m = static_cast<float>(std::clamp(kSigmas * std_m, kMinRange_m, kMaxRange_m));
-    if (const auto found = FindShift(views_, view, place_m(), range_m)) {
+    if (const auto found = FindShift(views_, view, matched_m, SearchRange_m(match))) {
       HoldAt(*found, R_level_map, match);
     }
   }
   if (!is_apart) return;
   if (views_.size() == kMaxViews) views_.erase(views_.begin());
-  views_.push_back({place_m(), std::move(view)});
+  views_.push_back({PositionOf(match, R_level_map), std::move(view)});
 }
 
 }  // namespace lio

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The messages between the filter and the registration worker. Each is complete in itself, so they
+// may cross threads.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "lio/pipeline/outputs.hpp"
+#include "lio/registration/motion_prior.hpp"
+#include "lio/registration/scan_matcher.hpp"
+#include "lio/relocalization/search_request.hpp"
+#include "lio/scan/feature_tag.hpp"
+#include "lio/scan/loam_features.hpp"
+#include "lio/scan/sweep.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio {
+
+// Match the scan near the prior.
+struct Track {
+  // Better the prior by correlative alignment of the bird's-eye view with the last located scan's
+  // (for a prior of unsure shift).
+  bool aligns_prior = false;
+  // Hold directions that the match leaves degenerate by the bird's-eye views of earlier scans.
+  bool holds_degenerate = false;
+};
+
+// Nothing is matched: estimate the velocity from the bird's-eye views of this and of all scans
+// since the map was cleared.
+struct FindVelocity {};
+
+// Track; where the scan is not found near the prior, search for it.
+struct Relocalize {
+  Track track;
+  SearchRequest search;
+};
+
+enum class MapAction : std::int8_t {
+  kKeep,
+  kWarmUp,  // this scan is inserted with all its points, as the map is still thin
+  kClear,   // forget the map and all earlier scans first; then as kWarmUp
+};
+
+struct MatchJob {
+  std::shared_ptr<const Sweep> sweep;
+  StampedPoses T_any_imu;  // the trajectory over the sweep, in any frame that does not move
+  MotionPrior prior;
+  MapAction map_action = MapAction::kKeep;
+  bool refines_deskew = false;  // match, deskew again along what was found, match again
+  std::variant<Track, FindVelocity, Relocalize> task;
+  std::int64_t filter_ns = 0;  // CPU time the filter has spent since the job before
+};
+
+struct MatchOutcome {
+  std::shared_ptr<const Sweep> sweep;  // the job's
+  MatchResult match;
+  bool is_relocalized = false;           // located by the search, not near the prior
+  bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
+  std::optional<Vector3> v_map_imu_mps;  // of FindVelocity; absent while no velocity is clear
+  std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
+  int num_used = 0;                      // points that are matched
+  int num_nonfinite = 0;
+  std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
+  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
+  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  StageTimes stage_ns{};                         // kInsert: of the scan before
+};
+
+struct InsertTask {
+  std::vector<Eigen::Vector3f> points_imu;
+  std::optional<Pose> T_map_imu;      // absent: do not insert
+  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
+};
+
+}  // namespace lio

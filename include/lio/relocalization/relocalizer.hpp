@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Everything that is known of where a scan may be besides the motion prior, by bird's-eye views:
+// its velocity before anything is mapped, a better prior by its shift since the last scan, its
+// place after it was lost, its position along degenerate directions. It knows no map: what needs
+// one calls back.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/base/time.hpp"
+#include "lio/registration/motion_prior.hpp"
+#include "lio/registration/scan_matcher.hpp"
+#include "lio/relocalization/birds_eye_hold.hpp"
+#include "lio/relocalization/search_request.hpp"
+#include "lio/relocalization/velocity_search.hpp"
+
+namespace lio {
+
+// Deskewed points in imu at `stamp`, the sweep's middle.
+struct DeskewedScan {
+  Timestamp stamp;
+  std::span<const Eigen::Vector3f> points_imu;
+};
+
+class Relocalizer {
+ public:
+  // Matches the scan in question against the map, from a guess with its covariance (right error).
+  using MatchFrom = std::function<MatchResult(const Pose& T_map_imu_guess, const Matrix6& cov)>;
+
+  struct Found {
+    MatchResult match;
+    bool is_relocalized = false;  // the match is one that the place search led to
+    bool is_clock_set = false;    // the match is at the request's alternative
+  };
+
+  // Forgets all scans: the map was cleared.
+  void Clear() { *this = Relocalizer(); }
+
+  // In the map's axes, from this and all scans that were given since Clear(); absent while no
+  // velocity is clear. Of the prior only the rotation and the vertical count.
+  [[nodiscard]] std::optional<Vector3> FindVelocity(const DeskewedScan& scan,
+                                                    const MotionPrior& prior);
+
+  // The prior with its position by the shift since the last located scan, where that is clear.
+  [[nodiscard]] MotionPrior Align(const DeskewedScan& scan, const MotionPrior& prior) const;
+
+  // Where the scan is if `near_prior`, its match from the prior, is not the place: `near_prior`
+  // itself if it stands.
+  [[nodiscard]] Found Search(const SearchRequest& request, const DeskewedScan& scan,
+                             const MotionPrior& prior, const MatchResult& near_prior,
+                             const MatchFrom& match_from) const;
+
+  // Corrects degenerate directions of a usable match. `points_imu`: all of the scan.
+  void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
+                      MatchResult& match);
+
+  // The scan was located there, or it begins the map. Later searches start from it.
+  void SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,
+                  const MatchResult& match);
+
+ private:
+  struct Located {
+    Timestamp stamp;
+    std::vector<Eigen::Vector3f> points_imu;
+    MatchResult match;
+  };
+
+  void SearchPlaces(const SearchRequest& request, const DeskewedScan& scan,
+                    const MotionPrior& prior, const MatchFrom& match_from, Found& found) const;
+  void TryPlaces(const SearchRequest& request, const DeskewedScan& scan, const MotionPrior& prior,
+                 const MatchFrom& match_from, Found& found) const;
+  void TryAlternative(const Pose& alternative, const MotionPrior& prior,
+                      const MatchFrom& match_from, Found& found) const;
+
+  VelocitySearch velocity_search_;
+  BirdsEyeHold hold_;
+  std::optional<Located> last_;
+};
+
+}  // namespace lio

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Where to look for a scan that is not where it was predicted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "lio/base/pose.hpp"
+
+namespace lio {
+
+enum class SearchRegion : std::int8_t {
+  kAlternative,  // nowhere but at the alternative prior
+  // Anywhere, unless the last located scan had degenerate directions: there inertial prediction is
+  // better than a search.
+  kObservable,
+  kAnywhere,
+};
+
+struct SearchRequest {
+  SearchRegion region = SearchRegion::kAnywhere;
+  // The pose if no time has passed at a step of the stamps (the clock was set): tried as well.
+  std::optional<Pose> T_map_imu_alternative;
+};
+
+}  // namespace lio

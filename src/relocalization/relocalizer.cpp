@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/relocalization/relocalizer.hpp"
+
+#include <utility>
+
+#include "relocalization/place_guesses.hpp"
+#include "relocalization/place_verification.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kAlignedStd_m = 0.5;  // of a prior that was aligned
+constexpr std::size_t kMinScansForVelocity = 3;
+
+}  // namespace
+
+std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
+                                                 const MotionPrior& prior) {
+  const Quaternion R_level_map = LevelOf(prior.up_map);
+  velocity_search_.Add(scan.stamp,
+                       Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
+  if (velocity_search_.num_scans() < kMinScansForVelocity) return {};
+  const auto v_level = velocity_search_.Find();
+  if (!v_level) return {};
+  return R_level_map.conjugate() * Vector3(v_level->x(), v_level->y(), 0.0);
+}
+
+MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prior) const {
+  if (!last_) return prior;
+  const Quaternion R_level_map = LevelOf(prior.up_map);
+  VelocitySearch search;
+  search.Add(last_->stamp,
+             Levelled(last_->points_imu, R_level_map * last_->match.T_map_imu.rotation));
+  search.Add(scan.stamp, Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
+  const auto v_level = search.Find();
+  if (!v_level) return prior;
+  const double since_s = SecondsBetween(last_->stamp, scan.stamp);
+  const Vector3 shift_level = since_s * Vector3(v_level->x(), v_level->y(), 0.0);
+  MotionPrior aligned = prior;
+  aligned.T_map_imu.translation =
+      last_->match.T_map_imu.translation + R_level_map.conjugate() * shift_level;
+  aligned.cov.topLeftCorner<3, 3>() = kAlignedStd_m * kAlignedStd_m * Matrix3::Identity();
+  return aligned;
+}
+
+Relocalizer::Found Relocalizer::Search(const SearchRequest& request, const DeskewedScan& scan,
+                                       const MotionPrior& prior, const MatchResult& near_prior,
+                                       const MatchFrom& match_from) const {
+  Found found{near_prior};
+  if (!last_) return found;
+  SearchPlaces(request, scan, prior, match_from, found);
+  if (request.T_map_imu_alternative && !found.is_relocalized) {
+    TryAlternative(*request.T_map_imu_alternative, prior, match_from, found);
+  }
+  return found;
+}
+
+void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan& scan,
+                               const MotionPrior& prior, const MatchFrom& match_from,
+                               Found& found) const {
+  const MatchResult& last = last_->match;
+  if (request.region == SearchRegion::kAlternative) return;
+  if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
+  if (found.match.IsUsable() && IsWithinReachOfMatching(prior.cov)) return;
+  if (!IsVerifiedBeyondDoubt(found.match, last)) {
+    TryPlaces(request, scan, prior, match_from, found);
+  }
+  if (IsVerified(found.match, last)) {
+    if (!found.match.IsUsable()) found.match.status = MatchStatus::kConverged;
+  } else if (found.match.IsUsable()) {
+    found.match.status = MatchStatus::kTooFewPoints;
+  }
+}
+
+void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& scan,
+                            const MotionPrior& prior, const MatchFrom& match_from,
+                            Found& found) const {
+  const MatchResult& last = last_->match;
+  const PlacedScan earlier{last_->points_imu, last.T_map_imu};
+  const PlacedScan now{scan.points_imu, prior.T_map_imu};
+  for (const Pose& guess : GuessPlaces(earlier, now, prior.cov, LevelOf(prior.up_map))) {
+    const MatchResult match = match_from(guess, GuessedPlaceCov());
+    const bool is_beyond_doubt = IsVerifiedBeyondDoubt(match, last);
+    const bool is_more = match.num_matched > found.match.num_matched;
+    if (!IsVerifiedElsewhere(match, last)) continue;
+    if (request.region == SearchRegion::kObservable && !is_beyond_doubt) continue;
+    if (IsVerifiedElsewhere(found.match, last) && !is_more) continue;
+    found.match = match;
+    found.is_relocalized = true;
+    if (is_beyond_doubt) break;
+  }
+}
+
+void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& prior,
+                                 const MatchFrom& match_from, Found& found) const {
+  found.is_clock_set = IsNearAlternative(found.match, prior.T_map_imu, alternative);
+  if (found.is_clock_set) return;
+  const MatchResult match = match_from(alternative, GuessedPlaceCov());
+  const bool is_better = IsClearlyBetter(match, found.match);
+  if (match.degenerate_mask != 0 || !IsVerified(match, last_->match) || !is_better) return;
+  found.match = match;
+  found.match.status = MatchStatus::kConverged;  // or to and fro, by little
+  found.is_clock_set = true;
+}
+
+void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
+                                 MatchResult& match) {
+  hold_.Apply(points_imu, LevelOf(up_map), match);
+}
+
+void Relocalizer::SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,
+                             const MatchResult& match) {
+  last_ = {stamp, std::move(points_imu), match};
+}
+
+}  // namespace lio

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "relocalization/place_verification.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lio {
+namespace {
+
+MatchResult Matched(int num_matched, int num_in_map, unsigned degenerate_mask = 0) {
+  MatchResult match;
+  match.status = degenerate_mask == 0 ? MatchStatus::kConverged : MatchStatus::kDegenerate;
+  match.num_matched = num_matched;
+  match.num_in_map = num_in_map;
+  match.degenerate_mask = degenerate_mask;
+  return match;
+}
+
+TEST(PlaceVerification, TheShareOfPointsOnSurfacesDecides) {
+  const MatchResult last = Matched(980, 1000);
+  EXPECT_TRUE(IsVerified(Matched(900, 1000), last)) << "92 % of the last scan's share";
+  EXPECT_FALSE(IsVerified(Matched(780, 1000), last)) << "80 % of it";
+  EXPECT_TRUE(IsVerified(Matched(250, 255), last));
+  EXPECT_FALSE(IsVerified(Matched(150, 150), last)) << "too few to tell";
+}
+
+TEST(PlaceVerification, AFailedMatchIsNoPlaceUnlessItsStepsGoToAndFro) {
+  const MatchResult last = Matched(980, 1000);
+  MatchResult match = Matched(950, 1000);
+  match.status = MatchStatus::kMaxIterations;
+  EXPECT_TRUE(IsVerified(match, last));
+  match.status = MatchStatus::kDiverged;
+  EXPECT_FALSE(IsVerified(match, last));
+}
+
+TEST(PlaceVerification, AnyMatchIsVerifiedAgainstTheScanThatBeganTheMap) {
+  EXPECT_TRUE(IsVerified(Matched(10, 1000), MatchResult{}));
+}
+
+TEST(PlaceVerification, ElsewhereNothingMayBeDegenerateThatWasNot) {
+  const MatchResult last = Matched(980, 1000);
+  const MatchResult degenerate = Matched(950, 1000, 1u);
+  EXPECT_TRUE(IsVerified(degenerate, last));
+  EXPECT_FALSE(IsVerifiedElsewhere(degenerate, last));
+  EXPECT_TRUE(IsVerifiedElsewhere(degenerate, Matched(980, 1000, 2u)));
+}
+
+TEST(PlaceVerification, ManyMatchesEndTheSearch) {
+  const MatchResult last = Matched(1000, 1000);
+  EXPECT_TRUE(IsVerifiedBeyondDoubt(Matched(600, 600), last));
+  EXPECT_FALSE(IsVerifiedBeyondDoubt(Matched(590, 590), last));
+}
+
+TEST(PlaceVerification, APriorIsWithinReachByPointsTwentyMetresAway) {
+  Matrix6 cov = Matrix6::Zero();
+  cov.diagonal() << Vector3::Constant(1.0), Vector3::Constant(0.0064);  // 1 m and 20 m * 0.08
+  EXPECT_TRUE(IsWithinReachOfMatching(cov));
+  cov.diagonal().head<3>().setConstant(2.25);
+  EXPECT_FALSE(IsWithinReachOfMatching(cov));
+}
+
+TEST(PlaceVerification, AMatchIsNearTheAlternativeWhenItIsMuchNearer) {
+  const Pose prior;
+  const Pose alternative{Quaternion::Identity(), Vector3(10, 0, 0)};
+  MatchResult match = Matched(950, 1000);
+  match.T_map_imu.translation = Vector3(8, 0, 0);
+  EXPECT_TRUE(IsNearAlternative(match, prior, alternative));
+  match.T_map_imu.translation = Vector3(6, 0, 0);
+  EXPECT_FALSE(IsNearAlternative(match, prior, alternative));
+  match.T_map_imu.translation = Vector3(0.4, 0, 0);
+  EXPECT_FALSE(IsNearAlternative(match, prior, Pose{Quaternion::Identity(), Vector3(0.4, 0, 0)}))
+      << "the two are not apart";
+}
+
+TEST(PlaceVerification, ClearlyBetterIsAFifthMore) {
+  EXPECT_TRUE(IsClearlyBetter(Matched(121, 200), Matched(100, 200)));
+  EXPECT_FALSE(IsClearlyBetter(Matched(119, 200), Matched(100, 200)));
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Searches among posts, with a matcher that is played: it finds the scan from guesses that are near
+// enough.
+#include "lio/relocalization/relocalizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace lio {
+namespace {
+
+constexpr int kNumPoints = 1000;
+
+// Posts at random places, as a body at the pose sees them.
+std::vector<Eigen::Vector3f> Wood(const Pose& T_map_imu) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 80; ++i) {
+    const double x = coordinate(random);
+    const double y = coordinate(random);
+    for (double z = -1.8; z < 0.6; z += 0.3) {
+      points.push_back((T_map_imu.Inverse() * Vector3(x, y, z)).cast<float>());
+    }
+  }
+  return points;
+}
+
+Pose At(double x_m, double y_m, double yaw_rad) {
+  return {ExpSo3(Vector3(0, 0, yaw_rad)), Vector3(x_m, y_m, 0)};
+}
+
+MatchResult Matched(const Pose& T_map_imu, double share) {
+  MatchResult match;
+  match.status = MatchStatus::kConverged;
+  match.T_map_imu = T_map_imu;
+  match.num_in_map = kNumPoints;
+  match.num_matched = static_cast<int>(share * kNumPoints);
+  return match;
+}
+
+Timestamp StampAt(double t_s) {
+  return Timestamp{static_cast<std::int64_t>(1e9 * t_s)};
+}
+
+// Finds a scan at `truth` from a guess within a metre of it; elsewhere half its points lie on
+// something.
+class PlayedMatcher {
+ public:
+  explicit PlayedMatcher(const Pose& truth) : truth_(truth) {}
+  MatchResult operator()(const Pose& guess) {
+    ++num_matches;
+    const bool is_near = (guess.translation - truth_.translation).norm() < 1.0 &&
+                         LogSo3(guess.rotation.conjugate() * truth_.rotation).norm() < 0.1;
+    return is_near ? Matched(truth_, 0.98) : Matched(guess, 0.5);
+  }
+  int num_matches = 0;
+
+ private:
+  Pose truth_;
+};
+
+MotionPrior PriorAt(const Pose& T_map_imu, double std_m, double std_rad) {
+  MotionPrior prior;
+  prior.T_map_imu = T_map_imu;
+  prior.cov.diagonal() << Vector3::Constant(std_m * std_m), Vector3::Constant(std_rad * std_rad);
+  return prior;
+}
+
+class RelocalizerTest : public ::testing::Test {
+ protected:
+  RelocalizerTest() {
+    relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), Matched(earlier_, 0.98));
+  }
+
+  Relocalizer::Found Search(const SearchRequest& request, const MotionPrior& prior) {
+    const std::vector<Eigen::Vector3f> points = Wood(truth_);
+    return relocalizer_.Search(
+        request, {StampAt(1.0), points}, prior, matcher_(prior.T_map_imu),
+        [this](const Pose& guess, const Matrix6& /*cov*/) { return matcher_(guess); });
+  }
+
+  Pose earlier_ = At(1, 2, 0.5);
+  Pose truth_ = At(8, -1, 1.1);
+  MotionPrior far_prior_ = PriorAt(At(10.5, 1, 0.9), 1.5, 0.2);
+  PlayedMatcher matcher_{truth_};
+  Relocalizer relocalizer_;
+};
+
+TEST_F(RelocalizerTest, AScanFarFromItsPriorIsFound) {
+  const auto found = Search({SearchRegion::kAnywhere, {}}, far_prior_);
+  EXPECT_TRUE(found.is_relocalized);
+  EXPECT_FALSE(found.is_clock_set);
+  EXPECT_EQ(found.match.T_map_imu.translation, truth_.translation);
+}
+
+TEST_F(RelocalizerTest, AScanThatIsWherePredictedIsNotSearchedFor) {
+  const auto found = Search({SearchRegion::kAnywhere, {}}, PriorAt(truth_, 1.5, 0.2));
+  EXPECT_FALSE(found.is_relocalized);
+  EXPECT_TRUE(found.match.IsUsable());
+  EXPECT_EQ(matcher_.num_matches, 1);
+}
+
+TEST_F(RelocalizerTest, AMatchFromASurePriorIsBelieved) {
+  const auto found = Search({SearchRegion::kAnywhere, {}}, PriorAt(At(3, 3, 0), 0.1, 0.01));
+  EXPECT_TRUE(found.match.IsUsable());
+  EXPECT_EQ(matcher_.num_matches, 1);
+}
+
+TEST_F(RelocalizerTest, AScanThatIsNowhereIsRejected) {
+  matcher_ = PlayedMatcher(At(500, 500, 0));
+  const auto found = Search({SearchRegion::kAnywhere, {}}, far_prior_);
+  EXPECT_FALSE(found.is_relocalized);
+  EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints);
+}
+
+TEST_F(RelocalizerTest, AfterADegenerateScanInertialPredictionIsBelieved) {
+  MatchResult degenerate = Matched(earlier_, 0.98);
+  degenerate.degenerate_mask = 1u;
+  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), degenerate);
+  EXPECT_FALSE(Search({SearchRegion::kObservable, {}}, far_prior_).is_relocalized);
+  EXPECT_TRUE(Search({SearchRegion::kAnywhere, {}}, far_prior_).is_relocalized);
+}
+
+TEST_F(RelocalizerTest, TheAlternativeIsTakenWhereTheScanIsThere) {
+  const MotionPrior sure = PriorAt(At(20, 5, 0.9), 0.1, 0.01);
+  EXPECT_TRUE(Search({SearchRegion::kAlternative, truth_}, sure).is_clock_set);
+  EXPECT_FALSE(Search({SearchRegion::kAlternative, At(0, 0, 0)}, sure).is_clock_set);
+  EXPECT_FALSE(Search({SearchRegion::kAlternative, {}}, sure).is_clock_set);
+}
+
+TEST_F(RelocalizerTest, WithoutALocatedScanNothingIsSearched) {
+  relocalizer_.Clear();
+  const auto found = Search({SearchRegion::kAnywhere, truth_}, far_prior_);
+  EXPECT_EQ(matcher_.num_matches, 1);
+  EXPECT_FALSE(found.is_relocalized || found.is_clock_set);
+}
+
+TEST_F(RelocalizerTest, AlignmentBringsAPriorToWhereThePostsSay) {
+  const Pose truth = At(9, -1, 0.5);
+  const MotionPrior prior = PriorAt(At(4, 3, 0.5), 3.0, 0.01);
+  const std::vector<Eigen::Vector3f> points = Wood(truth);
+  const MotionPrior aligned = relocalizer_.Align({StampAt(0.5), points}, prior);
+  EXPECT_LT((aligned.T_map_imu.translation - truth.translation).norm(), 0.7);
+  EXPECT_LT(aligned.cov(0, 0), prior.cov(0, 0));
+  relocalizer_.Clear();
+  EXPECT_EQ(relocalizer_.Align({StampAt(0.5), points}, prior).T_map_imu.translation,
+            prior.T_map_imu.translation);
+}
+
+TEST_F(RelocalizerTest, AVelocityIsFoundFromThreeScans) {
+  std::optional<Vector3> v_map_mps;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(v_map_mps);
+    const std::vector<Eigen::Vector3f> points = Wood(At(2.0 * i, 0.5 * i, 0.0));
+    v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+  }
+  ASSERT_TRUE(v_map_mps);
+  EXPECT_LT((*v_map_mps - Vector3(20, 5, 0)).norm(), 1.0);
+}
+
+}  // namespace
+}  // namespace lio
