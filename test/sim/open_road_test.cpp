@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Starts at 20 m/s on a motorway with a lidar that looks down: rings on the road move with the
 // sensor, so only objects beside the road make the position along it observable
-// (registration_worker_shift.cpp).
+// (birds_eye_hold.cpp).
 #include <gtest/gtest.h>
 
 #include "support/simulated_run.hpp"
