@@ -10,12 +10,13 @@
 namespace lio {
 namespace {
 
-constexpr double kMinSpread_m = 0.05;  // across the path, RMS: less is noise, not shape
+constexpr double kMinSpread_m =
+    0.05;  // RMS spread across the path; a smaller one is noise, not shape
 
 struct Centred {
   Vector3 truth_mean = Vector3::Zero();
   Vector3 estimate_mean = Vector3::Zero();
-  Matrix3 covariance = Matrix3::Zero();  // of truth (rows) with estimate (columns), m^2
+  Matrix3 covariance = Matrix3::Zero();  // covariance of truth (rows) with estimate (columns), m^2
 };
 
 Centred Centre(const PosePairs& pairs) {
@@ -32,14 +33,15 @@ Centred Centre(const PosePairs& pairs) {
   return result;
 }
 
-// The rotation R with the largest trace(R' m).
+// Returns the rotation R with the largest trace(R' m).
 Matrix3 BestRotation(const Matrix3& m) {
   const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   return svd.matrixU() * Vector3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
-// Mean of R_truth R_estimate': what the attitudes say of the alignment's rotation.
+// Returns the mean of R_truth R_estimate', which is the alignment's rotation as the attitudes
+// measure it.
 Matrix3 AttitudeCovariance(const PosePairs& pairs) {
   Matrix3 sum = Matrix3::Zero();
   for (const PosePair& pair : pairs) {
@@ -51,14 +53,15 @@ Matrix3 AttitudeCovariance(const PosePairs& pairs) {
 struct RotationFit {
   Matrix3 rotation;
   bool used_attitude = false;
-  double spread_m = 0;  // RMS, of what holds the weakest fitted angle
+  double spread_m = 0;  // RMS spread that determines the weakest fitted angle
 };
 
 RotationFit Se3Rotation(const PosePairs& pairs, const Matrix3& covariance) {
   const Eigen::JacobiSVD<Matrix3> svd(covariance);
   const double spread_m = std::sqrt(svd.singularValues()(1));
   if (spread_m >= kMinSpread_m) return {BestRotation(covariance), false, spread_m};
-  // As little weight as the spread that was asked for: the path's own direction still rules.
+  // The attitudes get as little weight as the smallest accepted spread, so that the path dominates
+  // along the directions it determines.
   const double weight = kMinSpread_m * kMinSpread_m;
   return {BestRotation(covariance + weight * AttitudeCovariance(pairs)), true, spread_m};
 }

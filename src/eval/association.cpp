@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t kMinPairs = 3;
 // The truth counts as sparser when its period is longer than the estimate's by this factor.
 constexpr double kSparserRatio = 1.5;
-// Automatic max_gap: a sample of the interpolated trajectory may be late, none may be lost; and
-// over a quarter of a second a vehicle's acceleration of 1 m/s^2 bends its path by 8 mm only.
+// The automatic max_gap allows a sample of the interpolated trajectory to be late, but none to be
+// lost. Within a quarter of a second an acceleration of 1 m/s^2 bends a path by only 8 mm.
 constexpr double kMaxGapPeriods = 1.5;
 constexpr double kMinAutomaticGap_s = 0.25;
-// Two estimates farther apart than this many periods have lost something between them.
+// Poses are missing between two estimates that are farther apart than this many periods.
 constexpr double kMissingPeriods = 1.5;
 
 void CountCoverage(const StampedPoses& truth, const StampedPoses& estimate, Association& result) {

@@ -58,7 +58,7 @@ BandedSeries MakeBandedSeries(const std::vector<TimedValues>& runs, int dof) {
   int end_count = 0;
   const double span = static_cast<double>(bins.rbegin()->first - bins.begin()->first);
   const double end_begin = static_cast<double>(bins.rbegin()->first) - kEndShare * span;
-  std::map<int, Band> bands;  // by number of runs: quantiles are not cheap
+  std::map<int, Band> bands;  // keyed by number of runs, because computing quantiles is slow
   for (const auto& [index, bin] : bins) {
     if (!bands.contains(bin.count)) bands[bin.count] = MeanBandPerDof(dof, bin.count);
     series.time_s.push_back(static_cast<double>(index) * interval_s);

@@ -15,7 +15,7 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kSparseTruth_s = 0.05;
 constexpr int kNisDof = 6;
 
-// NEES of the entries `begin` .. `begin + kSize - 1` of the error.
+// Returns the NEES of the entries `begin` .. `begin + kSize - 1` of the error.
 template <int kSize>
 std::vector<TimedValues> NeesOfRuns(const std::vector<RunErrors>& runs, int begin) {
   std::vector<TimedValues> result;
@@ -50,7 +50,7 @@ std::array<SigmaShares, 6> ComputeSigmaShares(const std::vector<RunErrors>& runs
 }
 
 void ComputeRms(const std::vector<RunErrors>& runs, Consistency& result) {
-  RmsPair horizontal, vertical, tilt, yaw;  // sums of squares first
+  RmsPair horizontal, vertical, tilt, yaw;  // hold sums of squares first
   double count = 0;
   ForEachInstant(runs, [&](const RunInstant& instant) {
     ++count;
@@ -82,7 +82,7 @@ void JudgeNis(const std::vector<RunErrors>& runs, Consistency& result) {
     for (const NisSample& sample : run.nis) samples.push_back({sample.time_s, sample.nis});
   }
   if (nis.empty()) {
-    result.notes.push_back("no NIS: no registration.csv holds a fused scan");
+    result.notes.push_back("there is no NIS: no registration.csv holds a fused scan");
     return;
   }
   result.nis = MakeBandedSeries(nis, kNisDof);
@@ -105,14 +105,14 @@ void NoteRuns(const std::vector<RunErrors>& runs, Consistency& result) {
         fmt::format("{} rows have a singular covariance and are left out", num_singular));
   }
   if (period_s > kSparseTruth_s) {
-    result.notes.push_back(
-        fmt::format("the truth comes every {:.2g} s: interpolating it adds an error of up to "
-                    "acceleration x {:.2g} s^2",
-                    period_s, period_s * period_s / 8));
+    result.notes.push_back(fmt::format(
+        "the truth has one pose every {:.2g} s: its interpolation adds an error of up to "
+        "acceleration x {:.2g} s^2",
+        period_s, period_s * period_s / 8));
   }
   if (runs.size() < 10) {
     result.notes.push_back(fmt::format(
-        "{} runs are few: errors of one run are correlated in time, more seeds tell more",
+        "{} runs are few, because errors of one run are correlated in time; use more seeds",
         runs.size()));
   }
 }

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 6> kAxisNames = {"x", "y", "z", "rx", "ry", "rz"};
 
-// The band that most instants have: of all runs.
+// Returns the band of the instants that most runs cover.
 Band WidestRunsBand(const BandedSeries& series) {
   Band narrowest = series.band_per_dof.front();
   for (const Band& band : series.band_per_dof) {

@@ -79,7 +79,8 @@ EndErrors ComputeEnd(const PosePairs& pairs, double path_length_m) {
   return end;
 }
 
-// What the rest is computed from: the estimate with its body turned onto the truth's.
+// Returns the pairs with the estimate's body turned onto the truth's; the other figures are
+// computed from them.
 Association WithoutOffset(const Association& association, const RotationOffset& offset) {
   Association corrected = association;
   if (!offset.is_removed) return corrected;
@@ -115,13 +116,13 @@ void NoteAssociation(const Association& association, std::vector<std::string>& n
   }
   if (association.truth_period_s > kSparseTruth_s &&
       association.estimate_period_s > kSparseTruth_s) {
-    notes.push_back(fmt::format("both files are sparse ({:.2g} s): interpolating adds error",
+    notes.push_back(fmt::format("both files are sparse ({:.2g} s): interpolation adds an error",
                                 association.truth_period_s));
   }
 }
 
-// Angle between the directions of travel as the two bodies see them, from start to end:
-// what can be told of a rotation offset when the path fixes no alignment.
+// Returns the angle between the directions of travel as the two bodies see them, from start to end.
+// It is the only evidence of a rotation offset when the path determines no alignment.
 double HeadingOffsetDeg(const PosePairs& pairs) {
   const Pose truth = pairs.front().truth.Inverse() * pairs.back().truth;
   const Pose estimate = pairs.front().estimate.Inverse() * pairs.back().estimate;
@@ -131,13 +132,13 @@ double HeadingOffsetDeg(const PosePairs& pairs) {
 
 void NoteStraightPath(const Evaluation& result, std::vector<std::string>& notes) {
   notes.push_back(
-      "the path is straight or at rest: the alignment's open angles are from the attitudes, and a "
-      "constant rotation offset cannot be told");
+      "the path is straight or at rest: the alignment takes the angles that the path leaves open "
+      "from the attitudes, and a constant rotation offset cannot be found");
   const double heading_deg = HeadingOffsetDeg(result.association.pairs);
   if (result.end.truth_gap_m < kMinHeading_m || heading_deg < kSameAxes_deg) return;
   notes.push_back(fmt::format(
-      "the two bodies see their direction of travel {:.1f} deg apart: their axes differ by as much "
-      "at least",
+      "the two bodies see their direction of travel {:.1f} deg apart: their axes differ by at "
+      "least as much",
       heading_deg));
 }
 
@@ -145,17 +146,18 @@ void NoteFrames(const Evaluation& result, const Alignment& se3, std::vector<std:
   if (se3.used_attitude) NoteStraightPath(result, notes);
   const RotationOffset& offset = result.rotation_offset;
   if (offset.is_detected) {
-    notes.push_back("constant rotation offset between the two body frames, " + offset.name +
-                    (offset.is_removed ? "; taken out of step, RPE, drift, end and tilt, not out "
-                                         "of the rotation APE"
-                                       : "; left in every figure"));
+    notes.push_back("there is a constant rotation offset between the two body frames, " +
+                    offset.name +
+                    (offset.is_removed ? "; it is removed from step, RPE, drift, end and tilt, "
+                                         "but not from the rotation APE"
+                                       : "; it is left in every figure"));
   }
   const double world_deg = AngleDeg(se3.T_truth_estimate.rotation);
   const bool is_significant = world_deg > kSameAxes_deg + 4 * se3.rotation_uncertainty_deg;
   if (result.alignment.mode == AlignMode::kNone && is_significant) {
     notes.push_back(
         fmt::format("the two worlds are turned by {:.1f} deg against each other and "
-                    "--align none leaves it so",
+                    "--align none keeps them so",
                     world_deg));
   }
 }

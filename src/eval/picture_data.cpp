@@ -9,9 +9,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kHolePeriods = 3.0;  // lines break where so many samples are not there
+constexpr double kHolePeriods = 3.0;  // lines break where so many samples are missing
 
-// Columns of one row a pair; a hole in the recording becomes a row of nulls, which breaks lines.
+// Holds columns with one row per pair; a hole in the recording becomes a row of nulls, which breaks
+// lines.
 class Columns {
  public:
   void Add(const char* name, double value) { columns_[name].push_back(value); }

@@ -51,7 +51,8 @@ double MedianInterval(const PosePairs& pairs) {
   return Median(std::move(intervals));
 }
 
-// The first pair whose path is longer than that of `from` by more than `length_m`, or the end.
+// Returns the first pair whose path is longer than that of `from` by more than `length_m`, or the
+// end.
 std::size_t EndOfSegment(const std::vector<double>& path_m, std::size_t from, double length_m) {
   const auto begin = path_m.begin() + static_cast<std::ptrdiff_t>(from);
   const auto end = std::upper_bound(begin, path_m.end(), path_m[from] + length_m);

@@ -16,9 +16,10 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kMinDetected_deg = 1.0;
 constexpr double kMinRemoved_deg = 5.0;
 constexpr double kMinSigmas = 4.0;
-constexpr double kMaxAxisError_deg = 3.0;  // nearer to a named axis than this is that axis
+constexpr double kMaxAxisError_deg = 3.0;  // an axis nearer to a named one than this gets its name
 
-// Camera axes (x right, y down, z forward) in vehicle axes (x forward, y left, z up).
+// Returns the rotation from camera axes (x right, y down, z forward) to vehicle axes (x forward, y
+// left, z up).
 Quaternion CameraInVehicle() {
   Matrix3 axes;
   axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -57,7 +58,7 @@ std::string Meaning(const RotationOffset& offset) {
   return "";
 }
 
-// The axis' sign is free near half a turn: its largest entry is made positive there.
+// Near half a turn the sign of the axis is ambiguous: its largest entry is made positive there.
 void SetAngleAndAxis(RotationOffset& offset) {
   const Vector3 vector = LogSo3(offset.rotation);
   offset.angle_deg = vector.norm() * kDegPerRad;
@@ -71,7 +72,7 @@ void SetAngleAndAxis(RotationOffset& offset) {
 
 RotationOffset FindRotationOffset(const PosePairs& pairs, const Alignment& se3) {
   RotationOffset offset;
-  // The attitudes helped to align: they cannot testify against themselves.
+  // Attitudes that were used for the alignment cannot be evidence of a rotation between the bodies.
   if (se3.used_attitude) return offset;
   std::vector<Quaternion> offsets;
   for (const PosePair& pair : pairs) {

@@ -15,7 +15,8 @@
 namespace lio {
 namespace {
 
-constexpr double kMinScaledEigenvalue = 1e-12;  // below this, inverting a covariance is noise
+constexpr double kMinScaledEigenvalue =
+    1e-12;  // below this the inverse of a covariance is numerical noise
 
 std::vector<Matrix6> ReadCovariances(const std::filesystem::path& file,
                                      const StampedPoses& estimate) {
@@ -47,7 +48,7 @@ StampedPoses ReadStamped(const std::filesystem::path& file) {
   throw std::runtime_error(file.string() + ": has no stamps; give a TUM file");
 }
 
-// Free of units: correlations, not covariances, are looked at.
+// Tests the correlation matrix instead of the covariance, so that units do not matter.
 bool IsInvertible(const Matrix6& cov) {
   const Vector6 variances = cov.diagonal();
   if (!(variances.array() > 0).all()) return false;

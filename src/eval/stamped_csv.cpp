@@ -93,7 +93,7 @@ class Reader {
   std::ifstream stream_;
   std::int64_t line_number_ = 0;
   std::size_t num_cells_ = 0;
-  std::vector<std::size_t> indices_;  // of the wanted columns in a row
+  std::vector<std::size_t> indices_;  // positions of the wanted columns in a row
   StampedTable table_;
 };
 

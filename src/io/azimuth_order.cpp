@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// Counts steps of azimuth by sign; tiny ones (two returns of one beam) and jumps tell nothing.
+// Counts steps of azimuth by sign; tiny ones (two returns of one beam) and jumps are not counted.
 struct Steps {
   std::size_t forward = 0;
   std::size_t backward = 0;
@@ -51,8 +51,8 @@ OrderVote JudgeWithRings(const CloudPoints& points, std::span<const std::uint16_
   return {by_ring ? PointOrder::kByRing : PointOrder::kFiring, steps.direction()};
 }
 
-// Without rings: points a hundredth of the cloud apart are some degrees apart when all rings turn
-// together, and in one direction.
+// Judges clouds without rings: when all rings turn together, points a hundredth of the cloud apart
+// are some degrees apart, always in one direction.
 OrderVote JudgeWithoutRings(const CloudPoints& points) {
   const std::size_t lag = std::max<std::size_t>(16, points.size() / 100);
   Steps steps;

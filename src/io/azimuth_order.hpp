@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// In which order a cloud's points come, and which way the head turns: judged from one cloud.
+// Judges from one cloud the order in which its points come and the direction in which the head
+// turns.
 #pragma once
 
 #include <cmath>
@@ -11,15 +12,15 @@
 
 namespace lio {
 
-// A point may lie this far behind the sweep's front: beams of one firing differ in azimuth.
+// A point may be this far behind the sweep's front, because beams of one firing differ in azimuth.
 inline constexpr double kBackwardSlack = std::numbers::pi / 6.0;
 
-// Into [-pi, pi).
+// Wraps an angle into [-pi, pi).
 inline double WrappedAngle(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn + 0.5);
 }
-// Into [0, 2 pi).
+// Wraps an angle into [0, 2 pi).
 inline double PositiveTurn(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn);
@@ -33,7 +34,7 @@ struct OrderVote {
 // `rings` is empty or has one ring per point.
 OrderVote JudgeOrder(const CloudPoints& points, std::span<const std::uint16_t> rings);
 
-// The share of ten-degree sectors that hold points.
+// Returns the share of ten-degree sectors that hold points.
 double CoverageOfCircle(const CloudPoints& points);
 
 }  // namespace lio

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180.0;
-// How the front follows the points: slowly, so that strays do not carry it away.
+// The front follows the points slowly, so that outliers do not carry it away.
 constexpr double kFrontGain = 0.02;
 constexpr double kMaxFrontStep = 1.0 * kDegree;
-// First and last point are believed when near the median of their neighbours.
+// First and last point are accepted when they are near the median of their neighbours.
 constexpr std::size_t kMaxNeighbours = 64;
 constexpr double kNearNeighbours = 2.0 * kDegree;
 
@@ -32,17 +32,17 @@ double HeadAzimuth(const SpinModel& model, const CloudPoints& points,
   return has_offset ? azimuth - model.ring_offset_rad[rings[i]] : azimuth;
 }
 
-// Median of the wrapped differences to `value`, or 0 when `value` itself is near it.
+// Returns the median of the wrapped differences to `value`, or 0 when `value` itself is near it.
 double StrayCorrection(std::vector<double> differences) {
   const double median = Median(std::move(differences));
   return std::abs(median) > kNearNeighbours ? median : 0.0;
 }
 
-// The front of one ring, or of all rings together: follows the angles seen so far.
+// Follows the front of one ring, or of all rings together, through the angles seen so far.
 class Front {
  public:
   explicit Front(double at_rad) : at_rad_(at_rad) {}
-  // The angle equal to `angle` up to whole turns that is next to the front.
+  // Returns the angle that equals `angle` up to whole turns and is nearest to the front.
   double Unwrap(double angle) {
     const double ahead = PositiveTurn(angle - at_rad_ + kBackwardSlack) - kBackwardSlack;
     const double unwrapped = at_rad_ + ahead;
@@ -86,7 +86,7 @@ UnwrappedSweep UnwrapRings(const SpinModel& model, const CloudPoints& points,
   for (std::size_t i = 0; i < n; ++i) {
     if (!first[rings[i]]) first[rings[i]] = HeadAzimuth(model, points, rings, i);
   }
-  // Rings start together, but returns may be missing: the median start, less surprises.
+  // Rings start together, but returns may be missing: the median start is robust against them.
   std::vector<double> differences;
   const double any = HeadAzimuth(model, points, rings, 0);
   for (const auto& azimuth : first) {
@@ -146,7 +146,7 @@ void SpinRate::Add(Timestamp stamp, const UnwrappedSweep& sweep, double directio
     const double seconds = SecondsBetween(*last_stamp_, stamp);
     constexpr double kMaxDeviation = 0.2;
     if (seconds > 0.0 && std::abs(turned / seconds / radps_ - 1.0) < kMaxDeviation) {
-      constexpr double kForget = 0.98;  // about five seconds at 10 Hz
+      constexpr double kForget = 0.98;  // a time constant of about five seconds at 10 Hz
       turned_rad_ = kForget * turned_rad_ + turned;
       seconds_ = kForget * seconds_ + seconds;
       radps_ = turned_rad_ / seconds_;

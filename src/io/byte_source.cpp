@@ -18,7 +18,7 @@ constexpr std::size_t kBlockBytes = 64 * 1024;
 class Refill {
  public:
   explicit Refill(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {}
-  // What is waiting; reads a block when nothing is. Empty at the end.
+  // Returns the waiting bytes, and reads a block if there are none. Empty at the end.
   std::span<std::uint8_t> Waiting() {
     if (begin_ == end_) {
       begin_ = 0;
@@ -61,7 +61,7 @@ class Lz4Source : public ByteSource {
       if (damaged_) break;
       input_.Consume(consumed);
       filled += produced;
-      if (consumed == 0 && produced == 0) break;  // the end, of the frame or of the file
+      if (consumed == 0 && produced == 0) break;  // end of the frame or of the file
     }
     return filled;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One cloud of a recording to one sweep, by the rules that its first clouds gave.
+// Converts one cloud of a recording to one sweep, by the rules derived from its first clouds.
 #pragma once
 
 #include "lio/io/rosbag_convert.hpp"
@@ -10,19 +10,19 @@ namespace lio {
 
 enum class CloudStatus {
   kOk,
-  kEmpty,        // not one usable return
-  kWrongFields,  // no x y z, or the point time that the others have is missing
-  kBadTime,      // point times that are no sweep near the stamp
+  kEmpty,        // there is no usable return
+  kWrongFields,  // x, y, z or the point time that the other clouds have is missing
+  kBadTime,      // the point times form no sweep near the stamp
 };
 
 class CloudToSweep {
  public:
-  // `rules` outlives the object.
+  // `rules` must outlive the object.
   explicit CloudToSweep(const CloudRules& rules)
       : rules_(&rules), spin_rate_(rules.spin.rate_radps) {}
 
   CloudStatus Convert(const RosCloud& cloud, TimedSweep& sweep);
-  const CloudPoints& points() const { return points_; }  // of the last cloud
+  const CloudPoints& points() const { return points_; }  // points of the last cloud
 
  private:
   std::optional<std::vector<std::int64_t>> Instants(const RosCloud& cloud,

@@ -16,7 +16,7 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr std::int64_t kGpsEpochUnix = 315'964'800;  // 1980-01-06 00:00:00 UTC
 constexpr std::int64_t kWeekSeconds = 604'800;
 
-// The first of these fields that is there.
+// Returns the first of these fields that exists.
 std::optional<double> Find(const RosNumbers& numbers,
                            std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
@@ -26,7 +26,7 @@ std::optional<double> Find(const RosNumbers& numbers,
   return {};
 }
 
-// A status of four bytes, or of one field.
+// Reads a status that has four bytes or one field.
 std::optional<double> FindStatus(const RosNumbers& numbers) {
   const auto status = Find(numbers, {"ins_status.status", "ins_status", "status"});
   if (status) return status;
@@ -48,8 +48,8 @@ Timestamp FromGps(double week, double seconds_of_week) {
          Duration::FromSeconds(seconds_of_week);
 }
 
-// Drivers name a field of milliseconds "gps_week_seconds": the reading nearer to when the row was
-// received is the right one.
+// Some drivers name a field of milliseconds "gps_week_seconds", so the unit that puts the stamp
+// nearer to the row's receive time is used.
 std::optional<Timestamp> FindStamp(const RosNumbers& numbers, Timestamp received) {
   const auto week =
       Find(numbers, {"nov_header.gps_week_number", "header.gps_week", "header.week", "gps_week"});
@@ -159,7 +159,7 @@ int LeapSeconds(std::int64_t gps_s) {
     std::int64_t from_gps_s;
     int leap_s;
   };
-  // From IERS Bulletin C; the instants are the new offsets' beginnings in GPS time.
+  // The steps are from IERS Bulletin C; the instants are the new offsets' beginnings in GPS time.
   constexpr std::array<Step, 5> kSteps = {{{1'167'264'018, 18},  // 2017-01-01
                                            {1'119'744'017, 17},  // 2015-07-01
                                            {1'025'136'016, 16},  // 2012-07-01

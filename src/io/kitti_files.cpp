@@ -21,7 +21,7 @@ namespace {
 constexpr int kNumBeams = 64;  // HDL-64E
 constexpr float kReflectanceScale = 255.0f;
 
-// A whole number of exactly `digits` digits at `at`.
+// Parses a whole number of exactly `digits` digits at `at`.
 std::optional<int> Digits(std::string_view text, std::size_t at, std::size_t digits) {
   int value = 0;
   if (at + digits > text.size()) return {};
@@ -145,7 +145,7 @@ std::optional<std::vector<LidarPoint>> ReadKittiScan(const std::filesystem::path
 
 void AssignKittiRings(std::vector<LidarPoint>& points) {
   int ring = kNumBeams - 1;
-  bool has_turned = false;  // the present ring has come round to behind the car's right side
+  bool has_turned = false;  // the ring has passed the rear on the car's right side
   for (LidarPoint& point : points) {
     const float azimuth = std::atan2(point.y_m, point.x_m);
     constexpr float kQuarter = static_cast<float>(std::numbers::pi / 2.0);

@@ -52,8 +52,8 @@ fs::path FindPoses(const KittiOdometryOptions& options) {
   const fs::path usual =
       sequence.parent_path().parent_path() / "poses" / (sequence.filename().string() + ".txt");
   if (fs::exists(usual)) return usual;
-  throw InputError("--truth needs the sequence's poses: not at " + usual.string() +
-                   ", name them with --poses");
+  throw InputError("--truth needs the sequence's poses, which are not at " + usual.string() +
+                   ": name them with --poses");
 }
 
 void WriteTruth(const KittiOdometryOptions& options, const std::vector<Timestamp>& times,

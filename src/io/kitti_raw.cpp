@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The drive itself, or the one drive in a folder of a day.
+// Returns the drive itself, or the only drive in a folder of a day.
 fs::path FindDrive(const fs::path& given) {
   if (!fs::is_directory(given)) throw InputError(given.string() + ": no such folder");
   const auto is_drive = [](const fs::path& folder) {
@@ -33,10 +33,10 @@ fs::path FindDrive(const fs::path& given) {
   }
   if (found.size() == 1) return found.front();
   throw InputError(given.string() + ": no KITTI raw drive: it has no velodyne_points/ and oxts/" +
-                   (found.empty() ? "" : ", but several drives: name one"));
+                   (found.empty() ? "" : ", but holds several drives: name one of them"));
 }
 
-// Files of data/ with the stamps of the same numbers.
+// Holds the files of data/ with the stamps of the same numbers.
 struct Stamped {
   std::vector<Timestamp> stamps;
   std::map<int, fs::path> files;
@@ -76,8 +76,8 @@ std::vector<OxtsRow> ReadOxts(const fs::path& folder, KittiRawReport& report) {
   return rows;
 }
 
-// How long each sweep takes: from the stamps of its start and end where the release has them, else
-// the usual distance of sweeps.
+// Returns the duration of each sweep: from the stamps of its start and end if the release has them,
+// else the usual interval between sweeps.
 std::vector<Duration> Turns(const fs::path& folder, const std::vector<Timestamp>& middles) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < middles.size(); ++i) {
@@ -175,11 +175,11 @@ void RawConversion::AddScan(std::vector<LidarPoint> points, Timestamp middle, Du
 }
 
 void WriteRig(const fs::path& drive, const fs::path& file) {
-  // One folder up, whether or not the drive was named with a slash at its end.
+  // The calibration is one folder up, whether or not the drive was named with a slash at its end.
   const fs::path source = (fs::absolute(drive) / "..").lexically_normal() / "calib_imu_to_velo.txt";
   const fs::path calibration = fs::exists(source) ? source : drive / "calib_imu_to_velo.txt";
   if (!fs::exists(calibration)) {
-    throw InputError(source.string() + ": not there, but --rig needs it");
+    throw InputError(source.string() + ": does not exist, but --rig needs it");
   }
   auto rows = ReadKittiCalibration(calibration);
   const Pose T_lidar_imu = ToPose(rows["R"], rows["T"], calibration.string());

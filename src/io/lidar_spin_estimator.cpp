@@ -23,7 +23,7 @@ constexpr double kOffsetBin = 2.0 * kBackwardSlack / LidarSpinEstimator::kNumOff
 constexpr double kMinHz = 1.0;
 constexpr double kMaxHz = 100.0;
 
-// Each angle less the mean of those around it that are no strays; NaN at both ends.
+// Returns each angle minus the mean of the angles around it that are no outliers; NaN at both ends.
 std::vector<double> DifferencesToMean(const std::vector<double>& angles,
                                       const std::vector<bool>& is_stray) {
   const std::size_t n = angles.size();
@@ -78,11 +78,12 @@ void LidarSpinEstimator::Add(const CloudPoints& points, std::span<const std::uin
   seen_.push_back(seen);
 }
 
-// In the order of firing, a ring's azimuth minus that of its neighbours in time, of all rings, is
-// the ring's offset.
+// In the order of firing, a ring's offset is its azimuth minus that of its neighbours in time in
+// all rings.
 void LidarSpinEstimator::AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
                                     const UnwrappedSweep& sweep) {
-  // Twice: strays are known by the first means, and left out of the second ones.
+  // The means are computed twice: the first ones identify outliers, which the second ones leave
+  // out.
   std::vector<bool> is_stray(rings.size(), false);
   std::vector<double> difference = DifferencesToMean(sweep.turned_rad, is_stray);
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -92,7 +93,7 @@ void LidarSpinEstimator::AddOffsets(std::span<const std::uint16_t> rings, const 
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const double offset = seen.direction * difference[i];
     const double bin = std::floor((offset + kBackwardSlack) / kOffsetBin);
-    if (!(bin >= 0.0 && bin < kNumOffsetBins)) continue;  // no mean here, or next to a gap
+    if (!(bin >= 0.0 && bin < kNumOffsetBins)) continue;  // there is no mean here, or a gap is near
     if (rings[i] >= offsets_.size()) offsets_.resize(rings[i] + std::size_t{1});
     ++offsets_[rings[i]][static_cast<std::size_t>(bin)];
   }
@@ -113,7 +114,8 @@ SpinModel LidarSpinEstimator::Decide(const std::optional<BeamTable>& table) cons
   constexpr double kAllRound = 0.8;
   if (model.order == PointOrder::kNone && coverage_ratio < kAllRound) {
     throw InputError(
-        "the clouds have no point time, and it cannot be rebuilt: the points are in no order and "
+        "the clouds have no point time, and it cannot be rebuilt from azimuth: the points are in "
+        "no known order and "
         "cover only " +
         fmt::format("{:.2g}", 100.0 * coverage_ratio) + " % of the circle");
   }
@@ -135,7 +137,7 @@ SpinModel LidarSpinEstimator::Decide(const std::optional<BeamTable>& table) cons
   return model;
 }
 
-// Empty when they are no more than the turn between two firings: then beams have no offsets.
+// Empty when the offsets are no more than the turn between two firings: then beams have no offsets.
 std::vector<double> LidarSpinEstimator::RingOffsets() const {
   std::vector<double> offsets;
   double largest = 0.0;
@@ -172,13 +174,13 @@ double LidarSpinEstimator::Rate(double direction, PointOrder order, double fallb
   }
   const double typical = Median(rates);
   if (!(typical > kMinHz * kTurn) || typical > kMaxHz * kTurn) {
-    how = " (assumed: the stamps tell no rate)";
+    how = " (assumed: the stamps do not determine the rate)";
     return fallback_hz * kTurn;
   }
   double sum_turned = 0.0;
   double sum_seconds = 0.0;
   for (std::size_t k = 0; k < rates.size(); ++k) {
-    constexpr double kMaxDeviation = 0.2;  // more: a sweep was lost
+    constexpr double kMaxDeviation = 0.2;  // a larger one means that a sweep was lost
     if (std::abs(rates[k] / typical - 1.0) > kMaxDeviation) continue;
     sum_turned += turned[k];
     sum_seconds += seconds[k];

@@ -62,7 +62,7 @@ std::vector<ImuSample> OxtsImu(const std::vector<OxtsRow>& rows, std::optional<d
     samples.push_back({stamp, a.w_imu_radps + share * (b.w_imu_radps - a.w_imu_radps),
                        a.f_imu_mps2 + share * (b.f_imu_mps2 - a.f_imu_mps2)});
   }
-  if (samples.empty()) {  // one row
+  if (samples.empty()) {  // there was only one row
     samples.push_back({rows.front().stamp, rows.front().w_imu_radps, rows.front().f_imu_mps2});
   }
   return samples;

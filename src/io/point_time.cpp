@@ -15,13 +15,14 @@ namespace {
 
 constexpr std::array kUnits = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
-constexpr double kMaxDelaySeconds = 1.0;         // more between stamp and reception: other clocks
-constexpr double kEarliestDelaySeconds = -0.02;  // a little before its time: clock jitter
+// A longer delay between stamp and reception means different clocks.
+constexpr double kMaxDelaySeconds = 1.0;
+constexpr double kEarliestDelaySeconds = -0.02;  // slightly negative delays are clock jitter
 constexpr double kMaxFromStampSeconds = 10.0;    // points this far from their stamp are damage
-constexpr double kMinEpochSeconds = 1.0;         // a sweep that begins later than this counts from
-                                                 // some epoch, not from the stamp
-// A delay of this many sweeps or more means that the stamp is the start of the sweep. Less than
-// one, because the last returns of a sweep may be missing.
+// A sweep that begins later than this counts from some epoch, not from the stamp.
+constexpr double kMinEpochSeconds = 1.0;
+// A delay of this many sweeps or more means that the stamp is the start of the sweep. It is
+// less than one, because the last returns of a sweep may be missing.
 constexpr double kStartDelayRatio = 0.8;
 
 bool IsSweep(double seconds) {
@@ -50,7 +51,8 @@ TimeUnit ChooseUnit(double raw_span, std::optional<TimeUnit> wish) {
                    ", which is a sweep of 5 to 500 ms in no unit");
 }
 
-// Point times that count from an epoch: usable as they are when it is the stamps' epoch.
+// Handles point times that count from an epoch: they are used as they are when it is the stamps'
+// epoch.
 TimeAnchor AnchorOfEpoch(const std::vector<CloudObservation>& clouds, double unit_s,
                          const PointTimeWishes& wishes, std::optional<double> imu_delay_s,
                          PointTimeRule& rule) {
@@ -66,8 +68,7 @@ TimeAnchor AnchorOfEpoch(const std::vector<CloudObservation>& clouds, double uni
     const bool starts = std::abs(before) <= std::abs(after);
     rule.stamp = starts ? StampMeaning::kSweepStart : StampMeaning::kSweepEnd;
     rule.stamp_reason = "it is " + fmt::format("{:.3g}", 1e3 * std::abs(starts ? before : after)) +
-                        " ms from the " + (starts ? "first" : "last") +
-                        " point's own absolute time";
+                        " ms from the " + (starts ? "first" : "last") + " point's absolute time";
   } else {
     const StampJudgement judged = JudgeStamp(clouds, rule.sweep_s, imu_delay_s);
     rule.stamp = judged.meaning;
@@ -79,13 +80,13 @@ TimeAnchor AnchorOfEpoch(const std::vector<CloudObservation>& clouds, double uni
   return rule.stamp == StampMeaning::kSweepStart ? TimeAnchor::kFirstPoint : TimeAnchor::kLastPoint;
 }
 
-// Point times that count from the stamp, or back from it.
+// Handles point times that count from the stamp, or back from it.
 TimeAnchor AnchorOfOffsets(const std::vector<CloudObservation>& clouds, double unit_s,
                            const PointTimeWishes& wishes, std::optional<double> imu_delay_s,
                            PointTimeRule& rule) {
   const double last = unit_s * Median(Collect(clouds, [](const auto& c) { return c.raw_last; }));
   const double first = unit_s * Median(Collect(clouds, [](const auto& c) { return c.raw_first; }));
-  constexpr double kSlack = 0.1;  // of a sweep
+  constexpr double kSlack = 0.1;  // share of a sweep
   if (last < kSlack * rule.sweep_s) {
     rule.stamp = wishes.stamp.value_or(StampMeaning::kSweepEnd);
     rule.stamp_reason = "point times are negative, up to it";
@@ -103,7 +104,7 @@ TimeAnchor AnchorOfOffsets(const std::vector<CloudObservation>& clouds, double u
 }
 
 std::int64_t ToNanoseconds(double raw, double unit_s) {
-  // Whole units first: an epoch time times 1e9 in one go would lose digits.
+  // The whole units are converted first: an epoch time times 1e9 in one step would lose digits.
   const double per_unit = std::round(unit_s * 1e9);
   const double whole = std::floor(raw);
   return static_cast<std::int64_t>(whole * per_unit) + std::llround((raw - whole) * per_unit);
@@ -140,17 +141,17 @@ StampJudgement JudgeStamp(const std::vector<CloudObservation>& clouds, double sw
   std::string what = "clouds come " + fmt::format("{:.4g}", 1e3 * delay) + " ms after their stamps";
   if (std::all_of(delays.begin(), delays.end(), [](double d) { return std::abs(d) < 1e-6; })) {
     return {StampMeaning::kSweepStart,
-            "assumed: receive times equal the stamps and tell nothing (--stamp end if wrong)"};
+            "assumed: receive times equal the stamps and are no evidence (--stamp end if wrong)"};
   }
   const auto sane = [](double d) { return d >= kEarliestDelaySeconds && d <= kMaxDelaySeconds; };
   if (!sane(delay) && imu_delay_s) {
     delay -= *imu_delay_s;
     what = "clouds come " + fmt::format("{:.4g}", 1e3 * delay) +
-           " ms after their stamps when the IMU's delay is taken for the clocks' offset";
+           " ms after their stamps when the IMU's delay is taken as the clock offset";
   }
   if (!sane(delay)) {
     return {StampMeaning::kSweepStart,
-            "assumed: the lidar's clock is not the recorder's (--stamp end if wrong)"};
+            "assumed: the lidar and the recorder have different clocks (--stamp end if wrong)"};
   }
   const bool starts = delay >= kStartDelayRatio * sweep_s;
   return {starts ? StampMeaning::kSweepStart : StampMeaning::kSweepEnd,
@@ -185,7 +186,7 @@ std::optional<std::vector<std::int64_t>> PointInstants(const PointTimeRule& rule
   if (raw.empty()) return std::vector<std::int64_t>();
   const double unit_s = SecondsPer(rule.unit);
   const auto [first, last] = std::minmax_element(raw.begin(), raw.end());
-  double origin = 0.0;  // raw time that the stamp stands for
+  double origin = 0.0;  // raw time to which the stamp refers
   if (rule.anchor == TimeAnchor::kEpoch) origin = 1e-9 * static_cast<double>(stamp.ns) / unit_s;
   if (rule.anchor == TimeAnchor::kFirstPoint) origin = *first;
   // The last returns of a sweep may be missing: then the stamp is later than its last point.

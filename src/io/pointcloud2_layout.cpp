@@ -22,7 +22,8 @@ bool IsFloat(const CloudField& field) {
   return field.type == FieldType::kFloat32 || field.type == FieldType::kFloat64;
 }
 
-// Casts that are defined for every input: a float that is no integer of the target's range gives 0.
+// Converts between number types, defined for every input: a float that is no integer of the
+// target's range gives 0.
 template <typename Out, typename Source>
 Out Cast(Source value) {
   if constexpr (std::is_integral_v<Out> && std::is_floating_point_v<Source>) {
@@ -73,7 +74,7 @@ double ReadFloat(const RosCloud& cloud, const CloudField& field, std::size_t sta
                                            : LoadAs<double>(at, cloud.big_endian);
 }
 
-// Where the kept points begin in the cloud's data.
+// Returns where the kept points begin in the cloud's data.
 std::vector<std::size_t> KeptStarts(const RosCloud& cloud, const PointLayout& layout,
                                     CloudPoints& points) {
   const bool organised = cloud.height > 1 && cloud.width > 1;

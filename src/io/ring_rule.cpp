@@ -10,7 +10,7 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kMaxRings = 1024;
-constexpr std::int64_t kMinPointsOfRing = 20;  // fewer say nothing about a ring's elevation
+constexpr std::int64_t kMinPointsOfRing = 20;  // fewer are not enough for a ring's elevation
 
 double Elevation(const CloudPoints& points, std::size_t i) {
   return std::atan2(points.z_m[i], std::hypot(points.x_m[i], points.y_m[i]));
@@ -28,7 +28,7 @@ void RingObserver::Elevations::Add(std::size_t number, double elevation_rad) {
   ++count[number];
 }
 
-// `order`: how the source counts, for people.
+// `order` is set to the source's way of counting, for the user.
 std::vector<std::uint16_t> RingObserver::Elevations::RingOfSource(std::string& order) const {
   std::vector<std::uint16_t> seen;  // source numbers, ascending
   for (std::size_t i = 0; i < count.size(); ++i) {
@@ -45,11 +45,11 @@ std::vector<std::uint16_t> RingObserver::Elevations::RingOfSource(std::string& o
   order = "counted from below";
   if (rising_ratio >= kClear) return rings;
   if (rising_ratio <= 1.0 - kClear) {
-    order = "counted from above, turned round";
+    order = "counted from above and therefore reversed";
     std::reverse(rings.begin(), rings.end());
     return rings;
   }
-  order = "in no order, sorted by measured elevation";
+  order = "in no order and therefore sorted by measured elevation";
   std::sort(seen.begin(), seen.end(), [&](auto a, auto b) { return mean(a) < mean(b); });
   std::fill(rings.begin(), rings.end(), std::uint16_t{0});
   for (std::size_t k = 0; k < seen.size(); ++k) rings[seen[k]] = static_cast<std::uint16_t>(k);
@@ -85,7 +85,7 @@ RingRule RingObserver::Decide(const std::optional<BeamTable>& table) const {
   } else if (table) {
     rule.source = RingRule::Source::kModel;
     rule.table = *table;
-    rule.description = "from elevation, by the beams of " + table->model;
+    rule.description = "from elevation, with the beams of " + table->model;
   } else if (by_row_.count.size() > 1 && max_height_ < max_width_ &&
              max_height_ <= kMaxOrganisedRings) {
     rule.source = RingRule::Source::kRow;
@@ -97,7 +97,7 @@ RingRule RingObserver::Decide(const std::optional<BeamTable>& table) const {
     rule.ring_of_source = by_column_.RingOfSource(order);
     rule.description = "from the cloud's columns, " + order;
   } else {
-    rule.description = "none in the source, all points get 0 (--lidar MODEL rebuilds them)";
+    rule.description = "the source has none: all points get 0 (--lidar MODEL rebuilds them)";
   }
   return rule;
 }

@@ -12,7 +12,7 @@ constexpr std::size_t kMaxCdrPadding = 7;   // writers round a message up to 4 o
 
 RosCursor::RosCursor(ByteView bytes, RosEncoding encoding) : bytes_(bytes), encoding_(encoding) {
   if (encoding_ == RosEncoding::kRos1) return;
-  // Identifiers 0 and 1: plain CDR, big- and little-endian.
+  // The identifiers 0 and 1 are plain CDR, big- and little-endian.
   ok_ = bytes_.size() >= kCdrHeaderBytes && bytes_[0] == 0 && bytes_[1] <= 1;
   big_endian_ = ok_ && bytes_[1] == 0;
   if (ok_) bytes_ = bytes_.subspan(kCdrHeaderBytes);

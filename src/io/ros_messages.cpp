@@ -16,7 +16,8 @@ Vector3 ReadVector(RosCursor& cursor) {
   return {x, y, z};
 }
 
-// geometry_msgs/Pose; nothing when it is not finite or its quaternion is not a rotation.
+// Reads a geometry_msgs/Pose; returns nothing when it is not finite or its quaternion is not a
+// rotation.
 std::optional<Pose> ReadPose(RosCursor& cursor) {
   Pose pose;
   pose.translation = ReadVector(cursor);
@@ -35,14 +36,14 @@ bool ReadFields(RosCursor& cursor, std::vector<CloudField>& fields) {
     field.name = cursor.ReadString();
     field.offset = cursor.Read<std::uint32_t>();
     const auto type = cursor.Read<std::uint8_t>();
-    cursor.Read<std::uint32_t>();  // count: further elements do not matter here
+    cursor.Read<std::uint32_t>();  // count; further elements are not needed
     if (!cursor.ok() || type < 1 || type > 8) return false;
     field.type = static_cast<FieldType>(type);
   }
   return cursor.ok();
 }
 
-// Lengths agree with each other. Some drivers leave row_step 0: then rows are packed.
+// Checks that lengths agree. Some drivers leave row_step 0: then rows are packed.
 bool IsConsistent(RosCloud& cloud) {
   const std::uint64_t packed_row = std::uint64_t{cloud.width} * cloud.point_step;
   if (cloud.row_step == 0 && packed_row <= UINT32_MAX) {
@@ -119,7 +120,7 @@ std::optional<RosCloud> DecodeRosCloud(ByteView bytes, RosEncoding encoding) {
   cloud.point_step = cursor.Read<std::uint32_t>();
   cloud.row_step = cursor.Read<std::uint32_t>();
   cloud.data = cursor.ReadBytes(cursor.ReadCount(1));
-  cursor.Read<std::uint8_t>();  // is_dense: never believed
+  cursor.Read<std::uint8_t>();  // is_dense; not used because drivers set it wrongly
   if (!cursor.AtEnd() || !IsConsistent(cloud)) return {};
   return cloud;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxDepth = 16;  // nested messages; ROS itself has none that deep
 constexpr int kMaxNamedElements = 16;
 constexpr int kMaxFixedCount = 1 << 20;
-constexpr int kMaxValues = 1 << 22;  // of one message
+constexpr int kMaxValues = 1 << 22;  // values of one message
 
 struct Primitive {
   std::string_view name;
@@ -65,7 +65,7 @@ bool IsRule(std::string_view line) {
   return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
-// The message that `type`, written in a field of a message of package `package`, means.
+// Returns whether `full` is the message that `type` means in a field of a message of `package`.
 bool Matches(std::string_view full, std::string_view type, std::string_view package) {
   if (full == type) return true;
   if (type == "Header") return full == "std_msgs/Header";
@@ -92,15 +92,16 @@ std::optional<RosSchema> RosSchema::Parse(std::string_view definition, std::stri
   return schema;
 }
 
-// "float64[9] covariance", "uint8 GOOD = 3", "string<=10 name".
+// Parses a line such as "float64[9] covariance", "uint8 GOOD = 3" or "string<=10 name".
 bool RosSchema::ParseLine(std::string_view line, Message& message) const {
   const std::size_t blank = line.find_first_of(" \t");
   if (blank == std::string_view::npos) return false;
   std::string_view type = line.substr(0, blank);
   std::string_view rest = Trim(line.substr(blank));
-  if (rest.find('=') != std::string_view::npos) return true;  // a constant
+  if (rest.find('=') != std::string_view::npos) return true;  // this is a constant
   Field field;
-  field.name = rest.substr(0, rest.find_first_of(" \t"));  // ROS 2 writes a default behind
+  field.name =
+      rest.substr(0, rest.find_first_of(" \t"));  // ROS 2 writes a default value after the name
   const std::size_t bracket = type.find('[');
   if (bracket != std::string_view::npos) {
     const std::string_view count = type.substr(bracket + 1);
@@ -120,7 +121,7 @@ bool RosSchema::ParseLine(std::string_view line, Message& message) const {
   return true;
 }
 
-// What the field's type is. False: a message that is not defined.
+// Finds the field's type. Returns false for a message that is not defined.
 bool RosSchema::LinkField(Field& field, const std::string& package) const {
   if (FindPrimitive(field.type) != nullptr) {
     field.kind = Kind::kNumber;
@@ -139,7 +140,7 @@ bool RosSchema::LinkField(Field& field, const std::string& package) const {
   return true;
 }
 
-// Finds the message of every field that is one. False when a type is not defined.
+// Finds the message of every field that is one. Returns false when a type is not defined.
 bool RosSchema::Link() {
   for (Message& message : messages_) {
     const std::size_t slash = message.type.find('/');

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads a ROS 1 bag from front to back. The index at its end is used for two things only: to know
-// all topics early, and to tell how much of a cut bag is missing.
+// Reads a ROS 1 bag from front to back. The index at its end serves only two purposes: to know all
+// topics early, and to find how much of a truncated bag is missing.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -15,7 +15,7 @@ namespace lio {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar's message
+constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar message is larger
 constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
 
 class Rosbag1Reader : public BagReader {
@@ -33,6 +33,13 @@ class Rosbag1Reader : public BagReader {
 
  private:
   enum class Step { kMessage, kGoOn, kEnd };
+  struct Chunk {
+    std::uint64_t begin = 0;  // file positions of the present chunk's data
+    std::uint64_t end = 0;
+    std::uint64_t missing = 0;     // bytes of the last chunk that are missing from the file
+    std::uint64_t inflated = 0;    // size to which the present chunk should inflate
+    std::uint64_t understood = 0;  // bytes of the chunk's records that were sound
+  };
 
   void ReadBagHeader();
   void ReadTopicsOfIndex();
@@ -51,11 +58,7 @@ class Rosbag1Reader : public BagReader {
   std::uint64_t position_ = 0;  // start of the outer record being read
   std::unique_ptr<FileSpan> outside_;
   std::unique_ptr<ByteSource> inside_;  // content of the present chunk
-  std::uint64_t chunk_begin_ = 0;       // file positions of the present chunk's data
-  std::uint64_t chunk_end_ = 0;
-  std::uint64_t chunk_missing_ = 0;     // bytes of the last chunk that the file does not have
-  std::uint64_t chunk_inflated_ = 0;    // what the present chunk should inflate to
-  std::uint64_t chunk_understood_ = 0;  // how far its records were sound
+  Chunk chunk_;
   bool finished_ = false;
 
   RecordHeader bag_header_;
@@ -87,7 +90,7 @@ void Rosbag1Reader::ReadBagHeader() {
   const RecordStatus status = ReadRecordHeader(*outside_, bag_header_);
   if (status != RecordStatus::kOk || bag_header_.op != RecordOp::kBagHeader) {
     damage_.cut_short = true;
-    Damage("no bag header");
+    Damage("there is no bag header");
     damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
     finished_ = true;
     return;
@@ -132,7 +135,8 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
   if (status != RecordStatus::kOk || (!fits && header.op != RecordOp::kChunk)) {
     damage_.cut_short = true;
     damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
-    Damage(status == RecordStatus::kBroken ? "no record" : "the file ends inside a record");
+    Damage(status == RecordStatus::kBroken ? "bytes that are no record"
+                                           : "the file ends inside a record");
     return Step::kEnd;
   }
   if (header.op == RecordOp::kChunk) {
@@ -151,18 +155,18 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
 
 void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   ++num_chunks_;
-  chunk_begin_ = Here();
+  chunk_.begin = Here();
   // A recorder that dies leaves the size of its last chunk at zero.
   const bool open = header.data_bytes == 0 && damage_.not_closed;
-  chunk_end_ = open ? size_ : chunk_begin_ + header.data_bytes;
-  chunk_inflated_ = header.uncompressed_bytes;
-  if (chunk_end_ > size_) {
+  chunk_.end = open ? size_ : chunk_.begin + header.data_bytes;
+  chunk_.inflated = header.uncompressed_bytes;
+  if (chunk_.end > size_) {
     damage_.cut_short = true;
     Damage("the file ends inside a chunk");
-    chunk_missing_ = chunk_end_ - size_;
-    chunk_end_ = size_;
+    chunk_.missing = chunk_.end - size_;
+    chunk_.end = size_;
   }
-  auto span = std::make_unique<FileSpan>(file_, chunk_end_ - chunk_begin_);
+  auto span = std::make_unique<FileSpan>(file_, chunk_.end - chunk_.begin);
   if (header.compression == "none") {
     inside_ = std::move(span);
   } else if (header.compression == "lz4") {
@@ -171,14 +175,14 @@ void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
     inside_ = MakeBz2Source(std::move(span));
   } else {
     ++damage_.num_chunks_damaged;
-    damage_.lost_bytes += static_cast<std::int64_t>(chunk_end_ - chunk_begin_);
+    damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end - chunk_.begin);
     Damage("chunk of unknown compression '" + header.compression.substr(0, 20) + "'");
     inside_ = std::make_unique<FileSpan>(file_, 0);
   }
 }
 
 Rosbag1Reader::Step Rosbag1Reader::StepInside(BagMessage& message) {
-  chunk_understood_ = inside_->num_delivered();
+  chunk_.understood = inside_->num_delivered();
   RecordHeader header;
   const RecordStatus status = ReadRecordHeader(*inside_, header);
   if (status == RecordStatus::kOk && header.op == RecordOp::kMessage) {
@@ -193,25 +197,25 @@ Rosbag1Reader::Step Rosbag1Reader::StepInside(BagMessage& message) {
   return Step::kGoOn;
 }
 
-// `status`: kEnd when the chunk ended between two records, as it should.
+// `status` is kEnd when the chunk ended between two records, as it should.
 void Rosbag1Reader::LeaveChunk(RecordStatus status) {
-  if (status != RecordStatus::kEnd && chunk_end_ == size_) {
+  if (status != RecordStatus::kEnd && chunk_.end == size_) {
     damage_.cut_short = true;
     Damage("the last chunk is incomplete");
   } else if (status != RecordStatus::kEnd) {
     ++damage_.num_chunks_damaged;
     Damage("broken chunk");
-    const double understood_ratio = chunk_inflated_ == 0
+    const double understood_ratio = chunk_.inflated == 0
                                         ? 0.0
-                                        : std::min(1.0, static_cast<double>(chunk_understood_) /
-                                                            static_cast<double>(chunk_inflated_));
-    damage_.lost_bytes += static_cast<std::int64_t>(static_cast<double>(chunk_end_ - chunk_begin_) *
+                                        : std::min(1.0, static_cast<double>(chunk_.understood) /
+                                                            static_cast<double>(chunk_.inflated));
+    damage_.lost_bytes += static_cast<std::int64_t>(static_cast<double>(chunk_.end - chunk_.begin) *
                                                     (1.0 - understood_ratio));
   }
   inside_.reset();
   file_.clear();
-  file_.seekg(static_cast<std::streamoff>(chunk_end_));
-  outside_ = std::make_unique<FileSpan>(file_, size_ - chunk_end_);
+  file_.seekg(static_cast<std::streamoff>(chunk_.end));
+  outside_ = std::make_unique<FileSpan>(file_, size_ - chunk_.end);
 }
 
 Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteSource& source,
@@ -234,7 +238,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   }
   if (!sound) {
     ++damage_.num_messages_damaged;
-    Damage("a message record without topic, time or sane length");
+    Damage("a message record without topic or time, or of impossible length");
     return Step::kGoOn;
   }
   if (!begin_time_) begin_time_ = header.time;
@@ -246,7 +250,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   return Step::kMessage;
 }
 
-// False when the source ends inside.
+// Returns false when the source ends inside.
 bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& source) {
   std::vector<std::uint8_t> data;
   if (header.data_bytes > kMaxConnectionBytes) return false;
@@ -270,7 +274,7 @@ void Rosbag1Reader::Finish() {
   finished_ = true;
   position_ = size_;
   const std::uint64_t index = bag_header_.index_position.value_or(0);
-  const std::uint64_t missing = std::max(chunk_missing_, index > size_ ? index - size_ : 0);
+  const std::uint64_t missing = std::max(chunk_.missing, index > size_ ? index - size_ : 0);
   if (missing > 0) damage_.cut_short = true;
   damage_.lost_bytes += static_cast<std::int64_t>(missing);
   const bool complete =
@@ -278,7 +282,7 @@ void Rosbag1Reader::Finish() {
   if (index > 0 && !complete) {
     damage_.cut_short = true;
     Damage(std::to_string(num_chunks_) + " of " + std::to_string(bag_header_.num_chunks) +
-           " chunks are there");
+           " chunks exist");
   }
 }
 

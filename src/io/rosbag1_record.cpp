@@ -8,7 +8,7 @@
 namespace lio {
 namespace {
 
-// Headers hold a topic name at most; a megabyte is no header.
+// A header holds a topic name at most, so a megabyte is no header.
 constexpr std::uint32_t kMaxHeaderBytes = 1u << 20;
 constexpr std::size_t kGrowBytes = 1u << 20;
 

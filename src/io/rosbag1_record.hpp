@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Records of a ROS 1 bag, format 2.0: a header of name=value fields, then data. The format is
-// described at wiki.ros.org/Bags/Format/2.0.
+// Reads the records of a ROS 1 bag, format 2.0: a header of name=value fields, then data. The
+// format is described at wiki.ros.org/Bags/Format/2.0.
 #pragma once
 
 #include <cstdint>
@@ -42,18 +42,20 @@ struct RecordHeader {
 
 enum class RecordStatus {
   kOk,
-  kEnd,     // not one byte more
+  kEnd,     // there is not one byte more
   kCut,     // the source ends inside
-  kBroken,  // no record
+  kBroken,  // the bytes are no record
 };
 
 // Reads header and data length; the data itself comes next in `source`.
 RecordStatus ReadRecordHeader(ByteSource& source, RecordHeader& header);
 
-// Reads `count` bytes into `data`, growing it only as bytes arrive. False when there are fewer.
+// Reads `count` bytes into `data`, which grows only as bytes arrive. Returns false when there are
+// fewer.
 bool ReadRecordData(ByteSource& source, std::uint64_t count, std::vector<std::uint8_t>& data);
 
-// Calls `visit(name, value)` for each field of a header. False when the bytes are no header.
+// Calls `visit(name, value)` for each field of a header. Returns false when the bytes are no
+// header.
 template <typename Visit>
 bool VisitFields(ByteView bytes, Visit&& visit) {
   std::size_t at = 0;

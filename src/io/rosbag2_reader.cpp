@@ -19,9 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxMessageBytes2 = 1 << 28;  // 256 MiB: no lidar's message
+constexpr int kMaxMessageBytes2 = 1 << 28;  // 256 MiB: no lidar message is larger
 
-constexpr std::int64_t kMaxStampNs = 4'294'967'296'000'000'000;  // the year 2106, as ROS 1
+constexpr std::int64_t kMaxStampNs =
+    4'294'967'296'000'000'000;  // the year 2106, the limit of ROS 1, too
 
 struct CloseDatabase {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -42,7 +43,8 @@ std::string Text(sqlite3_stmt* row, int column) {
   return text == nullptr ? std::string() : reinterpret_cast<const char*>(text);
 }
 
-// Recorders make one. Without it, sorting would copy the whole bag: then rows come as written.
+// Recorders make an index. Without it, sorting would copy the whole bag, so rows are read in the
+// order in which they were written.
 bool HasTimestampIndex(sqlite3* database) {
   sqlite3_stmt* raw = nullptr;
   sqlite3_prepare_v2(database,
@@ -53,7 +55,7 @@ bool HasTimestampIndex(sqlite3* database) {
   return raw != nullptr && sqlite3_step(raw) == SQLITE_ROW;
 }
 
-// The file is shorter than its SQLite header says.
+// Returns true when the file is shorter than its SQLite header says.
 bool IsCut(const fs::path& path) {
   std::array<std::uint8_t, 32> header{};
   std::ifstream file(path, std::ios::binary);
@@ -64,7 +66,7 @@ bool IsCut(const fs::path& path) {
   return fs::file_size(path) < page_bytes * LoadAs<std::uint32_t>(header.data() + 28, true);
 }
 
-// Throws InputError for what this reader does not do.
+// Throws InputError for storage formats that this reader does not support.
 void CheckStorage(const YAML::Node& info, const fs::path& path) {
   const auto storage = info["storage_identifier"].as<std::string>("sqlite3");
   if (storage != "sqlite3") {
@@ -137,7 +139,7 @@ class Rosbag2Reader : public BagReader {
   std::size_t next_file_ = 0;
   Database database_;  // declared before its statement, closed after it
   Statement rows_;
-  std::map<std::int64_t, std::size_t> topic_of_id_;  // of the open file
+  std::map<std::int64_t, std::size_t> topic_of_id_;  // topics of the open file
   std::vector<BagTopic> topics_;
   std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
   std::optional<Timestamp> begin_time_;
@@ -154,14 +156,14 @@ Rosbag2Reader::Rosbag2Reader(const fs::path& path) : files_(FindFiles(path)) {
     std::map<std::int64_t, std::size_t> ignored;
     if (Database database = Open(file)) ReadTopics(database.get(), ignored);
   }
-  damage_ = BagDamage{};  // told again, and once, while reading
+  damage_ = BagDamage{};  // damage is counted anew, and once, while reading
   if (topics_.empty()) throw InputError(path.string() + ": no ROS 2 bag: no topics in it");
 }
 
 Database Rosbag2Reader::Open(const fs::path& path) {
   sqlite3* raw = nullptr;
   // A recorder that died leaves a write-ahead log beside the file, which an immutable connection
-  // would not see; without one, immutable lets read-only folders work.
+  // would not see. Without such a log, an immutable connection makes read-only folders work.
   const bool has_log = fs::exists(path.string() + "-wal") && fs::file_size(path.string() + "-wal");
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
@@ -177,7 +179,7 @@ Database Rosbag2Reader::Open(const fs::path& path) {
     return {};
   }
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxMessageBytes2);
-  // Lets SQLite read a file that is shorter than its header says, as far as it goes.
+  // This lets SQLite read a file that is shorter than its header says, as far as it goes.
   sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
   return database;
 }
@@ -202,7 +204,7 @@ void Rosbag2Reader::ReadTopics(sqlite3* database,
   ReadDefinitions(database);
 }
 
-// Recorders since ROS 2 Iron store the definitions, in a table of their own.
+// Recorders since ROS 2 Iron store the definitions in a table of their own.
 void Rosbag2Reader::ReadDefinitions(sqlite3* database) {
   sqlite3_stmt* raw = nullptr;
   sqlite3_prepare_v2(database,
@@ -233,7 +235,8 @@ bool Rosbag2Reader::OpenNextFile() {
     }
     topic_of_id_.clear();
     ReadTopics(database_.get(), topic_of_id_);
-    // A cut file may lack pages of the index that it needs early: its table goes further.
+    // A truncated file may lack pages of the index that are needed early: more can be read through
+    // its table.
     const bool in_time_order = HasTimestampIndex(database_.get()) && !IsCut(path);
     const std::string query = std::string("SELECT topic_id, timestamp, data FROM messages") +
                               (in_time_order ? " ORDER BY timestamp, id" : "");
@@ -291,7 +294,7 @@ bool Rosbag2Reader::Next(BagMessage& message) {
   if (damage_.num_messages_missing > 0) {
     damage_.cut_short = true;
     Damage(std::to_string(num_rows_) + " of " + std::to_string(files_.num_messages) +
-           " messages are there");
+           " messages exist");
   }
   return false;
 }

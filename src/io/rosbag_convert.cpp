@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Where there is no index, topics are looked for in this much of the bag's beginning.
+// Without an index, topics are searched for in this much of the bag's beginning.
 constexpr double kTopicSearchSeconds = 30.0;
 
 bool HasScans(const std::vector<BagTopic>& topics) {
@@ -71,7 +71,7 @@ BagTopic RosbagConversion::TruthTopic() const {
       report_.all_topics.begin(), report_.all_topics.end(), [&](const BagTopic& topic) {
         return topic.name == report_.topics.truth && IsTruthType(topic.type);
       });
-  return *found;  // chosen from this list
+  return *found;  // the name was chosen from this list
 }
 
 bool RosbagConversion::IsWanted(const BagTopic& topic) const {
@@ -116,7 +116,7 @@ void RosbagConversion::Run() {
 void RosbagConversion::AddImu(const BagTopic& topic, const BagMessage& message) {
   const auto sample = DecodeRosImu(message.data, topic.encoding);
   if (!sample) {
-    ++report_.num_damaged[topic.name + ": not as long as its type says"];
+    ++report_.num_damaged[topic.name + ": length does not fit the type"];
     return;
   }
   report_.imu.Add(sample->stamp, message.received);
@@ -127,19 +127,19 @@ void RosbagConversion::AddImu(const BagTopic& topic, const BagMessage& message) 
 void RosbagConversion::AddCloud(const BagTopic& topic, const BagMessage& message) {
   const auto cloud = DecodeRosCloud(message.data, topic.encoding);
   if (!cloud) {
-    ++report_.num_damaged[topic.name + ": sizes or fields that do not fit together"];
+    ++report_.num_damaged[topic.name + ": sizes or fields are inconsistent"];
     return;
   }
   TimedSweep sweep;
   const CloudStatus status = to_sweep_.Convert(*cloud, sweep);
   if (status == CloudStatus::kWrongFields) {
-    ++report_.num_damaged[topic.name + ": other fields than the first clouds"];
+    ++report_.num_damaged[topic.name + ": fields differ from those of the first clouds"];
     return;
   }
   report_.num_points_nonfinite += to_sweep_.points().num_nonfinite;
   report_.num_points_zero += to_sweep_.points().num_zero;
   if (status == CloudStatus::kBadTime) {
-    ++report_.num_damaged[topic.name + ": point times that are no sweep near the stamp"];
+    ++report_.num_damaged[topic.name + ": point times form no sweep near the stamp"];
   } else if (status == CloudStatus::kEmpty) {
     ++report_.num_empty;
   } else {
@@ -197,7 +197,7 @@ RosbagReport ConvertRosbag(const RosbagOptions& options) {
   report.rules = ProbeClouds(report.topics, options);
   RosbagConversion(options, report).Run();
   if (report.lidar.num() == 0) {
-    throw InputError(report.topics.lidar + ": no sweep in the part that was asked for");
+    throw InputError(report.topics.lidar + ": there is no sweep in the requested part");
   }
   return report;
 }

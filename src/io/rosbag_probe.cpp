@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumRingClouds = 10;  // rings and intensities show in few clouds
+constexpr int kNumRingClouds = 10;  // rings and intensities can be judged from few clouds
 constexpr int kNumTimeClouds = 60;  // rates need some seconds
 constexpr std::size_t kMaxImuDelays = 2000;
 
@@ -26,7 +26,7 @@ struct ProbeCounts {
   int num_read = 0;
   int num_damaged = 0;
   int num_without_xyz = 0;
-  std::string fields;  // of the first cloud
+  std::string fields;  // fields of the first cloud
   std::vector<double> imu_delays_s;
 };
 
@@ -77,7 +77,7 @@ void RequireClouds(const ProbeCounts& counts, const TopicChoice& topics) {
                      ": its clouds have no fields x, y and z of floating point, but " +
                      counts.fields);
   }
-  throw InputError(topics.lidar + ": not one cloud with returns can be read (" +
+  throw InputError(topics.lidar + ": no cloud with returns can be read (" +
                    std::to_string(counts.num_damaged) + " damaged)");
 }
 
@@ -104,8 +104,8 @@ void DecideTime(const TopicChoice& topics, const RosbagOptions& options, CloudRu
     return;
   }
   rules.point_time_text = clouds.empty()
-                              ? "rebuilt from azimuth, for the clouds have no time field"
-                              : "rebuilt from azimuth, for field '" + field + "' is constant";
+                              ? "rebuilt from azimuth, because the clouds have no time field"
+                              : "rebuilt from azimuth, because field '" + field + "' is constant";
 }
 
 void DecideSpin(const TopicChoice& topics, const RosbagOptions& options,
@@ -147,7 +147,7 @@ CloudRules ProbeClouds(const TopicChoice& topics, const RosbagOptions& options) 
   RequireClouds(counts, topics);
   rules.fields = counts.fields;
   rules.ring = rings.Decide(table);
-  // Some drivers write the eight bits of the sensor as 0..1.
+  // Some drivers scale the sensor's eight bits to 0..1.
   if (largest_intensity > 0.0f && largest_intensity <= 1.0f) rules.intensity_scale = 255.0f;
   DecideTime(topics, options, rules);
   if (!rules.point_time) DecideSpin(topics, options, table, rules);

@@ -93,7 +93,7 @@ void AddTruth(Lines& lines, const RosbagReport& report, const RosbagOptions& opt
 
 void AddDamage(Lines& lines, const RosbagReport& report) {
   for (const auto& [reason, count] : report.num_damaged) {
-    lines.Add("damaged", "{} messages passed over, {}", count, reason);
+    lines.Add("damaged", "{} messages skipped, {}", count, reason);
   }
   const BagDamage& damage = report.damage;
   if (!damage.Any()) return;
@@ -124,7 +124,7 @@ std::string FormatReport(const RosbagReport& report, const RosbagOptions& option
   AddDamage(lines, report);
   for (const std::string& note : report.notes) lines.Add("note", "{}", note);
   if (report.num_late_events > 0) {
-    lines.Add("note", "{} events were received over {:.0f} s late and stand at a later time",
+    lines.Add("note", "{} events were received over {:.0f} s late and are logged at a later time",
               report.num_late_events, OrderedLog::kHold.Seconds());
   }
   lines.Add("output", "{}: {} events on {} and {}", options.output.string(), report.num_events,

@@ -56,7 +56,7 @@ const BagTopic& Named(const std::vector<BagTopic>& topics, const std::string& na
   throw UsageError(option + " " + name + " has type " + same.front()->type + ", needed is " + need);
 }
 
-// The one topic of the type, or null for none.
+// Returns the one topic of the type, or null for none.
 const BagTopic* ByType(const std::vector<BagTopic>& topics, const std::string& option,
                        TypeTest is_type, const std::string& what) {
   std::vector<const BagTopic*> found;

@@ -81,7 +81,7 @@ std::string TruthSource::description() const {
     return "pose of the INS body (x right, y forward, z up) in east-north-up at the first good "
            "fix, UTC from GPS time; no lever arm applied";
   }
-  return "poses as the topic has them";
+  return "poses as in the topic";
 }
 
 }  // namespace lio

@@ -8,12 +8,12 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kFoot_m = -3.0;  // how deep walls reach into a slope
+constexpr double kFoot_m = -3.0;  // depth to which walls reach into a slope
 
-// A wall's own coordinates: along it, up, and depth into the building.
+// A wall has its own coordinates: along it, up, and depth into the building.
 struct Wall {
   Vector3 origin;
-  Vector3 along;  // unit, to the right seen from inside
+  Vector3 along;  // unit vector, to the right seen from inside
   Vector3 inward;
   double length_m = 0.0;
 
@@ -34,7 +34,7 @@ void AddRectangle(Mesh& mesh, const Wall& wall, const Opening& r, double depth, 
           wall.At(r.right, r.high, depth), wall.At(r.left, r.high, depth), material);
 }
 
-// A field of wall with a recessed opening in it.
+// Adds a field of wall with a recessed opening in it.
 void AddBay(Mesh& mesh, const Wall& wall, const Opening& bay, const Opening& hole, double recess,
             Material material, Material pane) {
   AddRectangle(mesh, wall, {bay.left, hole.left, bay.low, bay.high}, 0.0, material);
@@ -52,7 +52,7 @@ void AddBay(Mesh& mesh, const Wall& wall, const Opening& bay, const Opening& hol
   reveal(hole.left, hole.high, hole.right, hole.high);
 }
 
-// Solid standing out of (depth < 0) or set into a wall.
+// Adds a block that stands out of a wall (depth < 0) or is set into it.
 void AddBlock(Mesh& mesh, const Wall& wall, const Opening& r, double from_depth, double to_depth,
               Material material) {
   AddRectangle(mesh, wall, r, from_depth, material);
@@ -77,7 +77,7 @@ void AddBalcony(Mesh& mesh, const Wall& wall, const Opening& bay) {
   }
 }
 
-// One window bay, or a door where the balcony is.
+// Adds one window bay, or a door if it has a balcony.
 void AddUpperBay(Mesh& mesh, const Wall& wall, const Opening& bay, const FacadeStyle& style,
                  bool balcony, Random& random) {
   const double middle = 0.5 * (bay.left + bay.right);

@@ -12,16 +12,17 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kGrid_m = 0.25;    // of the speed profile along the path, at most
-constexpr double kSample_s = 0.02;  // of the distance over time
+constexpr double kGrid_m = 0.25;    // largest step of the speed profile along the path
+constexpr double kSample_s = 0.02;  // time step of the sampled distance
 
 void CheckLimits(const DriveLimits& limits) {
   const double least =
       std::min({limits.speed_mps, limits.accel_mps2, limits.brake_mps2, limits.lateral_mps2});
-  if (!(least > 0.0)) throw std::invalid_argument("Drive: limits must be positive");
+  if (!(least > 0.0)) throw std::invalid_argument("Drive: every limit must be positive");
 }
 
-// The path in equal cells, so that the last one leaves as much room to brake as any other.
+// Divides the path into equal cells, so that the last one leaves as much room to brake as any
+// other.
 struct Grid {
   std::size_t num_points = 0;
   double cell_m = 0.0;
@@ -34,7 +35,8 @@ struct Grid {
   }
 };
 
-// Highest speed at each grid point: bends, stops, then what braking and accelerating allow.
+// Returns the highest speed at each grid point: first bends and stops limit it, then braking and
+// accelerating.
 std::vector<double> SpeedProfile(const Path& path, const DriveLimits& limits,
                                  const std::vector<Stop>& stops, const Grid& grid) {
   const std::size_t num = grid.num_points;
@@ -75,7 +77,7 @@ Drive::Drive(const Path& path, const DriveLimits& limits, const std::vector<Stop
   CheckLimits(limits);
   const Grid grid(path.length_m());
   const std::vector<double> speed = SpeedProfile(path, limits, stops, grid);
-  double leg_start_s = start_rest_s;  // when grid point i is left
+  double leg_start_s = start_rest_s;  // time at which grid point i is left
   double next_sample_s = 0.0;
   while (next_sample_s <= leg_start_s) {
     distances_m_.push_back(0.0);

@@ -29,7 +29,8 @@ bool Concerns(const Fault& fault, const Message& message) {
          (fault.channel == FaultChannel::kImu) == IsImu(message);
 }
 
-// A message's own number; chunks of one scan share it unless `each_chunk`.
+// Returns a message's own number, which keys its random draws; chunks of one scan share it unless
+// `each_chunk`.
 std::uint64_t NumberOf(const Message& message, bool each_chunk) {
   if (const auto* imu = std::get_if<ImuMessage>(&message.body)) {
     return static_cast<std::uint64_t>(imu->seq);
@@ -54,7 +55,7 @@ void PutNan(Message& message, std::uint64_t key, double ratio) {
   }
 }
 
-// The scan becomes one chunk of at most `num` points of its first one.
+// Replaces the scan by one chunk with at most `num` points of its first one.
 void Thin(std::vector<Message>& messages, std::size_t num) {
   auto& chunk = std::get<ScanChunk>(messages.front().body);
   if (chunk.chunk_index > 0) {
@@ -98,12 +99,12 @@ std::vector<Message> FaultInjector::Apply(Message message) const {
 
 bool FaultInjector::InWindow(const Fault& fault, const Message& message) const {
   if (!fault.values.contains("start")) return true;
-  // By arrival, as stamps may have been changed by another fault.
+  // The arrival decides, because another fault may have changed the stamp.
   const double t_s = SecondsBetween(begin_, message.arrival);
   return t_s >= fault.Get("start") && t_s < fault.Get("start") + fault.Get("duration");
 }
 
-// Concerns the first of `messages`; a copy made by an earlier fault stays as it is.
+// Alters the first of `messages` only; a copy made by an earlier fault stays as it is.
 void FaultInjector::ApplyOne(const Fault& fault, std::uint64_t fault_key,
                              std::vector<Message>& messages) const {
   Message& message = messages.front();
@@ -142,8 +143,8 @@ void FaultInjector::ApplyOne(const Fault& fault, std::uint64_t fault_key,
     case FaultKind::kSparseScan:
       Thin(messages, static_cast<std::size_t>(std::max(0.0, fault.Get("points"))));
       break;
-    case FaultKind::kDust:            // at the ray: DustOf
-    case FaultKind::kWrongExtrinsic:  // in the configuration: ClaimedExtrinsic
+    case FaultKind::kDust:            // applied at the rays: see DustOf
+    case FaultKind::kWrongExtrinsic:  // applied in the configuration: see ClaimedExtrinsic
       break;
   }
 }

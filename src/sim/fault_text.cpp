@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The written form of faults.
+// Parses and describes the written form of faults.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -20,89 +22,116 @@ struct KindText {
   std::string_view name;
   std::string_view meaning;
   bool has_channel;
-  FaultChannel channel;  // by default
+  FaultChannel channel;  // used when the text names none
   std::vector<std::pair<std::string, double>> keys;
 };
 
-const std::vector<KindText>& Kinds() {
+// These faults lose, repeat or delay messages.
+std::vector<KindText> DeliveryKinds() {
   using K = FaultKind;
   using C = FaultChannel;
-  static const std::vector<KindText> kinds = {
-      {K::kImuGap, "imu_gap", "no IMU samples", false, C::kImu, {{"start", 10}, {"duration", 0.6}}},
-      {K::kLidarGap, "lidar_gap", "no scans", false, C::kLidar, {{"start", 10}, {"duration", 0.6}}},
+  return {
+      {K::kImuGap,
+       "imu_gap",
+       "all IMU samples are lost",
+       false,
+       C::kImu,
+       {{"start", 10}, {"duration", 0.6}}},
+      {K::kLidarGap,
+       "lidar_gap",
+       "all scans are lost",
+       false,
+       C::kLidar,
+       {{"start", 10}, {"duration", 0.6}}},
       {K::kDrop,
        "drop",
-       "messages lost, of a scan all its chunks",
+       "messages are lost at random; a lost scan loses all its chunks",
        true,
        C::kBoth,
        {{"ratio", 0.05}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kDuplicate,
        "duplicate",
-       "messages that come twice",
+       "messages arrive twice",
        true,
        C::kBoth,
        {{"ratio", 0.05}, {"delay", 0.004}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kReorder,
        "reorder",
-       "messages that come late, after newer ones",
+       "messages arrive late, after newer ones",
        true,
        C::kBoth,
        {{"ratio", 0.05}, {"delay", 0.03}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kChunkLoss,
        "chunk_loss",
-       "single chunks of scans lost",
+       "single chunks of scans are lost",
        false,
        C::kLidar,
        {{"ratio", 0.05}, {"start", 0}, {"duration", kToTheEnd}}},
+  };
+}
+
+// These faults change the content of messages or of the configuration.
+std::vector<KindText> ContentKinds() {
+  using K = FaultKind;
+  using C = FaultChannel;
+  return {
       {K::kStampJump,
        "stamp_jump",
-       "stamps off by offset [s], forward or back",
+       "stamps jump by offset [s], forward or back",
        true,
        C::kBoth,
        {{"offset", 1.5}, {"start", 10}, {"duration", 0.5}}},
       {K::kClockOffset,
        "clock_offset",
-       "a clock wrong by offset [s] throughout",
+       "the sensor's clock is off by offset [s] all the time",
        true,
        C::kLidar,
        {{"offset", 0.02}}},
       {K::kNan,
        "nan",
-       "not-a-number in samples, or in this share of a scan's points",
+       "values are not-a-number in samples, or in this share of a scan's points",
        true,
        C::kBoth,
        {{"ratio", 0.02}, {"start", 0}, {"duration", kToTheEnd}}},
       {K::kGyroSaturation,
        "gyro_saturation",
-       "rates clipped at limit [rad/s]",
+       "angular rates saturate at limit [rad/s]",
        false,
        C::kImu,
        {{"limit", 0.2}, {"start", 10}, {"duration", 5}}},
       {K::kEmptyScan,
        "empty_scan",
-       "scans without a point",
+       "scans have no points",
        false,
        C::kLidar,
        {{"ratio", 1}, {"start", 10}, {"duration", 0.5}}},
       {K::kSparseScan,
        "sparse_scan",
-       "scans of a few points",
+       "scans have only a few points",
        false,
        C::kLidar,
        {{"points", 20}, {"start", 10}, {"duration", 0.5}}},
       {K::kDust,
        "dust",
-       "echoes from dust, so many per metre of ray",
+       "dust returns echoes, density per metre of ray",
        false,
        C::kLidar,
        {{"density", 0.05}, {"start", 10}, {"duration", 5}}},
       {K::kWrongExtrinsic,
        "wrong_extrinsic",
-       "config.yaml claims the lidar turned and moved",
+       "config.yaml has a wrong extrinsic: the lidar is turned and moved by this",
        false,
        C::kLidar,
        {{"yaw_deg", 3}, {"pitch_deg", 0}, {"roll_deg", 0}, {"x", 0}, {"y", 0}, {"z", 0}}},
   };
+}
+
+const std::vector<KindText>& Kinds() {
+  static const std::vector<KindText> kinds = [] {
+    std::vector<KindText> all = DeliveryKinds();
+    std::ranges::move(ContentKinds(), std::back_inserter(all));
+    return all;
+  }();
   return kinds;
 }
 

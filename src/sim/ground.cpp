@@ -11,7 +11,8 @@ namespace lio::sim {
 namespace {
 
 constexpr double kCoarseCell_m = 6.0;
-constexpr double kCoarseDrop_m = 0.06;  // the far mesh lies this much lower, to hide under the fine
+constexpr double kCoarseDrop_m =
+    0.06;  // the coarse mesh lies this much lower, so that the fine one hides it
 
 double DistanceToLine(const Vector2& p, const std::vector<Vector2>& line) {
   double best_sq = 1e18;
@@ -41,11 +42,11 @@ Bounds BoundsOf(const RoadNetwork& network, double reach_m) {
   return bounds;
 }
 
-// A corner of the lattice.
+// Holds a corner of the lattice.
 struct Corner {
   Vector2 p;
   double distance = 0.0;  // signed, to the road's edge
-  double height = 0.0;    // of the terrain
+  double height = 0.0;    // height of the terrain
 };
 
 // Writes the cells of the lattice, cut along the kerb.
@@ -151,7 +152,8 @@ RoadNetwork::RoadNetwork(std::vector<Road> roads, double rounding_m)
     : roads_(std::move(roads)), rounding_m_(rounding_m) {}
 
 double RoadNetwork::SignedDistance(const Vector2& p_m) const {
-  // Polynomial smooth minimum (Quilez): equal to the minimum where one road is clearly nearest.
+  // This is a polynomial smooth minimum (Quilez): it equals the minimum where one road is clearly
+  // nearest.
   double result = 1e9;
   for (const Road& road : roads_) {
     const double d = DistanceToLine(p_m, road.line_m) - road.half_width_m;

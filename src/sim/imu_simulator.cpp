@@ -9,9 +9,9 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kStandardGravity_mps2 = 9.80665;  // what "1 g" means on a data sheet
+constexpr double kStandardGravity_mps2 = 9.80665;  // "1 g" as data sheets define it
 
-// A sample as the variant's driver sends it.
+// Converts a sample to the units and axes in which the variant's driver sends it.
 void Disguise(ImuVariant variant, const Vector3& g_imu, ImuSample& sample) {
   Vector3& w = sample.w_imu_radps;
   Vector3& f = sample.f_imu_mps2;

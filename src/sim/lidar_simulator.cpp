@@ -13,15 +13,17 @@
 namespace lio::sim {
 namespace {
 
-constexpr std::size_t kTileColumns = 8;  // neighbours in azimuth see much the same: fast packets
+constexpr std::size_t kTileColumns =
+    8;  // neighbours in azimuth see almost the same, which makes ray packets fast
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kLobe_rad = 0.07;         // half width of a polished surface's lobe
-constexpr float kMergedEchoes_m = 0.6f;    // two echoes nearer than this come back as one
-constexpr float kEdge_m = 0.12f;           // a step in range that is an edge and not a slope
-constexpr float kInBetweenReach_m = 3.0f;  // up to this gap a straddled echo may lie in between
+constexpr double kLobe_rad = 0.07;       // half width of a polished surface's lobe
+constexpr float kMergedEchoes_m = 0.6f;  // two echoes nearer than this merge into one
+constexpr float kEdge_m = 0.12f;         // a larger step in range is an edge, not a slope
+constexpr float kInBetweenReach_m =
+    3.0f;  // across gaps up to this a straddled echo may lie in between
 constexpr double kInBetweenChance = 0.1;
 
-// Two numbers from one word.
+// Holds two numbers made from one word.
 struct Pair {
   double a;
   double b;
@@ -37,7 +39,7 @@ float GaussianFrom(std::uint64_t bits) {
          std::cos(static_cast<float>(kTurn * u.b));
 }
 
-// Light that comes back from a surface at 1 m.
+// Returns the strength of the light that comes back from a surface at 1 m.
 double Backscatter(const MaterialTraits& traits, double cos_incidence) {
   double strength = traits.reflectivity * std::sqrt(cos_incidence);
   if (traits.specular > 0.0 && cos_incidence > 0.97) {
@@ -48,7 +50,7 @@ double Backscatter(const MaterialTraits& traits, double cos_incidence) {
 }
 
 std::uint16_t IntensityOf(double backscatter) {
-  // Velodyne's scale: matt surfaces 0..100 in per cent, what sends light back 101..255.
+  // This is Velodyne's scale: matt surfaces have 0..100 in per cent, retroreflectors 101..255.
   const double value =
       backscatter <= 1.0 ? 100.0 * backscatter : 100.0 + 60.0 * (backscatter - 1.0);
   return static_cast<std::uint16_t>(std::clamp(value, 0.0, 255.0));
@@ -70,10 +72,10 @@ struct LidarSimulator::Columns {
   double end_s = 0.0;
 };
 
-// Column-major, one entry a ray.
+// The arrays are column-major, with one entry per ray.
 struct LidarSimulator::Echoes {
   std::vector<Hit> hits;
-  std::vector<double> headings_rad;  // one a column
+  std::vector<double> headings_rad;  // one per column
 };
 
 LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory)
@@ -141,7 +143,7 @@ void LidarSimulator::CastTile(const Scene::Interval& interval, const Columns& co
     const Matrix3 R_world_column =
         R_world_lidar * Eigen::AngleAxisd(heading, Vector3::UnitZ()).toRotationMatrix();
     for (std::size_t b = 0; b < num_beams; ++b) {
-      // Within a column the motion is taken as linear: off by less than 1e-8 m and rad.
+      // Within a column the motion is taken as linear, which is off by less than 1e-8 m and rad.
       const double dt = setup_.model.beams[b].fire_time_s;
       const Vector3 direction = R_world_column * column_directions_[b];
       Ray& ray = rays[b * num + c];
@@ -186,15 +188,16 @@ float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index,
   const LidarModel& model = setup_.model;
   const Hit& hit = echoes.hits[index];
   const Pair u = Halves(bits);
-  // Only one side can be straddled; the beam's half width decides how often.
+  // Only one side can be straddled; the half width of the beam decides how often.
   const bool next = u.a < 0.5;
   const std::size_t stride = model.beams.size();
   if (next ? index + stride >= echoes.hits.size() : index < stride) return hit.range_m;
   const Hit& other = echoes.hits[next ? index + stride : index - stride];
   if (!std::isfinite(other.range_m)) return hit.range_m;
   const double spacing = kTurn * model.rotation_hz * model.column_period_s;
-  const double depth = 0.5 * model.beam_width_horizontal_rad / spacing;  // of the beam's reach
-  const double edge_at = next ? 2.0 * u.a : 2.0 * (u.a - 0.5);           // 0: here, 1: the other
+  const double depth =
+      0.5 * model.beam_width_horizontal_rad / spacing;          // half width of the beam in columns
+  const double edge_at = next ? 2.0 * u.a : 2.0 * (u.a - 0.5);  // 0: here, 1: the other
   const float gap = other.range_m - hit.range_m;
   const float slope = hit.range_m * static_cast<float>(spacing) / std::max(0.1f, hit.cos_incidence);
   if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return hit.range_m;

@@ -8,7 +8,8 @@
 namespace lio::sim {
 namespace {
 
-// Reflectivities: usual figures for near infrared, e.g. of lidar makers' application notes.
+// The reflectivities are usual values in the near infrared, as in application notes of lidar
+// makers.
 constexpr std::array<MaterialTraits, kNumMaterials> kTraits = {{
     {"asphalt", 0.17, 0.0, {0.30f, 0.30f, 0.32f}},
     {"paving", 0.32, 0.0, {0.62f, 0.60f, 0.57f}},

@@ -10,7 +10,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kStraight_per_m = 1e-9;  // flatter than this is a straight
+constexpr double kStraight_per_m = 1e-9;  // a path flatter than this is a straight
 
 double WrapAngle(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * std::numbers::pi);
@@ -30,9 +30,9 @@ Path::Path(const Vector2& start_m, double heading_rad) {
 Path Path::Rounded(const std::vector<Vector2>& waypoints_m, double radius_m, bool closed) {
   std::vector<Vector2> points = waypoints_m;
   if (closed) points.push_back(points.front());
-  if (points.size() < 2) throw std::invalid_argument("Path: needs two waypoints");
+  if (points.size() < 2) throw std::invalid_argument("Path: at least two waypoints are needed");
   Path path(points.front(), HeadingOf(points[1] - points[0]));
-  double used_m = 0.0;  // of the present leg, by the corner before it
+  double used_m = 0.0;  // length of the present leg that the corner before it takes
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Vector2 leg = points[i] - points[i - 1];
     const bool last = i + 1 == points.size();

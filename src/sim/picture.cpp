@@ -20,20 +20,20 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr float kFar_m = 4000.0f;
 constexpr float kOff_m = 0.03f;     // secondary rays start this far off the surface
-constexpr float kOpenSky_m = 6.0f;  // what is nearer than this takes light from a surface
+constexpr float kOpenSky_m = 6.0f;  // surfaces nearer than this shade others from the sky
 constexpr int kSkyRays = 4;
-constexpr double kMargin = 1.12;  // of the way's extent
+constexpr double kMargin = 1.12;  // factor on the path's extent
 
 using Colour = Eigen::Array3f;
 
-// Where the picture looks from: an orthographic camera.
+// An orthographic camera.
 struct Camera {
   Vector3 centre;
   Vector3 right;
   Vector3 up;
   Vector3 into;  // view direction
   double pixel_m = 0.1;
-  double cut_z = 400.0;  // above the origin; what is higher is left out
+  double cut_z = 400.0;  // above the origin; everything higher is left out
   Vector2 cut_slope = Vector2::Zero();
 
   Eigen::Vector2d Project(const Vector3& p, int width, int height) const {
@@ -56,7 +56,7 @@ std::vector<Vector3> WayPoints(const Scenario& scenario) {
   return points;
 }
 
-// Largest extent along an axis of the world.
+// Returns the largest extent along an axis of the world.
 double Extent(const std::vector<Vector3>& way) {
   Vector3 low = way.front();
   Vector3 high = way.front();
@@ -101,7 +101,7 @@ Camera MakeCamera(const Scenario& scenario, const std::vector<Vector3>& way,
   return camera;
 }
 
-// Colours of what rays hit, many at a time.
+// Computes the colours of the surfaces that rays hit, many at a time.
 class Painter {
  public:
   Painter(const Scene::Interval& interval, const Camera& camera)
@@ -136,7 +136,7 @@ class Painter {
     return colours;
   }
 
-  // Nothing of the scene, up to the cut, lies between a point and the viewer.
+  // Returns true when nothing in the scene, up to the cut, lies between a point and the viewer.
   bool IsVisible(const Vector3& p) const {
     const Vector3f place = p.cast<float>();
     return Lit({place}, {(-camera_.into).cast<float>()}, kFar_m).front() > 0.5f;
@@ -150,7 +150,8 @@ class Painter {
     return Vector3(r * std::cos(angle), r * std::sin(angle), z).cast<float>();
   }
 
-  // 1 where nothing is in the way, up to the cut through the building.
+  // Returns 1 for each place from which nothing, up to the cut through the building, blocks the
+  // ray.
   std::vector<float> Lit(const std::vector<Vector3f>& places,
                          const std::vector<Vector3f>& directions, float reach_m) const {
     std::vector<Ray> rays(places.size());
@@ -191,14 +192,14 @@ void DrawDisc(Picture& picture, const Eigen::Vector2d& at, double radius,
   }
 }
 
-// Where something hides the way it is dotted.
+// The path is dotted where something hides it.
 void DrawWay(Picture& picture, const Camera& camera, const Painter& painter,
              const std::vector<Vector3>& way) {
   const auto project = [&](const Vector3& p) {
     return camera.Project(p, picture.width, picture.height);
   };
   const double thick = std::max(1.2, picture.width / 560.0);
-  double drawn = 0.0;  // pixels, for the dots
+  double drawn = 0.0;  // length in pixels, for the dots
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
     const Eigen::Vector2d a = project(way[i]);
     const Eigen::Vector2d b = project(way[i + 1]);

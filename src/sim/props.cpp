@@ -12,7 +12,7 @@ Pose At(double x, double y, double z) {
   return {Quaternion::Identity(), {x, y, z}};
 }
 
-// A person's limb or the like: a bar of square section that tapers.
+// Adds a tapering bar of square section, such as a person's limb.
 void AddLimb(Mesh& mesh, const Vector3& from, const Vector3& to, double from_radius,
              double to_radius, Material material) {
   AddBar(mesh, from, to, from_radius, to_radius, 6, material);
@@ -25,7 +25,7 @@ Vector3 RandomDirection(Random& random) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// Leaves: small triangles that lie any way, denser toward the surface of an ellipsoid.
+// Adds leaves: small triangles of random orientation, denser toward the surface of an ellipsoid.
 void AddLeaves(Mesh& mesh, const Vector3& centre, const Vector3& radii, int num, double size,
                Random& random) {
   for (int i = 0; i < num; ++i) {

@@ -33,10 +33,10 @@ std::ofstream OpenText(const std::filesystem::path& path) {
 
 void CloseText(std::ofstream& file, const std::filesystem::path& path) {
   file.close();
-  if (!file) throw std::runtime_error("cannot write all of " + path.string());
+  if (!file) throw std::runtime_error("cannot write the whole file " + path.string());
 }
 
-// truth.tum and truth_states.csv.
+// Writes truth.tum and truth_states.csv.
 class TruthWriter {
  public:
   explicit TruthWriter(const std::filesystem::path& folder)
@@ -75,7 +75,7 @@ class TruthWriter {
   std::ofstream states_;
 };
 
-// Parts of at most kMaxChunkPoints, each stamped with its own first point.
+// Splits a sweep into chunks of at most kMaxChunkPoints, each stamped with its own first point.
 std::vector<ScanChunk> SplitSweep(const SimulatedSweep& sweep, std::int64_t index) {
   const std::size_t num = sweep.points.size();
   const std::size_t size = kMaxChunkPoints;
@@ -134,7 +134,8 @@ class Recording {
   }
 
  private:
-  // The IMU samples up to a trajectory time; their instants are whole microseconds, as on the wire.
+  // Adds the IMU samples up to a trajectory time; their instants are whole microseconds, as on the
+  // wire.
   void AddImuUntil(Timestamp limit) {
     for (;; ++stats_.num_imu) {
       const double t_s = begin_s_ + static_cast<double>(stats_.num_imu) / options_.imu.rate_hz;

@@ -10,9 +10,10 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kLeastDensity = 1e-6;  // a filter cannot use the ideal unit's zero
+constexpr double kLeastDensity = 1e-6;  // a filter cannot use the zero density of the ideal unit
 
-// Random walk with the same growth as walk and Gauss-Markov process have over short times.
+// Returns the density of the random walk that grows like bias walk and Gauss-Markov process
+// together over short times.
 double WalkDensity(const InertialModel& model) {
   const double slow = model.bias_instability * std::sqrt(2.0 / model.bias_instability_time_s);
   return std::max(kLeastDensity, std::hypot(model.bias_walk_density, slow));
@@ -60,7 +61,7 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
        << "    gravity: auto\n"
        << "  gravity_mps2: " << options.gravity_mps2 << "\n";
   file.close();
-  if (!file) throw std::runtime_error("cannot write all of " + path.string());
+  if (!file) throw std::runtime_error("cannot write the whole file " + path.string());
 }
 
 }  // namespace lio::sim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// On foot around the lawn of a campus with the sensor held in the hands: long buildings, an arcade
-// to walk through, trees, benches, lamps and many people.
+// Makes the campus: a walk around its lawn with a hand-held sensor, between long buildings, through
+// an arcade, past trees, benches, lamps and many people.
 #include <cmath>
 #include <utility>
 
@@ -10,8 +10,8 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfWay_m = 1.9;  // of the footpath's width
-constexpr double kLength_m = 62.0;  // of the way around the lawn
+constexpr double kHalfWay_m = 1.9;  // half the footpath's width
+constexpr double kLength_m = 62.0;  // length of the way around the lawn
 constexpr double kWidth_m = 38.0;
 constexpr double kKnot_s = 0.2;
 
@@ -26,7 +26,7 @@ Path WayAroundLawn() {
                        2.6, true);
 }
 
-// Columns and a roof over the way's northern side.
+// Adds columns and a roof over the northern side of the way.
 void AddArcade(World& world, const Town& town) {
   const double y = kWidth_m;
   const double from = -0.5 * kLength_m + 6.0;
@@ -45,7 +45,7 @@ void AddArcade(World& world, const Town& town) {
          {to - from + 1.2, 5.2, 0.4}, Material::kConcrete);
 }
 
-// A stand with bicycles: hoops and wheels.
+// Adds a stand with bicycles, made of hoops and wheels.
 void AddBicycles(Town& town, const Vector2& at, int num) {
   Mesh mesh;
   Random& random = town.random();

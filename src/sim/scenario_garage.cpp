@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Multi-storey car park: round the aisles and up a curved ramp from storey to storey, between
-// columns, parked cars and low ceilings, open at the sides.
+// Makes a multi-storey car park: the drive goes along the aisles and up a curved ramp from storey
+// to storey, between columns, parked cars and low ceilings, with open sides.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,15 +13,16 @@ namespace lio::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStraight_m = 56.0;  // aisles from x = 0 at y = 0 and y = 18
-constexpr double kRadius_m = 9.0;     // of the turns; the western one climbs
+constexpr double kStraight_m =
+    56.0;                          // length of the aisles, which begin at x = 0 at y = 0 and y = 18
+constexpr double kRadius_m = 9.0;  // radius of the turns; the western one climbs
 constexpr double kHalfRamp_m = 2.9;
 constexpr double kStorey_m = 3.2;
 constexpr double kSlab_m = 0.28;
 constexpr double kEast_m = kStraight_m + kRadius_m + 4.0;
 constexpr double kSouth_m = -9.0;
 constexpr double kNorth_m = 2.0 * kRadius_m + 9.0;
-constexpr double kStart_m = 6.0;  // of the first aisle
+constexpr double kStart_m = 6.0;  // start of the drive on the first aisle
 constexpr double kLap_m = 2.0 * kStraight_m + 2.0 * kPi * kRadius_m;
 constexpr double kRampFrom_m = 2.0 * kStraight_m + kPi * kRadius_m;
 
@@ -47,7 +48,7 @@ Pose At(double x, double y, double z) {
   return UprightPose({x, y, z}, 0.0);
 }
 
-// The curved ramp up from a storey: its surface, underside and parapets.
+// Adds the curved ramp up from a storey: its surface, underside and parapets.
 void AddRamp(Mesh& mesh, double z) {
   constexpr int kPieces = 28;
   const auto at = [&](int i, double radius, double up) {
@@ -75,16 +76,18 @@ void AddParkedRow(Mesh& mesh, double y, double z, double heading, Random& random
     const Mesh car = MakeVehicle(kind, random);
     const double turned = heading + (random.Chance(0.4) ? kPi : 0.0) + 0.02 * random.Gaussian();
     const double in_bay = y + random.Uniform(-0.25, 0.25);
-    if (std::fmod(x, 8.0) < 1.2 || !random.Chance(0.62)) continue;  // a column, or free
+    if (std::fmod(x, 8.0) < 1.2 || !random.Chance(0.62))
+      continue;  // a column stands here, or the place is free
     AddMesh(mesh, car, UprightPose({x, in_bay, z}, turned));
   }
 }
 
-// What carries and hangs below the ceiling at x: columns, some with a cabinet, a beam, lamps.
+// Adds the columns, some with a cabinet, and the beam and lamps below the ceiling at x.
 void AddColumns(Mesh& mesh, double x, double z, double clear, Random& random) {
   for (const double y : {-3.4, 3.6, 14.4, 21.4}) {
     const double from_turn_m = std::hypot(x - kStraight_m, y - kRadius_m) - kRadius_m;
-    if (x > kStraight_m && std::abs(from_turn_m) < kHalfRamp_m) continue;  // in the way
+    if (x > kStraight_m && std::abs(from_turn_m) < kHalfRamp_m)
+      continue;  // it would stand in the way
     AddBox(mesh, At(x, y, z), {0.5, 0.5, clear}, Material::kConcrete);
     if (!random.Chance(0.3)) continue;
     AddBox(mesh, At(x, y + (y < 9.0 ? -0.3 : 0.3), z + 1.4), {0.4, 0.06, 0.5}, Material::kRetro);
@@ -95,7 +98,7 @@ void AddColumns(Mesh& mesh, double x, double z, double clear, Random& random) {
   }
 }
 
-// Columns and beams under a ceiling, parapets, a stair core.
+// Adds columns and beams under a ceiling, parapets and a stair core.
 void AddStructure(Mesh& mesh, double z, bool has_ceiling, Random& random) {
   const double clear = kStorey_m - kSlab_m;
   for (double x = 0.4; has_ceiling && x < kEast_m; x += 8.0) {
@@ -144,7 +147,7 @@ void AddStorey(World& world, int storey, bool has_ceiling, Random& random) {
   }
 }
 
-// What is seen through the open sides.
+// Adds the surroundings that can be seen through the open sides.
 void AddSurroundings(World& world, std::uint64_t seed) {
   Random random(seed, Purpose::kWorld, 8);
   Terrain::Shape shape;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Sports hall: the sensor in the hands of someone who turns, tilts and swings it, at up to 300
-// deg/s.
+// Makes a sports hall with a hand-held sensor that is turned, tilted and swung at up to 300 deg/s.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +16,7 @@ constexpr double kHalfLength_m = 22.0;
 constexpr double kHalfWidth_m = 13.5;
 constexpr double kHeight_m = 8.5;
 constexpr double kKnot_s = 0.1;
-constexpr double kFastest_radps = 285.0 / 180.0 * kPi;  // of yaw; swinging adds the rest
+constexpr double kFastest_radps = 285.0 / 180.0 * kPi;  // largest yaw rate; swinging adds the rest
 constexpr double kRest_s = 2.5;
 
 Pose At(double x, double y, double z) {
@@ -61,11 +60,11 @@ void AddHoop(Mesh& mesh, double side) {
 
 void AddFittings(Mesh& mesh, Random& random) {
   for (const double side : {-1.0, 1.0}) AddHoop(mesh, side);
-  for (int step = 0; step < 6; ++step) {  // stand on one long side
+  for (int step = 0; step < 6; ++step) {  // the stand on one long side
     AddBox(mesh, At(0, -kHalfWidth_m + 5.1 - 0.85 * step, 0), {30.0, 0.85, 0.42 * (step + 1)},
            Material::kWood);
   }
-  for (double x = -16.0; x < 16.0; x += 2.6) {  // wall bars on the other
+  for (double x = -16.0; x < 16.0; x += 2.6) {  // the wall bars on the other side
     for (double z = 0.3; z < 2.7; z += 0.16) {
       AddBar(mesh, {x, kHalfWidth_m - 0.25, z}, {x + 2.2, kHalfWidth_m - 0.25, z}, 0.02, 0.02, 5,
              Material::kWood);
@@ -76,7 +75,7 @@ void AddFittings(Mesh& mesh, Random& random) {
     AddBox(mesh, At(-kHalfLength_m + 0.04, y, 0.0), {0.08, 2.0, 2.2}, Material::kCarPaintDark);
     AddBox(mesh, At(kHalfLength_m - 0.04, -y, 0.0), {0.08, 1.2, 2.1}, Material::kCarPaintDark);
   }
-  for (int i = 0; i < 5; ++i) {  // mats, boxes, a trolley
+  for (int i = 0; i < 5; ++i) {  // mats, boxes and a trolley
     const Vector3 size(random.Uniform(0.8, 2.0), random.Uniform(0.6, 1.2),
                        random.Uniform(0.3, 1.3));
     AddBox(mesh,
@@ -92,7 +91,7 @@ void AddFittings(Mesh& mesh, Random& random) {
   }
 }
 
-// Players that run in rounds on the court's halves.
+// Adds players who run in rounds on the halves of the court.
 void AddPlayers(World& world, Random& random) {
   for (int i = 0; i < 6; ++i) {
     const Vector2 middle((i % 2 == 0 ? -1.0 : 1.0) * random.Uniform(9.0, 13.0),
@@ -109,7 +108,8 @@ void AddPlayers(World& world, Random& random) {
   }
 }
 
-// Turns: rest, then yaw rates that change every few seconds, with tilts and steps about.
+// Returns a motion that begins at rest and then has yaw rates that change every few seconds, with
+// tilts and steps about.
 std::vector<BodyKnot> SwingKnots(double duration_s, Random& random) {
   std::vector<BodyKnot> knots;
   double yaw = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Once around a city block: four streets of different character, two stops, and the end exactly
-// where the start was. Longer logs go round again.
+// Makes a drive once around a city block: it has four streets of different character and two stops,
+// and ends exactly where it began. Longer logs go round again.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,14 +11,15 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kLength_m = 224.0;  // of the block, between road middles
+constexpr double kLength_m = 224.0;  // length of the block between road middles
 constexpr double kWidth_m = 132.0;
 constexpr double kHalfRoad_m = 5.4;
 constexpr double kLane_m = 1.7;
-constexpr double kBeyond_m = 90.0;  // how far the streets go on after the crossings
+constexpr double kBeyond_m = 90.0;  // length of the streets beyond the crossings
 constexpr double kEndRest_s = 2.0;
 
-// Clockwise, so that driving on the right is on the inside; begins in the middle of a long side.
+// The path goes clockwise, so that driving on the right is on the inside; it begins in the middle
+// of a long side.
 Path BlockPath() {
   return Path::Rounded({{0.0, 0.0},
                         {0.5 * kLength_m, 0.0},
@@ -70,7 +71,7 @@ void AddCourtyard(Town& town) {
   }
 }
 
-// Round and round on the other lane, against us.
+// Adds cars that go round and round in the oncoming lane.
 void AddOncoming(World& world, const Path& block, const HeightFunction& height, Random& random) {
   const Path lane = block.Shifted(kLane_m).Reversed();
   const double lap_m = lane.length_m();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Motorway: from the hard shoulder onto three lanes at 28 m/s, guard rails, lamps, gantries,
-// bridges, noise barriers; slower trucks and faster cars around, and the other carriageway.
+// Makes a motorway: the drive goes from the hard shoulder onto three lanes at 28 m/s, with guard
+// rails, lamps, gantries, bridges and noise barriers, slower trucks and faster cars around, and the
+// other carriageway.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,14 +12,15 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 16.0;   // both carriageways
-constexpr double kShoulder_m = -14.2;  // offsets to the left of the middle
+constexpr double kHalfRoad_m = 16.0;  // half the width of both carriageways
+constexpr double kShoulder_m =
+    -14.2;  // this and the next are offsets to the left of the road's middle
 constexpr double kSlowLane_m = -11.0;
 constexpr double kOwnLane_m = -7.4;
 constexpr double kFastLane_m = -3.8;
 constexpr double kBefore_m = 150.0;
 constexpr double kSpeed_mps = 28.0;
-constexpr double kMergeFrom_m = 90.0;  // of the way: from the shoulder to our lane
+constexpr double kMergeFrom_m = 90.0;  // begin of the lane change from the shoulder, along the way
 constexpr double kMergeTo_m = 330.0;
 
 Path Carriageway(double length_m, Random& random) {
@@ -33,7 +35,7 @@ Path Carriageway(double length_m, Random& random) {
   return path;
 }
 
-// A bridge over the road: deck, parapets, abutments and a pier in the median.
+// Adds a bridge over the road: deck, parapets, abutments and a pier in the median.
 void AddBridge(Mesh& mesh, const PathPoint& p, double z) {
   const double heading = p.heading_rad;
   const auto at = [&](double along, double left, double up) {
@@ -101,7 +103,7 @@ void AddFurniture(World& world, Town& town, const Path& road) {
   }
 }
 
-// How far from the shoulder to our lane, 0 to 1, smooth; and its slope by distance.
+// Returns the progress from the shoulder to our lane, 0 to 1, smooth, and its slope by distance.
 double MergeShare(double along_m, double& slope_per_m) {
   const double x = std::clamp((along_m - kMergeFrom_m) / (kMergeTo_m - kMergeFrom_m), 0.0, 1.0);
   slope_per_m = 30.0 * x * x * (1.0 - x) * (1.0 - x) / (kMergeTo_m - kMergeFrom_m);
@@ -118,7 +120,8 @@ void ShiftIntoLane(std::vector<BodyKnot>& knots, const Drive& drive, const Path&
   }
 }
 
-// A lane of vehicles that keep their speed; `keeps_clear(start)` says who may be there.
+// Adds a lane of vehicles that keep their speed; `keeps_clear(start)` says which of them may be
+// there.
 void AddLane(World& world, const Path& lane, double speed_mps, double duration_s, double gap_m,
              double truck_share, const HeightFunction& height, Random& random,
              const std::function<bool(double start_m)>& keeps_clear) {
@@ -134,7 +137,7 @@ void AddLane(World& world, const Path& lane, double speed_mps, double duration_s
 
 void AddTraffic(World& world, const Path& road, const Drive& drive, double duration_s,
                 const HeightFunction& height, Random& random) {
-  // Who would touch us while we cross the slow lane stays away.
+  // Vehicles that would touch ours while it crosses the slow lane are left out.
   const auto clear_of_us = [&](double start_m) {
     for (double t_s = 0.0; t_s < duration_s; t_s += 0.25) {
       const double own_m = drive.DistanceAt(t_s);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Parked at the kerb near a crossing: cars, buses and people pass while nothing of ours moves but a
-// tremble of the idling engine.
+// Makes a vehicle parked at the kerb near a crossing: cars, buses and people pass, while the
+// vehicle moves only with the vibration of its idling engine.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,8 +12,8 @@ namespace lio::sim {
 namespace {
 
 constexpr double kHalfRoad_m = 6.4;
-constexpr double kReach_m = 150.0;       // of the streets from the crossing
-constexpr double kIdleVibration = 0.02;  // of the strength of the body's motion when driving
+constexpr double kReach_m = 150.0;       // length of the streets from the crossing
+constexpr double kIdleVibration = 0.02;  // share of the body's motion when driving
 constexpr double kParkedAt_m = -1.1;     // from the kerb toward the road
 
 void AddStreet(Town& town, const Path& path) {
@@ -33,7 +33,7 @@ void AddStreet(Town& town, const Path& path) {
   }
 }
 
-// One lane of steady traffic, endless: who leaves at the far end comes in again.
+// Adds one lane of steady, endless traffic: vehicles that leave at the far end enter again.
 void AddLane(World& world, const Path& lane, double speed_mps, const HeightFunction& height,
              Random& random) {
   const double length_m = lane.length_m();

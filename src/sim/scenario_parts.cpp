@@ -16,7 +16,7 @@ Quaternion FromDegrees(double yaw, double pitch, double roll) {
                     Eigen::AngleAxisd(kRadians * roll, Vector3::UnitX()));
 }
 
-// Smallest box in the lidar's frame around a box in the body's.
+// Returns the smallest box in the lidar's frame around a box in the body's frame.
 OwnVehicleBox BoxInLidar(const Pose& T_lidar_body, const Vector3& low, const Vector3& high) {
   OwnVehicleBox box{Vector3::Constant(1e9), Vector3::Constant(-1e9)};
   for (int i = 0; i < 8; ++i) {

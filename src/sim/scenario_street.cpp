@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Street canyon: tall houses with shops close to the road, gentle bends, side streets, a stop at a
-// light, traffic both ways.
+// Makes a street canyon: tall houses with shops close to the road, gentle bends, side streets, a
+// stop at a traffic light and traffic both ways.
 #include <cmath>
 #include <utility>
 
@@ -11,9 +11,10 @@ namespace lio::sim {
 namespace {
 
 constexpr double kHalfRoad_m = 5.6;  // two lanes and parked cars
-constexpr double kLane_m = 1.7;      // of the lanes' middles from the road's
-constexpr double kBefore_m = 120.0;  // the street begins before the start and ends after the end
-constexpr double kSideStreet_m = 130.0;  // from one side street to the next
+constexpr double kLane_m = 1.7;      // distance of the lanes' middles from the road's middle
+constexpr double kBefore_m =
+    120.0;  // the street begins this much before the start and ends this much after the end
+constexpr double kSideStreet_m = 130.0;  // distance from one side street to the next
 constexpr double kSpeed_mps = 10.0;
 
 Path StreetPath(double length_m, Random& random) {
@@ -64,7 +65,7 @@ void AddSides(Town& town, const Path& path) {
   }
 }
 
-// Houses along the side streets, so that looking into one does not end in a field.
+// Adds houses along the side streets, so that rays into them do not end in a field.
 void AddSideStreets(Town& town, const std::vector<Road>& roads) {
   for (std::size_t i = 1; i < roads.size(); ++i) {
     const Vector2 along = roads[i].line_m[1] - roads[i].line_m[0];
@@ -77,11 +78,11 @@ void AddSideStreets(Town& town, const std::vector<Road>& roads) {
   }
 }
 
-// Cars ahead and behind that do as we do, and others coming toward us.
+// Adds cars ahead and behind that move like ours, and others in the oncoming lane.
 void AddTraffic(World& world, const Path& ego, const Path& oncoming,
                 const std::shared_ptr<const Drive>& drive, double duration_s,
                 const HeightFunction& height, Random& random) {
-  for (const double gap_m : {13.0, 24.0, -12.0}) {  // the stop is theirs too, shifted by the gap
+  for (const double gap_m : {13.0, 24.0, -12.0}) {  // they make our stop, too, shifted by the gap
     const VehicleKind kind = random.Chance(0.3) ? VehicleKind::kVan : VehicleKind::kCar;
     AddVehicleMover(
         world, kind, random, ego,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Open suburb: a winding road over low hills, detached houses with gable roofs behind hedges and
-// lawns, garden trees, cars in the drives.
+// Makes an open suburb: a winding road over low hills, detached houses with gable roofs behind
+// hedges and lawns, garden trees, and cars in the drives.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,7 +21,7 @@ Path WindingRoad(double length_m, Random& random) {
   double heading = 0.0;
   while (path.length_m() < length_m + 2.0 * kBefore_m) {
     double turn = random.Uniform(0.35, 1.0) * (random.Chance(0.5) ? 1.0 : -1.0);
-    if (std::abs(heading + turn) > 0.9) turn = -turn;  // onward, never back on itself
+    if (std::abs(heading + turn) > 0.9) turn = -turn;  // the road never turns back on itself
     path.AddArc(random.Uniform(35.0, 80.0), turn);
     path.AddStraight(random.Uniform(15.0, 60.0));
     heading += turn;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A straight tunnel with plain walls, between two cuttings with trees, lamps and sign gantries.
-// Inside, nothing tells how far along one is.
+// Makes a straight tunnel with plain walls, between two cuttings with trees, lamps and sign
+// gantries. Inside, the position along the tunnel cannot be observed by the lidar.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,7 +12,7 @@ namespace lio::sim {
 namespace {
 
 constexpr double kBefore_m = 90.0;  // from the start to the portal
-constexpr double kAfter_m = 160.0;  // of open road beyond the far portal
+constexpr double kAfter_m = 160.0;  // length of open road beyond the far portal
 constexpr double kHalfRoad_m = 4.2;
 constexpr double kHalfTunnel_m = 5.4;
 constexpr double kWall_m = 3.2;  // height at which the vault begins
@@ -23,7 +23,7 @@ double RoadHeight(double x_m) {
   return kSlope_ratio * x_m;
 }
 
-// The inside of the tunnel from portal to portal, and the wall around each portal.
+// Adds the inside of the tunnel from portal to portal, and the wall around each portal.
 void AddTube(Mesh& mesh, double from_m, double to_m) {
   std::vector<Vector2> section = {{-kHalfTunnel_m, -0.5}, {-kHalfTunnel_m, kWall_m}};
   constexpr int kVault = 12;
@@ -55,7 +55,7 @@ void AddTube(Mesh& mesh, double from_m, double to_m) {
   }
 }
 
-// A cutting: banks that rise beside the road, with bushes and trees.
+// Adds a cutting: banks that rise beside the road, with bushes and trees.
 void AddCutting(World& world, Town& town, double from_m, double to_m) {
   constexpr double kFoot_m = 9.0;
   constexpr double kTop_m = 24.0;
@@ -84,7 +84,7 @@ void AddCutting(World& world, Town& town, double from_m, double to_m) {
   }
 }
 
-// Two posts and a beam with sign boards across the road.
+// Adds two posts and a beam with sign boards across the road.
 void AddGantry(Mesh& mesh, double x) {
   const double z = RoadHeight(x);
   for (const double y : {-6.4, 6.4}) {
@@ -113,7 +113,7 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(60.0);
   Random random(options.seed, Purpose::kWorld, 4);
-  // As much tunnel as the log has time for, and the last 8 s outside again.
+  // The tunnel is as long as the log has time for, and the last 8 s are outside again.
   const double way_m = kSpeed_mps * std::max(20.0, scenario.duration_s - 7.0 - kStartRest_s);
   const double far_m = std::max(100.0, way_m - 8.0 * kSpeed_mps);
   Path road({-kBefore_m - 100.0, 0.0}, 0.0);

@@ -44,7 +44,7 @@ ScenePtr MakeMeshScene(RTCDevice device, const Mesh& mesh) {
   return scene;
 }
 
-// Column-major 3x4, as Embree takes transforms.
+// Returns a column-major 3x4 matrix, the form in which Embree takes transforms.
 std::array<float, 12> ToColumns(const Pose& pose) {
   const Matrix3 rotation = pose.rotation.toRotationMatrix();
   std::array<float, 12> columns{};
@@ -75,15 +75,15 @@ struct Scene::Interval::Impl {
 
   const Scene::Impl* world = nullptr;
   ScenePtr movers;                // null when nothing moves
-  std::vector<Matrix3> to_mover;  // rotation world to mover at the interval's middle
+  std::vector<Matrix3> to_mover;  // rotation from world to mover at the interval's middle
 };
 
-// Embree builds with one thread of its own: the tree, and with it ties, do not depend on the
-// machine.
+// Embree builds with one thread of its own, so that its tree, and with it the choice between
+// equally near hits, does not depend on the machine.
 Scene::Scene(const World& world) : impl_(std::make_unique<Impl>()) {
   impl_->device.reset(rtcNewDevice("threads=1"));
   if (!impl_->device) {
-    throw std::runtime_error("Embree does not start, error " +
+    throw std::runtime_error("Embree cannot start: error " +
                              std::to_string(rtcGetDeviceError(nullptr)));
   }
   impl_->fixed = MakeMeshScene(impl_->device.get(), world.fixed);
@@ -150,7 +150,7 @@ static void Load(std::span<const Ray> rays, float max_range_m, RTCRayHit8& packe
   }
 }
 
-// What lane i of the packet has hit.
+// Returns the hit of lane i of the packet.
 Hit Scene::Interval::Impl::HitOf(const RTCRayHit8& packet, std::size_t i, const Ray& ray) const {
   Hit hit;
   if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return hit;

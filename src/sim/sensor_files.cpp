@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-// Values of one file; errors name the file and the key.
+// Reads the values of one file; errors name the file and the key.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : name_(path.filename().string()) {
@@ -87,7 +87,7 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
   const auto azimuth = file.Get<std::vector<double>>("beams", "azimuth_offset_deg");
   if (elevation.empty() || fire_time.size() != elevation.size() ||
       azimuth.size() != elevation.size()) {
-    file.Fail("the three lists of 'beams' must have one entry a beam each");
+    file.Fail("the three lists of 'beams' must have one entry per beam");
   }
   if (!std::is_sorted(elevation.begin(), elevation.end())) {
     file.Fail("'beams.elevation_deg' must ascend");

@@ -11,13 +11,13 @@ namespace lio::sim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHouseSearch_m = 1.5;  // where a house does not fit, the next try is this far on
+constexpr double kHouseSearch_m = 1.5;  // distance to the next try when a house does not fit
 
 PathPoint OnFrontage(const Path& path, const Frontage& f, double along_m, double extra_m = 0.0) {
   return path.Beside(along_m, (f.on_left ? 1.0 : -1.0) * (f.offset_m + extra_m));
 }
 
-// Heading from the frontage toward the path.
+// Returns the heading from the frontage toward the path.
 double FacingPath(const PathPoint& point, const Frontage& f) {
   return point.heading_rad + (f.on_left ? -0.5 : 0.5) * kPi;
 }
@@ -172,7 +172,7 @@ void Town::AddParkedCars(const Path& path, const Frontage& f, double share) {
         OnFrontage(path, f, along_m + 0.5 * place_m, random_.Uniform(-0.12, 0.12));
     const double heading = point.heading_rad + (f.on_left ? kPi : 0.0) + 0.02 * random_.Gaussian();
     along_m += place_m;
-    // Parked on the road by the kerb and not in a crossing.
+    // Cars are parked on the road by the kerb, and not in a crossing.
     const double edge_m = roads_.SignedDistance(point.position_m);
     if (taken && edge_m < -0.6 && edge_m > -1.7 &&
         Reserve(point.position_m, heading, VehicleSize(kind), -1e9)) {
@@ -215,9 +215,9 @@ void Town::AddBarrier(const Path& path, const Frontage& f, double post_m, double
 }
 
 void Town::AddLaneMarks(const Path& path, const Frontage& f, double dash_m, double gap_m) {
-  constexpr double kAbove_m = 0.012;  // over the coarser triangles of the road
+  constexpr double kAbove_m = 0.012;  // above the coarser triangles of the road
   constexpr double kHalf_m = 0.07;
-  constexpr double kPiece_m = 3.0;  // follows the ground
+  constexpr double kPiece_m = 3.0;  // short pieces follow the ground
   const double period_m = gap_m > 0.0 ? dash_m + gap_m : kPiece_m;
   const double length_m = gap_m > 0.0 ? dash_m : kPiece_m;
   for (double along_m = f.from_m; along_m + length_m < f.to_m; along_m += period_m) {
@@ -250,7 +250,8 @@ void Town::AddWalkers(const Path& path, const Frontage& f, int num) {
     const double left_m = (lane.on_left ? 1.0 : -1.0) * lane.offset_m;
     const Terrain terrain = terrain_;
     const double kerb_m = ground_.kerb_m;
-    // There and back again; turning takes no time, which only the walker's own points show.
+    // The walker goes there and back again; turning takes no time, which shows only in the walker's
+    // own points.
     const auto body = [=](double t_s) {
       const double round_m = std::fmod(speed_mps * t_s + phase_m, 4.0 * reach_m);
       const bool back = round_m > 2.0 * reach_m;

@@ -16,8 +16,8 @@ using Channels = std::array<Jet, kNumChannels>;
 using JetVector = std::array<Jet, 3>;
 using JetMatrix = std::array<JetVector, 3>;  // rows
 
-// Weights of six neighbouring knots at u in [0, 1) with their derivatives by u: the uniform quintic
-// B-spline, e.g. de Boor, "A Practical Guide to Splines", ch. X.
+// Returns the weights of six neighbouring knots at u in [0, 1) with their derivatives by u: a
+// uniform quintic B-spline, see de Boor, "A Practical Guide to Splines", ch. X.
 std::array<Jet, 6> SplineWeights(double u) {
   std::array<Jet, 6> weights;
   // N(x) = 1/120 sum_k (-1)^k C(6, k) max(x - k, 0)^5 on its support [0, 6]; knot j is at x = u + 5
@@ -77,7 +77,8 @@ Quaternion RotationOf(double yaw, double pitch, double roll) {
                     Eigen::AngleAxisd(roll, Vector3::UnitX()));
 }
 
-// Rate of the body against world, in body, from the rates of R = Rz Ry Rx.
+// Returns the angular rate of the body relative to world, in body axes, from the rates of R = Rz Ry
+// Rx.
 Vector3 BodyRate(const Jet& yaw, const Jet& pitch, const Jet& roll) {
   const double sin_roll = std::sin(roll.value);
   const double cos_roll = std::cos(roll.value);
@@ -98,7 +99,8 @@ struct Trajectory::BodyJets {
 
 Trajectory::Trajectory(MotionPlan plan) : plan_(std::move(plan)) {
   if (plan_.knots.size() < 2 || !(plan_.knot_interval_s > 0.0)) {
-    throw std::invalid_argument("Trajectory: needs two knots and a positive interval between them");
+    throw std::invalid_argument(
+        "Trajectory: at least two knots and a positive interval between them are needed");
   }
 }
 

@@ -31,7 +31,8 @@ void AddWheels(Mesh& mesh, double front_x, double rear_x, double half_width, dou
   }
 }
 
-// The rounded part of a car's body seen from the side, extruded over its width with a tumblehome.
+// Adds the rounded part of a car's body: its side view is extruded over its width with a
+// tumblehome.
 void AddHull(Mesh& mesh, const std::vector<Vector2>& profile_xz, double half_width, double belt_z,
              Material paint) {
   const auto at = [&](std::size_t i, double side) {

@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// What liod would make of these words; `error`: what is wrong with them.
+// Parses the words as liod would; `error` is set to what is wrong with them.
 struct Parsed {
   explicit Parsed(std::vector<std::string> words) {
     CLI::App app("", "liod");
@@ -66,7 +66,7 @@ TEST(DaemonArguments, AMapNeedsAFolderToGoTo) {
   EXPECT_TRUE(Parsed({"--map", "--out", "x"}).live.writes_map);
 }
 
-// LCM's names have at most 63 characters: a prefix of 40 leaves room for the longest of ours.
+// LCM's channel names have at most 63 characters: a prefix of 40 leaves room for liod's longest.
 TEST(DaemonArguments, APrefixLeavesRoomForTheChannelsName) {
   const Parsed longest({"--channel-prefix", std::string(40, 'a')});
   EXPECT_EQ(longest.error, "");

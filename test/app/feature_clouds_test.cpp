@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Point i is at x = i, of ring 0.
+// Point i is at x = i and belongs to ring 0.
 FeatureCloudTask Task(std::size_t num_points, LoamFeatures features) {
   auto sweep = std::make_shared<Sweep>();
   sweep->scan_seq = 7;

@@ -23,7 +23,7 @@ Arrival<ScanChunk> Chunk(std::int32_t scan_seq, std::size_t num_points) {
   return arrival;
 }
 
-// Empties a closed inbox: stamps of samples, 1000 and more for the sequence numbers of chunks.
+// Empties a closed inbox: returns stamps of samples, and 1000 plus the sequence numbers of chunks.
 std::vector<std::int64_t> Contents(FilterInbox& inbox) {
   std::vector<std::int64_t> contents;
   while (const auto item = inbox.Take()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon's threads over a bus in memory, on a log that lio-sim made for the tests.
+// Tests the daemon's threads over a bus in memory, on a log that lio-sim made for the tests.
 #include "app/live_runner.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Options SceneOptions() {
   return loaded.options;
 }
 
-// Gives out nothing while it is held, so that messages pile up however slowly they are published.
+// Delivers nothing while it is held, so that messages pile up however slowly they are published.
 class HoldableBus final : public Bus {
  public:
   void Subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
@@ -57,7 +57,7 @@ class LiveRunnerTest : public ::testing::Test {
     bus_->Subscribe(kEndMark, 10, [this](ByteView, std::int64_t) { has_delivered_all_ = true; });
   }
 
-  // However busy the machine is: only what never happens fails, after a minute.
+  // Waits a minute, so that only what never happens fails on a busy machine.
   template <typename Condition>
   static void WaitUntil(Condition&& condition, const char* what) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -67,9 +67,9 @@ class LiveRunnerTest : public ::testing::Test {
     }
   }
 
-  // Publishes the log up to `max_events`, as fast as that goes without overrunning anything: the
-  // inertial samples run ahead of the matches by up to two scans. `may_go_on`, told how many scans
-  // have begun, may hold it up. Returns when the runner has been given everything.
+  // Publishes the log up to `max_events`, as fast as possible without overrunning anything: the IMU
+  // samples are ahead of the matches by up to two scans. `may_go_on` is told how many scans have
+  // begun, and may hold the log up. Returns when the runner has been given everything.
   void Play(
       const LiveRunner& runner, std::int64_t max_events = INT64_MAX,
       const std::function<bool(std::int32_t)>& may_go_on = [](std::int32_t) { return true; }) {
@@ -105,7 +105,7 @@ class LiveRunnerTest : public ::testing::Test {
     return std::count(text.begin(), text.end(), '\n');
   }
 
-  // Two closed scans, one growing, one not covered yet.
+  // There are two closed scans, one that grows and one that is not covered yet.
   static constexpr std::int64_t kMaxAhead = 4;
   static constexpr const char* kEndMark = "TEST_END";
 
@@ -121,7 +121,7 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
       test::ReplayLog(kScene / "log.lcm", options, folder_.path() / "replay");
   LiveRunner runner(*bus_, options, WithFiles());
   Play(runner);
-  // Stop gives what is left half a second, which may be too little on a busy machine.
+  // Stop gives the remaining work half a second, which may be too little on a busy machine.
   WaitUntil([&] { return runner.num_matches_done() >= replayed.num_matches; }, "all are matched");
   runner.Stop();
   for (const char* name : {"trajectory.tum", "trajectory_world.tum", "covariance.csv",
@@ -135,9 +135,9 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
   EXPECT_EQ(Stats()["num_chunks_queue_dropped"], 0);
 }
 
-// Of the clouds, newer ones replace one that still waits to be sent. So the log is held up while
-// the last full cloud is too many scans old, and then enough of them must have been sent however
-// slow the machine is.
+// A newer cloud replaces one that still waits to be sent. The log is therefore held up while the
+// last full cloud is too many scans old, so that enough of them are sent however slow the machine
+// is.
 TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
   const Channels channels;
   std::map<std::string, std::atomic<int>> num_messages;
@@ -175,7 +175,7 @@ TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
   EXPECT_GE(num_messages[channels.cloud], 4);  // due every fifth scan
 }
 
-// Of two messages of one instant: base's pose and motion are imu's, moved by hand.
+// Two messages of one instant are compared: base's pose and motion are imu's, transformed by hand.
 void ExpectMoved(const odometry_t& imu, const odometry_t& base, const Pose& T_base_imu) {
   const auto pose_of = [](const odometry_t& m) {
     return Pose{Quaternion(m.quat[0], m.quat[1], m.quat[2], m.quat[3]), Vector3(m.pos)};

@@ -12,7 +12,7 @@ namespace lio {
 namespace {
 
 TEST(ChiSquare, QuantilesAgreeWithPrintedTables) {
-  // Tables of the chi-square distribution, 6 degrees of freedom, give three decimals.
+  // Printed tables of the chi-square distribution with 6 degrees of freedom give three decimals.
   EXPECT_NEAR(ChiSquareQuantile6(0.05), 1.635, 5e-4);
   EXPECT_NEAR(ChiSquareQuantile6(0.50), 5.348, 5e-4);
   EXPECT_NEAR(ChiSquareQuantile6(0.95), 12.592, 5e-4);

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Against std::map and std::list, through many random calls.
+// The index is compared with std::map and std::list through many random calls.
 TEST(VoxelIndex, AgreesWithAPlainModel) {
   VoxelIndex index;
   std::map<VoxelKey, std::int32_t> model;

@@ -34,8 +34,8 @@ TEST(VoxelKey, DifferentVoxelsHaveDifferentKeys) {
   EXPECT_EQ(keys.size(), num_voxels);
 }
 
-// A street's voxels over the slots of a table twice as large: a chance hash leaves 0.39 of the
-// slots' runs alone; clusters would show as long searches.
+// A street's voxels are spread over the slots of a table twice as large: a random hash leaves 0.39
+// of the slots' runs alone; clusters would show as long searches.
 TEST(VoxelKey, NeighbouringVoxelsSpreadOverTheTable) {
   constexpr std::size_t kSlots = 1u << 15;
   std::vector<int> hits(kSlots, 0);

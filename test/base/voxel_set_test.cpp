@@ -18,7 +18,7 @@ TEST(VoxelSet, TakesAKeyOnce) {
   EXPECT_EQ(set.size(), 2u);
 }
 
-// Zero is what free slots hold.
+// Free slots hold zero.
 TEST(VoxelSet, ZeroIsAKeyLikeAnother) {
   VoxelSet set;
   EXPECT_TRUE(set.Insert(0));

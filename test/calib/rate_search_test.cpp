@@ -18,7 +18,7 @@ using test::TurnAboutZ;
 
 constexpr double kOffset_s = 0.0734;
 
-// Turns of 0.1 s of a lidar whose clock is kOffset_s behind.
+// Returns turns of 0.1 s of a lidar whose clock is kOffset_s behind.
 std::vector<LidarTurn> Turns(const test::Motion& motion, double from_s, double to_s) {
   std::vector<LidarTurn> turns;
   for (double t_s = from_s; t_s < to_s - 0.05; t_s += 0.1) {
@@ -52,7 +52,8 @@ TEST(RateSearch, WrongOffsetsAgreeLess) {
   }
 }
 
-// A swing of 2 rad/s about z, amplitude 1: rates of 2 cos(2 t), rms sqrt(2) over whole periods.
+// The swing of 2 rad/s about z with amplitude 1 has rates of 2 cos(2 t), rms sqrt(2) over whole
+// periods.
 TEST(RateSearch, RateAboutItsMeanAndTheMissingSecondAxisAreTold) {
   const auto samples = BiasedSamples(TurnAboutZ, 12.0);
   const auto turns = Turns(TurnAboutZ, 0.5, 0.5 + 3.0 * M_PI);
@@ -62,7 +63,7 @@ TEST(RateSearch, RateAboutItsMeanAndTheMissingSecondAxisAreTold) {
   EXPECT_NEAR(match.correlation, 1.0, 1e-4);
 }
 
-// The same turns seen in a mirror: the best rotation is no reflection, and agrees less.
+// The turns are mirrored: the best rotation is no reflection, and agrees less.
 TEST(RateSearch, MirroredTurnsGiveARotationAllTheSame) {
   const auto samples = BiasedSamples(LookAbout, 12.0);
   auto turns = Turns(LookAbout, 1.0, 10.0);
@@ -81,7 +82,7 @@ TEST(RateSearch, TurnsAcrossAHoleOrOutsideTheSamplesAreLeftOut) {
     const double t_s = test::SecondsOf(s.stamp);
     return t_s > 3.02 && t_s < 3.18;
   });
-  // Those from 3.0 to 3.1 s and from 3.1 to 3.2 s.
+  // These are the turns from 3.0 to 3.1 s and from 3.1 to 3.2 s.
   EXPECT_EQ(RateSearch(samples, turns).At(0.0).num_turns, num_whole - 2);
 }
 

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr double kOffset_s = -0.0312;
 
-// In the hands of somebody who walks and looks about.
+// The sensors are in the hands of a person who walks and looks around.
 Pose Walk(double t_s) {
   const Vector3 swing(0.05 * std::sin(11.3 * t_s), 0.04 * std::sin(12.1 * t_s + 1.0),
                       0.03 * std::sin(5.9 * t_s));
@@ -37,7 +37,7 @@ struct Recording {
   std::vector<SweepRotation> sweeps;
 };
 
-// A sensor pair moved along `motion` for `span_s`, sweeps at 10 Hz, samples at 200.
+// Moves a sensor pair along `motion` for `span_s`, with sweeps at 10 Hz and samples at 200 Hz.
 Recording Record(const test::Motion& motion, double span_s, double sweep_std_rad = 0.0,
                  double gyro_density = 0.0, unsigned seed = 1) {
   std::mt19937_64 random(seed);
@@ -84,7 +84,7 @@ TEST(RotationCalibration, ErrorsAreWhatItsCovarianceSays) {
     const Vector3 error = LogSo3(found.R_imu_lidar.conjugate() * kExtrinsic);
     rotation_nees += error.dot(found.rotation_cov.ldlt().solve(error)) / 3 / kRuns;
   }
-  // 99.7 % of a mean of chi-square: 1 +- 3 sqrt(2 / degrees of freedom).
+  // The interval holds 99.7 % of a mean of chi-square: 1 +- 3 sqrt(2 / degrees of freedom).
   EXPECT_NEAR(offset_nees, 1.0, 3 * std::sqrt(2.0 / kRuns));
   EXPECT_NEAR(rotation_nees, 1.0, 3 * std::sqrt(2.0 / (3 * kRuns)));
 }

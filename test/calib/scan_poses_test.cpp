@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNumSweeps = 12;
 
-// The lidar sways and turns while it is carried along; at rest for the first sweeps.
+// The lidar rests for the first sweeps, then sways and turns while it is carried along.
 Pose Carry(double t_s) {
   const double along_m = 0.6 * std::max(0.0, t_s - 0.4);
   return {ExpSo3(Vector3(0.03 * std::sin(9.0 * t_s), 0.02 * std::sin(11.0 * t_s), 0.3 * t_s)),
@@ -63,7 +63,7 @@ StampedPoses Find(const std::vector<ScanChunk>& chunks, const SweepPath* path) {
   return poses.found();
 }
 
-// Largest error of the turns between sweeps.
+// Returns the largest error of the turns between sweeps.
 double TurnError(const StampedPoses& found) {
   double largest = 0.0;
   for (std::size_t i = 1; i < found.size(); ++i) {

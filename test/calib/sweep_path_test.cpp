@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// A step and a half each second, the body swaying with it.
+// The person makes a step and a half each second, and the body sways with it.
 Pose Walk(double t_s) {
   const double phase = 2.0 * M_PI * 1.5 * t_s;
   return {ExpSo3(Vector3(0.03 * std::sin(phase), 0.02 * std::cos(phase), 0.4 * t_s)),

@@ -23,7 +23,8 @@ std::vector<ImuSample> Samples() {
   return test::BiasedSamples(LookAbout, 20.0);
 }
 
-// Neighbouring turns of sweeps that each err by `sweep_std_rad`, with `turn_std_rad` besides.
+// Returns neighbouring turns between sweeps that each err by `sweep_std_rad`, with `turn_std_rad`
+// in addition.
 std::vector<SweepTurn> Turns(const test::Motion& motion, double sweep_std_rad = 0.0,
                              double turn_std_rad = 0.0) {
   std::mt19937_64 random(5);
@@ -42,7 +43,7 @@ std::vector<SweepTurn> Turns(const test::Motion& motion, double sweep_std_rad = 
   return turns;
 }
 
-// As far off as the search before it leaves.
+// This is the error that the preceding search leaves.
 RotationCalibration Guess() {
   RotationCalibration guess;
   guess.offset_s = kOffset_s + 0.01;
@@ -65,7 +66,7 @@ TEST(TurnFit, ExactTurnsGiveTheTruth) {
   EXPECT_NEAR(state.R_imu_lidar.norm(), 1.0, 1e-12);
 }
 
-// A sweep's own error shows twice, with opposite signs; what a turn errs besides does not.
+// A sweep's own error appears twice, with opposite signs; a turn's additional error does not.
 TEST(TurnFit, SweepsOwnErrorsAndTurnsAreToldApart) {
   constexpr double kLarge_rad = 2e-3;
   RotationCalibration of_sweeps = Guess();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Is the filter's covariance true? A hundred runs and more, judged by chi-square bands (Bar-Shalom,
-// Li, Kirubarajan 2001, section 5.4).
+// Tests whether the filter's covariance agrees with its errors: a hundred runs and more are
+// compared with chi-square bands (Bar-Shalom, Li, Kirubarajan 2001, section 5.4).
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace lio::test {
 namespace {
 
-constexpr double kShare = 0.9;  // of instants that must lie in the 95 % band
+constexpr double kShare = 0.9;  // share of instants that must lie in the 95 % band
 
 EnsembleResult Judge(const char* title, const EnsembleOptions& options) {
   const EnsembleResult result = RunEnsemble(options);
@@ -32,7 +32,8 @@ void ExpectInBand(const EnsembleResult& result) {
   EXPECT_GE(result.nis.share_in_band, kShare);
 }
 
-// White innovations leave 95 % of the correlations in their band: 19 of 20 lags, here 17.
+// White innovations have 95 % of their correlations in the band: 19 of 20 lags; the test demands
+// 17.
 void ExpectWhite(const EnsembleResult& result) {
   EXPECT_GE(result.whiteness.share_in_band, 0.85);
   for (const double correlation : result.whiteness.autocorrelation) {
@@ -43,7 +44,8 @@ void ExpectWhite(const EnsembleResult& result) {
 void ExpectGaussian(const EnsembleResult& result) {
   for (std::size_t b = 0; b < Blocks().size(); ++b) {
     const SigmaShares& shares = result.shares[b];
-    // Errors of one run hold together over time, so this is the scatter of some hundred draws.
+    // Errors of one run are correlated over time, so the tolerance is the scatter of some hundred
+    // draws.
     EXPECT_NEAR(shares[0], 0.683, 0.08) << Blocks()[b].name;
     EXPECT_NEAR(shares[1], 0.954, 0.04) << Blocks()[b].name;
     EXPECT_NEAR(shares[2], 0.997, 0.015) << Blocks()[b].name;

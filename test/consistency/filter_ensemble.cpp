@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "consistency/filter_ensemble.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
-#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -17,9 +18,9 @@ constexpr double kImuStep_s = 0.01;
 constexpr int kImuPerScan = 10;
 constexpr double kRest_s = 1.0;
 constexpr double kNoGate = std::numeric_limits<double>::infinity();
-constexpr double kStartStd[] = {0.01, 0.004, 0.02, 5e-4, 0.05};  // a block of three each
+constexpr double kStartStd[] = {0.01, 0.004, 0.02, 5e-4, 0.05};  // one value per block of three
 
-// The same for every run: what a perfect IMU reads, and where it is.
+// Holds what is the same for every run: the samples of a perfect IMU, and its motion.
 struct Drive {
   std::vector<ImuSample> samples;
   std::vector<MotionState> states;
@@ -40,7 +41,7 @@ ErrorMatrix StartCov() {
   return cov;
 }
 
-// One run: the truth, and the filter that follows it.
+// Holds one run: the truth, and the filter that follows it.
 class Run {
  public:
   Run(const EnsembleOptions& options, const Drive& drive, std::uint64_t seed)
@@ -80,7 +81,8 @@ class Run {
     truth_.accel_bias = 0.05 * RandomVector<3>(random_);
     filter_.cov = StartCov();
     filter_.stamp = drive_.samples[0].stamp;
-    // truth = filter (+) error, so the filter begins at the truth (+) an error of the other sign.
+    // The truth is filter (+) error, so the filter begins at the truth (+) an error of the opposite
+    // sign.
     filter_.state = BoxPlus(truth_, DrawFrom(filter_.cov, random_));
     filter_.state.T_map_imu = filter_.state.T_world_imu;
     truth_.T_map_imu = filter_.state.T_map_imu;
@@ -88,8 +90,8 @@ class Run {
     last_ = Read(0);
   }
 
-  // The pose in the map as one and the same with the pose in the world: to measure the one is then
-  // to measure the other.
+  // Makes the pose in the map identical to the pose in the world, so that measuring one is
+  // measuring the other.
   void BelieveAbsolute() {
     truth_.T_map_imu = truth_.T_world_imu;
     Eigen::Matrix<double, kStateDim, kStateDim> tie = ErrorMatrix::Identity();
@@ -139,7 +141,7 @@ class Run {
     return whitened;
   }
 
-  // What inserting the scan at the filter's own pose makes of the truth.
+  // Moves the true map as inserting the scan at the filter's own pose does.
   void CoupleMap() {
     const Vector6 walk = DrawNoise(options_.phi * options_.q);
     const Pose inserted = filter_.state.T_map_imu;
@@ -153,7 +155,7 @@ class Run {
     if (options_.map == Map::kGrown) {
       measurement.new_content_share = options_.phi;
       measurement.blend_cov = options_.q * measurement.cov;
-    } else {  // the same walk, with next to no content of our own
+    } else {  // it drifts likewise, with almost no content of the map replaced
       constexpr double kLittle = 1e-9;
       measurement.new_content_share = kLittle;
       measurement.blend_cov = options_.phi * options_.q / kLittle * measurement.cov;
@@ -171,12 +173,12 @@ class Run {
   ImuSample last_;
 };
 
-// Collects what the runs leave.
+// Collects the results of the runs.
 struct Tally {
   std::vector<std::vector<TimedValues>> nees{Blocks().size()};
   std::vector<std::vector<double>> in_sigmas{Blocks().size()};
   std::vector<TimedValues> nis;
-  std::vector<TimedValues> innovations;  // six a run
+  std::vector<TimedValues> innovations;  // six per run
 
   void BeginRun() {
     for (auto& runs : nees) runs.emplace_back();
@@ -235,19 +237,17 @@ EnsembleResult RunEnsemble(const EnsembleOptions& options) {
 
 std::string Table(const EnsembleResult& result) {
   std::string text = "  block        NEES/dof  in band    1, 2, 3 sigma\n";
-  char row[160];
   for (std::size_t b = 0; b < Blocks().size(); ++b) {
     const SigmaShares& s = result.shares[b];
-    std::snprintf(row, sizeof row, "  %-10s %10.4g %7.0f %%   %.3f %.3f %.3f\n",
-                  Blocks()[b].name.c_str(), result.blocks[b].average_per_dof,
-                  100.0 * result.blocks[b].share_in_band, s[0], s[1], s[2]);
-    text += row;
+    text += fmt::format("  {:<10} {:>10.4g} {:>7.0f} %   {:.3f} {:.3f} {:.3f}\n", Blocks()[b].name,
+                        result.blocks[b].average_per_dof, 100.0 * result.blocks[b].share_in_band,
+                        s[0], s[1], s[2]);
   }
-  std::snprintf(row, sizeof row,
-                "  %-10s %10.4g %7.0f %%   lag 1 %+.3f, %.0f %% of 20 lags white\n", "NIS",
-                result.nis.average_per_dof, 100.0 * result.nis.share_in_band,
-                result.whiteness.autocorrelation.front(), 100.0 * result.whiteness.share_in_band);
-  return text + row;
+  return text +
+         fmt::format("  {:<10} {:>10.4g} {:>7.0f} %   lag 1 {:+.3f}, {:.0f} % of 20 lags white\n",
+                     "NIS", result.nis.average_per_dof, 100.0 * result.nis.share_in_band,
+                     result.whiteness.autocorrelation.front(),
+                     100.0 * result.whiteness.share_in_band);
 }
 
 }  // namespace lio::test

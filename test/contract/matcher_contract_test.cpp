@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What every registration method promises, whatever it is made of.
+// Tests what every registration method must do, whatever its kind.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ SpinningLidar Lidar(double range_std_m = 0.0, double start_azimuth_rad = 0.0) {
   return lidar;
 }
 
-// A drive of 4 m with a little of every motion: what a map is made from.
+// The map is made from a drive of 4 m with a little of every motion.
 constexpr int kNumMapScans = 11;
 Pose DrivePose(int i) {
   return SensorAt(-2.0 + 0.4 * i, 0.3 * std::sin(i), 0.02 * std::sin(2.0 * i),
@@ -147,7 +147,7 @@ TEST_P(MatcherContract, SaysThatACorridorDoesNotHoldItsAxis) {
       bench.Match(scan, kTruth * ExpSe3(offset), GuessCov(0.1, 0.5 * kDegree));
   EXPECT_EQ(result.status, MatchStatus::kDegenerate);
   EXPECT_NE(result.degenerate_mask, 0u);
-  // No step along the axis, a huge variance along it, a small one across.
+  // The step along the axis is zero, the variance huge along it and small across.
   const Vector3 across = kTruth.rotation.conjugate() * Vector3::UnitY();
   const Matrix3 position_cov = result.cov.topLeftCorner<3, 3>();
   EXPECT_GT(axis.dot(position_cov * axis), 50.0 * 50.0);
@@ -209,7 +209,7 @@ TEST_P(MatcherContract, DoesNotDependOnTheOrderOfPoints) {
     for (Sweep& each : sweeps) std::shuffle(each.points.begin(), each.points.end(), random);
     std::shuffle(sweep.points.begin(), sweep.points.end(), random);
   }
-  // To the last bit.
+  // The results are equal to the last bit.
   EXPECT_EQ(results[0].T_map_imu.translation, results[1].T_map_imu.translation);
   EXPECT_EQ(results[0].T_map_imu.rotation.coeffs(), results[1].T_map_imu.rotation.coeffs());
   EXPECT_EQ(results[0].cov, results[1].cov);
@@ -269,7 +269,7 @@ TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   }
 }
 
-// Spread of the results over draws of the scan's noise, against one map.
+// Returns the spread of the results over draws of the scan's noise, with one map.
 TEST_P(MatcherContract, CovarianceAgreesWithMonteCarlo) {
   const RayScene scene = test::StreetScene(2);
   MethodBench bench(GetParam());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-convert as a user meets it: exit codes, one-line messages, help.
+// Tests lio-convert as its users see it: exit codes, one-line messages, help.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class ConvertProgram : public testing::Test {
     arguments.insert(arguments.begin(), LIO_CONVERT_PROGRAM);
     return test::RunProgram(arguments);
   }
-  // One line on stderr that begins with the program's name.
+  // Expects one line on stderr that begins with the program's name.
   static void ExpectOneLine(const ProgramResult& result, int exit_code) {
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -31,7 +31,7 @@ class ConvertProgram : public testing::Test {
   }
   std::string Path(const std::string& name) const { return (dir_.path() / name).string(); }
 
-  // A bag of `num` clouds on each of the topics and an IMU.
+  // Writes a bag of `num` clouds on each of the topics, and an IMU.
   std::string WriteBag(const std::vector<std::string>& cloud_topics, int num = 12,
                        const test::Bag1Writer::Options& form = {}) {
     test::Bag1Writer writer(dir_.path() / "drive.bag", form);
@@ -191,7 +191,7 @@ TEST_F(ConvertProgram, ADamagedMessageInASoundBagIsPassedOverAndIs5) {
   const ProgramResult result = Run({"rosbag", Path("drive.bag"), Path("o.lcm")});
   ExpectOneLine(result, 5);
   EXPECT_THAT(result.out, HasSubstr("/points: 11 sweeps"));
-  EXPECT_THAT(result.out, HasSubstr("1 messages passed over, /points"));
+  EXPECT_THAT(result.out, HasSubstr("1 messages skipped, /points"));
 }
 
 TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {
@@ -216,7 +216,7 @@ TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {
   EXPECT_THAT(cut.out, HasSubstr("converted up to"));
 }
 
-// As much memory for a bag of four times the length, give or take a few megabytes.
+// A bag of four times the length must take the same memory to a few megabytes.
 TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
   const auto peak_kb = [&](int num_clouds) {
     const std::string bag = WriteBag({"/points"}, num_clouds, {.compression = "lz4"});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The converters on the real recordings: counts, spans, rebuilt point times, truth.
+// Runs the converters on the real recordings: counts, time spans, rebuilt point times, truth.
 #include "support/shared_data.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ RosbagOptions Options(const fs::path& bag, const test::TempDir& dir) {
   return options;
 }
 
-// The same bag with another name for the field "time", which hides it.
+// Copies the bag with another name for the field "time", which hides it.
 fs::path HideTime(const fs::path& bag, const test::TempDir& dir) {
   const fs::path hidden = dir.path() / "hidden.bag";
   test::Bag1Writer writer(hidden);
@@ -156,7 +156,7 @@ TEST(KittiDrive0005, ConvertsWholly) {
   }
 }
 
-// A ROS 1 message in ROS 2's form.
+// Converts a ROS 1 message to ROS 2's form.
 std::vector<std::uint8_t> InRos2Form(const BagTopic& topic, const BagMessage& message) {
   const test::RosBytes form(RosEncoding::kCdr);
   if (topic.type == "sensor_msgs/Imu") {
@@ -177,7 +177,7 @@ std::vector<std::uint8_t> InRos2Form(const BagTopic& topic, const BagMessage& me
                             form);
 }
 
-// Most of UrbanLoco's Hong Kong data is in ROS 2's form now.
+// Most of UrbanLoco's Hong Kong data is available in ROS 2's form today.
 TEST(UlhkSample, GivesTheSameLogAndTruthAsARos2Bag) {
   LIO_REQUIRE_SHARED_DATA(bag, "ulhk_sample.bag.xz");
   const test::TempDir dir;
@@ -206,7 +206,7 @@ TEST(UlhkSample, GivesTheSameLogAndTruthAsARos2Bag) {
   EXPECT_EQ(test::ReadText(*ros1.truth_file), test::ReadText(*ros2.truth_file));
 }
 
-// Lays drive 0005 out anew as an odometry sequence: camera poses from the OXTS truth at the scans'
+// Rearranges drive 0005 as an odometry sequence: camera poses from the OXTS truth at the scans'
 // stamps, times from the first scan on.
 class KittiSequenceOf0005 {
  public:
@@ -285,7 +285,7 @@ TEST(KittiDrive0005, ConvertsAsAnOdometrySequence) {
     EXPECT_NEAR((truth.poses[k].pose.translation - expected.translation).norm(), 0.0, 1e-5);
     EXPECT_NEAR(truth.poses[k].pose.rotation.angularDistance(expected.rotation), 0.0, 1e-5);
   }
-  // The lidar looks along the car: nearly all of the way is along its first x axis.
+  // The lidar faces along the car: nearly all of the way is along its first x axis.
   EXPECT_GT(truth.poses.back().pose.translation.x(), 25.0);
 }
 

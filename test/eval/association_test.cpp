@@ -33,7 +33,7 @@ TEST(Association, TruthIsInterpolatedAtTheEstimatesStamps) {
 
 TEST(Association, GapsWiderThanTheLimitAreNotBridged) {
   Trajectory truth = test::Straight(50, 1);
-  truth.poses.erase(truth.poses.begin() + 20, truth.poses.begin() + 30);  // 1.1 s without truth
+  truth.poses.erase(truth.poses.begin() + 20, truth.poses.begin() + 30);  // a gap of 1.1 s
   const Trajectory estimate = Shifted(test::Straight(50, 1), 10'000'000);
   const Association strict = Associate(truth, estimate);
   EXPECT_DOUBLE_EQ(strict.max_gap_s, 0.25);
@@ -65,7 +65,7 @@ TEST(Association, MissingFramesAndCoverageAreCounted) {
   estimate.poses.erase(estimate.poses.begin(), estimate.poses.begin() + 20);
   const Association result = Associate(truth, estimate);
   EXPECT_EQ(result.num_missing_frames, 3);
-  // 8 s from the first estimate on, less a hole of 0.4 s that counts as one period.
+  // The truth lasts 8 s after the first estimate, minus a hole of 0.4 s that counts as one period.
   EXPECT_NEAR(result.coverage_ratio, 0.77, 1e-9);
 }
 

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Squares of `dof` standard normals, times `scale`, at 10 Hz.
+// Returns squares of `dof` standard normals, times `scale`, at 10 Hz.
 std::vector<TimedValues> Squares(int num_runs, int dof, double scale, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// Printed tables of the distribution.
+// The expected values are from printed tables of the distribution.
 TEST(ChiSquare, QuantilesEqualTheTables) {
   EXPECT_NEAR(ChiSquareQuantile(0.95, 3), 7.815, 5e-4);
   EXPECT_NEAR(ChiSquareQuantile(0.99, 3), 11.345, 5e-4);
@@ -25,7 +25,7 @@ TEST(ChiSquare, TwoDegreesAreAnExponential) {
   }
 }
 
-// 300 degrees: 253.912 and 349.874 in printed tables.
+// There are 300 degrees of freedom: printed tables give 253.912 and 349.874.
 TEST(ChiSquare, BandOfFiftyRunsOfSixDegrees) {
   const Band fifty = MeanBandPerDof(6, 50);
   EXPECT_NEAR(fifty.low, 253.912 / 300, 1e-5);

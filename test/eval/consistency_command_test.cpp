@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-eval consistency as its users run it.
+// Runs lio-eval consistency as its users do.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class ConsistencyCommand : public ::testing::Test {
     for (int seed = 1; seed <= 12; ++seed) WriteRun(seed);
   }
 
-  // White errors of the stated size about the truth, none in the first row.
+  // The errors about the truth are white and have the stated size; the first row has none.
   void WriteRun(unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;

@@ -14,7 +14,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-// A covariance with strong correlations between position and rotation.
+// Returns a covariance with strong correlations between position and rotation.
 Matrix6 CorrelatedCovariance() {
   Matrix6 root = Matrix6::Zero();
   for (int row = 0; row < 6; ++row) {
@@ -26,8 +26,8 @@ Matrix6 CorrelatedCovariance() {
   return root * root.transpose();
 }
 
-// Runs whose errors are drawn from the covariance that they state, times `scale`; `correlation` of
-// neighbouring NIS values.
+// Returns runs whose errors are drawn from the covariance that they state, times `scale`;
+// neighbouring NIS values have `correlation`.
 std::vector<RunErrors> DrawRuns(int num_runs, double scale, double correlation = 0) {
   const Matrix6 cov = CorrelatedCovariance();
   const Matrix6 root = cov.llt().matrixL();
@@ -59,7 +59,7 @@ TEST(JudgeConsistency, HonestErrorsLieInsideTheBands) {
   for (const BandedSeries* series : {&c.pose, &c.position, &c.rotation, &*c.nis}) {
     EXPECT_NEAR(series->average_per_dof, 1.0, 0.03);
     EXPECT_NEAR(series->end_average_per_dof, 1.0, 0.06);
-    EXPECT_GT(series->share_in_band, 0.9);  // 95 % of 200 instants, give or take 3 sigma
+    EXPECT_GT(series->share_in_band, 0.9);  // 95 % of 200 instants, minus 3 sigma
     EXPECT_EQ(series->time_s.size(), 200u);
   }
   EXPECT_NEAR(c.horizontal_m.predicted / c.horizontal_m.real, 1, 0.02);
@@ -95,7 +95,7 @@ TEST(JudgeConsistency, CorrelatedInnovationsAreNotWhite) {
   EXPECT_LT(c.nis_whiteness->share_in_band, 0.8);
 }
 
-// One run, one instant each of known NEES: e' P^-1 e with P = diag(4), e = (2, 4, 0, 0, 0, 6).
+// One run has one instant of known NEES: e' P^-1 e with P = diag(4), e = (2, 4, 0, 0, 0, 6).
 TEST(JudgeConsistency, NeesByHand) {
   RunErrors run;
   RunInstant instant;

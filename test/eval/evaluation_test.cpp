@@ -48,7 +48,7 @@ TEST(Evaluate, AKnownShiftIsTheApeWithoutAlignment) {
   EXPECT_LT(Evaluate(truth, estimate, {}).ape.position_m.max, 1e-9);
 }
 
-// Positions alternate +-0.1 m along z about the truth: the alignment finds nothing to do.
+// Positions alternate by +-0.1 m along z about the truth, so the alignment changes nothing.
 TEST(Evaluate, ApeAfterAlignmentIsTheResidual) {
   const Trajectory truth = test::Helix(400);
   Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove * p; });
@@ -85,7 +85,7 @@ TEST(Evaluate, HeightDriftIsMeasuredFromTheStartWithoutAlignment) {
   EXPECT_NEAR(e.height->max_m, 2, 1e-9);
 }
 
-// A square of 100 m that the estimate closes 3 m aside: gap 3 m, 0.75 % of 400 m.
+// The estimate closes a square of 100 m with 3 m aside: the gap is 3 m, 0.75 % of 400 m.
 TEST(Evaluate, EndErrorOfAnUnclosedLoop) {
   const auto corner = [](int i) {
     const int side = i / 100, along = i % 100;
@@ -108,8 +108,8 @@ TEST(Evaluate, EndErrorOfAnUnclosedLoop) {
   EXPECT_NEAR(e.end.rotation_error_deg, 0, 1e-9);
 }
 
-// The trap of a published figure: poses of a lidar against those of a camera. Its rotation error
-// of 120 deg is named, and does not spoil what is relative.
+// A published figure made this mistake: poses of a lidar were compared with those of a camera. The
+// rotation error of 120 deg is named, and does not spoil the relative figures.
 TEST(Evaluate, CameraAxesAreNamedAndTakenOutOfRelativeErrors) {
   Matrix3 axes;
   axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An evaluation for the tests of reports.
+// Makes an evaluation for the tests of reports.
 #pragma once
 
 #include "eval/paths.hpp"
@@ -10,7 +10,7 @@ namespace lio::test {
 
 inline const ReportedFiles kFiles{"truth.tum", "estimate.tum"};
 
-// Of an estimate that is one per cent too long.
+// The estimate is one per cent too long.
 inline Evaluation ExampleEvaluation(bool is_kitti) {
   Trajectory truth = Helix(600);
   Trajectory estimate = Map(truth, [](const Pose& p) {
@@ -20,7 +20,7 @@ inline Evaluation ExampleEvaluation(bool is_kitti) {
   return Evaluate(truth, estimate, {});
 }
 
-// Statistics of which every figure is another.
+// Makes statistics in which every figure is different.
 inline ErrorStats StatsFrom(double first) {
   return {7, first, first + 0.1, first + 0.2, first + 0.3};
 }

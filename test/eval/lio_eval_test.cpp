@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The program as its users run it.
+// Runs the program as its users do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class LioEval : public ::testing::Test {
     arguments.insert(arguments.begin(), LIO_EVAL_PROGRAM);
     return test::RunProgram(arguments, environment);
   }
-  // One line on stderr that holds `part`.
+  // Expects one line on stderr that holds `part`.
   void ExpectFault(const test::ProgramResult& result, int exit_code, const std::string& part) {
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -117,7 +117,7 @@ TEST_F(LioEval, DamagedMapsAndUnwritablePicturesAreTold) {
 }
 
 TEST_F(LioEval, MissingMatplotlibIsToldAfterTheFigures) {
-  // A matplotlib that cannot be imported stands before the real one.
+  // A matplotlib that cannot be imported comes before the real one in the search path.
   dir_.Write("fake/matplotlib/__init__.py", "raise ImportError('not here')\n");
   const auto result =
       Run({truth_, estimate_, "--plot", InDir("a.png")}, {"PYTHONPATH=" + InDir("fake")});

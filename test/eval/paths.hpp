@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Trajectories with known answers.
+// Makes trajectories with known results.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace lio::test {
 
 inline constexpr std::int64_t kPeriod_ns = 100'000'000;  // 10 Hz
 
-// Poses 0.1 s apart from stamp 1000 s on.
+// Makes poses 0.1 s apart, beginning at stamp 1000 s.
 inline Trajectory MakeTrajectory(int count, const std::function<Pose(int)>& pose_of) {
   Trajectory trajectory;
   for (int i = 0; i < count; ++i) {
@@ -21,14 +21,14 @@ inline Trajectory MakeTrajectory(int count, const std::function<Pose(int)>& pose
   return trajectory;
 }
 
-// Forward by `step_m` a row along x, looking ahead.
+// The body moves forward along x by `step_m` per row and faces forward.
 inline Trajectory Straight(int count, double step_m) {
   return MakeTrajectory(count, [&](int i) {
     return Pose{Quaternion::Identity(), {step_m * i, 0, 0}};
   });
 }
 
-// A climbing curve that fills space, with the body looking along its heading.
+// The path is a climbing curve in all three dimensions; the body faces along its heading.
 inline Pose HelixPose(int i) {
   const double angle = 0.02 * i;
   return {ExpSo3({0, 0, angle + M_PI / 2}), {20 * std::cos(angle), 20 * std::sin(angle), 0.01 * i}};
@@ -37,7 +37,7 @@ inline Trajectory Helix(int count) {
   return MakeTrajectory(count, HelixPose);
 }
 
-// Every pose passed through a function.
+// Passes every pose through a function.
 inline Trajectory Map(Trajectory trajectory, const std::function<Pose(const Pose&)>& change) {
   for (StampedPose& row : trajectory.poses) row.pose = change(row.pose);
   return trajectory;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// PictureData.
+// Tests PictureData.
 #include <gtest/gtest.h>
 
 #include "eval/example_evaluation.hpp"
@@ -21,7 +21,7 @@ TEST(PictureData, ColumnsAreEquallyLongAndBreakAtHoles) {
   }
 }
 
-// Truth moved into the estimate's world, where the map is.
+// The truth is moved into the estimate's world, because the map is there.
 TEST(PictureData, PathsAreInTheEstimatesWorld) {
   const Trajectory truth = test::Helix(100);
   const Trajectory estimate = test::Map(truth, [](const Pose& p) {
@@ -54,7 +54,7 @@ TEST(PictureData, ErrorsAndHeightsAreThoseOfEachPair) {
   EXPECT_EQ(data["summary"]["truth"], "truth.tum");
 }
 
-// Rows without stamps are counted, and no row is a hole.
+// Rows without stamps are counted, and no row is taken for a hole.
 TEST(PictureData, RowsOfKittiFilesAreCounted) {
   const Trajectory truth = test::AsKitti(test::Helix(50));
   const auto data = PictureData(Evaluate(truth, truth, {}), kFiles);
@@ -63,7 +63,7 @@ TEST(PictureData, RowsOfKittiFilesAreCounted) {
   EXPECT_EQ(data["columns"]["time"][49], 49.0);
 }
 
-// Three periods are missing at most: then the line goes on.
+// Up to three missing periods do not interrupt the line.
 TEST(PictureData, AFewMissingFramesAreNoHole) {
   const Trajectory truth = test::Helix(100);
   Trajectory estimate = truth;

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// Straight on, with the estimate 1 % too long.
+// The path is straight, and the estimate is 1 % too long.
 Association OnePercentTooLong(int count, double step_m) {
   return Associate(test::Straight(count, step_m), test::Straight(count, 1.01 * step_m));
 }
@@ -42,7 +42,7 @@ TEST(StepErrors, RotationIsInDegrees) {
 }
 
 TEST(RpeOverTime, AVelocityErrorTimesTheInterval) {
-  // 10 m/s and 1 %: 0.1 m in a second.
+  // At 10 m/s an error of 1 % is 0.1 m in a second.
   const auto rpe = ComputeRpeOverTime(OnePercentTooLong(100, 1.0), 1.0);
   ASSERT_TRUE(rpe.has_value());
   EXPECT_EQ(rpe->translation_m.count, 90);
@@ -56,7 +56,7 @@ TEST(RpeOverTime, ShortOrUnstampedRecordingsHaveNone) {
 }
 
 TEST(RpeOverDistance, EndsAtTheFirstPoseBeyondTheLength) {
-  // Poses a metre apart: the first beyond 10 m is 11 m on.
+  // The poses are a metre apart, so the first beyond 10 m is 11 m away.
   const PosePairs pairs = OnePercentTooLong(100, 1.0).pairs;
   const auto rpe = ComputeRpeOverDistance(pairs, 10);
   ASSERT_TRUE(rpe.has_value());
@@ -65,11 +65,11 @@ TEST(RpeOverDistance, EndsAtTheFirstPoseBeyondTheLength) {
   EXPECT_FALSE(ComputeRpeOverDistance(pairs, 99).has_value());
 }
 
-// By hand: 1001 poses a metre apart, starts every tenth. A segment of L ends L + 1 m on, so
-// starts 0 .. 999 - L serve: 90, 80, .. 20 segments for 100, 200, .. 800 m. A 1 % error over
-// L + 1 m is (L + 1) / L per cent, and
-//   (90 + .9 + 80 + .4 + 70 + .2333 + 60 + .15 + 50 + .1 + 40 + .0667 + 30 + .0429 + 20 + .025)
-//   / 440 = 441.917857 / 440 = 1.0043588 %.
+// The expected value is computed by hand: there are 1001 poses a metre apart, and segments start at
+// every tenth. A segment of L ends L + 1 m after its start, so starts 0 .. 999 - L serve: 90, 80,
+// .. 20 segments for 100, 200, .. 800 m. A 1 % error over L + 1 m is (L + 1) / L per cent, and (90
+// + .9 + 80 + .4 + 70 + .2333 + 60 + .15 + 50 + .1 + 40 + .0667 + 30 + .0429 + 20 + .025) / 440 =
+// 441.917857 / 440 = 1.0043588 %.
 TEST(Drift, EqualsAHandComputedKittiFigure) {
   for (const bool is_kitti_file : {false, true}) {
     Trajectory truth = test::Straight(1001, 1.0), estimate = test::Straight(1001, 1.01);
@@ -86,7 +86,8 @@ TEST(Drift, EqualsAHandComputedKittiFigure) {
   }
 }
 
-// The same path with an attitude that turns by 0.02 deg a metre: 2 deg/100m times the same sum.
+// The path is the same, with an attitude that turns by 0.02 deg per metre: the result is 2 deg/100m
+// times the same sum.
 TEST(Drift, RotationIsPerHundredMetres) {
   const Trajectory estimate = test::MakeTrajectory(1001, [](int i) {
     return Pose{ExpSo3({0, 0, 0.02 * test::kDeg * i}), {1.0 * i, 0, 0}};
@@ -108,7 +109,8 @@ TEST(Drift, ShortPathsUseShorterLengthsAndSaySo) {
 }
 
 TEST(Drift, StartsLieASecondApartWhateverTheRate) {
-  // 1 m/s truth at 10 Hz for 120 s: starts at 0, 1, .. s; a segment of 100 m ends past 100 s.
+  // The truth moves at 1 m/s at 10 Hz for 120 s: segments start at 0, 1, .. s; one of 100 m ends
+  // after 100 s.
   const Drift drift = ComputeDrift(OnePercentTooLong(1201, 0.1));
   ASSERT_EQ(drift.by_length.size(), 1u);
   EXPECT_EQ(drift.by_length[0].num_segments, 20);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// EvaluationJson.
+// Tests EvaluationJson.
 #include <gtest/gtest.h>
+
+#include <array>
 
 #include "eval/example_evaluation.hpp"
 
@@ -13,71 +15,73 @@ using test::kFiles;
 using test::StatsFrom;
 using Json = nlohmann::ordered_json;
 
-// Programs read these: a key that goes away breaks them.
+// Programs read these keys: removing one breaks them.
+constexpr auto kKeys = std::to_array<const char*>({"/truth",
+                                                   "/estimate",
+                                                   "/association/method",
+                                                   "/association/max_gap_s",
+                                                   "/association/is_max_gap_automatic",
+                                                   "/association/num_truth",
+                                                   "/association/num_estimate",
+                                                   "/association/num_pairs",
+                                                   "/association/num_outside",
+                                                   "/association/num_in_gap",
+                                                   "/association/num_missing_frames",
+                                                   "/association/coverage_ratio",
+                                                   "/association/truth_period_s",
+                                                   "/association/estimate_period_s",
+                                                   "/alignment/mode",
+                                                   "/alignment/translation_m",
+                                                   "/alignment/rotation_wxyz",
+                                                   "/alignment/used_attitude",
+                                                   "/alignment/rotation_uncertainty_deg",
+                                                   "/rotation_offset/detected",
+                                                   "/rotation_offset/removed",
+                                                   "/rotation_offset/angle_deg",
+                                                   "/rotation_offset/axis",
+                                                   "/rotation_offset/scatter_deg",
+                                                   "/rotation_offset/name",
+                                                   "/path_length_m",
+                                                   "/duration_s",
+                                                   "/ape/position_m/rmse",
+                                                   "/ape/position_m/mean",
+                                                   "/ape/position_m/median",
+                                                   "/ape/position_m/max",
+                                                   "/ape/horizontal_m/rmse",
+                                                   "/ape/vertical_m/rmse",
+                                                   "/ape/rotation_deg/rmse",
+                                                   "/ape/rotation_without_offset_deg/rmse",
+                                                   "/tilt_deg/rmse",
+                                                   "/step/interval_s",
+                                                   "/step/count",
+                                                   "/step/translation_m/median",
+                                                   "/step/rotation_deg/median",
+                                                   "/rpe/1s/count",
+                                                   "/rpe/10m/translation_m/rmse",
+                                                   "/rpe/50m/rotation_deg/rmse",
+                                                   "/rpe/100m",
+                                                   "/drift/translation_percent",
+                                                   "/drift/rotation_deg_per_100m",
+                                                   "/drift/num_segments",
+                                                   "/drift/is_kitti_lengths",
+                                                   "/drift/by_length/0/length_m",
+                                                   "/drift/by_length/0/num_segments",
+                                                   "/drift/by_length/0/translation_percent",
+                                                   "/drift/by_length/0/rotation_deg_per_100m",
+                                                   "/end/error_m",
+                                                   "/end/error_percent",
+                                                   "/end/rotation_error_deg",
+                                                   "/end/estimate_gap_m",
+                                                   "/end/truth_gap_m",
+                                                   "/z_drift/end_m",
+                                                   "/z_drift/end_percent",
+                                                   "/z_drift/rmse_m",
+                                                   "/z_drift/max_m",
+                                                   "/notes"});
+
 TEST(EvaluationJson, KeysAreStable) {
   const auto json = EvaluationJson(ExampleEvaluation(false), kFiles);
-  for (const char* pointer : {"/truth",
-                              "/estimate",
-                              "/association/method",
-                              "/association/max_gap_s",
-                              "/association/is_max_gap_automatic",
-                              "/association/num_truth",
-                              "/association/num_estimate",
-                              "/association/num_pairs",
-                              "/association/num_outside",
-                              "/association/num_in_gap",
-                              "/association/num_missing_frames",
-                              "/association/coverage_ratio",
-                              "/association/truth_period_s",
-                              "/association/estimate_period_s",
-                              "/alignment/mode",
-                              "/alignment/translation_m",
-                              "/alignment/rotation_wxyz",
-                              "/alignment/used_attitude",
-                              "/alignment/rotation_uncertainty_deg",
-                              "/rotation_offset/detected",
-                              "/rotation_offset/removed",
-                              "/rotation_offset/angle_deg",
-                              "/rotation_offset/axis",
-                              "/rotation_offset/scatter_deg",
-                              "/rotation_offset/name",
-                              "/path_length_m",
-                              "/duration_s",
-                              "/ape/position_m/rmse",
-                              "/ape/position_m/mean",
-                              "/ape/position_m/median",
-                              "/ape/position_m/max",
-                              "/ape/horizontal_m/rmse",
-                              "/ape/vertical_m/rmse",
-                              "/ape/rotation_deg/rmse",
-                              "/ape/rotation_without_offset_deg/rmse",
-                              "/tilt_deg/rmse",
-                              "/step/interval_s",
-                              "/step/count",
-                              "/step/translation_m/median",
-                              "/step/rotation_deg/median",
-                              "/rpe/1s/count",
-                              "/rpe/10m/translation_m/rmse",
-                              "/rpe/50m/rotation_deg/rmse",
-                              "/rpe/100m",
-                              "/drift/translation_percent",
-                              "/drift/rotation_deg_per_100m",
-                              "/drift/num_segments",
-                              "/drift/is_kitti_lengths",
-                              "/drift/by_length/0/length_m",
-                              "/drift/by_length/0/num_segments",
-                              "/drift/by_length/0/translation_percent",
-                              "/drift/by_length/0/rotation_deg_per_100m",
-                              "/end/error_m",
-                              "/end/error_percent",
-                              "/end/rotation_error_deg",
-                              "/end/estimate_gap_m",
-                              "/end/truth_gap_m",
-                              "/z_drift/end_m",
-                              "/z_drift/end_percent",
-                              "/z_drift/rmse_m",
-                              "/z_drift/max_m",
-                              "/notes"}) {
+  for (const char* pointer : kKeys) {
     const nlohmann::ordered_json::json_pointer path(pointer);
     ASSERT_TRUE(json.contains(path)) << pointer;
     EXPECT_FALSE(json[path].is_null()) << pointer;
@@ -100,7 +104,7 @@ void ExpectStats(const Json& json, double first) {
           {"rmse", first}, {"mean", first + 0.1}, {"median", first + 0.2}, {"max", first + 0.3}}));
 }
 
-// Each figure stands under its own key: all are different.
+// Each figure is under its own key: all have different values.
 TEST(EvaluationJson, FiguresStandUnderTheirKeys) {
   Evaluation e;
   e.path_length_m = 1.5;

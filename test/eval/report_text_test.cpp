@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// EvaluationText.
+// Tests EvaluationText.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// The estimate's body is turned by `turn` against the truth's: R_estimate = R_truth turn.
+// The estimate's body is turned by `turn` relative to the truth's: R_estimate = R_truth turn.
 RotationOffset OffsetOf(const Quaternion& turn, double noise_rad = 0) {
   const Pose world{ExpSo3({0.3, -0.5, 2.0}), {10, -20, 30}};
   std::mt19937 random(1);
@@ -32,7 +32,8 @@ RotationOffset OffsetOf(const Quaternion& turn, double noise_rad = 0) {
 }
 
 Quaternion CameraInVehicle() {
-  Matrix3 axes;  // columns: camera x (right), y (down), z (forward) in x forward, y left, z up
+  Matrix3 axes;  // camera axes x (right), y (down), z (forward), in vehicle axes x forward, y left,
+                 // z up
   axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return Quaternion(axes);
 }
@@ -76,8 +77,8 @@ TEST(RotationOffset, NoiseIsNoOffset) {
 }
 
 TEST(RotationOffset, APathThatHardlyFixesTheAlignmentTellsNothing) {
-  // 30 m long, 0.3 m wide, with 0.2 m of position error across: the roll of the alignment about
-  // the path is off by some ten degrees, which is no offset of the bodies.
+  // The path is 30 m long and 0.3 m wide and has 0.2 m of lateral position error: the alignment's
+  // roll about the path is off by some ten degrees, which is no offset of the bodies.
   const Trajectory truth = test::MakeTrajectory(300, [](int i) {
     return Pose{Quaternion::Identity(), {0.1 * i, 0.4 * std::sin(0.02 * i), 0}};
   });

@@ -35,7 +35,7 @@ TEST(LevelAlignment, TurnsAboutZOnlyAndMeetsThePosition) {
   EXPECT_NEAR(left.head<2>().norm(), std::hypot(0.02, 0.01), 1e-5);
 }
 
-// The truth lies elsewhere and is turned about z; the estimate is tilted by a constant 0.01 rad
+// The truth has another origin and is turned about z; the estimate is tilted by a constant 0.01 rad
 // about world x and lags by 0.1 m in world y from the second row on.
 TEST(ComputeRunErrors, TiltStaysAnErrorAndYawAndOriginDoNot) {
   const Pose elsewhere{ExpSo3({0, 0, 2.0}), {100, 200, 300}};
@@ -50,7 +50,7 @@ TEST(ComputeRunErrors, TiltStaysAnErrorAndYawAndOriginDoNot) {
   const RunInstant& instant = errors.instants[30];
   EXPECT_NEAR(instant.time_s, 3.1, 1e-9);
   EXPECT_LT((instant.error.head<3>() - Vector3(0, 0.1, 0)).norm(), 1e-6);
-  // R_true = R_estimate Exp(d), and R_estimate d in world is minus the tilt.
+  // R_true = R_estimate Exp(d), so R_estimate d, in world, is minus the tilt.
   EXPECT_LT((instant.rotation_error_world - Vector3(-0.01, 0, 0)).norm(), 1e-6);
   const Quaternion rotation = estimate.poses[31].pose.rotation;
   EXPECT_LT((rotation * Vector3(instant.error.tail<3>()) - Vector3(-0.01, 0, 0)).norm(), 1e-6);

@@ -18,7 +18,7 @@ ImuRig Rig() {
   return rig;
 }
 
-// Ten scans a second of a lidar whose clock is `offset_s` behind the IMU's.
+// The lidar sends ten scans per second, and its clock is `offset_s` behind the IMU's.
 struct Drive {
   test::SmoothMotion motion;
   double offset_s = 0.02;

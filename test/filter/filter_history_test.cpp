@@ -83,7 +83,7 @@ TEST(FilterHistory, PoseTooFarOffIsGatedAndChangesNothing) {
             EventOutcome::kGated);
   EXPECT_FALSE(update.fused);
   EXPECT_GT(update.nis, TestOptions().nis_limit);
-  // To rounding: the step over the pose is done in two.
+  // The results agree to rounding: the step over the pose is done in two.
   EXPECT_LT(BoxMinus(history.head().state, before.state).norm(), 1e-5);
 }
 
@@ -102,8 +102,8 @@ TEST(FilterHistory, ForcedPoseIsFusedWithTheCovarianceInflated) {
   EXPECT_GT(history.head().cov(kVel, kVel), before.cov(kVel, kVel));
 }
 
-// No time has passed where stamps say so: the body is not where it was thought to be, its speed is
-// as before.
+// No time has passed according to the stamps: the position becomes uncertain, the speed is as
+// before.
 TEST(FilterHistory, ASetClockTakesTheWayBackAndLeavesTheSpeed) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 0.5);
@@ -254,7 +254,7 @@ TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
   const ErrorMatrix clean = after(false, false);
   const ErrorMatrix no_rate = after(true, false);
   const ErrorMatrix no_force = after(false, true);
-  // Over clipped_s it is as if the error lasted.
+  // The error counts as if it lasted for clipped_s.
   const double turn_std_rad = options.clipped_s * options.clipped_gyro_std_radps;
   const double speed_std_mps = options.clipped_s * options.clipped_accel_std_mps2;
   EXPECT_NEAR(std::sqrt(no_rate(kRot, kRot) - clean(kRot, kRot)), turn_std_rad,
@@ -275,7 +275,7 @@ TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   for (const int at : {kPos, kRot, kVel, kMapPose, kMapPose + 3}) {
     const double start = StartEstimate().cov(at, at);
     const double grown = split.head().cov(at, at) - start;
-    // What an interval is unsure of lasts for that interval, so two halves add up to half of it.
+    // An interval's uncertainty lasts for that interval, so two halves add up to half of it.
     EXPECT_GT(grown, 0.45 * (plain.head().cov(at, at) - start)) << at;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Is the filter's covariance true where everything is as it assumes? Noise as modelled, and a map
-// that does not move. With maps that drift: test/consistency.
+// Tests whether the covariance agrees with the errors when all of the filter's assumptions hold:
+// noise as modelled, and a map that does not move. test/consistency has maps that drift.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -29,7 +29,8 @@ struct TruthRun {
   Estimate estimate;
 };
 
-// Ten seconds of noisy samples and of poses against a map fixed where the first scan put it.
+// Runs ten seconds of noisy samples, and of poses in a map that is fixed where the first scan put
+// it.
 TruthRun RunWithNoise(unsigned seed, double seconds) {
   constexpr double kPoseStd = 0.02;
   std::mt19937_64 random(seed);
@@ -97,7 +98,8 @@ TEST(FilterHistory, NeesIsInItsBandWithWhiteNoiseOnAFixedMap) {
     }
   }
   for (const Block& block : blocks) {
-    // Mean over the runs of a chi-square per degree of freedom: three standard deviations.
+    // The tolerance is three standard deviations of the mean over the runs of a chi-square per
+    // degree of freedom.
     const double band = 3.0 * std::sqrt(2.0 / (kRuns * block.size));
     EXPECT_NEAR(block.nees, 1.0, band) << block.name;
   }

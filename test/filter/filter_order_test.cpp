@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter over time does not depend on the order in which events arrive.
+// Tests that the filter's result does not depend on the order in which events arrive.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +44,8 @@ EventOutcome Feed(FilterHistory& history, const Event& event) {
   return history.AddRebase(StampAt(event.t_s));
 }
 
-// A second and a half of samples, some lost; poses, one in eight far off, standstills and rebases
-// among them, at stamps of their own or at a sample's. In order.
+// Returns, in order, a second and a half of samples, some of them lost, and poses, one in eight far
+// off, with standstills and rebases among them, at stamps of their own or at a sample's.
 std::vector<Event> RandomEvents() {
   std::vector<Event> events;
   for (int i = 1; i <= 75; ++i) {
@@ -71,7 +71,7 @@ std::vector<Event> RandomEvents() {
   return events;
 }
 
-// The same events as they come in when each is delayed by up to a second.
+// Returns the same events in the order of arrival when each is delayed by up to a second.
 std::vector<Event> Delayed(const std::vector<Event>& events) {
   const std::vector<int> delays_ms =
       *rc::gen::container<std::vector<int>>(events.size(), rc::gen::inRange(0, 1001));

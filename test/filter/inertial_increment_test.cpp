@@ -20,7 +20,7 @@ ImuSample SampleAt(double t_s, const Vector3& rate, const Vector3& force) {
 
 const Vector3 kZero = Vector3::Zero();
 
-// Two samples with everything in them, and biases.
+// The two samples have all components and biases.
 struct Case {
   ImuSample from = SampleAt(0.0, {0.7, -1.1, 2.0}, {3.0, -1.0, 9.0});
   ImuSample to = SampleAt(0.05, {1.5, 0.4, 1.2}, {2.0, 2.5, 11.0});
@@ -46,7 +46,7 @@ TEST(InertialIncrement, ConstantForceWithoutTurningIsTheSchoolFormula) {
   EXPECT_LT((increment.position - Vector3(0.25, -0.5, 1.25)).norm(), 1e-12);
 }
 
-// A force that rises from 0 to f: integrals f t/2 and f t^2/6.
+// The force rises from 0 to f: its integrals are f t/2 and f t^2/6.
 TEST(InertialIncrement, ForceRunsLinearlyBetweenTheSamples) {
   const InertialIncrement increment =
       MakeIncrement(SampleAt(0.0, kZero, kZero), SampleAt(0.2, kZero, {6, 0, 0}), kZero, kZero);
@@ -60,7 +60,7 @@ TEST(InertialIncrement, MeanRateAboutOneAxisTurns) {
   EXPECT_LT((LogSo3(increment.turn) - Vector3(0, 0, 0.2)).norm(), 1e-12);
 }
 
-// dt^2/12 (x cross y) = dt^2/12 about z, which the mean rate alone has not.
+// The coning term dt^2/12 (x cross y) is dt^2/12 about z, which the mean rate alone does not have.
 TEST(InertialIncrement, RatesThatChangeTheirAxisCone) {
   const InertialIncrement increment = MakeIncrement(SampleAt(0.0, {1, 0, 0}, kZero),
                                                     SampleAt(0.12, {0, 1, 0}, kZero), kZero, kZero);
@@ -68,7 +68,7 @@ TEST(InertialIncrement, RatesThatChangeTheirAxisCone) {
 }
 
 TEST(InertialIncrement, ForceAtTheEndIsSeenFromTheBeginning) {
-  // A quarter turn about z: x at the end is y at the beginning.
+  // After a quarter turn about z, x at the end is y at the beginning.
   const ImuSample from = SampleAt(0.0, {0, 0, M_PI / 2}, kZero);
   const ImuSample to = SampleAt(1.0, {0, 0, M_PI / 2}, {3, 0, 0});
   const InertialIncrement increment = MakeIncrement(from, to, kZero, kZero);
@@ -90,7 +90,7 @@ TEST(InertialIncrement, BiasesAreTakenOutOfBothSamples) {
   EXPECT_LT((biased.position - free.position).norm(), 1e-15);
 }
 
-// Rates and forces that are straight lines in time, integrated in n steps.
+// Integrates rates and forces that are linear in time, in n steps.
 InertialIncrement Integrate(const Case& c, int num_steps) {
   const auto sample_at = [&](int i) {
     const double share = static_cast<double>(i) / num_steps;

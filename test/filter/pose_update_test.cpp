@@ -29,7 +29,7 @@ PoseMeasurement Measure(const Pose& T_map_imu, double std) {
   return measurement;
 }
 
-// Residuals from tiny to half a turn.
+// The residuals go from tiny to half a turn.
 std::vector<Vector6> SampleResiduals() {
   std::mt19937_64 random(1);
   std::vector<Vector6> residuals;
@@ -39,9 +39,9 @@ std::vector<Vector6> SampleResiduals() {
   return residuals;
 }
 
-// d (residual) / d (error of the map pose) as FusePose uses it, read off the gain: with the map
-// pose's own covariance zero and its entry i alone correlated with the velocity, a measurement
-// that is informative in its whitened entry j alone moves the velocity by H(j, i) r_j.
+// Reads d (residual) / d (error of the map pose), as FusePose uses it, off the gain: when the map
+// pose's own covariance is zero and only its entry i is correlated with the velocity, a measurement
+// that is informative only in its whitened entry j moves the velocity by H(j, i) r_j.
 Matrix6 JacobianInUse(const NavState& state, const Vector6& residual) {
   constexpr double kCorrelation = 1e-3;
   Matrix6 H;
@@ -84,7 +84,7 @@ TEST(PoseUpdate, JacobianMatchesDifferencesOfTheResidual) {
 TEST(PoseUpdate, ResetJacobianMatchesDifferences) {
   std::mt19937_64 random(3);
   const Estimate before = RandomEstimate(random, 0.1);
-  // A measurement with no information, and a residual so large that it still moves the state.
+  // The measurement has no information, and a residual so large that it still moves the state.
   constexpr double kVariance = 1e12;
   const ErrorVector move = 0.3 * test::RandomVector<kStateDim>(random);
   const Eigen::MatrixXd H = before.cov.inverse();
@@ -185,7 +185,8 @@ TEST(PoseUpdate, NisOfHonestMeasurementsIsChiSquare) {
     const ErrorVector error = BoxMinus(truth, estimate.state);
     mean_nees += error.dot(estimate.cov.ldlt().solve(error)) / kRuns;
   }
-  // Mean of chi-square with n degrees of freedom over N runs: n +- sqrt(2 n / N); four of them.
+  // The mean of chi-square with n degrees of freedom over N runs is n +- sqrt(2 n / N); the bar is
+  // four of them.
   EXPECT_NEAR(mean_nis, 6.0, 4 * std::sqrt(12.0 / kRuns));
   EXPECT_NEAR(mean_nees, 21.0, 4 * std::sqrt(42.0 / kRuns));
 }

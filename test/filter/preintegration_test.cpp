@@ -25,7 +25,7 @@ Timestamp At(double t_s) {
   return Timestamp{} + Duration::FromSeconds(t_s);
 }
 
-// Difference of two results in error order, b as the reference.
+// Returns the difference of two results in error order; b is the reference.
 Vector9 Difference(const Preintegration& a, const Preintegration& b) {
   Vector9 d;
   d << a.position - b.position, LogSo3(b.rotation.conjugate() * a.rotation),
@@ -33,7 +33,7 @@ Vector9 Difference(const Preintegration& a, const Preintegration& b) {
   return d;
 }
 
-// The true relative motion of a stretch.
+// Returns the true relative motion over an interval.
 Preintegration Truth(const SmoothMotion& motion, double from_s, double to_s) {
   const MotionPoint a = motion.At(from_s);
   const MotionPoint b = motion.At(to_s);
@@ -65,7 +65,7 @@ TEST(Preintegration, ErrorFallsByFourWhenTheRateDoubles) {
 
 TEST(Preintegration, NeighbouringStretchesComposeToTheWhole) {
   const SmoothMotion motion = WalkMotion();
-  // On a sample's stamp both halves see the same readings as the whole.
+  // On a sample's stamp both halves use the same samples as the whole.
   const Preintegration whole = Exact(motion, 0.1, 1.1, 100);
   const Preintegration a = Exact(motion, 0.1, 0.5, 100);
   const Preintegration b = Exact(motion, 0.5, 1.1, 100);
@@ -154,7 +154,7 @@ TEST(Preintegration, HoldsTheReadingBeyondTheSamples) {
   sample.f_imu_mps2 = {2.0, 0, 0};
   const Preintegration sum = Preintegrate({&sample, 1}, At(0.5), At(1.5), {}, {});
   EXPECT_NEAR(LogSo3(sum.rotation).z(), 0.5, 1e-12);
-  // |integral of 2 exp(0.5 i t)| over a second, in two steps.
+  // The value is |integral of 2 exp(0.5 i t)| over a second, in two steps.
   EXPECT_NEAR(sum.velocity.norm(), 2.0 * std::sin(0.25) / 0.25, 0.02);
 }
 

@@ -21,7 +21,7 @@ struct StepCase {
   ImuSample from, to;
 };
 
-// A step of `dt_s` with rates of order one rad/s and the force of a braking, turning car.
+// Returns a step of `dt_s` with rates of order one rad/s and the force of a braking, turning car.
 StepCase RandomStep(std::mt19937_64& random, double dt_s) {
   StepCase step;
   step.before = test::RandomState(random);
@@ -52,7 +52,7 @@ NavState StateAlong(const test::Motion& motion, double t_s) {
   return state;
 }
 
-// The state after `seconds` of steps of `step_s` along a motion, from its true start.
+// Returns the state after `seconds` of steps of `step_s` along a motion, from its true start.
 NavState IntegrateMotion(const test::Motion& motion, double seconds, double step_s) {
   const std::vector<ImuSample> samples = test::ExactSamples(motion, 0.0, seconds, step_s);
   NavState state = StateAlong(motion, 0.0);
@@ -69,7 +69,8 @@ ProcessNoise TestNoise() {
           .accel_bias_walk_density = 1e-2};
 }
 
-// The smallest eigenvalue of the matrix of correlations, for which units and sizes do not matter.
+// Returns the smallest eigenvalue of the correlation matrix, for which units and sizes do not
+// matter.
 double SmallestCorrelation(const ErrorMatrix& cov) {
   const ErrorVector inverse_std = cov.diagonal().cwiseSqrt().cwiseInverse();
   const ErrorMatrix correlations = inverse_std.asDiagonal() * cov * inverse_std.asDiagonal();
@@ -84,8 +85,8 @@ TEST(ProcessModel, TransitionMatchesDifferencesInEveryRow) {
       const NavState after = PropagateState(step.before, step.from, step.to, kGravity);
       const ErrorMatrix analytic = TransitionMatrix(step.before, after, step.from, step.to);
       const ErrorMatrix numeric = NumericTransition(step);
-      // What the coning term depends on the gyro bias is left out: dt^2/12 |w1 - w0|, and the
-      // force turned by it.
+      // The coning term's dependence on the gyro bias is left out: dt^2/12 |w1 - w0|, and the force
+      // turned by it.
       const double left_out =
           dt_s * dt_s / 12.0 * (step.to.w_imu_radps - step.from.w_imu_radps).norm();
       const double tolerance = 1e-8 + left_out;
@@ -194,7 +195,7 @@ TEST(ProcessModel, NoiseTermsAgreeWithMonteCarlo) {
   for (int run = 0; run < kRuns; ++run) {
     NavState state = start;
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      // White noise held over the step: the same at both of its ends.
+      // White noise is held over the step: it is the same at both ends.
       const Vector3 w_noise = noise.gyro_density * white * test::RandomVector<3>(random);
       const Vector3 f_noise = noise.accel_density * white * test::RandomVector<3>(random);
       ImuSample from = samples[i - 1];

@@ -14,7 +14,8 @@ namespace {
 
 using WorldError = Eigen::Matrix<double, kAccelBias, 1>;
 
-// The filter far from the origin, its world turned against the map by `tilt_rad` about x.
+// The filter is far from the origin, and its world is turned relative to the map by `tilt_rad`
+// about x.
 Estimate TiltedBy(double tilt_rad) {
   Estimate estimate;
   estimate.state.T_map_imu = {ExpSo3(Vector3(0, 0, 0.4)), Vector3(100, 50, 0)};

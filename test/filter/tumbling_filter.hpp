@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A filter of a tumbling body, fed with exact samples and poses.
+// Makes a filter of a tumbling body, fed with exact samples and poses.
 #pragma once
 
 #include <algorithm>

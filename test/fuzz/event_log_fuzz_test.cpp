@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Damaged logs into the reader: it ends, stays inside the file and accounts for every byte.
+// Feeds damaged logs to the reader: it must end, stay inside the file and account for every byte.
 #include <gtest/gtest.h>
 
 #include <fstream>

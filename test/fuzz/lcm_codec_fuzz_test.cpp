@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One million mutated messages into the decoders. The release build shows that nothing crashes or
-// takes long; run it under sanitizers to see that no byte outside a message is touched:
+// Feeds one million mutated messages to the decoders. The release build shows that nothing crashes
+// or takes long; run it under sanitizers to see that no byte outside a message is touched:
 //   cmake --preset asan && cmake --build build-asan --target lio_fuzz_test
 //   build-asan/bin/lio_fuzz_test
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr int kNumMutants = 1'000'000;
 constexpr std::size_t kScanFixedBytes = 44;
 constexpr std::size_t kPointBytes = sizeof(LidarPoint);
 
-// Bounded by modulo: which draws come is fixed by the seed on every standard library.
+// Draws are bounded by modulo, so that the seed gives the same ones on every standard library.
 class Mutator {
  public:
   explicit Mutator(std::uint32_t seed) : random_(seed) {}
@@ -37,7 +37,7 @@ class Mutator {
       case 2:
         PutNumber(Below(bytes.size()), bytes);
         break;
-      case 3:  // where scan_t has its format, step and counts
+      case 3:  // offsets where scan_t has its format, step and counts
         PutNumber(32 + Below(12), bytes);
         break;
       case 4:
@@ -88,7 +88,7 @@ TEST(LcmCodecFuzz, OneMillionMutantsAreDecodedOrRefused) {
   for (int i = 0; i < kNumMutants; ++i) {
     Bytes mutant = seeds[mutator.Below(seeds.size())];
     for (std::size_t rounds = 1 + mutator.Below(3); rounds > 0; --rounds) mutator.Mutate(mutant);
-    // A block of exactly the message's size, so that a sanitizer sees the first byte behind it.
+    // The block has exactly the message's size, so that a sanitizer sees the first byte behind it.
     const auto block = std::make_unique<std::uint8_t[]>(mutant.size());
     if (!mutant.empty()) std::memcpy(block.get(), mutant.data(), mutant.size());
     const ByteView view(block.get(), mutant.size());
@@ -100,13 +100,14 @@ TEST(LcmCodecFuzz, OneMillionMutantsAreDecodedOrRefused) {
     if (DecodeChunk(view, chunk) == DecodeStatus::kOk) {
       ++num_scan;
       ASSERT_EQ(view.size(), kScanFixedBytes + chunk.points.size() * kPointBytes);
-      // Accepted in full: what is sent again is the same but for the device's own clock.
+      // The message was accepted: encoding it again gives the same bytes except the device's own
+      // clock.
       Bytes again = EncodeChunk(chunk);
       std::memcpy(again.data() + 16, view.data() + 16, 8);
       ASSERT_EQ(std::memcmp(again.data(), view.data(), view.size()), 0) << "mutant " << i;
     }
   }
-  // Both ways were taken often, so the test does test something.
+  // Both outcomes must be frequent, or the test would test nothing.
   EXPECT_GT(num_imu, kNumMutants / 50);
   EXPECT_GT(num_scan, kNumMutants / 20);
   EXPECT_LT(num_imu + num_scan, kNumMutants / 2);

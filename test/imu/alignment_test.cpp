@@ -20,7 +20,7 @@ Timestamp At(double t_s) {
   return Timestamp{} + Duration::FromSeconds(t_s);
 }
 
-// Two seconds of a car's drive at 400 Hz and 10 poses a second, in a frame that leans.
+// Returns two seconds of a car's drive at 400 Hz with 10 poses per second, in a frame that leans.
 struct Window {
   explicit Window(double gravity_mps2) {
     errors.gyro_bias = {0.004, -0.002, 0.003};
@@ -58,7 +58,7 @@ struct Window {
       sample.f_imu_mps2 -= T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity);
     }
   }
-  // Degrees and metres per second off, and nothing known of biases.
+  // The start is degrees and metres per second off, and the biases are unknown.
   Alignment Guess() const {
     Alignment guess = truth;
     for (WindowState& state : guess.states) {
@@ -97,7 +97,7 @@ TEST(Alignment, ExactPosesGiveBackTheMotion) {
   }
   EXPECT_LT((result.solution.biases.gyro - window.errors.gyro_bias).norm(), 1e-3);
   EXPECT_NEAR(result.solution.up_any.norm(), 1.0, 1e-9);
-  // Which of tilt and accelerometer bias it is the car's motion tells badly; their sum is surer.
+  // The car's motion barely separates tilt and accelerometer bias; their sum is more certain.
   EXPECT_LT((result.solution.up_any - window.truth.up_any).norm(), 1e-2);
   const auto reading = [](const Alignment& at) -> Vector3 {
     return at.states[0].R_any_imu.conjugate() * (test::kGravity * at.up_any) + at.biases.accel;
@@ -124,13 +124,14 @@ TEST(Alignment, OneWrongPosePullsLittleAndIsToldByItsMisfit) {
   const AlignmentResult result = Align(window.terms, window.Guess());
   ASSERT_TRUE(result.converged);
   EXPECT_LT((result.solution.states[10].p_any_imu - window.truth.states[10].p_any_imu).norm(), 0.1);
-  // 3 m at a standard deviation of 2 cm: 150 sigmas, but for what the state gives way.
+  // The pose is 3 m off at a standard deviation of 2 cm, which is 150 sigmas minus what the state
+  // gives way.
   EXPECT_GT(result.pose_misfit_sq[9], 140.0 * 140.0);
   EXPECT_LT(result.pose_misfit_sq[8], 20.0);
   EXPECT_LT(result.pose_misfit_sq[10], 20.0);
 }
 
-// Every standard deviation halved: the covariance falls to a quarter.
+// With every standard deviation halved, the covariance falls to a quarter.
 TEST(Alignment, CovarianceFollowsTheNoise) {
   Window window(test::kGravity);
   const AlignmentResult plain = Align(window.terms, window.truth);

@@ -19,7 +19,7 @@ using Finding = ImuVerdict::Finding;
 constexpr double kImuStep_s = 0.01;
 constexpr double kSweep_s = 0.1;
 
-// A drive with speed changes and bends, as vehicles do: from rest, then up to 9 m/s.
+// Returns a vehicle's drive with speed changes and bends: from rest, then up to 9 m/s.
 test::Motion Drive() {
   return test::WindingDrive(1.0);
 }
@@ -137,7 +137,7 @@ TEST(ImuClassifier, RestLeavesItOpen) {
   }
 }
 
-// Whatever is wrong short of units and quarter turns must not look like them.
+// Errors other than units and quarter turns must not look like them.
 TEST(ImuClassifier, OrdinaryFaultsAreNotMistaken) {
   std::vector<DriveCase> setups(7);
   setups[0].gyro_bias = Vector3(0.1, -0.1, 0.1);   // 6 deg/s
@@ -171,7 +171,7 @@ TEST(ImuClassifier, WorthlessPosesSayNothing) {
   EXPECT_EQ(Classify(setup).finding, Finding::kOpen);
 }
 
-// Straight ahead with 2 m/s^2, after a second of rest.
+// The car goes straight ahead with 2 m/s^2 after a second of rest.
 Pose DriveOff(double t_s) {
   const double since_s = std::max(0.0, t_s - 1.0);
   return {Quaternion::Identity(), Vector3(since_s * since_s, 0, 0)};
@@ -227,7 +227,7 @@ TEST(ImuClassifier, DegreesAreAbsurdInMotionOnly) {
   }
 }
 
-// A lively turn, and white noise of a standard deviation.
+// Returns a lively turn with white noise of a standard deviation.
 std::vector<ImuSample> NoisyTurn(double noise) {
   std::mt19937_64 random(5);
   std::vector<ImuSample> samples(200);

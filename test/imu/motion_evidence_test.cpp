@@ -13,7 +13,7 @@ using test::StampAt;
 
 constexpr double kStep_s = 0.1;
 
-// Exact poses and samples of a drive; `late_s` is how much later the samples were taken.
+// Returns exact poses and samples of a drive; the samples were taken `late_s` later.
 MotionEvidence Exact(double to_s, double late_s = 0.0) {
   const test::Motion motion = test::WindingDrive(0.5);
   MotionEvidence evidence;

@@ -41,7 +41,7 @@ SmoothMotion BrakingMotion() {
   return motion;
 }
 
-// What the estimator is given, and the truth.
+// Holds the input of the estimator and the truth.
 struct Case {
   std::vector<ImuSample> samples;
   std::vector<MatchedPose> poses;
@@ -129,7 +129,7 @@ TEST(MovingStart, TiltAndVelocityAreGoodAfterTwoSeconds) {
   }
 }
 
-// Tilt (two), velocity and biases; what is zero by definition is left out.
+// The entries are tilt (two), velocity and biases; those that are zero by definition are left out.
 TEST(MovingStart, CovarianceIsHonest) {
   std::mt19937_64 random(2);
   constexpr int kRuns = 25;
@@ -143,7 +143,7 @@ TEST(MovingStart, CovarianceIsHonest) {
       ASSERT_TRUE(result.start) << named.name << ": " << result.why_not;
       const Estimate& estimate = result.start->estimate;
       const ErrorVector error = BoxMinus(c.truth, estimate.state);
-      // Rotation error in world, without yaw.
+      // The rotation error is taken in world, without yaw.
       const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
       Eigen::Matrix<double, 11, kStateDim> pick = Eigen::Matrix<double, 11, kStateDim>::Zero();
       pick.block<2, 3>(0, kRot) = R.topRows<2>();
@@ -152,8 +152,8 @@ TEST(MovingStart, CovarianceIsHonest) {
       const Eigen::Matrix<double, 11, 11> cov = pick * estimate.cov * pick.transpose();
       nees_sum += e.dot(cov.ldlt().solve(e)) / 11.0;
     }
-    // 95 % band of 275 degrees of freedom: 0.84 .. 1.17; the widening by the misfit's median only
-    // ever widens.
+    // The 95 % band of 275 degrees of freedom is 0.84 .. 1.17; the widening by the median of the
+    // normalized residuals only ever widens.
     EXPECT_GT(nees_sum / kRuns, 0.7) << named.name;
     EXPECT_LT(nees_sum / kRuns, 1.2) << named.name;
   }
@@ -167,7 +167,8 @@ TEST(MovingStart, KnowsThatTiltAndAccelerometerBiasGoTogether) {
   const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
   ASSERT_TRUE(result.start) << result.why_not;
   const ErrorMatrix& P = result.start->estimate.cov;
-  // Straight on, a bias across looks like a tilt: both stay at the prior, nearly fully correlated.
+  // The car goes straight on, so a lateral bias looks like a tilt: both stay at the prior, nearly
+  // fully correlated.
   EXPECT_NEAR(std::sqrt(P(kAccelBias, kAccelBias)), 0.05, 0.01);
   double largest = 0.0;
   for (int i = 0; i < 3; ++i) {

@@ -26,7 +26,7 @@ struct Rest {
   Vector3 g_world = test::kGravity;
 };
 
-// A second of an IMU that stands still, its noise as the rig says.
+// Returns a second of an IMU at rest, with noise as in the rig.
 std::vector<ImuSample> StandStill(const Rest& rest, const Rig& rig, std::mt19937_64& random) {
   const double white = 1.0 / std::sqrt(kStep_s);
   std::vector<ImuSample> samples;
@@ -64,7 +64,7 @@ TEST(StartState, StatisticsOfNothingAreZero) {
   EXPECT_EQ(Summarise({}).span_s, 0.0);
 }
 
-// 100 steps of 10 ms: noise of 0.01 rad/s and 0.02 m/s^2.
+// The data are 100 steps of 10 ms with noise of 0.01 rad/s and 0.02 m/s^2.
 TEST(StartState, CalmIsWhatNoiseAndUnrestExplain) {
   const ImuRig imu;
   ImuStatistics statistics;
@@ -144,8 +144,8 @@ TEST(StartState, GravityFreeReadingIsNoTilt) {
   EXPECT_NE(start.how.find("without gravity"), std::string::npos);
 }
 
-// Biases drawn from the rig's own spread: errors must be what the covariance says, the tie of tilt
-// to accelerometer bias included.
+// Biases are drawn from the rig's own spread: errors must agree with the covariance, including the
+// correlation of tilt and accelerometer bias.
 TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
   constexpr int kRuns = 300;
   std::mt19937_64 random(4);
@@ -171,7 +171,7 @@ TEST(StartState, CovarianceAtRestAgreesWithMonteCarlo) {
     predicted_tilt_sq += (cov(0, 0) + cov(1, 1)) / kRuns;
   }
   const auto dof = static_cast<double>(rows.size());
-  // Gravity's strength is known exactly here but taken as unsure, so a little below is right.
+  // Gravity's strength is known exactly here but modelled as uncertain, so a little below is right.
   EXPECT_LT(nees, dof + 3 * std::sqrt(2 * dof / kRuns));
   EXPECT_GT(nees, 0.8 * dof);
   EXPECT_NEAR(tilt_sq / predicted_tilt_sq, 1.0, 3 * std::sqrt(1.0 / kRuns));
@@ -187,7 +187,7 @@ LastFix Passed() {
   return point;
 }
 
-// A fresh start half a second later, at its own origin.
+// The initialization is repeated half a second later, at its own origin.
 Estimate StartedAnew() {
   Estimate estimate;
   estimate.stamp = StampAt(1.5);
@@ -235,7 +235,7 @@ TEST(PlaceInWorld, PositionAndYawAreAsUnsureAsTheyWereAndMore) {
   const Matrix3 rotation_cov = R * estimate.cov.block<3, 3>(kRot, kRot) * R.transpose();
   EXPECT_NEAR(rotation_cov(2, 2), 4e-6 + 0.0025, 1e-7);
   EXPECT_NEAR(rotation_cov(0, 0), 0.0, 1e-12) << "its tilt is the start's";
-  // A yaw error turns the velocity along: in imu it is as sure as the start has it.
+  // A yaw error turns the velocity, too: in imu it is as certain as the start has it.
   ErrorVector yaw = ErrorVector::Zero();
   yaw.segment<3>(kRot) = R.transpose() * Vector3::UnitZ() * 1e-6;
   yaw.segment<3>(kVel) = Vector3::UnitZ().cross(estimate.state.v_world_imu) * 1e-6;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""lio-log calibrate on a simulated walk whose clocks disagree and whose configuration is wrong."""
+"""Tests lio-log calibrate on a simulated walk with a clock offset and a wrong configuration."""
 import json
 import math
 import re
@@ -16,7 +16,7 @@ FAULTS = ("--fault", f"clock_offset:offset={OFFSET_S},channel=lidar", "--fault",
 
 
 def times(a, b):
-    """Product of quaternions w x y z."""
+    """Returns the product of quaternions w x y z."""
     (w, x, y, z), (p, q, r, s) = a, b
     return (w * p - x * q - y * r - z * s, w * q + x * p + y * s - z * r,
             w * r - x * s + y * p + z * q, w * s + x * r - y * q + z * p)
@@ -62,12 +62,12 @@ class Calibrate(unittest.TestCase):
             1e3 * offset_error_s, 1e3 * found["offset_std_s"], error_deg, std_deg))
         self.assertLess(abs(offset_error_s), 1e-3)
         self.assertLess(error_deg, 0.2)
-        # What it says of itself is no idle claim.
+        # The stated uncertainty must agree with the error.
         self.assertLess(abs(offset_error_s), 4 * found["offset_std_s"])
         self.assertLess(error_deg, 4 * std_deg)
         self.assertLess(found["offset_std_s"], 2e-4)
         self.assertAlmostEqual(found["rotation_from_configured_deg"], angle_deg(turn), delta=0.2)
-        # The file it writes serves as configuration after another one.
+        # The written file serves as configuration after another one.
         support.run_well("lio-replay", "--config", folder / "config.yaml", "--config", rig,
                          "--duration", "3", folder / "log.lcm", "--out",
                          support.WORK / "calibrate-replay")

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Wrong inputs of each program: the promised exit code, and one line that says what to do."""
+"""Tests each program with wrong inputs: it must end with the documented exit code and one line that
+says what to do."""
 import subprocess
 import unittest
 

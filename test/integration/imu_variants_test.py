@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Inertial messages in other units and axes: found, named and put right, or refused with the fix."""
+"""Tests IMU messages in other units and axes: the convention must be detected, reported and
+corrected, or the log refused with the setting that mends it."""
 import unittest
 
 import support

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""KITTI raw drive 0005 laid out anew as an odometry sequence, for none is at hand: scans compensated
-for the motion, times from 0 on, poses of the camera. The converter must turn them back into what the
-lidar did, and lidar-only odometry must follow."""
+"""Rearranges KITTI raw drive 0005 as an odometry sequence, because no real one is available: scans
+compensated for the motion, times from 0 on, poses of the camera. The converter must turn these into
+the lidar's poses, and lidar-only odometry must follow them."""
 import datetime
 import unittest
 
@@ -15,7 +15,7 @@ SWEEP_S = 0.1033
 
 
 def stamps(file):
-    """Seconds since the file's first midnight."""
+    """Returns the seconds since the file's first midnight."""
     rows = []
     for line in file.read_text().splitlines():
         whole, fraction = line.split(".")
@@ -25,7 +25,7 @@ def stamps(file):
 
 
 def calibration(file):
-    """p_target = pose @ p_source of a calibration file with rows R and T."""
+    """Reads the pose of a calibration file with rows R and T: p_target = pose @ p_source."""
     rows = dict(line.split(":", 1) for line in file.read_text().splitlines() if ":" in line)
     pose = np.eye(4)
     pose[:3, :3] = np.array(rows["R"].split(), float).reshape(3, 3)
@@ -41,7 +41,7 @@ def rotation(roll, pitch, yaw):
 
 
 def imu_poses(times, packets, at):
-    """Poses of the IMU in the world at the instants `at`: position by integrated velocity."""
+    """Returns the IMU's poses in the world at instants `at`; positions are integrated velocity."""
     velocity = packets[:, [7, 6, 10]]
     steps = np.diff(times)[:, None] * (velocity[1:] + velocity[:-1]) / 2
     position = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
@@ -56,7 +56,7 @@ def imu_poses(times, packets, at):
 
 
 def compensated(points, velocity, rate):
-    """Points as seen from where the lidar is when it faces forward; both in its frame."""
+    """Moves points to the lidar's pose at the instant it faces forward; both are in its frame."""
     since_s = -np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) * SWEEP_S
     moved = points.copy()
     moved[:, :3] += since_s[:, None] * (np.cross(rate, points[:, :3]) + velocity)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""KITTI raw drive 0005, real and moving from its first scan, with the IMU interpolated to 100 Hz and
-lidar-only. The bars are issue 2's; good systems reach 1.8 to 2.2 cm, 8 to 15 cm and 3.6 to 4.2 %."""
+"""Tests KITTI raw drive 0005, a real drive in motion from its first scan, with the IMU interpolated
+to 100 Hz and lidar-only. Good systems reach 1.8 to 2.2 cm, 8 to 15 cm and 3.6 to 4.2 %."""
 import unittest
 
 import support

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""A walk with a VLP-16 and no IMU: seconds unseen, sweeps lost, a clock that jumps. Where the scene
-still overlaps the map the place is found again; where it does not, the map begins anew from there."""
+"""Tests faults of a walk with a VLP-16 and no IMU: gaps of seconds, lost sweeps, a clock step. If
+the scene still overlaps the map, the pose is found again; if not, a new map begins there."""
 import unittest
 
 import support
@@ -37,7 +37,7 @@ class LidarOnlyRecovery(unittest.TestCase):
 
     def test_a_drive_through_unseen_streets_goes_on_from_about_where_it_is(self):
         ape_m, restarts = self.run_with("lidar_gap:start=15,duration=5", "street", "hdl32e")
-        self.assertLess(ape_m, 7.0)  # of 38 m unseen, braking
+        self.assertLess(ape_m, 7.0)  # 38 m are unseen, while braking
         self.assertEqual(restarts, 1)
 
 

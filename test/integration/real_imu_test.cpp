@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter on real inertial data: EuRoC's true poses with 2 cm and 0.2 deg of white noise, ten a
-// second and 100 ms late, as if registration had made them. docs/consistency.md tells where the
-// noise densities come from, and what is wrong with the truth of V1_01.
+// Runs the filter on real inertial data: EuRoC's true poses get 2 cm and 0.2 deg of white noise and
+// arrive ten per second and 100 ms late, as if from registration. docs/consistency.md says where
+// the noise densities come from, and what is wrong with the truth of V1_01.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,17 +23,19 @@ using test::TrueState;
 
 constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr int kNumSeeds = 10;
-constexpr double kGivenAccelDensity = 2.0e-3;  // by the data's description
-// From the innovations and from the force against the true motion: docs/consistency.md.
+constexpr double kGivenAccelDensity = 2.0e-3;  // from the data's description
+// The densities are from the innovations and from the force against the true motion:
+// docs/consistency.md.
 constexpr ProcessNoise kMeasuredNoise{.gyro_density = 3e-4,
                                       .accel_density = 0.03,
                                       .gyro_bias_walk_density = 7e-5,
                                       .accel_bias_walk_density = 3e-4};
-// Where a fourth difference of the true positions is larger, the truth has a jump: 50 ms of motion
+// A larger fourth difference of the true positions means that the truth jumps: 50 ms of motion
 // leave half a millimetre.
 constexpr double kTruthJump_m = 0.005;
 
-// Each figure's mean over seeds; the largest of the velocity's rmse and of the poses' distance.
+// Returns each figure's mean over seeds; for the velocity's rmse and the poses' distance, the
+// largest.
 FeedFigures Repeat(const test::RealDrive& drive, FeedSettings settings, const char* name) {
   FeedFigures mean;
   for (unsigned seed = 1; seed <= kNumSeeds; ++seed) {
@@ -66,20 +68,21 @@ FeedFigures Repeat(const test::RealDrive& drive, FeedSettings settings, const ch
   return mean;
 }
 
-// 95 % band of a mean of chi-square with three degrees of freedom over independent instants, per
-// degree of freedom. Errors of the filter live for about a second; seeds share the inertial data.
+// Returns the half width of the 95 % band of a mean of chi-square with three degrees of freedom
+// over independent instants, per degree of freedom. Errors of the filter last about a second; all
+// seeds share the inertial data.
 double BandHalfWidth(const test::RealDrive& drive) {
   const double span_s =
       SecondsBetween(drive.T_world_imu.front().stamp, drive.T_world_imu.back().stamp) - kSettle_s;
   return 1.96 * std::sqrt(2.0 / (3.0 * span_s));
 }
 
-// The density of white noise that explains what integrated force errs over `span_s` against the
-// true change of velocity, its mean (a bias) taken out; the largest axis.
+// Returns the density of white noise that explains the difference between integrated force over
+// `span_s` and the true change of velocity, without its mean (a bias); the largest axis counts.
 double ForceNoiseDensity(const test::RealDrive& drive, double span_s) {
   const std::vector<TrueState> truth = test::Differentiate(drive);
   const auto step = static_cast<std::size_t>(std::lround(span_s / 0.05));
-  std::vector<Vector3> errors;  // mean acceleration, in imu at the span's start
+  std::vector<Vector3> errors;  // mean acceleration error, in imu at the span's start
   Vector3 mean = Vector3::Zero();
   for (std::size_t i = 0; i + step < truth.size(); i += step) {
     const TrueState& a = truth[i];
@@ -124,14 +127,15 @@ TEST_F(RealImu, MachineHallIsTrackedWithHonestCovariance) {
   EXPECT_NEAR(f.nees_per_dof.rotation, 1.0, band);
   EXPECT_NEAR(f.nees_per_dof.velocity, 1.0, band);
   EXPECT_NEAR(f.nis_per_dof, 1.0, band);
-  EXPECT_NEAR(f.nees_per_dof.gyro_bias, 1.0, 3 * band);  // it changes over ten seconds
+  EXPECT_NEAR(f.nees_per_dof.gyro_bias, 1.0, 3 * band);  // the bias changes over ten seconds
   EXPECT_LT(f.apart_m, 0.002);
   EXPECT_LT(f.num_gated, f.num_poses / 100);
   EXPECT_LT(f.num_unsound, f.num / 20);
 }
 
-// The truth's rotations are wrong here by degrees, see below: no covariance can agree with them.
-// Velocity follows them: 0.1 m/s is for poses that are right, as by positions alone.
+// The truth's rotations are wrong by degrees in this recording, see below: no covariance can agree
+// with them. The velocity follows them: 0.1 m/s is the bar for correct poses, as with positions
+// alone.
 TEST_F(RealImu, ViconRoomIsSurvivedThoughItsRotationsAreWrong) {
   const FeedFigures f = Repeat(room_, {kMeasuredNoise}, "V1_01");
   EXPECT_LT(f.worst_velocity_mps, 0.125);
@@ -145,10 +149,11 @@ TEST_F(RealImu, ViconRoomAgreesByItsPositionsAlone) {
   settings.believes_rotations = false;
   const FeedFigures f = Repeat(room_, settings, "V1_01, positions alone");
   EXPECT_LT(f.worst_velocity_mps, 0.05);
-  // A gentler flight, which shakes the unit less than the hall's: somewhat below one.
+  // This flight is gentler and shakes the IMU less than the hall's, so the value is somewhat below
+  // one.
   EXPECT_GT(f.nees_per_dof.velocity, 0.6);
   EXPECT_LT(f.nees_per_dof.velocity, 1.1);
-  // The same unit in both recordings: its bias tells which rotations to believe.
+  // Both recordings have the same IMU: its bias shows which rotations are right.
   EXPECT_LT((f.accel_bias - hall.accel_bias).norm(), 0.05);
   EXPECT_GT((poses.accel_bias - hall.accel_bias).norm(), 0.3);
 }

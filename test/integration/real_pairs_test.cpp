@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Real scans: two of an HDL-32E whose transform is known to 2 cm and 0.3 deg, and hand-held sweeps
-// of an OS1-64 with another system's deskewing.
+// Matches real scans: two of an HDL-32E whose transform is known to 2 cm and 0.3 deg, and hand-held
+// sweeps of an OS1-64 with another system's deskewing.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -33,7 +33,7 @@ std::vector<float> ReadFloats(const std::filesystem::path& path) {
   return ReadFloats(file);
 }
 
-// A binary PLY of float vertices x y z intensity. Neither time nor ring is known.
+// Reads a binary PLY of float vertices x y z intensity. It has neither time nor ring.
 Sweep ReadPly(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   for (std::string line; std::getline(file, line) && line != "end_header";) continue;
@@ -45,7 +45,8 @@ Sweep ReadPly(const std::filesystem::path& path) {
     point.x_m = values[i];
     point.y_m = values[i + 1];
     point.z_m = values[i + 2];
-    point.t_offset_ns = static_cast<std::uint32_t>(i);  // tells points apart; still within 0.3 ms
+    point.t_offset_ns =
+        static_cast<std::uint32_t>(i);  // keeps points distinct; still within 0.3 ms
     sweep.points.push_back(point);
   }
   return sweep;
@@ -69,12 +70,12 @@ class RealPair : public testing::TestWithParam<MatchMethod> {
  protected:
   struct Matched {
     Pose T_target_source;
-    double cost;           // with the correspondences of the result, there ...
-    double cost_at_given;  // ... and at the transform that came with the data
+    double cost;           // at the result, with its correspondences
+    double cost_at_given;  // at the transform that came with the data
   };
   static Matched MatchFromIdentity(const Sweep& target, const Sweep& source, const Pose& given) {
     Options options = test::MethodOptions(GetParam());
-    options.reduce.target_points = 20'000;  // two scans are all there is: take what they have
+    options.reduce.target_points = 20'000;  // the map has only two scans, so all points are used
     options.reduce.match_points = 20'000;
     options.reduce.voxel_m = options.reduce.min_voxel_m;
     test::MethodBench bench(options);
@@ -94,8 +95,8 @@ struct Agreement {
   double angle_deg;
 };
 
-// Wanted of all are 5 mm and 0.05 deg. Measured: NDT 5.9 mm and 0.03 deg, LOAM 7.5 mm and 0.11 deg,
-// GICP 2.2 mm and 0.01 deg.
+// The goal for every method is 5 mm and 0.05 deg. Measured: NDT 5.9 mm and 0.03 deg, LOAM 7.5 mm
+// and 0.11 deg, GICP 2.2 mm and 0.01 deg.
 Agreement WantedOf(MatchMethod method) {
   switch (method) {
     case MatchMethod::kNdt:
@@ -155,7 +156,7 @@ OusterSweep ReadOuster(const std::filesystem::path& folder, const std::string& n
   return sweep;
 }
 
-// The rigid motion that takes each slice of time of the raw points to the reference's.
+// Fits the rigid motion that takes each slice of time of the raw points to the reference's.
 StampedPoses FitMotion(const OusterSweep& sweep, const Pose& T_imu_lidar, std::size_t num_slices) {
   std::vector<std::size_t> by_time(sweep.raw.size());
   std::iota(by_time.begin(), by_time.end(), std::size_t{0});
@@ -191,12 +192,12 @@ TEST(RealDeskew, AgreesWithTheReferenceOfAnotherSystem) {
     const StampedPoses motion = FitMotion(sweep, T_imu_lidar, 20);
     const Timestamp start{0};
     const Points ours = Deskew(sweep.raw, {start, motion.back().stamp, start}, motion, T_imu_lidar);
-    // What deskewing takes away, and what it leaves.
+    // These are the distances to the reference before and after deskewing.
     std::vector<double> before, after;
     for (std::size_t i = 0; i < ours.size(); ++i) {
       const Vector3 reference = sweep.deskewed[i].cast<double>();
       before.push_back((T_imu_lidar * sweep.raw[i].position.cast<double>() - reference).norm());
-      // Poses lead to the reference's frame, which is the imu's at the start.
+      // The poses lead to the reference's frame, which is the imu's at the start.
       after.push_back((motion.front().pose * ours[i].cast<double>() - reference).norm());
     }
     const auto median = [](std::vector<double>& values) {

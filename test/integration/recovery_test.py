@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""A walk with a VLP-16, mostly, where a second without inertial samples is steps of 6 m/s^2 unseen:
-holes, clocks that jump, a gyro that clips. What cannot be bridged ends in a start anew from where it
-was."""
+"""Tests recovery from gaps, clock steps and gyro saturation, mostly on a walk with a VLP-16, whose
+footfalls of 6 m/s^2 go unmeasured during a gap in the IMU. After a gap that cannot be bridged the
+estimator must initialize again at its last pose."""
 import unittest
 
 import support
@@ -40,19 +40,20 @@ class Recovery(unittest.TestCase):
         ape_m, _ = self.run_with("stamp_jump:offset=-2,start=10,duration=1")
         self.assertLess(ape_m, 0.05)
 
-    # Its stamps come a second time, so they look like those of samples that are late. While they are
-    # wrong the path, by its stamps, is off by the way of 0.5 s.
+    # The stamps come a second time, so the samples look late. While the stamps are wrong, the path,
+    # by its stamps, is off by the distance travelled in 0.5 s.
     def test_a_clock_that_steps_back_by_less_than_a_second_is_seen_to(self):
         ape_m, stats = self.run_with("stamp_jump:offset=-0.5,start=10,duration=3")
         self.assertEqual(stats["num_clock_jumps"], 2)
         self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
         self.assertLess(ape_m, 0.4)
 
-    # A host's clock that is set forth and back takes both sensors along. By the stamps alone it is as if
-    # nothing had come for a second and a half; the scans tell that nothing moved meanwhile.
+    # When a host's clock is set forward and back, it takes both sensors along. By the stamps alone
+    # nothing came for a second and a half; the scans show that nothing moved meanwhile.
     def test_clocks_that_are_set_forth_are_told_from_a_gap(self):
         for scenario in ("street", "campus"):
-            _, stats = self.run_with("stamp_jump:offset=1.5,start=10,duration=0.5", scenario=scenario)
+            _, stats = self.run_with("stamp_jump:offset=1.5,start=10,duration=0.5",
+                                     scenario=scenario)
             self.assertEqual(stats["num_restarts"], 2)
             self.assertLess(self.end_error_m, 0.3, "was 37 m")
 
@@ -64,7 +65,8 @@ class Recovery(unittest.TestCase):
 
     def test_an_inertial_clock_that_steps_alone_is_put_right(self):
         for offset in ("-0.5", "0.4", "1.5"):
-            ape_m, stats = self.run_with(f"stamp_jump:channel=imu,offset={offset},start=10,duration=5")
+            ape_m, stats = self.run_with(
+                f"stamp_jump:channel=imu,offset={offset},start=10,duration=5")
             self.assertLess(ape_m, 0.02, "was 1.1 m and more")
             self.assertEqual(stats["num_restarts"], 0)
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""The same log gives the same bytes: again, on more threads, and live from lcm-logplayer."""
+"""Tests that one log always gives the same bytes: again, on more threads, and live from
+lcm-logplayer."""
 import csv
 import subprocess
 import unittest
@@ -9,13 +10,13 @@ import unittest
 import support
 
 DURATION_S = "6"
-# Files of a run that hold no time of computing.
+# These files of a run hold no computing times.
 EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
          "trajectory_world.tum", "covariance_world.csv", "options.yaml", "map.pcd")
 
 
 def untimed(folder):
-    """registration.csv without its stage times."""
+    """Reads registration.csv without its stage times."""
     with open(folder / "registration.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     return [{k: v for k, v in row.items() if not k.endswith("_ms")} for row in rows]

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""What the integration tests share: where programs and data are, running programs, unpacked data.
+"""Helps the integration tests: finds programs and data, runs programs, unpacks data.
 
 The tests are unittest files run by ctest; LIO_BUILD names the build folder. Real data comes from
-LIO_DATA, else ../shared/data beside the source tree; without it a test is skipped, saying so.
-Whatever is made stays under the build folder and is made once.
+LIO_DATA, else ../shared/data beside the source tree; without it a test is skipped with a message.
+Everything is made once and stays under the build folder.
 """
 import contextlib
 import fcntl
@@ -39,7 +39,7 @@ def run_well(program, *words):
 
 @contextlib.contextmanager
 def locked(name):
-    """Tests run side by side; what they share is made by the first."""
+    """Holds a lock: tests run in parallel, and the first one makes what they share."""
     WORK.mkdir(parents=True, exist_ok=True)
     with open(WORK / f"{name}.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -47,7 +47,7 @@ def locked(name):
 
 
 def made_once(folder, make):
-    """The folder WORK/folder, filled by make(folder) unless an earlier call completed it."""
+    """Returns the folder WORK/folder, filled by make(folder) unless an earlier call did so."""
     path = WORK / folder
     with locked(folder):
         if not (path / "complete").exists():
@@ -82,14 +82,14 @@ def kitti_drive():
 
 
 def simulated(scenario="street", *words):
-    """A folder of lio-sim."""
+    """Returns a folder with the files of one run of lio-sim."""
     name = "-".join(["sim", scenario, *(word.strip("-") for word in words)])
     return made_once(name, lambda path: run_well("lio-sim", "--scenario", scenario, *words,
                                                  "--out", path))
 
 
 def replay(log, out, *words):
-    """lio-replay into WORK/out; gives the folder."""
+    """Runs lio-replay into WORK/out and returns that folder."""
     run_well("lio-replay", *words, log, "--out", WORK / out)
     return WORK / out
 
@@ -99,13 +99,13 @@ def stats(folder):
 
 
 def evaluate(truth, folder):
-    """lio-eval's figures for the trajectory in a results folder."""
+    """Returns lio-eval's figures for the trajectory in a results folder."""
     run_well("lio-eval", truth, folder / "trajectory.tum", "--json", folder / "eval.json")
     return json.loads((folder / "eval.json").read_text())
 
 
 def main():
-    """Ends with 77, which ctest takes for skipped, when every test was skipped."""
+    """Runs the tests; ends with 77, which ctest counts as skipped, when every test was skipped."""
     program = unittest.main(exit=False, verbosity=2, argv=sys.argv[:1])
     result = program.result
     if result.wasSuccessful() and result.testsRun and len(result.skipped) == result.testsRun:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
+"""Tests bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
 import unittest
 
 import support
@@ -23,7 +23,7 @@ class UrbanLoco(unittest.TestCase):
               f"tilt at most {tilt_deg:.3f} deg")
         self.assertLessEqual(ape_m, ape_bound_m)
         self.assertLessEqual(tilt_deg, 0.5)
-        # A static start takes at most 1.5 s; every scan after it has a row.
+        # Initialization at rest takes at most 1.5 s; every scan after it has a row.
         num_scans = support.stats(folder)["num_scans"]
         self.assertGreaterEqual(figures["association"]["num_estimate"], num_scans - 16)
         self.assertEqual(support.stats(folder)["num_scans_dropped"], 0)

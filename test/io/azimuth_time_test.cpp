@@ -14,8 +14,8 @@ using test::WorstError;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// Float coordinates at 10 m are good to 1 um, an azimuth of 1e-7 rad, 2 ns; the ring by ring start
-// is the median ring's, half a firing cycle off.
+// Float coordinates at 10 m are accurate to 1 um, which is an azimuth of 1e-7 rad and 2 ns. When
+// points come ring by ring, the start is that of the median ring, half a firing cycle off.
 constexpr double kFloatError = 1e-7;
 
 TEST(AzimuthTime, IsExactAcrossTheSeamInFiringOrder) {

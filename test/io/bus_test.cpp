@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One suite over every bus that delivers. LCM's in-process transport stands for LCM here; what
-// only one of them does: lcm_bus_test.cpp, memory_bus_test.cpp.
+// Tests every bus that delivers with one suite. LCM's in-process transport stands for LCM here;
+// lcm_bus_test.cpp and memory_bus_test.cpp test what is particular to one of them.
 #include "lio/io/bus.hpp"
 
 #include <gmock/gmock.h>

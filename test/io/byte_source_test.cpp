@@ -36,7 +36,7 @@ std::string Compressed(const std::string& how, std::vector<std::uint8_t> content
 
 class CompressedSource : public testing::TestWithParam<std::string> {
  protected:
-  // What comes out of a file with these bytes, read in pieces of `step`.
+  // Returns what comes out of a file with these bytes, read in pieces of `step`.
   std::vector<std::uint8_t> Inflate(const std::string& bytes, std::size_t step, bool& damaged) {
     std::ifstream file(dir_.Write("compressed", bytes), std::ios::binary);
     auto span = std::make_unique<FileSpan>(file, bytes.size());

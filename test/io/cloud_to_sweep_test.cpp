@@ -23,7 +23,7 @@ CloudRules SecondsFromStamp() {
   return rules;
 }
 
-// A message's bytes and the cloud that is read from them.
+// Holds a message's bytes and the cloud that is read from them.
 struct Message {
   explicit Message(const TestCloud& cloud)
       : bytes(test::CloudMessage(cloud)),
@@ -36,7 +36,7 @@ CloudStatus Convert(const CloudRules& rules, const TestCloud& cloud, TimedSweep&
   return CloudToSweep(rules).Convert(Message(cloud).decoded, sweep);
 }
 
-// Three points whose times do not ascend.
+// Returns three points whose times do not ascend.
 TestCloud ThreePoints() {
   return test::VelodyneCloud(kStamp, {{.x = 1, .y = 2, .z = 3, .ring = 7, .time_s = 0.25},
                                       {.x = 4, .y = 5, .z = 6, .ring = 2, .time_s = 0.0},
@@ -55,7 +55,7 @@ TEST(CloudToSweep, PointsAreSortedByTheirInstants) {
   EXPECT_EQ(sweep.points[1].y_m, 8.0f);
   EXPECT_EQ(sweep.points[1].z_m, 9.0f);
   EXPECT_EQ(sweep.points[1].t_offset_ns, 125'000'000u);
-  EXPECT_EQ(sweep.points[0].intensity, 12);  // as the cloud has it: 10 + ring
+  EXPECT_EQ(sweep.points[0].intensity, 12);  // as in the cloud: 10 + ring
   EXPECT_EQ(sweep.points[0].ring, 0) << "no rule, no ring";
 }
 
@@ -65,9 +65,9 @@ TEST(CloudToSweep, RingsFollowTheirRule) {
   rules.ring.ring_of_source = {15, 14, 13, 12, 11, 10, 9, 8};
   TimedSweep sweep;
   ASSERT_EQ(Convert(rules, ThreePoints(), sweep), CloudStatus::kOk);
-  EXPECT_EQ(sweep.points[0].ring, 13);  // of 2
-  EXPECT_EQ(sweep.points[1].ring, 10);  // of 5
-  EXPECT_EQ(sweep.points[2].ring, 8);   // of 7
+  EXPECT_EQ(sweep.points[0].ring, 13);  // source ring 2
+  EXPECT_EQ(sweep.points[1].ring, 10);  // source ring 5
+  EXPECT_EQ(sweep.points[2].ring, 8);   // source ring 7
 }
 
 TEST(CloudToSweep, IntensitiesOfZeroToOneAreScaled) {
@@ -118,7 +118,8 @@ TEST(CloudToSweep, TimesThatAreNoSweepAreRefused) {
 
 // --- without point time: by azimuth
 
-// One column of the lidar after another, as fired, without rings' own delays.
+// Returns the lidar's columns one after another, in the order of firing, without delays of single
+// rings.
 std::vector<SeenPoint> SpunPoints(int k) {
   test::SpinningLidar lidar;
   lidar.firing_s = 0.0;

@@ -21,7 +21,7 @@ using ::testing::internal::CaptureStdout;
 using ::testing::internal::GetCapturedStderr;
 using ::testing::internal::GetCapturedStdout;
 
-// A program with one required positional, as lio-replay has.
+// Makes a program with one required positional argument, as lio-replay has.
 struct Program {
   explicit Program(std::vector<const char*> arguments) {
     CLI::App app("Test program", "lio-test");

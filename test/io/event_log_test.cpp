@@ -25,7 +25,7 @@ std::vector<std::uint8_t> Payload(std::size_t size, unsigned seed) {
   return bytes;
 }
 
-// A log of events on LIO_IMU and LIO_SCAN in turn, and its bytes for damaging.
+// Makes a log of events on LIO_IMU and LIO_SCAN in turn, and its bytes, which tests damage.
 class EventLogTest : public ::testing::Test {
  protected:
   static constexpr std::int64_t kDataBytes = 100;
@@ -55,7 +55,7 @@ class EventLogTest : public ::testing::Test {
     for (const std::uint8_t byte : bytes) file.put(static_cast<char>(byte));
   }
 
-  // Numbers of the events that can be read; their contents are checked.
+  // Returns the numbers of the events that can be read; their contents are checked.
   std::vector<std::int64_t> ReadNumbers() {
     EventLogReader reader(path_);
     std::vector<std::int64_t> numbers;
@@ -177,7 +177,8 @@ TEST_F(EventLogTest, RandomDamageLosesNoUndamagedEvent) {
 }
 
 TEST_F(EventLogTest, ManyFalseHeadersAreReadInReasonableTime) {
-  // 100 000 headers that all claim the file up to the middle of the one sound event at its end.
+  // The log has 100 000 headers that all claim the file up to the middle of the one sound event at
+  // its end.
   constexpr std::size_t kFalseBytes = kHeaderBytes + 8;
   constexpr std::size_t kSoundAt = 100'000 * kFalseBytes + 3'000'000;
   const auto sound = WriteEvents(1);

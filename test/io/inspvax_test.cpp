@@ -10,7 +10,7 @@ namespace lio {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-// 2019-01-17 03:00:00 UTC: GPS week 2036, Thursday.
+// This is 2019-01-17 03:00:00 UTC: GPS week 2036, a Thursday.
 constexpr Timestamp kReceived{1'547'694'000'000'000'000};
 constexpr double kWeek = 2036.0;
 constexpr double kSecondsOfWeek = 4 * 86'400 + 3 * 3'600 + 18.0;
@@ -38,7 +38,7 @@ TEST(Inspvax, StampIsUtcOfGpsTime) {
 }
 
 TEST(Inspvax, ReadsOtherDriversNamesAndUnits) {
-  // novatel_msgs: status as four bytes, milliseconds in a field named seconds.
+  // novatel_msgs has the status as four bytes, and milliseconds in a field named seconds.
   RosNumbers numbers = Oem7();
   for (const char* name : {"nov_header.gps_week_number", "nov_header.gps_week_milliseconds",
                            "ins_status.status", "height"}) {
@@ -79,11 +79,11 @@ TEST(Inspvax, KnowsLeapSeconds) {
 }
 
 TEST(Inspvax, AttitudeMapsNovatelsBodyToEastNorthUp) {
-  // Heading east: the body's y (forward) points east, its x (right) south.
+  // The body heads east: its y (forward) points east, its x (right) south.
   const Quaternion east = InspvaxAttitude(0.0, 0.0, 90.0 * kDegree);
   EXPECT_TRUE((east * Vector3::UnitY()).isApprox(Vector3::UnitX(), 1e-12));
   EXPECT_TRUE((east * Vector3::UnitX()).isApprox(-Vector3::UnitY(), 1e-12));
-  // Nose up: forward rises. Right side down: x sinks.
+  // With the nose up, forward rises. With the right side down, x sinks.
   EXPECT_NEAR((InspvaxAttitude(0.0, 0.1, 0.0) * Vector3::UnitY()).z(), std::sin(0.1), 1e-12);
   EXPECT_NEAR((InspvaxAttitude(0.1, 0.0, 0.0) * Vector3::UnitX()).z(), -std::sin(0.1), 1e-12);
 }
@@ -93,7 +93,7 @@ TEST(LocalFrame, IsEastNorthUpAtItsFirstPoint) {
   const double latitude = 22.3 * kDegree;
   const double longitude = 114.2 * kDegree;
   EXPECT_TRUE(frame.ToLocal(latitude, longitude, 10.0).isZero(1e-9));
-  // Radii of curvature of WGS84 at that latitude.
+  // These are the radii of curvature of WGS84 at that latitude.
   constexpr double kMeridian = 6'344'627.0;
   constexpr double kAcross = 6'381'212.0;
   const Vector3 north = frame.ToLocal(latitude + 1e-5, longitude, 10.0);

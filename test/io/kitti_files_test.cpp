@@ -54,7 +54,8 @@ TEST(KittiCalibration, GivesNumbersByKey) {
   EXPECT_THROW(ToPose({1, 0, 0, 0, 1, 0, 0, 0, -1}, rows["T"], "c.txt"), InputError);
 }
 
-// Rings as KITTI stores them: the top ring first, azimuth from 0 up and round to below 0.
+// Returns rings as KITTI stores them: the top ring first, azimuth from 0 upward and around to below
+// 0.
 std::vector<LidarPoint> Rings(int num_rings, double begin_deg = 0.1) {
   std::vector<LidarPoint> points;
   for (int ring = 0; ring < num_rings; ++ring) {

@@ -17,7 +17,7 @@ namespace lio {
 namespace {
 
 constexpr int kNumScans = 4;
-// Camera: z forward, x right, y down; 27 cm behind the lidar and 8 cm below.
+// The camera's axes are z forward, x right, y down; it is 27 cm behind the lidar and 8 cm below.
 const Pose kCameraLidar = {Quaternion((Matrix3() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished()),
                            {0.0, -0.08, -0.27}};
 
@@ -38,10 +38,11 @@ class KittiOdometry : public testing::Test {
     std::string times, poses;
     for (int k = 0; k < kNumScans; ++k) {
       times += fmt::format("{:e}\n", 0.1037 * k);
-      // The lidar drives forward and turns; what the file holds are the camera's poses.
+      // The lidar drives forward and turns; the file holds the camera's poses.
       T_lidar0_lidar_.push_back({ExpSo3({0.0, 0.01 * k, 0.1 * k}), {1.0 * k, 0.1 * k * k, 0.0}});
       poses += Row(kCameraLidar * T_lidar0_lidar_.back() * kCameraLidar.Inverse());
-      // Two points of the top ring, to the left and to the right, and the next ring's first.
+      // The scan has two points of the top ring, to the left and to the right, and the next ring's
+      // first.
       const float values[] = {10.0f, 1.0f, 2.0f,  0.5f, 10.0f, -5.0f,
                               2.0f,  0.5f, 10.0f, 1.0f, 1.0f,  0.1f};
       dir_.Write(fmt::format("sequences/05/velodyne/{:06}.bin", k),
@@ -128,7 +129,7 @@ TEST_F(KittiOdometry, WrongFilesAreRefused) {
   dir_.Write("sequences/05/calib.txt", "P0: 1 2 3\n");
   EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
   options_.truth_file.reset();
-  EXPECT_NO_THROW(ConvertKittiOdometry(options_));  // without truth nobody needs it
+  EXPECT_NO_THROW(ConvertKittiOdometry(options_));  // the poses are not needed without truth
   dir_.Write("sequences/05/times.txt", "0.0\n0.1\n0.1\n");
   EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
   std::filesystem::remove_all(dir_.path() / "sequences/05/velodyne");

@@ -29,7 +29,8 @@ Timestamp At(double seconds) {
   return Timestamp{1'317'042'240'000'000'000} + Duration::FromSeconds(seconds);
 }
 
-// A small drive: scans of two rings at 20.0 s, 20.104 s, ...; OXTS at 20.015 s, 20.115 s, ...
+// Writes a small drive: scans of two rings at 20.0 s, 20.104 s, ...; OXTS at 20.015 s, 20.115 s,
+// ...
 class KittiRaw : public testing::Test {
  protected:
   KittiRaw() {
@@ -66,7 +67,8 @@ class KittiRaw : public testing::Test {
     }
     return std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size());
   }
-  // Driving east at 5 m/s and faster by 1 m/s a packet; yaw 0.1 rad; az and wz count packets.
+  // The car drives east at 5 m/s and gains 1 m/s per packet; yaw is 0.1 rad; az and wz count
+  // packets.
   static std::string Oxts(int k) {
     return fmt::format(
         "49 8 112 0.01 0.02 0.1 0.5 {} {} 0 0.2 0.3 0 {} 0 0 0 0 0 {} 0 0 0 0 0 4 4 4 4 0\n", 5 + k,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What only LCM's bus does; what all buses do: bus_test.cpp. Its multicast is tested with the
-// daemon (test/programs).
+// Tests what is particular to LCM's bus; bus_test.cpp tests what all buses do, and test/programs
+// the daemon's multicast.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(LcmBus, AMissingLogIsAskedFor) {
   EXPECT_THROW(OpenLcmBus(url), TransportError);
 }
 
-// What liblcm says of an address goes into the error, not to stderr as well.
+// liblcm's message about an address goes into the error, not to stderr as well.
 TEST(LcmBus, FaultsAreSaidOnce) {
   testing::internal::CaptureStderr();
   const std::string words = WordsOf([] { OpenLcmBus("udpm://nonsense"); });

@@ -152,7 +152,7 @@ TEST(LcmCodec, HugeAndNegativeCountsAreRefused) {
     Bytes bytes = sound;
     Put32(count, kNumPointsAt, bytes);
     EXPECT_EQ(DecodeChunk(bytes, chunk), DecodeStatus::kSizeMismatch) << count;
-    // Both counts made to agree modulo 2^32.
+    // Both counts are made to agree modulo 2^32.
     Put32(static_cast<std::int32_t>(20u * static_cast<std::uint32_t>(count)), kNumPointsAt + 4,
           bytes);
     EXPECT_EQ(DecodeChunk(bytes, chunk), DecodeStatus::kSizeMismatch) << count;
@@ -178,7 +178,7 @@ TEST(LcmCodec, MessagesAboveTheLimitAreRefusedUnread) {
   const Bytes bytes(kMaxMessageBytes + 1);
   ScanChunk chunk;
   EXPECT_EQ(DecodeChunk(bytes, chunk), DecodeStatus::kTooLarge);
-  // What liblcm reports for a datagram without a terminated channel name.
+  // liblcm reports this for a datagram without a terminated channel name.
   EXPECT_EQ(DecodeChunk({bytes.data(), 4294967286u}, chunk), DecodeStatus::kTooLarge);
 }
 
@@ -224,7 +224,7 @@ TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
   EXPECT_EQ(message.quat[3], std::sqrt(0.5));
   EXPECT_EQ(message.vel[1], 11.0);
   EXPECT_EQ(message.vel_cov[0][2], 0.5);
-  // A quarter turn about z: forward in imu is left in map. Rotation stays in imu.
+  // After a quarter turn about z, forward in imu is left in map. The angular rate stays in imu.
   EXPECT_NEAR(message.pose_cov[0][0], 1.0, 1e-12);
   EXPECT_NEAR(message.pose_cov[1][1], 0.25, 1e-12);
   EXPECT_EQ(message.pose_cov[3][3], 3.0);

@@ -40,13 +40,13 @@ TEST(CheckHead, WantsTheFingerprintAndTheFixedPart) {
   EXPECT_EQ(CheckHead({}, fingerprint, 0), DecodeStatus::kTruncated);
 }
 
-// Too large comes first: nothing of such a message is looked at.
+// The size is checked first: the content of a message that is too large is not read.
 TEST(CheckHead, WhatIsTooLargeIsNotReadAtAll) {
   EXPECT_EQ(CheckHead(Bytes(kMaxMessageBytes + 1), 1, 8), DecodeStatus::kTooLarge);
   EXPECT_EQ(CheckHead(Bytes(kMaxMessageBytes), 1, 8), DecodeStatus::kWrongType);
 }
 
-// As lcm-gen writes them: how many bytes, and how many were written.
+// lcm-gen writes these functions: the number of bytes, and the number that was written.
 struct Message {
   int size = 4;
   int written = 4;

@@ -26,12 +26,12 @@ TEST(LidarSpinEstimator, LearnsTheRingsAzimuthOffsets) {
                                : ring % 4 == 2 ? 6.5
                                                : -2.5);
   }
-  // Unknown offsets of 6.5 deg are 1.8 ms; known ones leave a column's width, 0.056 ms.
+  // Unknown offsets of 6.5 deg would be 1.8 ms; known ones leave a column's width, 0.056 ms.
   EXPECT_LT(WorstError(lidar, AsFired), 6e-5);
 }
 
 TEST(LidarSpinEstimator, AveragesTheStampsJitter) {
-  // 1 ms of jitter on both ends of nine sweeps: 0.22 % of the rate at most, 0.22 ms at the end.
+  // A jitter of 1 ms on both ends of nine sweeps is at most 0.22 % of the rate, 0.22 ms at the end.
   EXPECT_LT(WorstError({}, AsFired, true, false, 1e-3), 2.5e-4);
 }
 

@@ -9,7 +9,8 @@
 namespace lio {
 namespace {
 
-// Ten seconds of samples at 10 Hz with a chunk after each, a foreign channel and a bad message.
+// Writes ten seconds of samples at 10 Hz with a chunk after each, a foreign channel and a bad
+// message.
 class LogInputTest : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {

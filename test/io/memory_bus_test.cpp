@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What only the buses without a transport do; what all buses do: bus_test.cpp.
+// Tests what is particular to the buses without a transport; bus_test.cpp tests what all buses do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

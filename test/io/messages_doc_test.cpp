@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// docs/messages.md names every type with its fingerprint and size: those of the generated types.
+// Tests that docs/messages.md names every type with the fingerprint and size of the generated type.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

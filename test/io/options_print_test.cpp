@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What PrintOptions says; that it loads as the same values: options_yaml_test.cpp.
+// Tests the text of PrintOptions; options_yaml_test.cpp tests that it loads as the same values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
-// What stands after `key: ` up to the comment.
+// Returns the text after `key: ` up to the comment.
 std::string ValueOf(const std::string& text, const std::string& key) {
   for (const std::string& line : Lines(text)) {
     const std::size_t at = line.find(key + ": ");
@@ -57,7 +57,7 @@ TEST(OptionsPrint, NamesSayWhichThereAre) {
   EXPECT_THAT(text, HasSubstr("; one of auto, present, removed\n"));
 }
 
-// The shortest text that reads back as the same bits, and is a number with a point to YAML.
+// The number is the shortest text that reads back as the same bits, and has a point for YAML.
 TEST(OptionsPrint, NumbersAreShortAndExact) {
   Options options;
   const std::vector<std::pair<double, std::string>> cases = {
@@ -107,7 +107,7 @@ TEST(OptionsPrint, EveryLineIsExplained) {
     const std::size_t hash = line.rfind("# ");
     ASSERT_NE(hash, std::string::npos) << line;
     EXPECT_GT(line.size(), hash + 8) << line;
-    // Comments stand in one column where the value leaves room.
+    // Comments are in one column if the value leaves room.
     const std::size_t end_of_value = line.find_last_not_of(' ', hash - (hash > 0 ? 1 : 0));
     if (hash > 0 && end_of_value < 38) {
       EXPECT_EQ(hash, 39u) << line;

@@ -180,7 +180,7 @@ TEST_F(OptionsYaml, DoubledKeysAreRefused) {
   EXPECT_THAT(result.faults, ElementsAre(At(7) + "ndt.voxel_m: is given twice"));
 }
 
-// And no fault of a key that may stand in them.
+// The error must not blame a key that may stand in them.
 TEST_F(OptionsYaml, UnreadableAndBrokenFilesAreNamed) {
   const LoadResult result = LoadOptions(
       {dir_.path() / "missing.yaml", dir_.path(), dir_.Write("broken.yaml", "a: 1\n  b: [\n")}, {});
@@ -266,7 +266,7 @@ TEST(ConfigFiles, MethodsAreCompleteWithARig) {
   }
 }
 
-// What they write down is what the defaults are: they explain, and choose nothing but the method.
+// The files write down the defaults: they explain, and choose nothing but the method.
 TEST(ConfigFiles, MethodsHoldTheDefaultsOfTheirOptions) {
   Options expected = LoadOptions({Config("ulhk.yaml")}, {}).options;
   for (const auto& [name, method] : {std::pair{"methods/ndt.yaml", MatchMethod::kNdt},
@@ -292,8 +292,7 @@ TEST(ConfigFiles, KittiRawHoldsTheInverseOfTheDatasetsCalibration) {
   EXPECT_LT((rig.T_imu_lidar->rotation.toRotationMatrix() - rotation.transpose()).norm(), 1e-6);
 }
 
-// Yaw -90 deg and the lidar above: the lidar's -x looks forward, which is the IMU's y (domain
-// notes 1.1).
+// The yaw is -90 deg and the lidar is above: the lidar's -x faces forward, which is the IMU's y.
 TEST(ConfigFiles, UlhkPutsTheLidarsMinusXAheadOfTheImu) {
   const auto rig = LoadOptions({Config("ulhk.yaml")}, {}).options.rig;
   ASSERT_TRUE(rig.T_imu_lidar.has_value());

@@ -85,7 +85,7 @@ TEST(OrderedLog, WritesWhileItGoes) {
   const auto path = dir.path() / "a.lcm";
   OrderedLog log(path);
   for (int i = 0; i < 1000; ++i) log.Add(At(0.1 * i), kScanChannel, Bytes(60'000));
-  // 100 s of 60 kB every 100 ms, of which at most 2 s are held back.
+  // The log has 100 s with 60 kB every 100 ms, of which at most 2 s are held back.
   EXPECT_GT(std::filesystem::file_size(path), 50'000'000u);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A PCD file read by its public description: header lines up to DATA, then rows of floats.
+// Reads a PCD file by its public description: header lines up to DATA, then rows of floats.
 struct ReadPcd {
   explicit ReadPcd(const std::filesystem::path& path) {
     const std::string file = test::ReadText(path);
@@ -25,7 +25,7 @@ struct ReadPcd {
     header = file.substr(0, begin + 1);
     data = file.substr(begin + 1);
   }
-  // What follows the word in the header.
+  // Returns the text after the word in the header.
   std::string Word(const std::string& key) const {
     const std::size_t at = header.find("\n" + key + " ");
     if (at == std::string::npos) return "";

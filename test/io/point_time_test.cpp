@@ -14,11 +14,11 @@ namespace {
 constexpr std::int64_t kEpochNs = 1'556'268'000'250'000'000;
 constexpr double kSweep = 0.1;
 
-// Sweeps that begin every 100 ms; the stamp is that of the start or of the end, and clouds arrive
-// `latency` after their end.
+// Describes sweeps that begin every 100 ms; the stamp is that of the start or of the end, and
+// clouds arrive `latency` after their end.
 struct Recording {
   double unit_s = 1.0;
-  double first_s = 0.0;  // raw time of the first point, against the stamp or an epoch
+  double first_s = 0.0;  // raw time of the first point, relative to the stamp or to an epoch
   bool stamp_is_end = false;
   double latency_s = 0.008;
   double clock_offset_s = 0.0;  // recorder's clock minus the sensor's
@@ -53,7 +53,8 @@ PointTimeRule Detect(const Recording& recording, const PointTimeWishes& wishes =
   return rule.value_or(PointTimeRule{});
 }
 
-// Instants of first and last point of a cloud stamped at kEpochNs, against that stamp [s].
+// Returns the instants of first and last point of a cloud stamped at kEpochNs, relative to that
+// stamp [s].
 std::pair<double, double> Ends(const PointTimeRule& rule, double raw_first, double raw_last) {
   const Timestamp stamp{kEpochNs};
   const auto instants = PointInstants(rule, stamp, {raw_first, raw_last});
@@ -131,7 +132,7 @@ TEST(PointTime, AbsoluteTimesOfTheStampsClockAreUsedAsTheyAre) {
 }
 
 TEST(PointTime, AbsoluteTimesOfAnotherClockAreAnchoredToTheStamp) {
-  const PointTimeRule rule = Detect({.first_s = -1.5e9, .absolute = true});  // since boot, say
+  const PointTimeRule rule = Detect({.first_s = -1.5e9, .absolute = true});  // e.g. since boot
   EXPECT_TRUE(rule.counts_from_epoch);
   EXPECT_EQ(rule.anchor, TimeAnchor::kFirstPoint);
   EXPECT_EQ(rule.stamp, StampMeaning::kSweepStart);

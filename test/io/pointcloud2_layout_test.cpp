@@ -15,13 +15,13 @@ using test::Field;
 
 constexpr Timestamp kStamp{1'500'000'000'000'000'000};
 
-// One driver's layout of the same four points.
+// Describes one driver's layout of the same four points.
 struct Layout {
   std::string name;
   std::vector<CloudField> fields;
   std::uint32_t point_step;
   bool has_ring;
-  double time_per_second;  // of the time field's unit; 0: no time field
+  double time_per_second;  // units of the time field per second; 0: no time field
 };
 
 std::vector<CloudField> Xyz(FieldType type = FieldType::kFloat32) {

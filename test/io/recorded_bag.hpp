@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A recorded drive as drivers publish it: thirty sweeps of the spinning lidar, its IMU and a truth
-// topic; and the fixture that writes it into bags and converts them.
+// Makes a recorded drive as drivers publish it: thirty sweeps of the spinning lidar, its IMU and a
+// truth topic; and the fixture that writes it into bags and converts them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace lio::test {
 inline constexpr Timestamp kRecordingBegin{1'556'268'000'000'000'000};
 inline constexpr int kNumSweeps = 30;
 
-// The cloud, and its points in its order (those that are not NaN).
+// Holds the cloud and its points in its order (those that are not NaN).
 struct PublishedCloud {
   TestCloud cloud;
   std::vector<SeenPoint> points;
@@ -61,13 +61,13 @@ inline PublishedCloud Publish(const Driver& driver, const SpinningLidar& lidar, 
 struct Recording {
   std::vector<Timestamp> starts;
   std::vector<Timestamp> received;
-  std::vector<std::vector<SeenPoint>> points;  // by time
+  std::vector<std::vector<SeenPoint>> points;  // in the order of time
 };
 
 using WriteMessage = std::function<void(const std::string& topic, const std::string& type,
                                         Timestamp received, const std::vector<std::uint8_t>&)>;
 
-// Sweeps one after another, a 100 Hz IMU, and a truth topic, in the order of reception.
+// Records sweeps one after another, a 100 Hz IMU and a truth topic, in the order of reception.
 inline Recording Record(const Driver& driver, const WriteMessage& write, const RosBytes& form) {
   const SpinningLidar lidar;
   Recording recording;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kNumRings = 8;
 
-// Rings two degrees apart, 30 points each; `number` gives the source's number of ring 0 (lowest)
-// and up.
+// Returns rings two degrees apart with 30 points each; `number` gives the source's number of each
+// ring, 0 being the lowest.
 CloudPoints Points(auto&& number) {
   CloudPoints points;
   for (int k = 0; k < 30; ++k) {

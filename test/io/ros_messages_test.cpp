@@ -25,7 +25,7 @@ class RosMessages : public testing::TestWithParam<Form> {
   RosEncoding encoding() const { return GetParam().encoding; }
   RosBytes Bytes() const { return RosBytes(GetParam().encoding, GetParam().big_endian); }
 
-  // Every truncation, and bytes too many, must be refused.
+  // Every truncation and every surplus of bytes must be refused.
   template <typename Decode>
   void ExpectOnlyWhole(const std::vector<std::uint8_t>& message, Decode decode) {
     EXPECT_TRUE(decode(message, encoding()).has_value());

@@ -39,7 +39,7 @@ void WriteBag(const std::filesystem::path& path, const Bag1Writer::Options& opti
 
 struct ReadBack {
   int num = 0;
-  bool all_right = true;  // every message is the next one of those written
+  bool all_right = true;  // each message is the next one of those written
   BagDamage damage;
 };
 
@@ -127,7 +127,7 @@ TEST_P(Rosbag1, GivesEverythingBeforeACutAndSaysWhatIsMissing) {
     EXPECT_TRUE(read.damage.cut_short) << cut;
     EXPECT_FALSE(read.damage.first_reason.empty()) << cut;
     num_before = read.num;
-    // What is lost: the missing bytes up to the index, and at most the piece that was cut.
+    // The missing bytes up to the index are lost, and at most the piece that was cut.
     EXPECT_TRUE(read.num >= kNumMessages - 30 || read.damage.lost_bytes > 0) << cut;
   }
   EXPECT_GE(num_before, kNumMessages - 10);
@@ -143,7 +143,7 @@ TEST_P(Rosbag1, PassesOverAChunkWithBrokenContent) {
   int num = 0;
   while (bag->Next(message)) ++num;
   if (GetParam() == "none") {
-    // Only what the bytes belong to is hurt.
+    // Only the messages to which the damaged bytes belong are lost.
     EXPECT_GE(num, kNumMessages - 30);
   } else {
     EXPECT_LT(num, kNumMessages);
@@ -183,7 +183,7 @@ TEST(Rosbag1File, OfAnotherKindIsRefused) {
 }
 
 TEST(Rosbag1File, LeftOpenByItsRecorderGivesItsLastChunk) {
-  // The recorder writes a chunk's header with size 0 and comes back to it when the chunk is full.
+  // The recorder writes a chunk's header with size 0 and returns to it when the chunk is full.
   const test::TempDir dir;
   for (const std::string compression : {"none", "lz4"}) {
     const auto path = dir.path() / ("open_" + compression + ".bag");
@@ -207,7 +207,7 @@ TEST(Rosbag1File, WithHostileLengthsEnds) {
   const auto path = dir.path() / "good.bag";
   WriteBag(path, {.compression = "none", .chunk_bytes = 5000, .with_index = true});
   const std::string whole = test::ReadText(path);
-  // Every aligned-or-not 32-bit length in the first chunks, set to nearly 4 GB.
+  // Every 32-bit length in the first chunks, aligned or not, is set to nearly 4 GB.
   for (std::size_t at = 4096 + 13; at < 4096 + 13 + 400; at += 3) {
     std::string bytes = whole;
     for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(i == 0 ? 0xf0 : 0xff);

@@ -112,7 +112,7 @@ TEST_F(Rosbag2, SurvivesRandomMutations) {
       int num = 0;
       while (bag->Next(message)) ++num;
       EXPECT_LE(num, 10 * kNumMessages);
-    } catch (const InputError&) {  // no topics left
+    } catch (const InputError&) {  // there are no topics left
     }
   }
 }

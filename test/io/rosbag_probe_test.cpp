@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// ProbeClouds: what a recording's first clouds tell of how they are to be read.
+// Tests ProbeClouds, which finds the rules for reading a recording from its first clouds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class RosbagProbe : public test::RosbagConversion {
     }
     return "nothing thrown";
   }
-  // A bag of 30 sweeps of Velodyne's layout, each passed through `change`.
+  // Writes a bag of 30 sweeps in Velodyne's layout, each passed through `change`.
   void WriteClouds(const std::function<void(TestCloud&)>& change) {
     options_.input = dir_.path() / "clouds.bag";
     test::Bag1Writer writer(options_.input);
@@ -77,7 +77,8 @@ TEST_F(RosbagProbe, WhatWasDecidedIsSaidInWords) {
   EXPECT_EQ(rules.point_time_text, "field 'timestamp' in s since an epoch, sweeps of 100.9 ms");
   EXPECT_THAT(rules.stamp_text, StartsWith("sweep start: "));
   EXPECT_EQ(rules.fields, "x y z intensity(float32) timestamp(float64) ring(uint16)");
-  EXPECT_EQ(rules.ring.description, "from the ring field, counted from above, turned round");
+  EXPECT_EQ(rules.ring.description,
+            "from the ring field, counted from above and therefore reversed");
 }
 
 TEST_F(RosbagProbe, WithoutTimesTheSpinIsMeasured) {
@@ -89,7 +90,7 @@ TEST_F(RosbagProbe, WithoutTimesTheSpinIsMeasured) {
     EXPECT_NEAR(rules.spin.rate_radps, 2.0 * M_PI / 0.1, 0.1) << name;
     const bool has_field = name == "VelodyneWithZeroTimes";
     EXPECT_THAT(rules.point_time_text,
-                HasSubstr(has_field ? "for field 'time' is constant" : "have no time field"));
+                HasSubstr(has_field ? "because field 'time' is constant" : "have no time field"));
   }
 }
 
@@ -138,7 +139,7 @@ TEST_F(RosbagProbe, DamagedCloudsAreCountedInTheRefusal) {
                  std::vector<std::uint8_t>(10));
   }
   writer.Close();
-  EXPECT_EQ(FaultOfProbe(), "/points: not one cloud with returns can be read (4 damaged)");
+  EXPECT_EQ(FaultOfProbe(), "/points: no cloud with returns can be read (4 damaged)");
 }
 
 TEST_F(RosbagProbe, TheFirstCloudsMayBeEmptyOrDamaged) {

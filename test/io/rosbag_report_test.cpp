@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// FormatReport, on reports made by hand.
+// Tests FormatReport on reports made by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ RosbagOptions SomeOptions() {
   return options;
 }
 
-// Eleven sweeps of 100 points within a second, received 105 ms after their stamps, and no IMU.
+// Reports eleven sweeps of 100 points within a second, received 105 ms after their stamps, and no
+// IMU.
 RosbagReport LidarReport() {
   RosbagReport report;
   report.topics.lidar = "/points";
@@ -143,7 +144,7 @@ TEST(RosbagReport, DamageIsNamedWithItsPlace) {
   RosbagReport report = LidarReport();
   report.num_damaged["/points: too short"] = 3;
   EXPECT_TRUE(report.IsDamaged());
-  EXPECT_THAT(Text(report), HasSubstr("damaged      3 messages passed over, /points: too short\n"));
+  EXPECT_THAT(Text(report), HasSubstr("damaged      3 messages skipped, /points: too short\n"));
   report.damage.not_closed = true;
   EXPECT_THAT(Text(report),
               AllOf(HasSubstr("the bag was never closed, it has no index: 0 bytes lost"),

@@ -51,7 +51,7 @@ NavOutput ImuRate(Timestamp stamp) {
 
 class RunWriterTest : public ::testing::Test {
  protected:
-  // A run of one scan.
+  // Writes a run of one scan.
   void WriteRun(const ScanOutput& scan, const Options& options = {}) {
     RunWriter writer(out_, options);
     writer.Write(scan);
@@ -70,7 +70,7 @@ TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
                           "-0.500000000 0.500000000 0.500000000 0.500000000"));
 }
 
-// Logs that count from zero, their stamps shifted back.
+// The logs count from zero; their stamps are shifted back.
 TEST_F(RunWriterTest, StampsBeforeTheEpochAreRowsToo) {
   WriteRun(Scan(Timestamp{-40'000'000}));
   EXPECT_THAT(Lines(out_ / "trajectory.tum"),
@@ -168,7 +168,7 @@ TEST_F(RunWriterTest, StatsHoldCountsSpeedAndStageTimes) {
 
 TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
   RunWriter writer(out_, Options{});
-  // All are int64, one after the other: give each a value of its own.
+  // All members are int64, one after the other: each gets a value of its own.
   constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
   std::array<std::int64_t, kNumCounters> values{};
   for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1'000'000 + static_cast<int>(i);

@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-// A UDP socket on the loopback device, at a port that the kernel chooses.
+// Opens a UDP socket on the loopback device, at a port that the kernel chooses.
 class UdpSocket {
  public:
   UdpSocket() : fd_(::socket(AF_INET, SOCK_DGRAM, 0)) {

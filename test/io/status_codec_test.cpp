@@ -21,7 +21,7 @@ status_t Decoded(const Bytes& bytes) {
 }
 
 TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
-  // All are int64, one after the other, here and on the wire: give each a value of its own.
+  // All members are int64, one after the other, here and on the wire: each gets a value of its own.
   constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
   std::array<std::int64_t, kNumCounters> values{};
   for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1000 + static_cast<int>(i);

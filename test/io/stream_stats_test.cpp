@@ -47,7 +47,7 @@ TEST(StreamStats, OfFewSamplesSayLittle) {
   EXPECT_EQ(stats.num_gaps(), 0);
 }
 
-// Ten seconds: noise everywhere, more of it outside the fourth second.
+// The data are ten seconds of noise, with more of it outside the fourth second.
 std::string Suggest(double quiet_length) {
   AccelerometerStats stats;
   for (int i = 0; i < 1000; ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kBegin = 1'500'000'000'000'000'123;
 
-// `num` points 10 us apart in a shuffled order; a point's x tells its place in time.
+// Returns `num` points 10 us apart in a shuffled order; a point's x gives its place in time.
 TimedSweep Make(std::size_t num) {
   std::vector<std::size_t> order(num);
   for (std::size_t i = 0; i < num; ++i) order[i] = i;
@@ -76,7 +76,8 @@ TEST(SplitSweep, GivesChunksOfADatagramWithTheirOwnStamps) {
                 kBegin + static_cast<std::int64_t>(next) * 10'000);
       ++next;
     }
-    // Sent as long before the cloud's reception as its last point was before the sweep's end.
+    // Each chunk is sent as long before the cloud's reception as its last point was before the
+    // sweep's end.
     const std::int64_t last = chunk.stamp.ns + chunk.points.back().t_offset_ns;
     EXPECT_EQ((received - sent[k].sent).ns, sweep.last.ns - last);
   }

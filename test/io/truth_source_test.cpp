@@ -16,7 +16,7 @@ using test::RosBytes;
 
 constexpr Timestamp kStamp{1'547'694'000'000'000'000};
 
-// The variant that UrbanNav's driver has.
+// This is the variant of UrbanNav's driver.
 constexpr const char* kDefinition = R"(novatel_msgs/CommonHeader header
 uint32 ins_status
 uint32 INS_STATUS_SOLUTION_GOOD=3
@@ -83,7 +83,7 @@ TEST_F(Truth, LeavesOutAndCountsWhatIsNotIncreasingOrDamaged) {
 
 TEST_F(Truth, OfInspvaxKeepsGoodRowsInEastNorthUp) {
   TruthSource truth({"/inspvax", "novatel_msgs/INSPVAX", kDefinition, RosEncoding::kRos1, 0}, tum_);
-  Add(truth, Inspvax(0.0, 1, 22.2), 0.05);  // aligning: no origin either
+  Add(truth, Inspvax(0.0, 1, 22.2), 0.05);  // the INS is aligning, so this is no origin either
   Add(truth, Inspvax(1.0, 3, 22.3), 1.05);
   Add(truth, Inspvax(2.0, 3, 22.3001), 2.05);
   Add(truth, {9, 9}, 3.0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which cells of a GaussianMap have a shape, and which.
+// Tests which cells of a GaussianMap have a shape, and which shape.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// Points of a post of that radius through the middle of a voxel, leaning by `lean`.
+// Returns points of a post of that radius through the middle of a voxel, leaning by `lean`.
 std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double lean_rad) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> height(-0.45, 0.45);
@@ -28,7 +28,8 @@ std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double l
   return points;
 }
 
-// What a beam of this elevation, turning about the origin, leaves in a crown around `centre`.
+// Returns the points that a beam of this elevation, turning about the origin, leaves in a crown
+// around `centre`.
 std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_rad) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> depth(-0.4, 0.4);
@@ -80,7 +81,7 @@ TEST(GaussianMapShape, UprightGoesByTheGivenUp) {
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f) << "lies on its side";
 }
 
-// What fills the cell says nothing of where it is.
+// Points that fill the cell do not determine a position.
 TEST(GaussianMapShape, BushesWiderThanTheCellDoNotCount) {
   GaussianMap map(TestOptions());
   const Vector3 centre = CentreOf(0, 0, 0);
@@ -158,7 +159,7 @@ TEST(GaussianMapShape, RingsOfAStandingVehicleDoNotCount) {
   EXPECT_FALSE(map.IsFrozen(map.Find(CentreOf(0, 0, 0)).cell));
 }
 
-// Driving off, the rings move over the ground: the cell must become a plane then.
+// When the vehicle drives off, the rings move over the ground: the cell must become a plane then.
 TEST(GaussianMapShape, CellOfRingsBecomesAPlaneWhenTheVehicleDrivesOff) {
   GaussianMap map(TestOptions());
   std::mt19937_64 random(1);

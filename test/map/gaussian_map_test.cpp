@@ -146,7 +146,7 @@ TEST(GaussianMap, MemoryStaysBoundedOnALongWay) {
   EXPECT_EQ(map.memory_bytes(), most);
 }
 
-// The cells of a map with the same bounds, by the plainest means.
+// Keeps the cells of a map with the same bounds in the simplest way.
 class ReferenceMap {
  public:
   explicit ReferenceMap(std::size_t max_cells) : max_cells_(max_cells) {}
@@ -172,7 +172,7 @@ class ReferenceMap {
     }
   }
   std::size_t size() const { return cells_.size(); }
-  // Points in the voxel, 0 when it is not there.
+  // Returns the number of points in the voxel, 0 when it does not exist.
   int Count(const Vector3& point) const {
     const auto found = cells_.find(KeyOf(point));
     return found == cells_.end() ? 0 : found->second.num_points;
@@ -194,8 +194,8 @@ class ReferenceMap {
   std::list<VoxelKey> by_time_;  // least recently added to first
 };
 
-// Random scans over a small block of voxels, far more than fit: what is left must be exactly what
-// was added to last, found under its own key, after any number of removals from the hash table.
+// Random scans over a small block of voxels hold far more than fits: the cells added to last must
+// remain, each under its own key, after any number of removals from the hash table.
 TEST(GaussianMap, EvictionAgreesWithAReferenceMap) {
   test::CheckProperty([] {
     const auto max_cells = *rc::gen::inRange(1, 400);

@@ -85,7 +85,8 @@ TEST(KeyframeMap, SubmapIsTheNearestAndTheHullAndNoOtherStorey) {
   options.num_hull = 4;
   options.max_distance_m = 1000;
   KeyframeMap map(options);
-  // A square of 5 x 5 keyframes, 10 m apart; numbers 0..24 row by row; one a storey up.
+  // Makes a square of 5 x 5 keyframes, 10 m apart, with numbers 0..24 row by row, and one a storey
+  // up.
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
       map.Add(std::vector{PointAt({0, 0, 0})}, At(10.0 * x, 10.0 * y));

@@ -21,7 +21,7 @@ std::vector<Vector3> RandomPoints(int count, double size, unsigned seed) {
   return points;
 }
 
-// Points far enough apart that each has a voxel of its own.
+// The points are far enough apart that each has a voxel of its own.
 PointMapOptions FineOptions() {
   PointMapOptions options;
   options.voxel_m = 0.01;

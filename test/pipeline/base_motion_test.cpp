@@ -39,7 +39,7 @@ struct Case {
     return MoveToBase(nav, cov.topLeftCorner<kAccelBias, kAccelBias>(), rate_var, T_base_imu);
   }
 
-  // How `part` of the motion, by `minus` from the nominal one, answers to errors of the state.
+  // Returns the derivative by errors of the state of `minus(motion, nominal motion)`.
   template <class Minus>
   Eigen::MatrixXd Jacobian(Minus minus) const {
     const auto f = [&](const Eigen::VectorXd& error) {

@@ -65,7 +65,7 @@ TEST(ConstantVelocityTracker, AVelocitySeedIsWhereItBegins) {
   EXPECT_GT(StdOf(tracker.history().head(), kVel), 1.0);  // ... but it is only a seed
 }
 
-// An earlier tracker looked along y and drove that way: the new one's x.
+// An earlier tracker looked along y and drove that way, which is x of the new one.
 TEST(ConstantVelocityTracker, AKnownMotionIsTakenIntoTheBodysAxes) {
   TrackerOptions options;
   options.seed.v_imu_mps = Vector3(99, 99, 99);  // what is known counts

@@ -11,7 +11,7 @@ Pose At(double x_m, double yaw_rad = 0.0) {
   return {ExpSo3(Vector3(0, 0, yaw_rad)), Vector3(x_m, 0, 0)};
 }
 
-// How many of `num` scans at one place grow the map.
+// Returns how many of `num` scans at one place are inserted into the map.
 int NumGrown(KeyframePolicy& policy, const Pose& pose, int num) {
   int num_grown = 0;
   for (int i = 0; i < num; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the estimator tells of the state, by the frame it is told for.
+// Tests the estimator's outputs of the state in each frame.
 #include <gtest/gtest.h>
 
 #include "support/faulty_drives.hpp"

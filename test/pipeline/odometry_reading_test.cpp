@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Inertial messages in other units and axes, through the whole estimator.
+// Tests IMU messages in other units and axes through the whole estimator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ const ImuConvention kZDown{false, false, Vector3(1, -1, -1).asDiagonal()};
 const ImuConvention kTurned{
     false, false, ExpSo3(Vector3(0, 0, 0.5 * M_PI)).toRotationMatrix().array().round().matrix()};
 
-// The same drive, its samples as another driver sends them.
+// Returns the same drive with samples as another driver sends them.
 Messages SentAs(Messages messages, const ImuConvention& reading) {
   for (Message& message : messages) {
     if (message.is_imu) message.sample = FromSi(reading, message.sample);
@@ -50,7 +50,7 @@ bool IsAnyCalled(const RunResult& run) {
   return test::HasNotice(run, "inertial messages:") || test::HasNotice(run, "disagree");
 }
 
-// How far rows' distances from the first one are off, in whatever axes they are.
+// Returns the error of the rows' distances from the first one, whatever their axes.
 double WorstDistance(const test::Motion& motion, const std::vector<ScanOutput>& scans) {
   const auto truth = [&](const NavOutput& nav) { return motion(SecondsOf(nav.stamp)).translation; };
   const NavOutput& first = scans.front().filter->nav;

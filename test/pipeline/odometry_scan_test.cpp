@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What becomes of the outcome of a match: here it is altered on its way.
+// Tests how the estimator uses the outcome of a match, which is altered on its way here.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How the estimator finds its first state, at rest and in motion.
+// Tests the initialization, at rest and in motion.
 #include <gtest/gtest.h>
 
 #include "lio/pipeline/odometry.hpp"
@@ -28,7 +28,7 @@ using test::SecondsOf;
 using test::StaticStartDrive;
 using test::TrackError;
 
-// When the first row's sweep ended, since the drive's begin.
+// Returns the end of the first row's sweep since the drive's begin.
 double FirstRow(const RunResult& run) {
   return run.scans.empty() ? 1e9 : SecondsOf(run.scans.front().scan.stamp);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator across gaps of its streams and steps of their clocks.
+// Tests the estimator across gaps of its streams and steps of their clocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ TEST(Odometry, ClocksSteppedBackForASecondGoOn) {
   }
 }
 
-// Of one inertial sample, or of one sweep.
+// Shifts the stamps of one IMU sample or of one sweep.
 Messages WithWildStamp(Messages messages, bool of_imu, double shift_s) {
   for (Message& message : messages) {
     if (message.is_imu != of_imu || !IsBetween(message, 4.0, of_imu ? 4.01 : 4.1)) continue;
@@ -180,7 +180,7 @@ TEST(Odometry, InertialClockThatStepsAloneIsPutRight) {
   }
 }
 
-// As an inertial unit whose clock counts from its start, and which starts anew.
+// Some IMUs have a clock that counts from their start, and may restart.
 TEST(Odometry, InertialClockThatStepsAfterAnOutageIsPutRight) {
   const Messages messages = WithoutImu(StaticStartDrive(), 3.5, 4.0);
   for (const double shift_s : {-100.0, -0.9, 100.0}) {

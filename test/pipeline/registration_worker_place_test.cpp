@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A scan that is not found where it was guessed.
+// Tests scans that are not found at the guessed pose.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -33,7 +33,7 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
   return job;
 }
 
-// That nothing is known of its place but for metres and a fifth of a radian.
+// Returns a job whose pose is known only to metres and a fifth of a radian.
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   MatchJob job = JobFor(start_s, guess_error);
   job.prior.cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
@@ -51,7 +51,7 @@ void FillMap(RegistrationWorker& side) {
   }
 }
 
-// As after a clock that jumped: the motion of a second that never was.
+// Returns the guess error after a clock step: the motion of a second that did not exist.
 Vector6 FarAhead() {
   Vector6 error;
   error << 12.0, 3.0, 1.5, 0.0, 0.0, 0.3;
@@ -85,7 +85,7 @@ TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
   EXPECT_FALSE(side.Run(job).is_relocalized);
 }
 
-// After stamps that went a second forth: did the vehicle drive on, or was the clock set?
+// After stamps jumped by a second, the vehicle may have driven on, or the clock may have been set.
 TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
   for (const bool was_set : {true, false}) {
     RegistrationWorker side(test::DriveRig());

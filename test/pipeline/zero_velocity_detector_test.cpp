@@ -31,7 +31,7 @@ Estimate KnownState() {
 
 const Vector3 kGravityWorld(0, 0, -test::kGravity);
 
-// What the k-th scan and the IMU of a moving body show; the lidar may see another motion.
+// Returns the k-th scan and the IMU samples of a moving body; the lidar may see another motion.
 ZeroVelocityScan ScanOf(int k, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
                         double scatter_m, std::mt19937_64& random) {
   const test::ImuErrors errors{Vector3::Zero(), Vector3::Zero(), Rig().gyro_noise_density,
@@ -102,7 +102,7 @@ TEST(ZeroVelocityDetector, WhatTheImuFeelsIsNoRestThoughTheLidarSeesNone) {
   EXPECT_FALSE(HoldsAfter(kEnough, shakes, rest));
 }
 
-// As those of a lidar of few rings do.
+// The poses scatter like those of a lidar with few rings.
 TEST(ZeroVelocityDetector, MatchesThatScatterAreRest) {
   const test::SmoothMotion rest;
   EXPECT_TRUE(HoldsAfter(kEnough, rest, rest, 7e-3));

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Sends to LCM's multicast group what a broken or hostile sender might: datagrams that are no LCM,
-// LCM messages that are not of our types, and messages of our types with absurd contents. Not sent:
-// fragments with wrapping offsets, which end any process that links liblcm (docs/messages.md).
+// Sends to LCM's multicast group what a broken or hostile sender might send: datagrams that are no
+// LCM, LCM messages that are not of liod's types, and messages of its types with absurd contents.
+// It sends no fragments with wrapping offsets, because they end any process that links liblcm
+// (docs/messages.md).
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -37,7 +38,7 @@ class Attacker {
     if (++num_sent_ % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  // As LCM's short messages are: magic, sequence number, channel with its end, payload.
+  // Sends an LCM short message: magic, sequence number, channel with its end, payload.
   void Send(const std::string& channel, const Bytes& payload, bool is_terminated = true) {
     Bytes datagram = {'L', 'C', '0', '2', 0, 0, 0, static_cast<std::uint8_t>(num_sent_)};
     datagram.insert(datagram.end(), channel.begin(), channel.end());
@@ -71,7 +72,7 @@ void SendGarbage(Attacker& attacker) {
   for (int i = 0; i < 20; ++i) attacker.Send("LIO_SCAN", EncodeImu({}, i));
 }
 
-// Messages whose every byte is formally right.
+// Sends messages whose every byte is formally right.
 void SendNonsense(Attacker& attacker) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();

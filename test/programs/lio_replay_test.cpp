@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-replay as a user runs it.
+// Runs lio-replay as its users do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ class LioReplayTest : public ::testing::Test {
   nlohmann::json Stats(const std::string& out) const {
     return nlohmann::json::parse(File(out + "/stats.json"));
   }
-  // The rows of registration.csv without the times of computing at their ends.
+  // Returns the rows of registration.csv without the computing times at their ends.
   std::string RegistrationWithoutTimes(const std::string& out) const {
     std::istringstream text(File(out + "/registration.csv"));
     std::string kept;
@@ -78,7 +78,7 @@ TEST_F(LioReplayTest, StatsHaveTheKeysThatArePromised) {
   EXPECT_GT(stats["realtime_factor"], 0.1);
   EXPECT_GT(stats["rss_peak_mb"], 1.0);
   for (const char* stage : {"decode", "reduce", "deskew", "match", "insert", "filter", "total"}) {
-    // Not every scan grows the map.
+    // Not every scan is inserted into the map.
     const bool is_rare = std::string(stage) == "insert";
     EXPECT_GE(stats["stage_ms"][stage]["median"], is_rare ? 0.0 : 1e-6) << stage;
     EXPECT_GT(stats["stage_ms"][stage]["p99"], 0.0) << stage;

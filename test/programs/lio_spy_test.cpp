@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The launcher's words; that our types decode in Java is SpyTypes' matter (test/spy).
+// Tests the launcher's messages; SpyTypes (test/spy) tests that liod's types decode in Java.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon as a process, on real multicast in a network namespace of its own.
+// Runs the daemon as a process, on real multicast in a network namespace of its own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ const std::string kScene = LIO_SCENE_DIR;
 const std::string kBin = LIO_BIN_DIR;
 constexpr const char* kUp = "ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; ";
 
-// Runs a shell script where nobody else's multicast is heard, as root or as anybody.
+// Runs a shell script in a network namespace of its own, without others' multicast; needs no root.
 test::ProgramResult RunAlone(const std::string& script) {
   return test::RunProgram({"unshare", "-rn", "sh", "-c", kUp + script});
 }
@@ -36,19 +36,19 @@ class LiodTest : public ::testing::Test {
   }
   // Starts liod and waits until it listens; its process id is in $liod.
   std::string Start(const std::string& arguments) const {
-    // What an earlier daemon said must not pass for this one's word.
+    // The output of an earlier daemon must not be taken for this one's.
     return "rm -f " + Out("said") + "; " + kBin + "/liod --config " + kScene + "/config.yaml " +
            arguments + " 2>" + Out("said") + " & liod=$!; while ! grep -qs listening " +
            Out("said") + "; do sleep 0.05; done; ";
   }
-  // Ends it, gives its exit code, and the milliseconds that took in the file `ended`.
+  // Stops liod, returns its exit code, and writes the milliseconds that took into the file `ended`.
   std::string End() const {
     return "t0=$(date +%s%3N); kill -TERM $liod; wait $liod; rc=$?; echo $(($(date +%s%3N) - t0)) "
            ">" +
            Out("ended") + "; exit $rc";
   }
 
-  // Plays a log to liod; what that said goes into the file said, its LIO_STATUS into status.lcm.
+  // Plays a log to liod; liod's output goes into the file said, its LIO_STATUS into status.lcm.
   void PlayHearingStatus(const std::string& arguments, const std::string& log) const {
     const auto result = RunAlone(Start(arguments) + "lcm-logger -q -f -c LIO_STATUS " +
                                  Out("status.lcm") + " & logger=$!; sleep 0.2; lcm-logplayer " +

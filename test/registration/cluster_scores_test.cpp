@@ -23,7 +23,8 @@ TEST(ClusterScores, TermsOfOnePartAddBeforeTheyAreSquared) {
   EXPECT_EQ(scores.SumOfSquares()(1, 1), 0.0);
 }
 
-// Ten parts and six estimated dimensions: 10 / 4. Six or fewer: as many parts as there are.
+// Ten parts and six estimated dimensions give 10 / 4. With six or fewer the factor is the number of
+// parts.
 TEST(ClusterScores, CovarianceMakesUpForTheEstimatedDimensions) {
   PoseScores scores;
   scores.Reset(10);

@@ -13,7 +13,8 @@
 namespace lio {
 namespace {
 
-// Information of a scene that holds every direction, rotations in another unit than translations.
+// Returns the information of a scene that makes every direction observable; rotations have another
+// unit than translations.
 Matrix6 FullInformation(std::mt19937_64& random) {
   Vector6 scale;
   scale << 100, 100, 100, 2000, 2000, 2000;
@@ -24,7 +25,7 @@ Matrix6 SmallNoise() {
   return 1e-3 * Matrix6::Identity();
 }
 
-// Takes all information along `direction` away.
+// Removes all information along `direction`.
 Matrix6 Without(const Matrix6& information, const Vector6& direction) {
   const Vector6 lost = information * direction;
   return information - lost * lost.transpose() / direction.dot(lost);
@@ -86,7 +87,8 @@ TEST(DegenerateDirections, WeakDirectionHasALargeVariance) {
   EXPECT_LT(std::abs(v.dot(held * v)), 1e-9);
 }
 
-// What counts is the information against what the normals' own noise would feign, not its size.
+// The criterion is the information relative to what the normals' own noise would contribute, not
+// its size.
 TEST(DegenerateDirections, InformationBelowTheNoisesIsWeak) {
   const Matrix6 H = 1e4 * Matrix6::Identity();
   Matrix6 noise_information = Matrix6::Identity();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What only matching against keyframes does; what every matcher does:
-// test/contract/matcher_contract_test.cpp.
+// Tests what is particular to matching against keyframes; test/contract/matcher_contract_test.cpp
+// tests what every matcher does.
 #include "lio/registration/gicp_matcher.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Points on all six sides of a box of that half width around the sensor.
+// Returns points on all six sides of a box of that half width around the sensor.
 std::vector<Eigen::Vector3f> BoxAround(float half_m, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> place(-half_m, half_m);
@@ -28,7 +28,7 @@ Pose At(double x, double yaw_deg = 0.0) {
   return {ExpSo3(Vector3(0, 0, yaw_deg * M_PI / 180.0)), {x, 0, 0}};
 }
 
-// On a cube's face ranges go from the half width up: their median is 1.2 to 1.3 of it.
+// Ranges on a cube's face begin at the half width: their median is 1.2 to 1.3 of it.
 TEST(GicpMatcher, OpennessIsTheMedianRangeSmoothed) {
   GicpMatcher matcher{GicpOptions{}};
   EXPECT_EQ(matcher.openness_m(), 0.0);
@@ -44,7 +44,7 @@ TEST(GicpMatcher, OpennessIsTheMedianRangeSmoothed) {
   EXPECT_NEAR(matcher.openness_m(), 0.9 * first + 0.1 * ten_times, 0.02);
 }
 
-// A tenth of an openness of 12 m: a keyframe every 1.2 m.
+// A tenth of an openness of 12 m gives a keyframe every 1.2 m.
 TEST(GicpMatcher, KeyframesAreAShareOfTheOpennessApart) {
   GicpMatcher matcher{GicpOptions{}};
   const auto scan = BoxAround(10.f);
@@ -95,7 +95,7 @@ TEST(GicpMatcher, BetweenKeyframesThereIsNoNewContent) {
   EXPECT_EQ(result.new_content_share, 0.0);
 }
 
-// Beams that hit a wall in the box, and so few of them that no surface shows.
+// Beams hit a wall in the box, but so few of them that no surface is found.
 int NumMatchedWithStrayPoints(bool has_ends, double shift_std_m) {
   std::vector<Eigen::Vector3f> box = BoxAround(4.f);
   if (!has_ends) std::erase_if(box, [](const auto& p) { return std::abs(p.x()) == 4.f; });

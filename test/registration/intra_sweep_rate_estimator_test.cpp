@@ -16,7 +16,8 @@ constexpr int kNumPoints = 3000;
 constexpr int kNumParts = 300;
 constexpr float kWeight = 1.f / (0.02f * 0.02f);
 
-// A sweep of a round room, seen from its middle, deskewed by a turn rate that is off by -`error`.
+// Returns a sweep of a round room, seen from its middle, deskewed with a turn rate that is off by
+// -`error`.
 IntraSweepRateEstimator SumsOfRoom(const Vector3& error_radps, double noise_m, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> height(-3.f, 3.f);

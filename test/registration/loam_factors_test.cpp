@@ -32,7 +32,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Poses of all kinds: identity, nearly identity, small and large rotations.
+// Returns poses of all kinds: identity, nearly identity, small and large rotations.
 std::vector<Pose> Poses() {
   Random random(3);
   std::vector<Pose> poses{Pose::Identity(), {ExpSo3(Vector3(1e-9, -2e-9, 1e-9)), Vector3::Zero()}};
@@ -50,7 +50,8 @@ Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Pose& pose) {
   return residual;
 }
 
-// Derivative in the six tangent dimensions, as Ceres makes it from ambient one and manifold.
+// Returns the derivative in the six tangent dimensions, as Ceres makes it from the ambient one and
+// the manifold.
 Tangent TangentJacobian(const ceres::CostFunction& cost, const Pose& pose) {
   const PoseBlock block = ToBlock(pose);
   const double* blocks[] = {block.data()};
@@ -169,7 +170,8 @@ TEST(LoamFactors, ShortLinesAndNarrowTrianglesAreRefused) {
   EXPECT_EQ(MakeAutoPlaneByPoints(point, a, a + step, a + 2 * step), nullptr);
 }
 
-// Points on three walls, a post and two marks, seen from elsewhere: the solver finds from where.
+// Points on three walls, a post and two marks are seen from elsewhere: the solver must find from
+// where.
 TEST(LoamFactors, SolverFindsThePoseThatMadeThePoints) {
   Random random(11);
   const Pose truth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What only LOAM's matching against maps does; what every matcher does:
-// test/contract/matcher_contract_test.cpp.
+// Tests what is particular to LOAM's matching against maps; test/contract/matcher_contract_test.cpp
+// tests what every matcher does.
 #include "lio/registration/loam_matcher.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@
 namespace lio {
 namespace {
 
-// A room of three walls and four posts, the walls' points tagged as surfaces, the posts' as edges.
+// Returns a room of three walls and four posts; the walls' points are tagged as surfaces, the
+// posts' as edges.
 struct Room {
   explicit Room(unsigned seed, bool has_walls = true) {
     std::mt19937 random(seed);
@@ -56,7 +57,7 @@ TEST(LoamMatcher, FindsItsWayBackInARoom) {
   EXPECT_LT(LogSe3(result.T_map_imu).tail<3>().norm(), 0.002);
 }
 
-// Posts alone do not hold the height.
+// Posts alone do not make the height observable.
 TEST(LoamMatcher, UprightEdgesAloneHoldAllButTheHeight) {
   LoamMatcher matcher{LoamOptions{}};
   for (unsigned seed = 1; seed <= 5; ++seed) {

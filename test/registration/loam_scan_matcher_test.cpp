@@ -41,7 +41,7 @@ Scan Reduce(const Sweep& sweep) {
 
 class LoamScanMatching : public testing::Test {
  protected:
-  // The scan before: taken at rest at `T_world_last_`.
+  // The previous scan was taken at rest at `T_world_last_`.
   void InsertFirst(const Pose& T_map_last) {
     const Scan first = Reduce(CastTurn(scene_, lidar_, T_world_last_).sweep);
     matcher_.Insert({first.points, first.tags}, T_map_last);

@@ -17,8 +17,8 @@ double ErrorOf(const Pose& pose) {
   return LogSe3(kTruth.Inverse() * pose).norm();
 }
 
-// Points of three walls and a post, seen from the truth; of a sweep ratio below 1, from that part
-// of the way to it.
+// Returns points of three walls and a post, seen from the truth; those of a sweep ratio below 1 are
+// seen from that part of the way to it.
 class LoamSolverTest : public ::testing::Test {
  protected:
   void AddWorld(double ratio = 1.0) {
@@ -73,7 +73,7 @@ TEST_F(LoamSolverTest, EachIterationComesNearer) {
   }
 }
 
-// A fifth of the walls' points a metre off: with Huber's loss they pull as if 0.1 m off.
+// A fifth of the walls' points are a metre off: with Huber's loss they pull as if 0.1 m off.
 TEST_F(LoamSolverTest, OutliersPullNoMoreThanHubersLossLets) {
   AddWorld();
   for (int i = 0; i < 12; ++i) {
@@ -88,11 +88,11 @@ TEST_F(LoamSolverTest, OutliersPullNoMoreThanHubersLossLets) {
   EXPECT_GT(plain, 2.0 * robust);
 }
 
-// Edges and planes that disagree: the heavier side wins.
+// Edges and planes disagree: the side of greater weight wins.
 TEST_F(LoamSolverTest, EdgesWeighAsMuchAsTheyAreTold) {
   AddWorld();
   for (int i = 0; i < 60; ++i) {
-    // Another post, moved by 5 cm along x.
+    // Adds another post, moved by 5 cm along x.
     const Vector3 seen(-3.0 + 0.05, -4, 0.1 * i - 3);
     solver_.AddEdge(kTruth.Inverse() * seen, Vector3(-3, -4, -1), Vector3(-3, -4, 1), 1.0);
   }

@@ -15,7 +15,7 @@ namespace {
 
 const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
 
-// Noisy points of three walls and a post, as terms of 12 parts.
+// Returns noisy points of three walls and a post, as terms of 12 parts.
 class LoamTermsTest : public ::testing::Test {
  protected:
   LoamTermsTest() { AddWorld(0.02); }
@@ -64,7 +64,7 @@ class LoamTermsTest : public ::testing::Test {
   PoseScores scores_;
 };
 
-// By central differences of the cost with weights held.
+// The expected values are central differences of the cost with constant weights.
 TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
   const Pose at = kTruth * ExpSe3(0.01 * Vector6::Ones());
   const MatchSums sums = LinearizeAt(at);
@@ -86,7 +86,7 @@ TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
 TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
   const MatchSums sums = LinearizeAt(kTruth * ExpSe3(0.01 * Vector6::Ones()));
   EXPECT_EQ(sums.num_matched, 240);
-  // One part: its square is the gradient's.
+  // With one part, its square is the gradient's.
   LoamTerms one(options_);
   for (PlaneTerm term : terms_.planes()) {
     term.part = 0;
@@ -98,8 +98,8 @@ TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
   EXPECT_LT((scores_.SumOfSquares() - square).norm(), 1e-4 * square.norm());
 }
 
-// A point 5 times Huber's limit off weighs a fifth, counts in no curvature, and its residual is
-// weighted.
+// A point that is 5 times Huber's limit off has a weight of a fifth and adds no curvature, and its
+// residual is weighted.
 TEST_F(LoamTermsTest, FarPointsWeighByHubersRule) {
   terms_.Clear();
   points_.clear();
@@ -126,7 +126,7 @@ TEST_F(LoamTermsTest, EdgesWeighByTheirOwnAccuracyAndHoldTwoDirections) {
   EXPECT_NEAR(in_map(1, 1), weight, 1e-3);
   EXPECT_NEAR(in_map(2, 2), 0.0, 1e-3);
   EXPECT_NEAR(sums.residual_sq_sum, 0.5 * 0.05 * 0.05, 1e-6);  // a mean of two directions
-  // The cost: the squared distance of 5 cm, halved.
+  // The cost is the squared distance of 5 cm, halved.
   EXPECT_NEAR(terms_.FixedCorrespondenceCost(points_, kTruth), 0.5 * weight * 0.05 * 0.05, 1e-4);
 }
 

@@ -80,7 +80,7 @@ TEST(MatchSums, ARowGoesIntoEverySum) {
 
 // --- the summary
 
-// Three walls, 50 terms each, seen from 5 m: everything is held.
+// Three walls with 50 terms each are seen from 5 m: every direction is observable.
 MatchSums HeldSums(int num_axes, float residual_m) {
   MatchSums sums;
   std::mt19937_64 random(4);
@@ -115,7 +115,7 @@ TEST(Summarise, CovarianceIsTheSandwichWhereAllIsHeld) {
   EXPECT_GT(result.eigenvalues[0], 0.0);
 }
 
-// Half the curvature: four times the covariance. Less than 0.3 is taken for 0.3.
+// Half the curvature gives four times the covariance. A ratio below 0.3 counts as 0.3.
 TEST(Summarise, WhatTheKernelTakesOfTheCurvatureWidensTheCovariance) {
   MatchSums sums = HeldSums(3, 0.02f);
   const Matrix6 score_cov = sums.information.Full();
@@ -130,7 +130,7 @@ TEST(Summarise, WhatTheKernelTakesOfTheCurvatureWidensTheCovariance) {
   EXPECT_NEAR(variance_at(1.5) / variance_at(1.0), 1.0, 1e-9);
 }
 
-// Two walls: nothing holds along z.
+// There are two walls: the z direction is not observable.
 TEST(Summarise, ADirectionThatNothingHoldsIsWeak) {
   const MatchSums sums = HeldSums(2, 0.02f);
   MatchResult result;

@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-// Along a straight road: 1 m between two scans, level.
+// The vehicle goes along a straight, level road, 1 m between two scans.
 Pose OnRoad(double x_m, double y_m = 5.0) {
   Pose pose;
   pose.translation = Vector3(x_m, y_m, 0.0);
@@ -24,7 +24,7 @@ Pose OnRoad(double x_m, double y_m = 5.0) {
   return pose;
 }
 
-// A world, a lidar in it, and a matcher with a map of what it saw.
+// Holds a world, a lidar in it, and a matcher with a map of its scans.
 class NdtMatcherIn {
  public:
   explicit NdtMatcherIn(const test::Scene& scene) : scene_(scene) {}
@@ -46,7 +46,7 @@ class NdtMatcherIn {
     return matcher_.Match(input);
   }
 
-  // Of the next matches; upright things are left out where it is small.
+  // Position uncertainty given to the next matches; vertical objects are left out when it is small.
   double shift_std_m = 1.0;
 
   NdtMatcher& matcher() { return matcher_; }
@@ -63,7 +63,7 @@ Vector6 ErrorOf(const MatchResult& result, const Pose& truth) {
   return LogSe3(truth.Inverse() * result.T_map_imu);
 }
 
-// Of 1 sigma as big as given: translation, and a twentieth of it as rotation [rad].
+// Draws a guess error of the given sigma: translation, and a twentieth of it as rotation [rad].
 Vector6 DrawGuessError(std::mt19937_64& random, double std) {
   Vector6 error = std * test::RandomVector<6>(random);
   error.tail<3>() *= 0.05;
@@ -87,7 +87,7 @@ TEST(NdtMatcher, RecoversKnownOffsetsOnAStreet) {
   }
 }
 
-// NEES per degree of freedom, over places along a street.
+// Returns the NEES per degree of freedom over places along a street.
 double StreetNees(double shift_std_m) {
   constexpr int kRuns = 40;
   NdtMatcherIn street(test::Street());
@@ -104,21 +104,22 @@ double StreetNees(double shift_std_m) {
   return nees;
 }
 
-// The map is one draw that all runs share, so this is no chi-square: right to a factor of two.
+// The map is one draw that all runs share, so this is no chi-square: it is right to a factor of
+// two.
 TEST(NdtMatcher, CovarianceTellsTheErrorItMakes) {
   const double nees = StreetNees(0.0);
   EXPECT_GT(nees, 0.5);
   EXPECT_LT(nees, 2.0);
 }
 
-// Posts in this scene look the same from all sides, which the covariance does not count on.
+// Posts in this scene look the same from all sides, which the covariance does not assume.
 TEST(NdtMatcher, UprightThingsAreNotTrustedMoreThanTheyTell) {
   const double nees = StreetNees(1.0);
   EXPECT_GT(nees, 0.2);
   EXPECT_LT(nees, 1.5);
 }
 
-// A road with posts and nothing else that stands: only they tell how far the vehicle has come.
+// The road has posts and no other vertical objects: only they determine the position along it.
 TEST(NdtMatcher, PostsHoldAlongAnOpenRoadWhereTheShiftIsUnknown) {
   const auto result_with = [](double shift_std_m) {
     NdtMatcherIn road(test::RoadWithPosts());
@@ -151,7 +152,7 @@ TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
   EXPECT_GT(known(2, 2), 1 / (0.02 * 0.02));
   const Matrix3 held_world = R * result.observable_cov.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_LT(held_world(0, 0), 0.02 * 0.02);
-  // Held directions are found, the weak one is left where the guess was.
+  // Observable directions are found; the degenerate one stays at the guess.
   const Vector3 error = result.T_map_imu.translation - truth.translation;
   EXPECT_NEAR(error.x(), 0.2, 0.02);
   EXPECT_NEAR(error.y(), 0.0, 0.01);
@@ -259,8 +260,8 @@ TEST(NdtMatcher, NewContentShareFallsAsTheMapFills) {
   EXPECT_LT(last_share, 0.2);
 }
 
-// A floor on a voxel face is split between two cells by its noise; the turned grid has no such
-// face for level floors and upright walls.
+// A floor on a voxel face is split between two cells by its noise; the turned grid has no such face
+// for level floors and vertical walls.
 TEST(NdtMatcher, GroundOnAVoxelFaceIsMatchedAsWell) {
   for (const double ground_z_m : {-1.0, -1.5}) {
     std::vector<test::Box> boxes;

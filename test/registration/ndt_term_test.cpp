@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// A patch across z of 2 cm thickness, spread 0.5 m along x and 0.25 m along y.
+// The patch lies across z, is 2 cm thick, and has a spread of 0.5 m along x and 0.25 m along y.
 SurfacePatch Floor() {
   SurfacePatch patch;
   patch.kind = SurfacePatch::Kind::kPlane;
@@ -21,7 +21,7 @@ SurfacePatch Floor() {
   return patch;
 }
 
-// A post along z: 2 cm across along x, 5 cm along y.
+// The post stands along z and has a spread of 2 cm along x and 5 cm along y.
 SurfacePatch Post() {
   SurfacePatch patch = Floor();
   patch.kind = SurfacePatch::Kind::kUpright;
@@ -39,12 +39,13 @@ TEST(NdtTerm, APlaneIsHeldAlongItsNormal) {
   EXPECT_FLOAT_EQ(term.rows[0].weight, RobustKernel(2.25f).weight() / 0.0004f);
 }
 
-// The mean's own error counts, and the tilt's with the square of how many spreads away the point
-// lies: 10 points here to 40, one spread along x and two along y: 1 + (1 + 1 + 4) / 4.
+// The variance contains the error of the mean, and that of the tilt times the square of the point's
+// distance in spreads: for 10 points here and 40 in the cell, one spread along x and two along y,
+// it grows by the factor 1 + (1 + 1 + 4) / 4.
 TEST(NdtTerm, FarFromItsMeanAPlaneIsLessSure) {
   const NdtTerm term = MakeNdtTerm(Floor(), {0.5f, 0.5f, 0}, 10.f, 0.f);
   EXPECT_FLOAT_EQ(term.rows[0].weight, 1.f / (0.0004f * 2.5f));
-  // Beyond two spreads it is not taken farther.
+  // Beyond two spreads it does not grow further.
   const NdtTerm beyond = MakeNdtTerm(Floor(), {5.f, 0.5f, 0}, 10.f, 0.f);
   EXPECT_FLOAT_EQ(beyond.rows[0].weight, 1.f / (0.0004f * (1.f + (1.f + 4.f + 4.f) / 4.f)));
 }
@@ -60,7 +61,7 @@ TEST(NdtTerm, BeyondFiveSigmaItIsAnOutlier) {
   EXPECT_TRUE(MakeNdtTerm(Floor(), {0, 0, -0.101f}, 0.f, 0.f).IsOutlier());
 }
 
-// Along x 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
+// Along x it is 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
 TEST(NdtTerm, WhatStandsUpIsHeldInTwoLevelDirections) {
   const NdtTerm term = MakeNdtTerm(Post(), {0.02f, 0.1f, 3.f}, 0.f, 0.f);
   ASSERT_EQ(term.num_rows, 2);

@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// Identity, nearly identity, small and large rotations.
+// Returns identity, nearly identity, small and large rotations.
 std::vector<Pose> Poses() {
   std::mt19937_64 random(3);
   std::vector<Pose> poses{Pose::Identity(), {ExpSo3(Vector3(1e-9, -2e-9, 1e-9)), Vector3::Zero()}};
@@ -36,7 +36,7 @@ TEST(PoseManifold, BlocksAreQuaternionXYZWThenTranslation) {
   EXPECT_EQ(PoseManifold().TangentSize(), 6);
 }
 
-// A metre ahead of who looks along y is a metre along y.
+// One metre ahead of a body that faces along y is one metre along y.
 TEST(PoseManifold, StepsAreInTheBodysAxesTranslationFirst) {
   const PoseBlock x = ToBlock({ExpSo3(Vector3(0, 0, M_PI / 2)), {10, 0, 0}});
   const double delta[] = {1, 0, 0, 0, 0, 0};

@@ -78,7 +78,7 @@ TEST(RingGrid, ClearForgetsEverything) {
   EXPECT_EQ(grid.Search({1, 1, 1}, 1.f, {}).nearest, 0);
 }
 
-// Against a look at every point.
+// The grid is compared with a search through every point.
 TEST(RingGrid, AgreesWithAPlainSearch) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> place(-4.f, 4.f);

@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// Points on a plane around `centre`, spanned by a and b, with noise along the normal.
+// Returns points on a plane around `centre`, spanned by a and b, with noise along the normal.
 std::vector<Eigen::Vector3f> Patch(const Eigen::Vector3f& centre, const Eigen::Vector3f& a,
                                    const Eigen::Vector3f& b, int per_side, float noise_m) {
   std::mt19937 random(1);
@@ -62,7 +62,7 @@ TEST(ScanNormals, BendIsThatOfTheVaultItSees) {
   shapes.SetScan(vault);
   const PointWithNormal shape = shapes.At(centre);
   ASSERT_TRUE(shape.HasNormal());
-  // At a distance o it is o^2 / (2 R) away from its plane.
+  // A point at a distance o is o^2 / (2 R) away from its plane.
   EXPECT_NEAR(std::sqrt(shape.bend_var), 1.f / (2.f * kRadius_m), 0.05f);
 }
 

@@ -32,7 +32,8 @@ TEST(BirdsEyeView, DoesNotCountGround) {
   EXPECT_FALSE(IsNear(view, {8.f, 3.f}));
 }
 
-// A wall says nothing of the way along it, so what stands alone is chosen where there is enough.
+// A wall does not determine the position along it, so isolated objects are chosen if there are
+// enough.
 TEST(BirdsEyeView, LeavesWallsOutWhereEnoughStandsAlone) {
   Points points;
   for (float x = -30.f; x < 30.f; x += 0.2f) AddPost({x, 12.f}, {0.f, 0.f}, points);

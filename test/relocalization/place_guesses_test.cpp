@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// Posts at random places, as a body at the pose sees them.
+// Returns posts at random places, as a body at the pose sees them.
 std::vector<Eigen::Vector3f> Wood(const Pose& T_map_imu) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> coordinate(-50.0, 50.0);

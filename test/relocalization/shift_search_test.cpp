@@ -16,7 +16,7 @@ using test::AddPost;
 using test::AddRings;
 using test::Points;
 
-// Posts at random places and rails on both sides of the road along x.
+// Returns posts at random places and rails on both sides of the road along x.
 Points Road(const Eigen::Vector2f& sensor) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> along(-60.f, 60.f);
@@ -31,7 +31,7 @@ Points Road(const Eigen::Vector2f& sensor) {
   return points;
 }
 
-// A pattern that moves with the sensor, and two walls.
+// Returns a pattern that moves with the sensor, and two walls.
 Points Tunnel() {
   Points points;
   for (int i = 0; i < 60; ++i) {
@@ -63,7 +63,7 @@ TEST(ShiftSearch, FindsHowFarTheSensorHasGoneAlongARoad) {
   }
 }
 
-// Rails alone say how far off they are, and nothing of the way along.
+// Rails alone determine the lateral position, but not the one along them.
 TEST(ShiftSearch, SaysThatAStretchOfRoadLooksTheSame) {
   const auto rails = [](const Eigen::Vector2f& sensor) {
     Points points;

@@ -38,7 +38,7 @@ Points Corridor(const Eigen::Vector2f& sensor) {
   return points;
 }
 
-// Three scans, 0.1 s apart, of a sensor with that velocity.
+// Returns three scans, 0.1 s apart, of a sensor with that velocity.
 template <class Place>
 VelocitySearch Drive(const Place& points_at, const Eigen::Vector2f& v_mps) {
   VelocitySearch search;
@@ -58,7 +58,7 @@ TEST(VelocitySearch, FindsFastMotionAmongThingsThatStand) {
   }
 }
 
-// Posts every 2 m: two scans fit at many velocities, and traffic beside goes along.
+// Posts stand every 2 m: two scans fit at many velocities, and traffic beside moves along.
 TEST(VelocitySearch, TellsVelocitiesApartByPairsOfDifferentSpacing) {
   const auto motorway = [](const Eigen::Vector2f& sensor) {
     Points points;

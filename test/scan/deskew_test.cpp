@@ -34,7 +34,8 @@ StampedPoses PosesAlong(const test::Motion& motion, double from_s, double to_s, 
   return poses;
 }
 
-// What a moving lidar sees of fixed points of the world, point i at i/num of the sweep.
+// Returns a moving lidar's points of fixed points of the world; point i is seen at i/num of the
+// sweep.
 struct Seen {
   std::vector<Vector3> points_world;
   std::vector<ScanPoint> points_lidar;
@@ -67,8 +68,8 @@ TEST(Deskew, StationarySensorLeavesPointsUnmoved) {
   }
 }
 
-// Poses as dense as a 100 Hz IMU gives them: what is left is the linear motion between two of
-// them, a dt^2 / 8 of acceleration and turn.
+// The poses are as dense as those of a 100 Hz IMU: the remaining error is that of linear motion
+// between two of them, a dt^2 / 8 of acceleration and turn.
 TEST(Deskew, InvertsTheMotionForAnyReference) {
   const test::Motion motion = test::Tumble();
   const Seen seen = SeeFixedPoints(motion, 2.0, 500);
@@ -101,8 +102,8 @@ TEST(Deskew, DenserPosesAreMoreExact) {
   EXPECT_LT(error_m(0.05), 0.35 * error_m(0.1));  // second order: a quarter
 }
 
-// Rays of the simulated lidar, which hits other points at each instant, fall on the world's
-// surfaces again: the ground stays flat.
+// The simulated lidar's rays hit other points at each instant; after deskewing they lie on the
+// world's surfaces again, and the ground is flat.
 TEST(Deskew, InvertsTheSimulatedLidar) {
   const test::Motion motion = [](double t_s) { return test::WindingDrive(0.0)(t_s + 4.0); };
   test::Lidar lidar = test::TestLidar();

@@ -23,7 +23,7 @@ using test::SpinningLidar;
 
 constexpr int kGround = 0;
 
-// A sensor 1.8 m above the ground of a street with houses on both sides, and a few poles.
+// The sensor is 1.8 m above the ground of a street with houses on both sides and a few poles.
 RayScene Street() {
   RayScene scene;
   scene.AddGround(-1.8);
@@ -72,7 +72,7 @@ TEST(LoamFeatures, SharpPointsLieWhereTheSurfaceTurnsOrEnds) {
   const CastSweep cast = StreetSweep();
   const LoamFeatures features = Extract(cast.sweep);
   ASSERT_GT(features.sharp.size(), 100u);
-  // Along its ring a sharp point has, within five steps, a neighbour of another object or face.
+  // A sharp point has, along its ring and within five steps, a neighbour on another object or face.
   std::vector<std::vector<std::uint32_t>> rings(32);
   std::vector<std::size_t> place(cast.hits.size());
   for (std::uint32_t i = 0; i < cast.hits.size(); ++i) {
@@ -95,7 +95,7 @@ TEST(LoamFeatures, SharpPointsLieWhereTheSurfaceTurnsOrEnds) {
 TEST(LoamFeatures, VerticalCornersOfHousesArePicked) {
   const CastSweep cast = StreetSweep();
   const LoamFeatures features = Extract(cast.sweep);
-  // The corner of the first house that faces the sensor.
+  // Finds the corner of the first house that faces the sensor.
   const Vector3 corner = Vector3(8, 9, 0) + ExpSo3(Vector3(0, 0, 0.1)) * Vector3(-5, -3, 0);
   int num_near = 0;
   for (const std::uint32_t i : features.less_sharp) {
@@ -115,7 +115,7 @@ TEST(LoamFeatures, FlatPointsLieOnPlanes) {
 }
 
 TEST(LoamFeatures, SectorsGiveNoMoreThanTheirShare) {
-  // Thirty poles around: far more edges on each ring than may be picked.
+  // Thirty poles around give far more edges on each ring than may be picked.
   RayScene scene;
   scene.AddGround(-1.8);
   for (int i = 0; i < 90; ++i) {
@@ -168,7 +168,7 @@ TEST(LoamFeatures, NeighboursOfAPickAreNotPickedUnlessTheSurfaceBreaks) {
   EXPECT_GT(num_pairs_across_breaks, 0);  // the break frees the neighbours
 }
 
-// A board 6 m ahead of a wall at 15 m.
+// A board is 6 m away, in front of a wall at 15 m.
 RayScene BoardBeforeWall() {
   RayScene scene;
   scene.Add(RayBox{{6.05, 0, 0}, {0.05, 1, 4}, 0});
@@ -181,7 +181,7 @@ TEST(LoamFeatures, BorderOfAShadowIsLeftOut) {
   lidar.start_azimuth_rad = std::numbers::pi;  // the seam is behind
   const CastSweep cast = CastTurn(BoardBeforeWall(), lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
-  // Shadow of the board's sides on the wall: at |y| = 15/6.
+  // The board's sides cast their shadow on the wall at |y| = 15/6.
   const auto is_at_shadow = [&](std::uint32_t i) {
     const Vector3 p = PositionOf(cast.sweep.points[i]);
     return cast.hits[i].object == 1 && std::abs(std::abs(p.y()) - 2.5) < 0.25 &&
@@ -203,7 +203,8 @@ TEST(LoamFeatures, BorderOfAShadowIsLeftOut) {
 }
 
 TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
-  // A long wall passing 1 m beside the sensor: beyond 8 m the beams graze it at less than 7 deg.
+  // A long wall passes 1 m beside the sensor: beyond 8 m the beams are at grazing incidence, below
+  // 7 deg.
   RayScene scene;
   scene.Add(RayBox{{20, 1.5, 0}, {19, 0.5, 6}, 0});
   SpinningLidar lidar = SpinningLidar::Hdl32e();
@@ -211,7 +212,7 @@ TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
   lidar.range_std_m = 0.02;
   const CastSweep cast = CastTurn(scene, lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
-  // Not at its very end, where the wall's end cuts the window short.
+  // The very end is left out, because the wall's end truncates the window.
   const auto is_grazed = [&](std::uint32_t i) {
     const double x = cast.sweep.points[i].x_m;
     return x > 8 && x < 25;
@@ -224,7 +225,7 @@ TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
     num_kept += static_cast<int>(std::count_if(set->begin(), set->end(), is_grazed));
   }
   EXPECT_LE(num_kept, num_grazed / 50);  // noise, now and then
-  // Where the beams meet the wall at 20 deg and more, it stays.
+  // Points stay if the beams meet the wall at 20 deg and more.
   int num_steep = 0;
   for (const std::uint32_t i : features.less_flat) num_steep += cast.sweep.points[i].x_m < 2.5;
   EXPECT_GT(num_steep, 100);
@@ -275,7 +276,7 @@ TEST(LoamFeatures, OrderOfThePointsDoesNotMatter) {
 }
 
 TEST(LoamFeatures, TurnsMayBeginAtAnyAzimuth) {
-  // Seam behind, and just beside the wrap of atan2: the same corner of a house is found.
+  // With the seam behind, and just beside the wrap of atan2, the same corner of a house is found.
   for (const double start : {std::numbers::pi, 3.1, -3.1, 0.5}) {
     const CastSweep cast = StreetSweep(start);
     const LoamFeatures features = Extract(cast.sweep);

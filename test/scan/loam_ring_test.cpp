@@ -16,7 +16,8 @@ namespace {
 using Label = LoamRing::Label;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A level ring from `from_deg` on, 0.4 degrees a step; `range` of the azimuth in radians.
+// Returns a level ring from `from_deg` on, with 0.4 degrees per step; `range` is a function of the
+// azimuth in radians.
 class RingOf {
  public:
   RingOf(double from_deg, double to_deg, const std::function<double(double azimuth_rad)>& range) {
@@ -53,7 +54,7 @@ std::ptrdiff_t Count(const std::vector<Label>& labels, Label label) {
   return std::count(labels.begin(), labels.end(), label);
 }
 
-// Walls that face the sensor at 5 m, and one square corner of two walls.
+// Walls face the sensor at 5 m, and two walls form one square corner.
 double Wall(double azimuth_rad) {
   return 5.0 / std::cos(azimuth_rad);
 }
@@ -104,8 +105,8 @@ TEST(LoamRing, PicksOfOneSurfaceAreFivePointsApart) {
   }
 }
 
-// A board of ten degrees 3 m in front of a wall: six points of the wall on either side may lie in
-// its shadow.
+// A board of ten degrees is 3 m in front of a wall: six points of the wall on either side may lie
+// in its shadow.
 TEST(LoamRing, TheFarSideOfAJumpIsOccluded) {
   const auto range = [](double azimuth_rad) {
     return std::abs(azimuth_rad) < 5 * kDegree ? 5.0 : 8.0;
@@ -129,7 +130,7 @@ TEST(LoamRing, SmallJumpsAreNoShadow) {
   EXPECT_EQ(Count(RingOf(-30, 30, range).Labels(options), Label::kOccluded), 6);
 }
 
-// Where returns are missing between the two, nothing is known of a shadow.
+// When returns are missing between the two, a shadow cannot be detected.
 TEST(LoamRing, BeamsFarApartDoNotShadowEachOther) {
   const auto range = [](double azimuth_rad) { return azimuth_rad < 0 ? 5.0 : 8.0; };
   for (const double gap_deg : {5.0, 7.0}) {
@@ -139,7 +140,7 @@ TEST(LoamRing, BeamsFarApartDoNotShadowEachOther) {
   }
 }
 
-// Along a wall 1 m to the left beams graze it where tan(azimuth) < tan(10 deg).
+// Along a wall 1 m to the left, beams are at grazing incidence for tan(azimuth) < tan(10 deg).
 TEST(LoamRing, GrazedSurfacesAreToldByTheAngleOfTheBeam) {
   const RingOf ring(4, 60, [](double azimuth_rad) { return 1.0 / std::sin(azimuth_rad); });
   const std::vector<Label> labels = ring.Labels();

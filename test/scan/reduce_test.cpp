@@ -32,7 +32,7 @@ Sweep SweepOf(std::vector<LidarPoint> points) {
   return sweep;
 }
 
-// Options under which the edge stays where it is.
+// Under these options the edge keeps its place.
 ReduceOptions FixedEdge(double edge_m) {
   ReduceOptions options;
   options.voxel_m = options.min_voxel_m = options.max_voxel_m = edge_m;
@@ -46,7 +46,7 @@ LidarRig AnyRange() {
   return rig;
 }
 
-// A turn of the lidar in the street.
+// Returns one turn of the lidar in the street.
 Sweep StreetSweep() {
   static const std::vector<LidarPoint> kPoints = [] {
     std::mt19937_64 random(5);
@@ -177,7 +177,7 @@ TEST(Reduce, EmptySweepGivesNoPointsAndKeepsTheEdge) {
   EXPECT_TRUE(reducer.Reduce(Sweep{}).points.empty());
 }
 
-// More voxels than the table begins with: it grows, and gives what a fresh one gives.
+// There are more voxels than the table begins with: it grows, and gives the result of a fresh one.
 TEST(Reduce, AnyNumberOfVoxelsFits) {
   std::vector<LidarPoint> points;
   for (int x = 0; x < 170; ++x) {
@@ -192,7 +192,7 @@ TEST(Reduce, AnyNumberOfVoxelsFits) {
   EXPECT_TRUE(IsSame(reducer.Reduce(SweepOf(points)), scan));
 }
 
-// Sweeps far larger than needed are sampled down first, by when and by which beam alone.
+// Sweeps far larger than needed are sampled down first, by time and beam alone.
 TEST(Reduce, HugeSweepsAreSampledWhateverTheirOrder) {
   std::vector<LidarPoint> points;
   for (std::uint32_t i = 0; i < 90000; ++i) {

@@ -15,7 +15,7 @@ using test::Extent;
 using test::ExtentOf;
 using test::StillScene;
 
-// Storeys of 4 and 3.2 m, 12 x 10 m.
+// The storeys are 4 and 3.2 m high; the building is 12 x 10 m.
 BuildingPlan PlanOf(int num_storeys, bool has_gable_roof) {
   BuildingPlan plan;
   plan.num_storeys = num_storeys;
@@ -31,7 +31,7 @@ TEST(Building, WindowsAreRecessedIntoTheFront) {
   const Mesh house = MakeBuilding(plan, random);
   test::ExpectSound(house);
   const StillScene scene(house);
-  // Along the third storey's middle, straight at the front from 20 m.
+  // The rays hit the front at right angles from 20 m, along the middle of the third storey.
   int num_wall = 0;
   int num_glass = 0;
   for (double x = 0.05; x < plan.size_m.x(); x += 0.1) {
@@ -66,7 +66,7 @@ TEST(Building, HasNoHolesSeenFromAround) {
   }
 }
 
-// Four storeys are 4 + 3 * 3.2 m; a parapet of 0.9 m or a stair head of 2.5 m is on top.
+// Four storeys are 4 + 3 * 3.2 m high; a parapet of 0.9 m or a stair head of 2.5 m is on top.
 TEST(Building, FlatRoofsLieOnTheStoreys) {
   Random random(2, Purpose::kWorld);
   const Mesh house = MakeBuilding(PlanOf(4, false), random);
@@ -92,7 +92,7 @@ TEST(Building, GableRoofsHaveTheirRidgeAlongTheFront) {
     scene.Down({x, 8.0}, rear);
     EXPECT_NEAR(ridge, ridge_m, 0.01);
     EXPECT_NEAR(front, rear, 0.01);
-    // Straight between eave and ridge, but for what the overhang takes.
+    // The roof is straight between eave and ridge, except for the overhang.
     EXPECT_NEAR(front, eave_m + 0.4 * (ridge_m - eave_m), 0.05);
   }
 }
@@ -145,7 +145,7 @@ TEST(Building, FacadesAreDrawnWithinWhatIsBuilt) {
     EXPECT_LE(style.balcony_chance, 0.7);
     num_with_shops += style.has_shops;
   }
-  EXPECT_NEAR(num_with_shops, 120, 30);  // six in ten, 4 sigma
+  EXPECT_NEAR(num_with_shops, 120, 30);  // a share of 0.6 with 4 sigma
 }
 
 TEST(Building, OneSeedBuildsOneHouse) {

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// A configuration folder of the test's own.
+// Makes a configuration folder for the test.
 class DataFile : public ::testing::Test {
  protected:
   DataFile() {

@@ -26,7 +26,7 @@ TEST(Drive, KeepsToItsLimits) {
     EXPECT_LE(speed, c.limits.speed_mps + 1e-6);
     EXPECT_LE(accel, c.limits.accel_mps2 + 0.02);
     EXPECT_GE(accel, -c.limits.brake_mps2 - 0.02);
-    // The profile's grid of 0.25 m blurs where a bend begins by the speed gained on the way.
+    // The profile's grid of 0.25 m blurs the begin of a bend by the speed gained within a cell.
     const double lateral = speed * speed * std::abs(c.path.At(here).curvature_per_m);
     EXPECT_LE(lateral, 1.15 * c.limits.lateral_mps2) << "at " << here;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator on faulty logs: each fault of --fault is counted, and survived.
+// Runs the estimator on faulty logs: each fault of --fault must be counted and survived.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -38,8 +38,8 @@ Outcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
 struct Expectation {
   const char* name;
   const char* fault;
-  std::vector<std::int64_t Counters::*> counted;  // each above that of the clean walk
-  double error_m;                                 // at the end of about 10 m of walk
+  std::vector<std::int64_t Counters::*> counted;  // each must be above that of the clean walk
+  double error_m;  // bound on the error at the end of about 10 m of walk
   double error_deg;
 };
 
@@ -54,7 +54,7 @@ class FaultSurvival : public ::testing::TestWithParam<Expectation> {
     delete walk_;
   }
   static const Walk* walk_;
-  static const Outcome* clean_;  // without a fault
+  static const Outcome* clean_;  // outcome without a fault
 };
 const Walk* FaultSurvival::walk_ = nullptr;
 const Outcome* FaultSurvival::clean_ = nullptr;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Timestamp kBegin{1'000'000'000'000};
 constexpr int kNumImu = 2000;   // 20 s at 100 Hz
-constexpr int kNumScans = 200;  // of 4 chunks of 100 points
+constexpr int kNumScans = 200;  // each has 4 chunks of 100 points
 constexpr int kNumChunks = 4;
 constexpr int kNumPoints = 100;
 
@@ -36,7 +36,7 @@ Message ChunkAt(int scan, int index) {
   return {chunk.stamp + Duration{25'000'000}, chunk};
 }
 
-// A log of 20 s after a fault, in the order of arrival.
+// Holds a log of 20 s after a fault, in the order of arrival.
 struct Outcome {
   std::vector<ImuMessage> imu;
   std::vector<ScanChunk> chunks;
@@ -133,7 +133,8 @@ TEST(Fault, ChunkLossLosesSingleChunks) {
   EXPECT_NEAR(static_cast<double>(out.chunks.size()), 0.9 * kNumScans * kNumChunks, 26.0);
   std::vector<int> parts(kNumScans, 0);
   for (const auto& chunk : out.chunks) ++parts[static_cast<std::size_t>(chunk.scan_seq)];
-  EXPECT_GT(std::count(parts.begin(), parts.end(), 3), 20);  // partly there
+  EXPECT_GT(std::count(parts.begin(), parts.end(), 3),
+            20);  // scans that lost a part of their chunks
   EXPECT_TRUE(out.ImuIsWhole());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The written form of faults.
+// Tests the written form of faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(DescribeFaults, EveryKindIsDescribedAndParsesByItsNameAlone) {
   }
 }
 
-// What --help shows as defaults is what there is: each line of keys can be typed as it stands.
+// The defaults that --help shows are valid: each line of keys can be typed as it is.
 TEST(DescribeFaults, TheKeysShownAreThoseOfTheKind) {
   std::istringstream lines(DescribeFaults());
   std::string kind, line;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Sixteen beams see a street as a few rings, which move with the sensor (docs/filter.md, "ring
-// lock"): what is matched against them must neither hold the vehicle back nor tilt it.
+// Sixteen beams see a street as a few rings on the ground, which move with the sensor
+// (docs/filter.md, "ring lock"). Registration on them must neither hold the vehicle's estimate back
+// nor tilt it.
 #include <gtest/gtest.h>
 
 #include "support/simulated_run.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 using test::RunOver;
 
-// Was 24 cm and 0.2 deg when beams through crowns of trees made planes.
+// The error was 24 cm and 0.2 deg when beams through crowns of trees were taken for planes.
 TEST(FewBeams, DrivingOffFromRestIsNotHeldBack) {
   const test::RunOutcome outcome = RunOver({"loop", "vlp16", 10.0}, true);
   EXPECT_EQ(outcome.status, TrackingStatus::kOk);
@@ -19,8 +20,9 @@ TEST(FewBeams, DrivingOffFromRestIsNotHeldBack) {
   EXPECT_LT(outcome.end_error_deg, 0.15);
 }
 
-// On a motorway scans cling to the rings of the standstill until they are refused. That is no
-// reason to doubt the inertial unit's axes and to begin the start anew by those scans.
+// On a motorway the matches stay on the rings seen at standstill until their poses are rejected.
+// This is no evidence against the IMU's axes, and no reason to repeat the initialization with those
+// scans.
 TEST(FewBeams, ScansThatClingToARestDoNotCostTheStart) {
   const test::RunOutcome outcome = RunOver({"motorway", "vlp16", 18.0, 12, {}, 5.0}, true);
   EXPECT_NE(outcome.status, TrackingStatus::kLost);

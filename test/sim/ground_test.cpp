@@ -22,7 +22,7 @@ TEST(Terrain, WithoutWavesIsTheSlope) {
   EXPECT_NEAR(terrain.Height({100, 50}), 2.0 - 0.5, 1e-12);
 }
 
-// Four waves of at most hill / 2 each, five of at most bump / sqrt(5).
+// The height has four waves of at most hill / 2 each and five of at most bump / sqrt(5).
 TEST(Terrain, HillsAndBumpsKeepToTheirHeights) {
   Random random(5, Purpose::kWorld);
   const Terrain terrain({{0, 0}, 0.8, 0.02}, random);
@@ -48,14 +48,16 @@ TEST(RoadNetwork, DistanceIsThatToTheEdge) {
   EXPECT_NEAR(network.SignedDistance({40, 9}), 5.0, 1e-9);
   EXPECT_NEAR(network.SignedDistance({40, -9}), 5.0, 1e-9);
   EXPECT_NEAR(network.SignedDistance({40, 0}), -4.0, 1e-9);
-  EXPECT_NEAR(network.SignedDistance({83, 4}), 5.0 - 4.0, 1e-9);  // from its end: 3, 4, 5
+  EXPECT_NEAR(network.SignedDistance({83, 4}), 5.0 - 4.0,
+              1e-9);  // 3 and 4 m from the road's end: 5 m
 }
 
 TEST(RoadNetwork, RoundsTheCornersOfCrossings) {
   const RoadNetwork network({{{{-50, 0}, {50, 0}}, 4.0}, {{{0, -50}, {0, 50}}, 4.0}}, 6.0);
   EXPECT_NEAR(network.SignedDistance({30.0, 9.0}), 5.0, 1e-9);
   EXPECT_LT(network.SignedDistance({4.5, 4.5}), 0.0);  // outside both, inside the rounding
-  // Equally far from both, the smooth minimum is a quarter of the rounding below: 0.5 - 1.5.
+  // At equal distance from both roads the smooth minimum is a quarter of the rounding lower: 0.5 -
+  // 1.5.
   EXPECT_NEAR(network.SignedDistance({4.5, 4.5}), -1.0, 1e-9);
 }
 
@@ -97,7 +99,7 @@ TEST_F(GroundTest, PavingIsBesideTheRoadAndGrassBeyond) {
   EXPECT_EQ(scene.Down({15, 10}, height_m).material, Material::kGrass);
 }
 
-// Low over the road one looks at the kerb's side: concrete, as far off as the road's edge.
+// A low ray over the road hits the side of the kerb: concrete, at the distance of the road's edge.
 TEST_F(GroundTest, TheKerbIsAStepThatIsSeenFromTheRoad) {
   const StillScene scene = Build(options_);
   const double height_m = terrain_.Height({15, 4}) + 0.06;

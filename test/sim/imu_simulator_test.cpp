@@ -47,7 +47,7 @@ struct State {
   Quaternion rotation;
 };
 
-// Derivative of a state by time: rotation as quaternion coefficients (x y z w).
+// Holds the derivative of a state by time, with the rotation as quaternion coefficients (x y z w).
 struct Slope {
   Vector3 position;
   Vector3 velocity;
@@ -65,8 +65,8 @@ State Advance(const State& s, const Slope& slope, double dt) {
           Quaternion(Eigen::Vector4d(s.rotation.coeffs() + dt * slope.rotation))};
 }
 
-// The classic fourth-order rule of Runge and Kutta over two sample intervals, whose middle sample
-// serves as the midpoint.
+// Makes a step of the classic fourth-order Runge-Kutta method over two sample intervals; the middle
+// sample serves as the midpoint.
 State Step(const State& s, const ImuSample& begin, const ImuSample& middle, const ImuSample& end) {
   const double h = SecondsBetween(begin.stamp, end.stamp);
   const Slope a = SlopeOf(s, begin);
@@ -86,7 +86,7 @@ struct Drift {
   double rotation_deg = 0.0;
 };
 
-// The largest distance from the truth while integrating from the true start.
+// Returns the largest distance from the truth while integrating from the true start.
 Drift StrapdownDrift(const std::vector<SimulatedImu>& samples) {
   const Kinematics& start = samples.front().truth;
   State state{start.T_world_imu.translation, start.v_world_mps, start.T_world_imu.rotation};
@@ -172,7 +172,7 @@ TEST(ImuSimulator, VariantsAreWhatTheEstimatorReadsThemAs) {
   }
 }
 
-// Allan deviation of white noise over tau: density / sqrt(tau), whatever the rate.
+// The Allan deviation of white noise over tau is density / sqrt(tau), whatever the rate.
 double AllanDeviation(const std::vector<double>& values, std::size_t num_averaged) {
   std::vector<double> means;
   for (std::size_t i = 0; i + num_averaged <= values.size(); i += num_averaged) {
@@ -212,7 +212,7 @@ TEST(ImuSimulator, PresetsHaveTheirNoiseDensityAtAnyRateByAllanDeviation) {
       }
       for (const double tau_s : {1.0 / rate_hz, 0.1, 1.0}) {
         const auto num = static_cast<std::size_t>(std::lround(tau_s * rate_hz));
-        // Three standard errors of N differences.
+        // The tolerance is three standard errors of N differences.
         const double tolerance = 3.0 * std::sqrt(0.75 * tau_s / 100.0);
         const double to_density = std::sqrt(tau_s);
         EXPECT_NEAR(AllanDeviation(gyro, num) * to_density / gyro_density, 1.0, tolerance)

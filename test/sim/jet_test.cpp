@@ -7,7 +7,7 @@
 namespace lio::sim {
 namespace {
 
-// f(t) with its two derivatives at an instant.
+// Returns f(t) with its first two derivatives at an instant.
 Jet Cubic(double t) {
   return {t * t * t - 2.0 * t, 3.0 * t * t - 2.0, 6.0 * t};
 }
@@ -27,7 +27,7 @@ TEST(Jet, SumsAndMultiplesAreTermByTerm) {
   ExpectNear(-3.0 * Square(2.0), {-12.0, -12.0, -6.0});
 }
 
-// (t^3 - 2 t) t^2 = t^5 - 2 t^3.
+// The product is (t^3 - 2 t) t^2 = t^5 - 2 t^3.
 TEST(Jet, ProductsFollowTheProductRuleTwice) {
   const double t = 1.3;
   ExpectNear(Cubic(t) * Square(t),
@@ -35,7 +35,7 @@ TEST(Jet, ProductsFollowTheProductRuleTwice) {
               20.0 * std::pow(t, 3) - 12.0 * t});
 }
 
-// Of the angle t^2: derivatives 2 t cos(t^2) and 2 cos(t^2) - 4 t^2 sin(t^2).
+// The sine of the angle t^2 has the derivatives 2 t cos(t^2) and 2 cos(t^2) - 4 t^2 sin(t^2).
 TEST(Jet, SinesFollowTheChainRuleTwice) {
   const double t = 0.9, s = std::sin(t * t), c = std::cos(t * t);
   const SinCos of = SinCosOf(Square(t));

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A room of 40 x 30 x 9 m around the origin: every return lies on one of six known planes.
+// The scene is a room of 40 x 30 x 9 m around the origin: every return lies on one of six known
+// planes.
 struct Plane {
   Vector3 normal;
   double distance_m;
@@ -34,7 +35,7 @@ World Room(Material material = Material::kPlaster) {
   return world;
 }
 
-// Swung about and carried through the room.
+// The sensor is swung about and carried through the room.
 Trajectory Swinging() {
   MotionPlan plan;
   plan.knot_interval_s = 0.1;
@@ -65,8 +66,8 @@ LidarSetup SetupOf(const std::string& model) {
   return setup;
 }
 
-// Distance of a return from the surface, along its ray, if the sensor was at the pose of instant
-// t_s; of the plane the ray meets first.
+// Returns the distance of a return from the surface along its ray, assuming the sensor's pose
+// T_world_lidar; the surface is the plane that the ray meets first.
 double RangeError(const Pose& T_world_lidar, const LidarPoint& point) {
   const Vector3 p(point.x_m, point.y_m, point.z_m);
   const Vector3 direction = T_world_lidar.rotation * p.normalized();
@@ -85,7 +86,8 @@ struct Spread {
   double std = 0.0;
 };
 
-// Of all returns of ten sweeps, posed at their own instants or at their sweep's begin.
+// Returns the spread over all returns of ten sweeps, posed at their own instants or at their
+// sweep's begin.
 Spread SpreadOfWalls(const LidarSetup& setup, bool own_instants) {
   const World world = Room();
   const Scene scene(world);
@@ -102,7 +104,8 @@ Spread SpreadOfWalls(const LidarSetup& setup, bool own_instants) {
       const Pose pose =
           trajectory.At(1e-9 * static_cast<double>(t_ns)).T_world_imu * setup.T_imu_lidar;
       const double error = RangeError(pose, point);
-      if (own_instants && std::abs(error) > 0.3) continue;  // grazing rays near the room's edges
+      if (own_instants && std::abs(error) > 0.3)
+        continue;  // rays at grazing incidence near the room's edges
       sum += error;
       sum_sq += error * error;
       ++num;
@@ -118,10 +121,10 @@ TEST(LidarSimulator, PointsPosedAtTheirOwnInstantsLeaveWallsFlatToTheRangeNoise)
     const LidarSetup setup = SetupOf(model);
     const Spread own = SpreadOfWalls(setup, true);
     EXPECT_NEAR(own.mean, 0.0, 1e-3) << model;
-    // 2 cm at normal incidence and a little more where it is slanted.
+    // The noise is 2 cm at normal incidence and slightly more at an angle.
     EXPECT_GT(own.std, 0.95 * setup.model.range_std_m) << model;
     EXPECT_LT(own.std, 1.25 * setup.model.range_std_m) << model;
-    // The measure would notice wrong instants: with one pose a sweep it is metres.
+    // The test can detect wrong instants: with one pose per sweep the error is metres.
     EXPECT_GT(SpreadOfWalls(setup, false).std, 0.5) << model;
   }
 }
@@ -177,8 +180,9 @@ TEST(LidarSimulator, RingsAreElevationsLowestFirst) {
   }
 }
 
-// What lio-convert kitti-raw reads: ring by ring, the highest first, each from azimuth 0 up and
-// round; the stamp is the instant of facing forward, and time runs against azimuth.
+// These conditions are what lio-convert kitti-raw assumes: points are stored ring by ring, the
+// highest first, each from azimuth 0 upward and around; the stamp is the instant of facing forward,
+// and time runs against azimuth.
 TEST(LidarSimulator, Hdl64SweepsInKittiOrderHaveTheConvertersRingsAndTimes) {
   const World world = Room();
   const Scene scene(world);
@@ -201,13 +205,14 @@ TEST(LidarSimulator, Hdl64SweepsInKittiOrderHaveTheConvertersRingsAndTimes) {
   const Timestamp middle = Timestamp{sweep.begin_ns} + Duration{turn.ns / 2};
   for (std::size_t i = 0; i < points.size(); ++i) {
     ASSERT_EQ(read[i].ring, points[i].ring) << "point " << i;
-    // A beam's own azimuth offset is time the formula cannot know: 9.8 deg are 2.8 ms.
+    // A beam's own azimuth offset is a time that the formula cannot know: 9.8 deg are 2.8 ms.
     const double offset_rad = setup.model.beams[points[i].ring].azimuth_offset_rad;
     const double from_azimuth_s =
         1e-9 * static_cast<double>(KittiPointInstant(points[i], middle, turn) - sweep.begin_ns);
     double late_s =
         1e-9 * points[i].t_offset_ns - from_azimuth_s - offset_rad / (2.0 * kPi) * turn.Seconds();
-    late_s = std::remainder(late_s, turn.Seconds());  // the offset may carry over the cut behind
+    late_s =
+        std::remainder(late_s, turn.Seconds());  // the offset may cross the cut behind the sensor
     ASSERT_NEAR(late_s, 0.0, 6e-5) << "point " << i;
   }
 }
@@ -264,9 +269,9 @@ TEST(LidarSimulator, DarkAndSlantedSurfacesFarOffAreLost) {
   for (const LidarPoint& p : LidarSimulator(setup, scene, trajectory).Sweep(0).points) {
     ++num_by_ring[p.ring];
   }
-  EXPECT_GT(num_by_ring[0], 2150);   // 3.9 m off
-  EXPECT_GT(num_by_ring[18], 1900);  // 17 m off
-  EXPECT_LT(num_by_ring[22], 400);   // 86 m off
+  EXPECT_GT(num_by_ring[0], 2150);   // at 3.9 m
+  EXPECT_GT(num_by_ring[18], 1900);  // at 17 m
+  EXPECT_LT(num_by_ring[22], 400);   // at 86 m
 }
 
 TEST(LidarSimulator, BeamsThatStraddleAnEdgeGiveMixedPixels) {
@@ -320,7 +325,7 @@ TEST(LidarSimulator, DustGivesNearEchoesWhileItLasts) {
   const Scene scene(world);
   const Trajectory trajectory = Still();
   LidarSetup setup = SetupOf("vlp16");
-  setup.errors.dust = {{0.1005, 0.1995, 0.1}};  // sweep 1, but for firings that straddle its ends
+  setup.errors.dust = {{0.1005, 0.1995, 0.1}};  // sweep 1, except firings that straddle its ends
   const LidarSimulator lidar(setup, scene, trajectory);
   const auto share_near = [&](std::int64_t index) {
     const SimulatedSweep sweep = lidar.Sweep(index);

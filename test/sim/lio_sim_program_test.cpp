@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The program's contract: what it prints, what it writes and how it ends.
+// Tests the program's contract: its output, its files and its exit codes.
 #include <gtest/gtest.h>
 
 #include "lio/sim/scenario.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What tests ask of meshes and of rays into a world.
+// Gives measures of meshes, and rays into a world, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Extent {
   sim::Vector3f Size() const { return high - low; }
 };
 
-// Of the triangles that `wanted` takes, of all when there is none.
+// Returns the extent of the triangles that `wanted` accepts, or of all without `wanted`.
 inline Extent ExtentOf(const sim::Mesh& mesh,
                        const std::function<bool(sim::Material)>& wanted = nullptr) {
   Extent extent;
@@ -66,7 +66,7 @@ inline sim::Hit CastOne(const sim::Scene::Interval& interval, const sim::Vector3
   return hit;
 }
 
-// A world of one mesh that stands still.
+// Makes a world of one static mesh.
 class StillScene {
  public:
   explicit StillScene(const sim::Mesh& mesh)
@@ -75,7 +75,7 @@ class StillScene {
   sim::Hit Cast(const Vector3& from, const Vector3& direction) const {
     return CastOne(interval_, from.cast<float>(), direction.cast<float>());
   }
-  // What stands highest over a place, and how high.
+  // Returns the highest surface above a place, and its height.
   sim::Hit Down(const sim::Vector2& p, double& height_m) const {
     const sim::Hit hit = Cast({p.x(), p.y(), 60.0}, -Vector3::UnitZ());
     height_m = 60.0 - hit.range_m;

@@ -54,7 +54,7 @@ TEST(Mesh, TriangleAndQuadHaveTheirAreas) {
             (std::vector<Material>{Material::kGrass, Material::kEarth, Material::kEarth}));
 }
 
-// A frustum: two rectangles and four trapezia, whose slant is known.
+// The solid is a frustum: two rectangles and four trapezia of known slant.
 TEST(Mesh, TaperNarrowsTowardItsTop) {
   Mesh mesh;
   Taper taper;
@@ -80,7 +80,8 @@ TEST(Mesh, TapersTopMayBeShifted) {
   EXPECT_TRUE(top.high.isApprox(Vector3f(1.5f, 0.75f, 1)));
 }
 
-// A regular hexagon's circumference and area at radius 0.1 over 5 m, closed at one end.
+// The expected values are circumference and area of a regular hexagon of radius 0.1 over 5 m,
+// closed at one end.
 TEST(Mesh, BarIsRoundAndClosedAtItsFarEnd) {
   Mesh mesh;
   const Vector3 from(1, 2, 3);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Starts at 20 m/s on a motorway with a lidar that looks down: rings on the road move with the
-// sensor, and but for what stands beside it nothing tells of the way along
-// (registration_worker_shift.cpp).
+// sensor, so only objects beside the road make the position along it observable
+// (birds_eye_hold.cpp).
 #include <gtest/gtest.h>
 
 #include "support/simulated_run.hpp"
@@ -10,7 +10,7 @@
 namespace lio::sim {
 namespace {
 
-// Seeds 3 and 8 started with 2 m/s too little and were off by 53 and 5 m after 316 m.
+// Seeds 3 and 8 once started 2 m/s too slow and were off by 53 and 5 m after 316 m.
 TEST(OpenRoad, AStartInMotionFindsTheWayAlong) {
   for (const std::uint64_t seed : {3, 8}) {
     const test::RunOutcome outcome =

@@ -20,7 +20,7 @@ TEST(Path, ClosedPathEndsWhereItBegins) {
   const PathPoint end = path.At(path.length_m());
   EXPECT_LT((begin.position_m - end.position_m).norm(), 1e-9);
   EXPECT_NEAR(end.heading_rad - begin.heading_rad, -2.0 * std::numbers::pi, 1e-12);
-  // Four corners of radius 8 save 8 - 2 pi 8 / 4 of each leg twice.
+  // Four corners of radius 8 shorten the legs by 8 - 2 pi 8 / 4 twice each.
   EXPECT_NEAR(path.length_m(), 280.0 - 8.0 * 8.0 + 2.0 * std::numbers::pi * 8.0, 1e-9);
 }
 
@@ -34,7 +34,7 @@ TEST(Path, DistanceIsArcLength) {
 
 TEST(Path, ShiftedStaysAtItsDistance) {
   const Path path = Block();
-  const Path lane = path.Shifted(-2.0);  // inside: the block turns right
+  const Path lane = path.Shifted(-2.0);  // inside the bends, because the block turns right
   EXPECT_NEAR(path.length_m() - lane.length_m(), 2.0 * std::numbers::pi * 2.0, 1e-9);
   for (double s = 0.0; s < lane.length_m(); s += 3.1) {
     double nearest = 1e9;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Props but for vehicles: vehicles_test.cpp.
+// Tests all props except vehicles, which have vehicles_test.cpp.
 #include "lio/sim/props.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Props, PeopleAreAsTallAsPeople) {
   }
 }
 
-// The leg turns about its origin: that must be its upper end.
+// The leg turns about its origin, which must be its upper end.
 TEST(Props, LegsHangFromTheHip) {
   const Extent leg = ExtentOf(MakeLeg());
   EXPECT_NEAR(leg.high.z(), 0.02, 0.1);
@@ -56,7 +56,7 @@ TEST(Props, TreesHaveATrunkInTheGroundAndACrownAbove) {
 TEST(Props, BushesFillTheirSize) {
   Random random = AnyRandom();
   const Extent bush = ExtentOf(MakeBush({3.0, 1.0, 2.0}, random));
-  // Leaves of up to 0.22 m stand out.
+  // Leaves of up to 0.22 m extend beyond the ellipsoid.
   EXPECT_NEAR(bush.Size().x(), 3.0, 0.45);
   EXPECT_NEAR(bush.Size().y(), 1.0, 0.45);
   EXPECT_NEAR(bush.high.z(), 2.0, 0.25);
@@ -82,7 +82,7 @@ TEST(Props, SignsShowTheirFaceForward) {
   EXPECT_NEAR(ExtentOf(sign).high.z(), 2.5, 0.05);
 }
 
-// Open to the front, glass behind and beside the bench.
+// The shelter is open to the front and has glass behind and beside the bench.
 TEST(Props, SheltersAreOpenInFront) {
   const Mesh shelter = MakeBusShelter();
   const test::StillScene scene(shelter);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// World and map, the two frames of what is published, over a drive that starts tilted.
+// Tests world and map, the two frames of the published poses, on a drive that starts tilted.
 #include <cmath>
 
 #include "support/simulated_run.hpp"
@@ -8,7 +8,8 @@
 namespace lio {
 namespace {
 
-// The accelerometer's bias tilts the start; turns and changes of speed tell it from the tilt.
+// The accelerometer's bias tilts the initial attitude; turns and changes of speed separate bias and
+// tilt.
 TEST(PublishedFrames, TheWorldBecomesLevelAndTheMapStaysAsItBegan) {
   test::SimulatedLog log({.scenario = "street", .lidar = "vlp16", .duration_s = 30.0});
   log.options.rig.imu.accel_bias_std_mps2 = 0.15;

@@ -32,7 +32,7 @@ TEST(Random, GaussianHasUnitMoments) {
     sum_sq += x * x;
     num_beyond_2 += std::abs(x) > 2.0 ? 1 : 0;
   }
-  // Four standard errors each.
+  // Each tolerance is four standard errors.
   EXPECT_NEAR(sum / kNum, 0.0, 4.0 / std::sqrt(kNum));
   EXPECT_NEAR(sum_sq / kNum, 1.0, 4.0 * std::sqrt(2.0 / kNum));
   EXPECT_NEAR(static_cast<double>(num_beyond_2) / kNum, 0.0455, 0.003);

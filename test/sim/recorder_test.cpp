@@ -109,15 +109,15 @@ TEST(Record, LogHoldsEveryMessageOnceInOrderAtItsTime) {
   EXPECT_EQ(num_points, stats.num_points);
 }
 
-// The whole chain, through the files alone: points of the log at the truth's poses of their own
-// times leave the end wall of the hall flat to the range noise.
+// This tests the whole chain through the files alone: points of the log, at the truth's poses of
+// their own times, show the end wall of the hall as flat as the range noise allows.
 TEST(Record, LogAndTruthTogetherLeaveAWallFlatToTheRangeNoise) {
   ScenarioOptions scenario_options;
   scenario_options.duration_s = 9.0;
   const Scenario scenario = MakeScenario("hall", scenario_options);
   const test::TempDir dir;
   RecordOptions options = Options("vlp16");
-  options.imu.rate_hz = 1000.0;  // the truth's rate: straight lines between its poses are exact
+  options.imu.rate_hz = 1000.0;  // straight lines between the truth's poses are exact at this rate
   Record(scenario, options, dir.path(), {});
   const DecodedLog log(dir.path() / "log.lcm");
   const StampedPoses truth = ReadTrajectory(dir.path() / "truth.tum").poses;
@@ -134,7 +134,7 @@ TEST(Record, LogAndTruthTogetherLeaveAWallFlatToTheRangeNoise) {
       const Pose imu = Interpolate(truth[k].pose, truth[k + 1].pose, at - static_cast<double>(k));
       const Vector3 p =
           imu * (*config.options.rig.T_imu_lidar * Vector3(point.x_m, point.y_m, point.z_m));
-      // The brick wall at x = 22 above doors and beside the hoop.
+      // Only the brick wall at x = 22 is used, above the doors and beside the hoop.
       if (std::abs(p.x() - 22.0) > 0.15 || p.z() < 3.7 || p.z() > 7.3 || std::abs(p.y()) < 2.0) {
         continue;
       }
@@ -203,7 +203,7 @@ TEST(Record, UnwritableFolderIsAnError) {
   EXPECT_THROW(Record(scenario, Options("vlp16"), file, {}), std::exception);
 }
 
-// A figure for people; machines differ, so it asserts nothing of speed.
+// Prints a figure for people; machines differ, so the test asserts nothing about speed.
 TEST(Record, PrintsItsRayRate) {
   ScenarioOptions options;
   options.duration_s = 2.0;

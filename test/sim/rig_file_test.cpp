@@ -43,7 +43,7 @@ RecordOptions SomeSensors() {
 
 class RigFile : public ::testing::Test {
  protected:
-  // Written and read as lio-replay reads it.
+  // Writes the file and reads it as lio-replay does.
   Rig RoundTrip(const Scenario& scenario, const RecordOptions& options) {
     WriteRigFile(path_, scenario, options);
     const LoadResult loaded = LoadOptions({path_}, {});
@@ -70,7 +70,7 @@ TEST_F(RigFile, LoadsAsTheVehicleIs) {
   EXPECT_EQ(rig.imu.gravity, GravityInput::kAutomatic);
 }
 
-// Instability s over a time T looks like a walk of s sqrt(2 / T): 0.004 sqrt(2 / 50) = 0.0008.
+// An instability s over a time T looks like a walk of s sqrt(2 / T): 0.004 sqrt(2 / 50) = 0.0008.
 TEST_F(RigFile, NoiseIsTheSensorsOwn) {
   const Rig rig = RoundTrip(SomeScenario(), SomeSensors());
   EXPECT_DOUBLE_EQ(rig.imu.gyro_noise_density, 2e-4);
@@ -78,7 +78,7 @@ TEST_F(RigFile, NoiseIsTheSensorsOwn) {
   EXPECT_DOUBLE_EQ(rig.imu.gyro_bias_walk_density, 3e-5);
   EXPECT_NEAR(rig.imu.accel_bias_walk_density, 8e-4, 1e-12);
   EXPECT_DOUBLE_EQ(rig.imu.gyro_bias_std_radps, 0.003);
-  EXPECT_NEAR(rig.imu.accel_bias_std_mps2, 0.005, 1e-12);  // of 3, 4, 5
+  EXPECT_NEAR(rig.imu.accel_bias_std_mps2, 0.005, 1e-12);  // hypot(0.003, 0.004)
 }
 
 TEST_F(RigFile, WalksOfBothKindsAddInSquares) {

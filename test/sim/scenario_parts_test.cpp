@@ -11,7 +11,7 @@
 namespace lio::sim {
 namespace {
 
-// 2 s at rest, then along x with 2 m/s^2 up to 10 m/s.
+// The motion is 2 s at rest, then along x with 2 m/s^2 up to 10 m/s.
 MotionPlan StartAndGo() {
   MotionPlan plan;
   plan.knot_interval_s = 0.2;
@@ -110,7 +110,7 @@ TEST(ScenarioParts, TerrainIsAHeightFunction) {
   {
     const Terrain terrain({{0.02, 0.0}, 0.8, 0.01}, random);
     expected_m = terrain.Height({30, 40});
-    height = HeightOf(terrain);  // and outlives it
+    height = HeightOf(terrain);  // the function must outlive it
   }
   EXPECT_EQ(height({30, 40}, 0.0), expected_m);
   EXPECT_EQ(height({30, 40}, 500.0), expected_m) << "whatever the storey";

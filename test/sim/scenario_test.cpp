@@ -26,7 +26,7 @@ TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
   double most_mps = 0.0;
   double most_mps2 = 0.0;
   double most_radps = 0.0;
-  // The limits are those of the body on the ground; above it the sensor sways and is swung about.
+  // The limits apply to the body on the ground; the sensor above it sways and is swung about.
   const auto ground = [&](double t) -> Vector3 {
     return scenario.trajectory->BodyPoseAt(t).translation;
   };
@@ -48,7 +48,7 @@ TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
     EXPECT_LT(most_mps2, 3.0);
   } else {
     EXPECT_LT(most_mps, 30.0);
-    EXPECT_LT(most_mps2, 3.2);  // of 2 to 2.2 m/s^2 along and across at once
+    EXPECT_LT(most_mps2, 3.2);  // 2 to 2.2 m/s^2, longitudinal and lateral at once
     EXPECT_LT(most_radps, 1.2);
   }
   if (scenario.name == "hall") {
@@ -60,7 +60,8 @@ TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
   }
 }
 
-// Rays along both flanks of the car, just outside of it, at the height of bumpers and of mirrors.
+// The rays go along both flanks of the car, just outside of it, at the height of bumpers and of
+// mirrors.
 TEST_P(Scenarios, DriveThroughNothingAndNobody) {
   if (IsOnFoot(GetParam())) GTEST_SKIP() << "walkers are covered by what the sensor sees near by";
   const Scenario scenario = MakeScenario(GetParam(), {});
@@ -114,7 +115,7 @@ TEST_P(Scenarios, OwnVehicleBoxHoldsTheCarrierAndLeavesTheWorld) {
   const Scene scene(scenario.world);
   LidarSetup setup;
   setup.model = LoadLidarModel("hdl32e");
-  setup.model.min_range_m = 0.1;  // to see all of it
+  setup.model.min_range_m = 0.1;  // all of it must be visible
   setup.errors.dropout_ratio = 0.0;
   setup.T_imu_lidar = scenario.T_imu_lidar;
   const LidarSimulator lidar(setup, scene, *scenario.trajectory);
@@ -207,7 +208,7 @@ TEST(Scenario, TunnelTellsNothingAlongItsAxis) {
   const Scenario tunnel = MakeScenario("tunnel", {});
   const Scene scene(tunnel.world);
   const auto interval = scene.During(0.0, 0.1);
-  // The walls are the same a metre on, all the way through the middle of the tube.
+  // In the middle of the tube the walls look the same a metre further.
   for (const double x : {120.0, 250.0, 400.0}) {
     for (double angle = -1.4; angle < 4.5; angle += 0.2) {
       const Vector3f direction(0.0f, static_cast<float>(std::cos(angle)),

@@ -18,7 +18,7 @@ World WallAndMover() {
   Mesh box;
   AddBox(box, UprightPose({0, 0, -0.5}, 0.0), {1.0, 1.0, 1.0}, Material::kRetro);
   world.shapes.push_back(box);
-  // Drives toward us and brakes while it turns.
+  // The mover drives toward the sensor and brakes while it turns.
   world.movers.push_back({0, [](double t) {
                             return UprightPose({8.0 - 10.0 * t + 4.0 * t * t, 0.0, 0.0}, 0.0);
                           }});
@@ -55,7 +55,7 @@ TEST(Scene, MoversAreWhereTheyAreAtTheRaysOwnInstant) {
     const Hit hit = CastOne(interval, {0, 0, 0}, {1, 0, 0}, static_cast<float>(ratio));
     EXPECT_EQ(hit.object, 0);
     EXPECT_EQ(hit.material, Material::kRetro);
-    // Linear between poses 10 ms apart: off by a dt^2 / 8 = 0.1 mm.
+    // Motion is linear between poses 10 ms apart, which is off by a dt^2 / 8 = 0.1 mm.
     EXPECT_NEAR(hit.range_m, 8.0 - 10.0 * t + 4.0 * t * t - 0.5, 2e-4) << "at " << t;
   }
 }

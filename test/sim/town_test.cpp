@@ -14,7 +14,7 @@ namespace {
 
 using test::StillScene;
 
-// A straight road of 200 m along x, 8 m wide, on flat ground.
+// The town has a straight road of 200 m along x, 8 m wide, on flat ground.
 class TownTest : public ::testing::Test {
  protected:
   static Terrain Flat() {
@@ -29,7 +29,8 @@ class TownTest : public ::testing::Test {
   static Frontage Beside(double offset_m, bool on_left = true) {
     return {10.0, 190.0, offset_m, on_left};
   }
-  // Share of the places along y where a ray from above meets something that `wanted` takes.
+  // Returns the share of places along y where a ray from above meets something that `wanted`
+  // accepts.
   double ShareOver(double y, const std::function<bool(const Hit&, double height_m)>& wanted) const {
     const StillScene scene(world_.fixed);
     int num = 0, num_wanted = 0;
@@ -61,7 +62,7 @@ TEST_F(TownTest, ReservesNoPlaceTwiceAndNoneOnRoads) {
   EXPECT_FALSE(town_.Reserve({20.0, 6.0}, 0.0, {4.0, 4.0}, 1.0));
 }
 
-// Two rectangles whose bounding boxes overlap though they do not.
+// The bounding boxes of the two rectangles overlap, but the rectangles do not.
 TEST_F(TownTest, TurnedRectanglesAreComparedAsTheyLie) {
   EXPECT_TRUE(town_.Reserve({50.0, 30.0}, M_PI / 4, {20.0, 1.0}, 1.0));
   EXPECT_TRUE(town_.Reserve({55.0, 25.0}, M_PI / 4, {20.0, 1.0}, 1.0));
@@ -101,7 +102,7 @@ TEST_F(TownTest, HousesStandInARowAndFaceTheRoad) {
   town_.AddHouses(road_, Beside(10.0), row);
   EXPECT_GT(ShareAbove(14.0, 8.0), 0.9);
   EXPECT_LT(ShareAbove(6.0, 2.0), 0.01) << "nothing stands on the pavement";
-  // Fronts have windows, rears have none.
+  // Fronts have windows; rears have none.
   const StillScene scene(world_.fixed);
   int num_front = 0, num_rear = 0;
   for (double x = 15.0; x < 185.0; x += 0.5) {
@@ -166,7 +167,7 @@ TEST_F(TownTest, BarriersRunThroughBetweenTheirHeights) {
     const Hit hit = scene.Cast({x, 0.0, ground_m + 0.65}, Vector3::UnitY());
     EXPECT_NEAR(hit.range_m, 5.95, 0.02) << x;
   }
-  // Between two posts one looks through below.
+  // The ray passes below the rail between two posts.
   EXPECT_GT(scene.Cast({12.0, 0.0, ground_m + 0.3}, Vector3::UnitY()).range_m, 20.0);
 }
 
@@ -215,7 +216,7 @@ TEST_F(TownTest, WalkersKeepToTheirWayAndWalk) {
   }
 }
 
-// Nose up where the ground rises by a tenth.
+// The nose points up where the ground rises by a tenth.
 TEST_F(TownTest, VehiclesFollowTheirPathOnTheGround) {
   Random random(1, Purpose::kTraffic);
   AddVehicleMover(

@@ -30,7 +30,7 @@ MotionPlan LivelyPlan() {
   return plan;
 }
 
-// Five-point central difference: error of order h^4.
+// Returns the five-point central difference, whose error is of order h^4.
 template <typename F>
 auto Derivative(const F& f, double t) {
   const double h = 1e-3;
@@ -62,14 +62,15 @@ TEST(Trajectory, RateIsTheDerivativeOfAttitude) {
 
 TEST(Trajectory, JerkAndItsRotationalLikeAreContinuousAcrossKnots) {
   const Trajectory trajectory(LivelyPlan());
-  const auto step = [&](auto derivative, double t, double h) {  // of the next derivative, across t
+  const auto step = [&](auto derivative, double t,
+                        double h) {  // change of the next derivative across t
     return (((derivative(t + h) - derivative(t)) - (derivative(t) - derivative(t - h))) / h).norm();
   };
   const auto accel = [&](double t) -> Vector3 { return trajectory.At(t).a_world_mps2; };
   const auto rate = [&](double t) -> Vector3 { return trajectory.At(t).w_imu_radps; };
   for (int knot = 5; knot < 35; ++knot) {
     const double t = 0.2 * knot;
-    // What is continuous changes in proportion to h; a jump would stay.
+    // The change of a continuous function is proportional to h; a jump would stay.
     EXPECT_LT(step(accel, t, 1e-5), 0.2 * step(accel, t, 1e-4) + 1e-4) << "at " << t;
     EXPECT_LT(step(rate, t, 1e-5), 0.2 * step(rate, t, 1e-4) + 1e-5) << "at " << t;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// MakeVehicle and VehicleSize.
+// Tests MakeVehicle and VehicleSize.
 #include <gtest/gtest.h>
 
 #include "lio/sim/props.hpp"
@@ -59,7 +59,7 @@ TEST(Vehicles, AreTheSameOnBothSides) {
   });
 }
 
-// Light comes back from reflectors at the rear; x is forward.
+// Reflectors at the rear send light back; x is forward.
 TEST(Vehicles, ShowTheirReflectorsToWhoFollows) {
   ForSomeOfEachKind([](VehicleKind kind, const Mesh& mesh) {
     const Extent reflectors = ExtentOf(mesh, Material::kRetro);
@@ -75,7 +75,7 @@ TEST(Vehicles, CannotBeSeenThrough) {
     for (double x = -half_m; x <= half_m; x += 0.1) {
       const Hit hit = scene.Cast({x, 10.0, 0.75}, -Vector3::UnitY());
       ASSERT_EQ(hit.object, Hit::kFixed) << x;
-      EXPECT_LT(hit.range_m, 10.0) << x;  // the near side
+      EXPECT_LT(hit.range_m, 10.0) << x;  // on the near side
     }
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Writes a log with a message of each of our types, for the test of the Java classes.
+// Writes a log with one message of each of liod's types, for the test of the Java classes.
 #include "lio/io/event_log.hpp"
 #include "lio/io/lcm_codec.hpp"
 #include "lio/io/status_report.hpp"

@@ -17,8 +17,8 @@ ClockStep StepBy(double step_s) {
   return {StampAt(9.995), StampAt(10.005 + step_s)};
 }
 
-// Sweeps of 0.1 s until a step at 10 s, that come when they are whole and `late_s` more have
-// passed.
+// Returns sweeps of 0.1 s until a step at 10 s, which arrive when they are complete and `late_s`
+// more have passed.
 ClockStepArbiter SweepsBefore(double late_s, double until_s = 10.0) {
   ClockStepArbiter watch;
   for (double start_s = 8.85; start_s + 0.1 + late_s < until_s; start_s += 0.1) {
@@ -27,7 +27,8 @@ ClockStepArbiter SweepsBefore(double late_s, double until_s = 10.0) {
   return watch;
 }
 
-// The first one after a step of the inertial clock, which began at `start_s` by the old time.
+// Returns the first sweep after a step of the IMU's clock, which began at `start_s` by the old
+// time.
 LidarClock Judge(const ClockStepArbiter& watch, double step_s, double start_s, bool has_stepped,
                  double late_s) {
   return watch

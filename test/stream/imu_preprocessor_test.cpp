@@ -28,14 +28,14 @@ ImuSample Still(double t_s) {
   return sample;
 }
 
-// What it reads at `t_s`, stamped by a clock that is wrong.
+// Returns the sample at `t_s`, stamped by a clock that is wrong.
 ImuSample Moving(double t_s, double clock_error_s = 0.0) {
   ImuSample sample = Still(t_s + clock_error_s);
   sample.w_imu_radps = Vector3(std::sin(3.0 * t_s), std::cos(5.0 * t_s), 0.1 * t_s);
   return sample;
 }
 
-// Takes samples from `from_s` on; gives how many were accepted.
+// Adds samples from `from_s` on; returns how many were accepted.
 int Feed(ImuPreprocessor& intake, double from_s, int num, bool* jumped = nullptr) {
   int num_accepted = 0;
   for (int i = 0; i < num; ++i) {
@@ -166,7 +166,7 @@ TEST(ImuPreprocessor, WildStampsNeverBecomeAStretch) {
   EXPECT_EQ(counters.num_clock_jumps, 0);
 }
 
-// Steps of a clock that was set back and right again, by samples of which none is lost.
+// The clock is set back and right again, and no sample is lost.
 std::vector<Step> StepsOf(double clock_error_s, double rate_Hz, Counters& counters) {
   ImuPreprocessor intake(counters);
   std::vector<Step> steps;
@@ -236,7 +236,7 @@ TEST(ImuPreprocessor, SamplesInRandomOrderPass) {
   }
 }
 
-// Bursts of three samples, 0.3 s apart.
+// Samples come in bursts of three, 0.3 s apart.
 TEST(ImuPreprocessor, StreamThatIsMostlyHolesPasses) {
   Counters counters;
   ImuPreprocessor intake(counters);
@@ -247,7 +247,7 @@ TEST(ImuPreprocessor, StreamThatIsMostlyHolesPasses) {
   EXPECT_EQ(counters.num_imu_gaps, 20);
 }
 
-// As a network does that sends twice.
+// Some networks send packets twice.
 TEST(ImuPreprocessor, RepeatsAreNoStepOfTheClock) {
   Counters counters;
   ImuPreprocessor intake(counters);

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// A body that swings about every axis; the readings are cut off at the ends of the ranges.
+// A body swings about every axis; its samples saturate at the ends of the ranges.
 ImuSample Swinging(int k, double max_rate = 1e9, double max_force = 1e9) {
   const double t_s = 0.01 * k;
   ImuSample sample;
@@ -62,7 +62,8 @@ TEST(SaturationDetector, ADriverThatRepeatsItselfIsNotClipped) {
   EXPECT_EQ(marks.num_force, 0);
 }
 
-// A vehicle in the plane, simulated without noise: some axes read nothing, or gravity, for ever.
+// A vehicle in the plane, simulated without noise, has axes that measure exactly zero, or gravity,
+// for ever.
 TEST(SaturationDetector, AnAxisWithNothingToReadIsNotClipped) {
   const Marks marks = MarksOf(1000, [](int k) {
     ImuSample sample = Swinging(k);
@@ -74,7 +75,7 @@ TEST(SaturationDetector, AnAxisWithNothingToReadIsNotClipped) {
   EXPECT_EQ(marks.num_force, 0);
 }
 
-// In deg/s and g.
+// The units are deg/s and g.
 TEST(SaturationDetector, LimitsAreThoseOfTheUnits) {
   SaturationDetector watch;
   int num_rate = 0;

@@ -18,7 +18,8 @@ constexpr int kChunks = 4;
 constexpr double kChunkSpan_s = 0.025;
 constexpr double kSweepSpan_s = kChunks * kChunkSpan_s;
 
-// Chunk `index` of sweep `seq`: three points over its span, x numbering them through the sweep.
+// Returns chunk `index` of sweep `seq`: three points over its span, numbered through the sweep by
+// x.
 ScanChunk MakeChunk(int seq, int index) {
   ScanChunk chunk;
   chunk.stamp = StampAt(seq * kSweepSpan_s + index * kChunkSpan_s);
@@ -90,7 +91,8 @@ TEST(ScanAssembler, SweepOfOneChunkPassesAsItIs) {
   EXPECT_EQ(sweeps[0].points.size(), 3u);
 }
 
-// Chunks of two neighbouring sweeps in any order: both come out whole, in order of time.
+// Chunks of two neighbouring sweeps come in any order: both sweeps are complete, in the order of
+// time.
 TEST(ScanAssembler, OrderAmongTwoSweepsIsFree) {
   test::CheckProperty([] {
     std::vector<ScanChunk> chunks = MakeSweep(3);
@@ -222,7 +224,7 @@ TEST(ScanAssembler, ChunkThatDisagreesOnTheCountIsNotMixedIn) {
   EXPECT_EQ(sweeps[0].points.size(), 3u);
 }
 
-// The sender starts anew and counts from zero again: same number, another time.
+// The sender restarts and counts from zero again: the number is the same, the time another.
 TEST(ScanAssembler, ChunkThatAStepOfTheClockTearsOffIsDropped) {
   for (const double step_s : {-0.3, 0.25, 0.4}) {
     Assembly assembly;
@@ -254,7 +256,7 @@ TEST(ScanAssembler, SameNumberMuchLaterIsAnotherSweep) {
   EXPECT_EQ(sweeps[1].points.size(), 12u);
 }
 
-// Sweep 7 of which all but the first chunk are stamped 3 s too early, and what follows.
+// All but the first chunk of sweep 7 are stamped 3 s too early; other sweeps follow.
 ScanChunk SetBack(ScanChunk chunk) {
   chunk.stamp = chunk.stamp - Duration{3'000'000'000};
   return chunk;

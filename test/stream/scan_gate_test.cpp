@@ -176,7 +176,7 @@ TEST(ScanGate, NothingIsForcedOutOfAnEmptyGate) {
   EXPECT_EQ(g.gate.waiting_span_s(), 0.0);
 }
 
-// Of a lidar whose clock is far ahead, for as long as it sends.
+// The lidar's clock is far ahead for as long as it sends.
 TEST(ScanGate, WhatWaitsInVainIsCountedAndDropped) {
   Gate g;
   for (int k = 1; k <= 600; ++k) {

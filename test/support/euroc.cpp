@@ -24,7 +24,7 @@ std::vector<Row> ReadRows(const std::filesystem::path& file, std::size_t num_val
     std::istringstream words(line);
     std::string word;
     std::getline(words, word, ',');
-    row.stamp.ns = std::stoll(word);  // what follows a point is zero
+    row.stamp.ns = std::stoll(word);  // the values after a point are zero
     while (std::getline(words, word, ',')) row.values.push_back(std::stod(word));
     if (row.values.size() != num_values) throw std::runtime_error(file.string() + ": " + line);
     rows.push_back(std::move(row));
@@ -33,7 +33,7 @@ std::vector<Row> ReadRows(const std::filesystem::path& file, std::size_t num_val
   return rows;
 }
 
-// From the data's own description.
+// The extrinsic is from the data's own description.
 Pose ImuFromCamera() {
   Matrix3 R;
   R << 0.0148655429818, -0.999880929698, 0.00414029679422,  //

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Recorded inertial samples with true poses: the EuRoC extract of the shared data.
+// Reads recorded IMU samples with true poses: the EuRoC extract of the shared data.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ struct RealDrive {
   StampedPoses T_world_imu;        // 20 Hz, the truth; z up
 };
 
-// `name`: V101 or MH04. The files' quaternions turn world to camera, although their description has
-// it the other way round: only so do rates and gravity agree with the IMU. Throws
+// `name` is V101 or MH04. The files' quaternions turn world to camera, although their description
+// says the opposite: only this direction agrees with the IMU's rates and gravity. Throws
 // std::runtime_error when a file cannot be read.
 RealDrive ReadEuroc(const std::filesystem::path& folder, const std::string& name);
 

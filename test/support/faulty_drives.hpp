@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The drives that tests of the estimator take, what may go wrong with them, and what must hold.
+// Makes the drives of the estimator's tests and their faults, and checks what must hold.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ inline Motion RestThenDrive() {
   return WindingDrive(kRest_s);
 }
 
-// Starts its clock 4 s into the drive: at 8 m/s, turning.
+// The clock starts 4 s into the drive, at 8 m/s and turning.
 inline Motion Driving() {
   return [](double t_s) { return WindingDrive(0.0)(t_s + 4.0); };
 }
@@ -71,7 +71,7 @@ inline Messages WithoutLidar(const Messages& messages, double from_s, double to_
   });
 }
 
-// Stamps of both sensors, of one of them by choice, moved by `shift_s` from `from_s` on.
+// Moves the stamps of both sensors, or of one of them by choice, by `shift_s` from `from_s` on.
 inline Messages WithClockStep(Messages messages, double from_s, double shift_s, bool imu = true,
                               bool lidar = true) {
   for (Message& message : messages) {
@@ -89,7 +89,7 @@ inline Messages SortedByArrival(Messages messages) {
   return messages;
 }
 
-// Without one finite point.
+// Removes every finite point.
 inline void MakeBlind(Message& message) {
   for (LidarPoint& point : message.chunk.points) {
     point.x_m = point.y_m = point.z_m = std::numeric_limits<float>::quiet_NaN();
@@ -110,7 +110,7 @@ inline int NumFused(const RunResult& run) {
                                         [](const ScanOutput& s) { return s.scan.fused; }));
 }
 
-// All counters of faults are zero.
+// Expects all counters of faults to be zero.
 inline void ExpectClean(const Counters& c) {
   for (const std::int64_t count :
        {c.num_imu_nonfinite,    c.num_imu_duplicate,    c.num_imu_late,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Points that fill a voxel of a GaussianMap, and what the map made of them.
+// Makes points that fill a voxel of a GaussianMap, and finds the cell that the map made of them.
 #pragma once
 
 #include <random>
@@ -28,7 +28,7 @@ inline Vector3 CentreOf(int x, int y, int z) {
   return {x + 0.5, y + 0.5, z + 0.5};
 }
 
-// Points of a plane through `origin` inside the voxel there, 2 cm thick.
+// Returns points of a plane through `origin`, 2 cm thick, inside the voxel there.
 inline std::vector<Vector3> PlanePoints(const Vector3& origin, const Vector3& normal, int num,
                                         unsigned seed = 1) {
   std::mt19937_64 random(seed);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The point layouts of the drivers that people record with.
+// Makes clouds in the point layouts of common drivers.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace lio::test {
 
-// How a driver would publish the sweeps of the spinning lidar.
+// Describes how a driver publishes the sweeps of the spinning lidar.
 struct Driver {
   std::string name;
   std::vector<CloudField> fields = {};
   std::uint32_t point_step = 0;
-  // Stores the time of a point; `start`: instant of the sweep's first point.
+  // Stores the time of a point; `start` is the instant of the sweep's first point.
   std::function<void(TestCloud&, std::size_t, const SeenPoint&, Timestamp start)> store_time = {};
   bool stamp_is_end = false;
   bool organised = false;      // rows are rings, the highest first; some points NaN
@@ -27,7 +27,7 @@ struct Driver {
   double time_tolerance_s = 1e-7;
 };
 
-// How GoogleTest prints a parameter.
+// Tells GoogleTest how to print a parameter.
 inline void PrintTo(const Driver& driver, std::ostream* out) {
   *out << driver.name;
 }

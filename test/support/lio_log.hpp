@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads the log that a converter wrote back into sweeps and samples, checking what must hold of
-// any.
+// Reads the log that a converter wrote back into sweeps and samples, and checks what must hold of
+// any log.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct LoggedPoint {
 struct LoggedSweep {
   std::int32_t scan_seq = 0;
   int num_chunks = 0;
-  std::int64_t last_event_utime = 0;  // of its last chunk
+  std::int64_t last_event_utime = 0;  // event of its last chunk
   std::vector<LoggedPoint> points;
 };
 
@@ -36,9 +36,9 @@ struct LioLog {
   std::vector<LoggedImu> imu;
 };
 
-// Checks: events in the order of their times, every message decodes, chunks whole and in sequence,
-// times in a sweep never back, IMU numbered without holes, a chunk sent as long after the sweep's
-// first as its last point was measured later.
+// Checks that events are in the order of their times, that every message decodes, that chunks are
+// complete and in sequence, that times in a sweep never decrease, that the IMU is numbered without
+// holes, and that chunks are sent at the intervals at which their last points were measured.
 inline LioLog ReadLioLog(const std::filesystem::path& path) {
   EventLogReader reader(path);
   LioLog log;

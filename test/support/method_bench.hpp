@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A registration method from sweep to match, without filter or motion: what the contract suite and
-// the benchmarks drive. The imu is the lidar.
+// Runs a registration method from sweep to match, without filter or motion, for the contract suite
+// and the benchmarks. The frames imu and lidar are the same.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class MethodBench {
   std::unique_ptr<ScanMatcher> matcher_;
 };
 
-// The same scan seen from another pose: p = T_old_new^-1 p_old for every point.
+// Returns the same scan seen from another pose: p = T_old_new^-1 p_old for every point.
 inline MethodScan Moved(MethodScan scan, const Pose& T_old_new) {
   const Pose T_new_old = T_old_new.Inverse();
   for (auto* points : {&scan.points, &scan.to_match}) {

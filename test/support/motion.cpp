@@ -7,13 +7,15 @@
 namespace lio::test {
 namespace {
 
-constexpr double kStep_s = 2e-3;  // of the differences: truncation and rounding are alike here
+constexpr double kStep_s =
+    2e-3;  // step of the differences, at which truncation and rounding errors are alike
 
 Quaternion FromYawPitchRoll(double yaw, double pitch, double roll) {
   return ExpSo3(Vector3(0, 0, yaw)) * ExpSo3(Vector3(0, pitch, 0)) * ExpSo3(Vector3(roll, 0, 0));
 }
 
-// Metres driven since the start: a ramp of the speed with continuous jerk, then constant speed.
+// Returns the metres driven since the start: the speed ramps up with continuous jerk, then stays
+// constant.
 double Driven(double t_s, double rest_s) {
   constexpr double kSpeed_mps = 8.0;
   constexpr double kRamp_s = 4.0;
@@ -25,7 +27,7 @@ double Driven(double t_s, double rest_s) {
 }
 
 Pose OnRoad(double driven_m, double swing_m) {
-  constexpr double kWave_radpm = 0.08;  // of the road: turns of 0.35 rad every 39 m
+  constexpr double kWave_radpm = 0.08;  // wave number of the road: it turns by 0.35 rad every 39 m
   constexpr double kSway_rad = 0.017;
   const double along = kWave_radpm * driven_m;
   Pose pose;

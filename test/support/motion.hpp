@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Motions given by a formula, and what a perfect IMU reads along them.
+// Gives motions by formulas, and the samples of a perfect IMU along them.
 //
 // A motion is a pose of imu in world at any instant, several times differentiable; rates and
-// accelerations come from five-point differences of it, right to about 1e-8.
+// accelerations are five-point differences of it, accurate to about 1e-8.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ using Motion = std::function<Pose(double t_s)>;
 
 inline const Vector3 kGravity{0, 0, -9.80665};  // g_world
 
-// Tests count seconds from here: a stamp as real drives have it.
+// Tests count seconds from this stamp, which is one that real drives may have.
 inline constexpr Timestamp kEpoch{1'700'000'000'000'000'000};
 constexpr Timestamp StampAt(double t_s) {
   return kEpoch + Duration::FromSeconds(t_s);
@@ -36,17 +36,19 @@ struct MotionState {
 };
 MotionState StateOf(const Motion& motion, double t_s);
 
-// The reading of an IMU without errors.
+// Returns the sample of an IMU without errors.
 ImuSample ExactSample(const Motion& motion, double t_s, const Vector3& g_world = kGravity);
 std::vector<ImuSample> ExactSamples(const Motion& motion, double from_s, double to_s, double step_s,
                                     const Vector3& g_world = kGravity);
 
-// Swings in all six directions, never at rest; metres and radians of order one.
+// Returns a motion that swings in all six directions and is never at rest, with metres and radians
+// of order one.
 Motion Tumble();
-// Stands at the origin for `rest_s`, then drives off along a winding road: 8 m/s reached within
-// 4 s, the body rolling and pitching by a degree. Yaw is zero and the body level at rest.
+// Returns a motion that rests at the origin for `rest_s`, then drives off along a winding road: it
+// reaches 8 m/s within 4 s, and the body rolls and pitches by a degree. At rest yaw is zero and the
+// body level.
 Motion WindingDrive(double rest_s);
-// The same with a straight road.
+// Returns the same motion on a straight road.
 Motion StraightDrive(double rest_s);
 
 }  // namespace lio::test

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Central differences, for checking analytic Jacobians.
+// Computes central differences, which check analytic Jacobians.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace lio::test {
 
-// d f / d x at x, for f: R^n -> R^m given as vectors.
+// Returns d f / d x at x, for f: R^n -> R^m given as vectors.
 template <typename Function>
 Eigen::MatrixXd NumericJacobian(const Function& f, const Eigen::VectorXd& x, double step = 1e-6) {
   const Eigen::VectorXd f0 = f(x);

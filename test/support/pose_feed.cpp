@@ -15,14 +15,14 @@
 namespace lio::test {
 namespace {
 
-// Where a fourth difference of the true positions is larger, the truth has a jump: 50 ms of motion
+// A larger fourth difference of the true positions means that the truth jumps: 50 ms of motion
 // leave half a millimetre.
 constexpr double kTruthJump_m = 0.005;
 
 std::vector<Vector3> GyroBiases(const RealDrive& drive) {
   constexpr std::size_t kHalfWindow = 100;
   const StampedPoses& poses = drive.T_world_imu;
-  std::vector<Vector3> sums(1, Vector3::Zero());  // of what each step's turn has too much
+  std::vector<Vector3> sums(1, Vector3::Zero());  // sums of each step's excess turn
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Timestamp from = poses[i - 1].stamp;
     const Timestamp to = poses[i].stamp;
@@ -39,7 +39,7 @@ std::vector<Vector3> GyroBiases(const RealDrive& drive) {
   return biases;
 }
 
-// One pass of the filter over a drive, in the order of arrival.
+// Runs the filter once over a drive, in the order of arrival.
 class Pass {
  public:
   Pass(const RealDrive& drive, const FeedSettings& settings)
@@ -83,7 +83,7 @@ class Pass {
     std.segment<3>(kAccelBias).setConstant(0.3);
     start.cov = std.cwiseAbs2().asDiagonal();
     ErrorVector error = std.cwiseProduct(RandomVector<kStateDim>(random_));
-    error.segment<6>(kGyroBias).setZero();  // those are the recording's own
+    error.segment<6>(kGyroBias).setZero();  // the gyro biases are the recording's own
     start.state = BoxPlus(start.state, error);
     MakeMapTheWorld(start);
     return start;
@@ -96,9 +96,9 @@ class Pass {
     event.measurement.T_map_imu =
         truth.T_world_imu * ExpSe3(std.cwiseProduct(RandomVector<6>(random_)));
     event.measurement.cov = std.cwiseAbs2().asDiagonal();
-    // Down to 20 deg.
+    // The rotations get 20 deg of standard deviation.
     if (!settings_.believes_rotations) event.measurement.cov.bottomRightCorner<3, 3>() *= 1e4;
-    event.force = true;  // never lost: none is refused for good
+    event.force = true;  // the filter is never lost: no pose is refused for good
     UpdateResult update;
     const EventOutcome outcome = history_->AddPose(truth.stamp, event, &update);
     ++figures_.num_poses;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter fed with the true poses of a recorded drive, made noisy and late, as if registration
-// had found them, and judged against the truth.
+// Feeds the filter with the true poses of a recorded drive, made noisy and late, as if from
+// registration, and compares it with the truth.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,10 @@ namespace lio::test {
 inline constexpr double kFedPoseStd_m = 0.02;
 inline constexpr double kFedPoseStd_rad = 0.2 * M_PI / 180.0;
 inline constexpr Duration kFedPoseDelay{100'000'000};
-inline constexpr double kSettle_s = 5.0;  // not judged
+inline constexpr double kSettle_s = 5.0;  // the time before is not judged
 
-// The truth with velocity by five-point differences, where that is possible, and the gyro's bias as
-// the mean of what its rates have beyond the true turns in the ten seconds around.
+// Holds the truth with velocity by five-point differences, if these exist, and the gyro's bias as
+// the mean difference between its rates and the true turns in the surrounding ten seconds.
 struct TrueState {
   Timestamp stamp;
   Pose T_world_imu;
@@ -37,7 +37,7 @@ struct FeedFigures {
   double nis_per_dof = 0;
   double apart_m = 0;                    // largest distance between T_map_imu and T_world_imu
   double worst_velocity_mps = 0;         // largest rmse of a seed
-  Vector3 accel_bias = Vector3::Zero();  // at the end, m/s^2
+  Vector3 accel_bias = Vector3::Zero();  // value at the end, m/s^2
   int num = 0, num_unsound = 0, num_poses = 0, num_gated = 0;
 };
 
@@ -47,7 +47,7 @@ struct FeedSettings {
   bool believes_rotations = true;  // false: positions alone
 };
 
-// One pass of the filter over a drive, in the order of arrival: every second true pose, as an
+// Runs the filter once over a drive, in the order of arrival, with every second true pose as an
 // absolute one.
 FeedFigures FeedPoses(const RealDrive& drive, const FeedSettings& settings);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Properties checked on many random cases by rapidcheck, which shrinks what fails. The seed is
-// fixed, unless RC_PARAMS is set in the environment.
+// Checks properties on many random cases by rapidcheck, which shrinks failing cases. The seed is
+// fixed unless RC_PARAMS is set in the environment.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Random vectors, states and covariances of seeded generators.
+// Draws random vectors, states and covariances from seeded generators.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -10,7 +10,7 @@
 
 namespace lio::test {
 
-// Independent standard normals.
+// Returns independent standard normals.
 template <int n>
 Eigen::Matrix<double, n, 1> RandomVector(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
@@ -19,7 +19,8 @@ Eigen::Matrix<double, n, 1> RandomVector(std::mt19937_64& random) {
   return vector;
 }
 
-// Any orientation, metres and metres a second of order one, biases of order 0.01 and 0.1.
+// Returns any orientation, metres and metres per second of order one, and biases of order 0.01 and
+// 0.1.
 inline NavState RandomState(std::mt19937_64& random) {
   NavState state;
   state.T_world_imu = ExpSe3(RandomVector<6>(random));
@@ -30,7 +31,8 @@ inline NavState RandomState(std::mt19937_64& random) {
   return state;
 }
 
-// Symmetric positive definite, all entries correlated, standard deviations about `size`.
+// Returns a symmetric positive definite matrix with all entries correlated and standard deviations
+// about `size`.
 template <int n>
 Eigen::Matrix<double, n, n> RandomCovariance(std::mt19937_64& random, double size) {
   Eigen::Matrix<double, n, n> root;
@@ -39,7 +41,7 @@ Eigen::Matrix<double, n, n> RandomCovariance(std::mt19937_64& random, double siz
          0.01 * size * size * Eigen::Matrix<double, n, n>::Identity();
 }
 
-// A draw from N(0, cov).
+// Returns a draw from N(0, cov).
 template <int n>
 Eigen::Matrix<double, n, 1> DrawFrom(const Eigen::Matrix<double, n, n>& cov,
                                      std::mt19937_64& random) {

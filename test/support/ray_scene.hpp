@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A small analytic world of ground, boxes and upright cylinders, and a spinning lidar in it: exact
-// ray casting, for tests that need to know where every return comes from.
+// Casts rays exactly in a small analytic world of ground, boxes and vertical cylinders, with a
+// spinning lidar, for tests that need to know where every return comes from.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Hit {
   Vector3 normal = Vector3::Zero();  // outward
 };
 
-// Turned about z by `yaw_rad`, standing on `centre`'s xy.
+// The box is turned about z by `yaw_rad` and stands on `centre`'s xy.
 struct RayBox {
   Vector3 centre = Vector3::Zero();
   Vector3 half = Vector3::Ones();
@@ -75,7 +75,7 @@ class RayScene {
   }
 
  private:
-  // Seen from above, does the ray pass within `radius` of a place, or begin there?
+  // Returns whether the ray, seen from above, passes within `radius` of a place or begins there.
   static bool PassesNear(const Vector3& place, double radius, const Vector3& origin,
                          const Vector3& direction, double inverse_length_sq) {
     const Eigen::Vector2d to = (place - origin).head<2>();
@@ -138,8 +138,8 @@ class RayScene {
 
 struct SpinningLidar {
   std::vector<double> elevation_rad;  // lowest first
-  int num_columns = 1800;             // a turn
-  double start_azimuth_rad = 0.0;     // clockwise from here
+  int num_columns = 1800;             // per turn
+  double start_azimuth_rad = 0.0;     // the turn goes clockwise from here
   double max_range_m = 100.0;
   double range_std_m = 0.0;
   Duration turn{100'000'000};
@@ -155,11 +155,11 @@ struct SpinningLidar {
 
 struct CastSweep {
   Sweep sweep;
-  std::vector<Hit> hits;  // of each point
+  std::vector<Hit> hits;  // one per point
 };
 
-// One turn in firing order, column by column. `T_world_lidar`: the sensor's pose at a share 0..1 of
-// the turn. Beams without a return give no point.
+// Casts one turn in the order of firing, column by column. `T_world_lidar` gives the sensor's pose
+// at a share 0..1 of the turn. Beams without a return give no point.
 inline CastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
                           const std::function<Pose(double)>& T_world_lidar,
                           std::uint32_t seed = 1) {

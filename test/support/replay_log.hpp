@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator over a log, step by step, into files: what everything live is compared with.
+// Runs the estimator over a log, step by step, into files, with which live runs are compared.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace lio::test {
 
 struct Replayed {
   Counters counters;
-  std::int64_t num_matches = 0;  // until the log's end; what is left then is not counted
+  std::int64_t num_matches = 0;  // until the log's end; later matches are not counted
 };
 
 inline Replayed ReplayLog(const std::filesystem::path& log, const Options& options,

@@ -26,7 +26,7 @@ void AppendNumber(std::vector<std::uint8_t>& to, T value) {
   for (const std::uint8_t byte : raw) to.push_back(byte);
 }
 
-// The fields of a record's header.
+// Builds the fields of a record's header.
 class Fields {
  public:
   Fields& Text(const std::string& name, const std::string& value) {

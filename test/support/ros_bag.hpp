@@ -46,7 +46,7 @@ class RosBytes {
   std::vector<std::uint8_t> bytes_;
 };
 
-// A cloud whose points are written field by field.
+// Builds a cloud whose points are written field by field.
 struct TestCloud {
   Timestamp stamp;
   std::uint32_t height = 1;
@@ -103,14 +103,14 @@ class Bag1Writer {
 
 class Bag2Writer {
  public:
-  // Makes the folder with metadata.yaml and bag_0.db3, bag_1.db3, ...; a new file every
+  // Makes the folder with metadata.yaml and bag_0.db3, bag_1.db3, ...; each file holds
   // `messages_per_file`.
   explicit Bag2Writer(const std::filesystem::path& folder, int messages_per_file = 1'000'000);
   ~Bag2Writer();
   Bag2Writer(const Bag2Writer&) = delete;
   Bag2Writer& operator=(const Bag2Writer&) = delete;
 
-  // `type` in ROS 2's form, "sensor_msgs/msg/Imu".
+  // `type` is in ROS 2's form, "sensor_msgs/msg/Imu".
   void Write(const std::string& topic, const std::string& type, Timestamp received,
              const std::vector<std::uint8_t>& data, const std::string& definition = "");
   void Close();
@@ -125,7 +125,7 @@ class Bag2Writer {
   int num_messages_ = 0;
   int num_files_ = 0;
   sqlite3* database_ = nullptr;
-  std::map<std::string, int> topic_ids_;  // of the open file
+  std::map<std::string, int> topic_ids_;  // topics of the open file
 };
 
 }  // namespace lio::test

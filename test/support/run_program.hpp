@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Runs a program as a user would, and keeps what it said.
+// Runs a program as a user would, and keeps its output.
 #pragma once
 
 #include <sys/resource.h>
@@ -43,7 +43,7 @@ inline ProgramResult RunProgram(const std::vector<std::string>& command,
           ReadText(dir.path() / "err")};
 }
 
-// The most memory that the program held at once [kB], or -1 when it did not end with 0.
+// Returns the largest memory that the program held at once [kB], or -1 when it did not end with 0.
 inline std::int64_t PeakMemoryKb(std::vector<std::string> command) {
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kImuHeight_m = 1.0;
 
-// Distance to where the ray enters the box; absent when it misses or starts inside.
+// Returns the distance at which the ray enters the box; absent when it misses or starts inside.
 std::optional<double> CastBox(const Vector3& origin, const Vector3& direction,
                               const Vector3& half_size) {
   double enter = 0.0;

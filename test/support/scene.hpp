@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A small world of a flat ground and boxes, and a lidar in it: rays are cast analytically, each
-// from where the sensor is at its own instant.
+// Makes a small world of a flat ground and boxes, and a lidar in it: rays are cast analytically,
+// each from the sensor's pose at its own instant.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ class Scene {
  public:
   Scene(double ground_z_m, const std::vector<Box>& boxes);
 
-  // Distance along the unit vector `direction` to the nearest surface.
+  // Returns the distance along the unit vector `direction` to the nearest surface.
   std::optional<double> Cast(const Vector3& origin, const Vector3& direction,
                              double max_range_m) const;
 
@@ -34,19 +34,19 @@ class Scene {
     Vector3 half_size;
     double cosine = 1.0;
     double sine = 0.0;
-    double radius_m = 0.0;  // around it, seen from above
+    double radius_m = 0.0;  // around its axis, seen from above
   };
   double ground_z_m_;
   std::vector<TurnedBox> boxes_;
 };
 
-// Houses, parked cars and poles on both sides of the road that WindingDrive() takes, x from -60 to
-// 200 m. The imu drives 1 m above the ground.
+// Makes houses, parked cars and poles on both sides of the road that WindingDrive() takes, x from
+// -60 to 200 m. The imu drives 1 m above the ground.
 Scene Street();
-// Two plain walls along x without an end, 4 m to either side, and the ground.
+// Makes two endless plain walls along x, 4 m to either side, and the ground.
 Scene Corridor();
 
-// Open ground with posts in no order beside the road.
+// Makes open ground with posts in no order beside the road.
 Scene RoadWithPosts();
 
 struct Lidar {
@@ -57,13 +57,13 @@ struct Lidar {
   double range_std_m = 0.01;
   Pose T_imu_lidar;
 };
-// 20 beams from -24 to +8 degrees, mounted turned and off the imu.
+// Has 20 beams from -24 to +8 degrees, and is mounted turned and off the imu.
 Lidar TestLidar();
 
-// What one turn of the lidar returns from `start_s` on, offsets from there.
+// Returns the points of one turn of the lidar from `start_s` on, with offsets from there.
 std::vector<LidarPoint> CastSweep(const Scene& scene, const Lidar& lidar, const Motion& motion,
                                   double start_s, std::mt19937_64& random);
-// The same without moving: points in the imu frame.
+// Returns the points of one turn without motion, in the imu frame.
 std::vector<Eigen::Vector3f> CastStill(const Scene& scene, const Lidar& lidar,
                                        const Pose& T_world_imu, std::mt19937_64& random);
 

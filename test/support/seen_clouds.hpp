@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Clouds of the spinning lidar as the converters hold them, to rebuild point times from.
+// Makes clouds of the spinning lidar as the converters hold them, for tests that rebuild point
+// times.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,7 @@ inline void RingByRing(std::vector<SeenPoint>& seen) {
   std::stable_sort(seen.begin(), seen.end(), [](auto& a, auto& b) { return a.ring < b.ring; });
 }
 
-// Decides on ten clouds and gives the largest error of the rebuilt times of later ones [s].
+// Decides on ten clouds and returns the largest error of the rebuilt times of later ones [s].
 inline double WorstError(const SpinningLidar& lidar, auto&& arrange, bool with_rings = true,
                          bool stamp_is_end = false, double stamp_jitter_s = 0.0) {
   LidarSpinEstimator observer;

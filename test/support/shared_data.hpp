@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The real recordings that tests may use where they are at hand: in the folder that the
-// environment's LIO_DATA names, else in ../shared/data beside the source tree. A test without them
-// is skipped:
+// Finds the real recordings that tests may use: in the folder that the environment's LIO_DATA
+// names, else in ../shared/data beside the source tree. A test without them is skipped:
 //
 //   LIO_REQUIRE_SHARED_DATA(drive, "kitti_raw_0005_first80.tar.xz");  // drive: where it is
 //   unpacked
@@ -22,8 +21,8 @@ inline std::filesystem::path SharedDataFolder() {
   return std::filesystem::path(LIO_SOURCE_DIR).parent_path() / "shared" / "data";
 }
 
-// "x.bag.xz" unpacks to the file x.bag, "x.tar.xz" to a folder with the archive's content, once per
-// build folder. Empty when the archive is not there or cannot be unpacked.
+// Unpacks "x.bag.xz" to the file x.bag, and "x.tar.xz" to a folder with the archive's content, once
+// per build folder. Returns an empty path when the archive is missing or cannot be unpacked.
 inline std::filesystem::path UnpackSharedData(const std::string& archive) {
   namespace fs = std::filesystem;
   const fs::path source = SharedDataFolder() / archive;
@@ -32,7 +31,7 @@ inline std::filesystem::path UnpackSharedData(const std::string& archive) {
   const fs::path target =
       fs::path(LIO_TEST_DATA_DIR) / archive.substr(0, archive.size() - (is_tar ? 7 : 3));
   if (fs::exists(target)) return target;
-  // Tests run side by side: each unpacks for itself, the first to finish names the result.
+  // Tests run in parallel: each unpacks for itself, and the first to finish names the result.
   const fs::path own = target.string() + "." + std::to_string(getpid());
   fs::create_directories(target.parent_path());
   if (is_tar) fs::create_directories(own);

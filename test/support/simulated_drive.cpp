@@ -74,7 +74,7 @@ void Collect(Odometry& odometry, RunResult& result) {
   }
 }
 
-// Plays the matching thread: holds each job's outcome back for `lag` messages.
+// Plays the matching thread: it holds each job's outcome back for `lag` messages.
 class SlowMatching {
  public:
   SlowMatching(const Options& options, int lag) : matching_(options), lag_(lag) {}

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A drive through a scene as the messages that its sensors send, and the estimator run over them.
+// Makes the messages that the sensors send on a drive through a scene, and runs the estimator over
+// them.
 #pragma once
 
 #include <string>
@@ -27,17 +28,17 @@ struct DriveOptions {
   double to_s = 5.0;
   double imu_step_s = 0.01;
   int chunks_per_sweep = 3;
-  // What the IMU gets wrong.
+  // The next values are the errors of the IMU.
   double gyro_density = 2e-4;
   double accel_density = 2e-3;
   Vector3 gyro_bias{0.002, -0.001, 0.0015};
   Vector3 accel_bias{0.02, -0.01, 0.03};
-  Vector3 g_world = kGravity;  // zero: an IMU that takes gravity out
+  Vector3 g_world = kGravity;  // zero for an IMU that removes gravity
 };
 
 Messages SimulateDrive(const Scene& scene, const DriveOptions& options);
 
-// Options for TestLidar() and the IMU of DriveOptions.
+// Returns options for TestLidar() and the IMU of DriveOptions.
 Options DriveRig();
 
 struct RunResult {
@@ -48,20 +49,21 @@ struct RunResult {
   TrackingStatus status = TrackingStatus::kInit;
 };
 
-// `lag`: messages that are taken between a job's start and its end, as with a slow matching thread.
+// `lag` is the number of messages between a job's start and its end, as with a slow matching
+// thread.
 RunResult RunOdometry(const Messages& messages, const Options& options, int lag = 0);
 
-// Everything that the scans' outputs say but times of computing, bit by bit.
+// Returns everything in the scans' outputs except computing times, bit by bit.
 std::string Bytes(const std::vector<ScanOutput>& scans);
 
 struct TrackError {
-  double max_m = 0.0;  // of the path from the first output's pose on
+  double max_m = 0.0;  // error of the path from the first output's pose on
   double max_rad = 0.0;
-  double max_tilt_rad = 0.0;  // of the output's vertical against the true one, at any time
+  double max_tilt_rad = 0.0;  // largest angle between the output's vertical and the true one
   double end_m = 0.0;
 };
-// How far the path in map is from the motion, for stamps from `from_s` on. Stamps that were shifted
-// are shifted back by `shift_s`.
+// Returns the error of the path in map for stamps from `from_s` on. Stamps that were shifted are
+// shifted back by `shift_s`.
 TrackError ErrorAgainst(const Motion& motion, const std::vector<ScanOutput>& scans,
                         double from_s = -1e9, double shift_s = 0.0);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Runs of the estimator over simulated drives, message by message, and how far off they end.
+// Runs the estimator over simulated drives, message by message, and measures the error at the end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,12 +24,12 @@ struct DriveSpec {
   std::string lidar;
   double duration_s = 10.0;
   std::uint64_t seed = 1;
-  std::vector<sim::Fault> faults = {};  // of the world
+  std::vector<sim::Fault> faults = {};  // faults of the world
   double rotation_hz = 0.0;             // 0: the lidar's own
-  bool starts_moving = false;           // else at rest
+  bool starts_moving = false;           // false: the log begins at rest
 };
 
-// A simulated drive, with what lio-sim's folder holds.
+// Holds a simulated drive with the contents of lio-sim's folder.
 struct SimulatedLog {
   std::vector<sim::Message> messages;
   StampedPoses truth;
@@ -67,8 +67,8 @@ struct RunOutcome {
   Counters counters;
   TrackingStatus status = TrackingStatus::kInit;
   int num_rows = 0;
-  double end_error_m = 0.0;    // of the motion in map from the first row to the last
-  double end_error_deg = 0.0;  // of the same
+  double end_error_m = 0.0;    // error of the motion in map from the first row to the last
+  double end_error_deg = 0.0;  // rotation error of the same motion
   double end_tilt_of_map_deg = 0.0;
   double end_tilt_of_world_deg = 0.0;
 };
@@ -113,7 +113,7 @@ class RunningEstimator {
     return Interpolate(truth[k].pose, truth[k + 1].pose,
                        SecondsBetween(truth[k].stamp, stamp) / span_s);
   }
-  // Between what two poses of a body take for up.
+  // Returns the angle between the verticals that two poses of a body imply.
   static double TiltBetween_deg(const Pose& a, const Pose& b) {
     const Vector3 up_a = a.rotation.conjugate() * Vector3::UnitZ();
     const Vector3 up_b = b.rotation.conjugate() * Vector3::UnitZ();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Analytic motion for tests: each of x y z roll pitch yaw is a parabola plus sines of time, with
-// exact derivatives, and what an inertial unit on it reads.
+// Gives analytic motions for tests: each of x y z roll pitch yaw is a parabola plus sines of time,
+// with exact derivatives, and the samples of an IMU on it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Coordinate {
   double accel = 0.0;
   std::vector<Wave> waves;
 
-  // Value, first and second derivative.
+  // Returns the value with its first and second derivative.
   std::array<double, 3> At(double t) const {
     std::array<double, 3> x{start + speed * t + 0.5 * accel * t * t, speed + accel * t, accel};
     for (const Wave& wave : waves) {
@@ -66,7 +66,7 @@ struct SmoothMotion {
   }
 };
 
-// What is wrong with an inertial unit; densities per axis.
+// Holds the errors of an IMU; densities are per axis.
 struct ImuErrors {
   Vector3 gyro_bias = Vector3::Zero();
   Vector3 accel_bias = Vector3::Zero();
@@ -83,7 +83,7 @@ inline Vector3 NormalVector(std::mt19937_64& random, double std) {
   return {a, b, normal(random)};
 }
 
-// Samples at rate_hz from `from_s` to `to_s`; time 0 is stamp 0.
+// Returns samples at rate_hz from `from_s` to `to_s`; time 0 is stamp 0.
 inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s, double to_s,
                                       double rate_hz, const ImuErrors& errors,
                                       std::mt19937_64& random) {
@@ -105,7 +105,7 @@ inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s,
   return samples;
 }
 
-// A car that turns while it speeds up, on springs.
+// Returns the motion of a car that turns while it accelerates, on springs.
 inline SmoothMotion CarMotion() {
   SmoothMotion motion;
   motion.x = {1.0, 8.0, 0.5, {{0.02, 9.0, 0.3}}};
@@ -117,7 +117,7 @@ inline SmoothMotion CarMotion() {
   return motion;
 }
 
-// A sensor in a walker's hands.
+// Returns the motion of a hand-held sensor.
 inline SmoothMotion WalkMotion() {
   SmoothMotion motion;
   motion.x = {0.0, 1.3, 0.0, {{0.03, 11.3, 0.3}}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a spinning lidar at rest in a round room sees, point by point with exact times, and the
+// Simulates a spinning lidar at rest in a round room, point by point with exact times, and the
 // clouds that drivers would make of it.
 #pragma once
 
@@ -15,13 +15,13 @@ namespace lio::test {
 
 struct SpinningLidar {
   int num_rings = 16;
-  int num_columns = 360;          // of one cloud
-  double columns_per_turn = 356;  // fewer than num_columns: a cloud overlaps itself
+  int num_columns = 360;          // columns of one cloud
+  double columns_per_turn = 356;  // if less than num_columns, a cloud overlaps itself
   double turn_s = 0.1;
-  double first_azimuth_deg = -37.0;     // of the first cloud
+  double first_azimuth_deg = -37.0;     // azimuth of the first cloud
   double direction = -1.0;              // clockwise
   double firing_s = 2e-6;               // from one beam to the next
-  std::vector<double> offset_deg = {};  // of each ring's azimuth; empty: none
+  std::vector<double> offset_deg = {};  // azimuth offset of each ring; empty: none
 
   double lowest_deg = -15.0;
   double spacing_deg = 2.0;
@@ -38,7 +38,7 @@ inline double CloudSeconds(const SpinningLidar& lidar) {
   return lidar.num_columns * lidar.turn_s / lidar.columns_per_turn;
 }
 
-// Points of cloud `k` in the order of firing.
+// Returns the points of cloud `k` in the order of firing.
 inline std::vector<SeenPoint> SeePoints(const SpinningLidar& lidar, int k) {
   std::vector<SeenPoint> points;
   const double begin_s = k * CloudSeconds(lidar);
@@ -69,7 +69,7 @@ inline CloudField Field(std::string name, std::uint32_t offset, FieldType type) 
   return {std::move(name), offset, type};
 }
 
-// Stores x, y, z, and where the cloud has such fields "intensity" (the ring) and "ring".
+// Stores x, y, z and, if the cloud has such fields, "intensity" (the ring) and "ring".
 inline void StorePoint(TestCloud& cloud, std::size_t i, const SeenPoint& point) {
   cloud.Set(i, "x", point.x);
   cloud.Set(i, "y", point.y);
@@ -78,7 +78,7 @@ inline void StorePoint(TestCloud& cloud, std::size_t i, const SeenPoint& point) 
   cloud.Set(i, "ring", point.ring);
 }
 
-// The layout of Velodyne's driver: 22 bytes, time in float seconds.
+// Makes a cloud in the layout of Velodyne's driver: 22 bytes, time in float seconds.
 inline TestCloud VelodyneCloud(Timestamp stamp, const std::vector<SeenPoint>& points) {
   TestCloud cloud;
   cloud.stamp = stamp;

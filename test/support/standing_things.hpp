@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Scans of bare ground and of things that stand on it, for tests of what is seen from above.
+// Makes scans of bare ground and of things that stand on it, for tests of bird's-eye views.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace lio::test {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-// Rings on the ground, the same wherever the sensor is.
+// Adds rings on the ground, which are the same wherever the sensor is.
 inline void AddRings(Points& points) {
   for (const float radius : {4.f, 5.f, 6.5f, 9.f, 14.f, 25.f}) {
     for (int i = 0; i < 360; ++i) {
@@ -21,7 +21,7 @@ inline void AddRings(Points& points) {
   }
 }
 
-// A post, as the beams of a sensor at `sensor` see it.
+// Adds a post as the beams of a sensor at `sensor` see it.
 inline void AddPost(const Eigen::Vector2f& place, const Eigen::Vector2f& sensor, Points& points) {
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector2f seen = place - sensor;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Places to match scans in, made of test/support/ray_scene.hpp. The ground is at z = 0; a sensor
-// stands at z = 1.8.
+// Makes places to match scans in, from the parts in test/support/ray_scene.hpp. The ground is at z
+// = 0; the sensor is at z = 1.8 m.
 #pragma once
 
 #include <random>
@@ -10,7 +10,8 @@
 
 namespace lio::test {
 
-// A street along x: houses with gaps on both sides, parked cars, poles, the end of a side street.
+// Makes a street along x: houses with gaps on both sides, parked cars, poles, and the end of a side
+// street.
 inline RayScene StreetScene(unsigned seed = 1) {
   RayScene scene;
   std::mt19937 random(seed);
@@ -38,7 +39,8 @@ inline RayScene StreetScene(unsigned seed = 1) {
   return scene;
 }
 
-// A straight corridor along x, longer than the sensor sees: nothing holds the x direction.
+// Makes a straight corridor along x, longer than the sensor's range: the x direction is not
+// observable.
 inline RayScene CorridorScene() {
   RayScene scene;
   scene.AddGround(0.0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A folder of a test's own, removed with everything in it when the test ends.
+// Makes a folder for one test, which is removed with everything in it when the test ends.
 #pragma once
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ class TempDir {
 
   const std::filesystem::path& path() const { return path_; }
 
-  // Writes a file of the folder; gives its path.
+  // Writes a file of the folder and returns its path.
   std::filesystem::path Write(const std::string& name, const std::string& text) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Table and picture of the runs that tools/bench/compare.sh has made: compare_runs.py TRUTH DIR RUN..."""
+"""Makes the table and the picture of the runs of tools/bench/compare.sh.
+
+    compare_runs.py TRUTH DIR RUN...
+"""
 import json
 import os
 import pathlib
@@ -40,7 +43,7 @@ def rotation(wxyz):
 
 
 def aligned_path(folder, score):
-    """Positions in the truth's frame, by the alignment that lio-eval found."""
+    """Returns the positions in the truth's frame, using the alignment that lio-eval found."""
     poses = np.loadtxt(folder / "trajectory.tum", ndmin=2)
     alignment = score["alignment"]
     return poses[:, 0], (poses[:, 1:4] @ rotation(alignment["rotation_wxyz"]).T +
@@ -48,7 +51,7 @@ def aligned_path(folder, score):
 
 
 def draw(truth, root, scores, picture):
-    """Paths from above; below, how far each is off over time."""
+    """Draws the paths from above, and below them each path's error over time."""
     figure, (plan, error) = plt.subplots(2, 1, figsize=(9, 10), height_ratios=(3, 2))
     plan.plot(truth[:, 1], truth[:, 2], color="black", linewidth=2.5, label="truth")
     for name, score in scores.items():

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the filter costs: one inertial step with its covariance, one pose update, a replay of
-// 100 ms at 400 Hz after a late pose, and a start in motion. Quote medians:
+// Measures the time of the filter's parts: one inertial step with its covariance, one pose update,
+// a replay of 100 ms at 400 Hz after a late pose, and a start in motion. Quote medians:
 //   lio-bench-filter --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
@@ -77,9 +77,9 @@ void OnePoseUpdate(benchmark::State& state) {
 }
 BENCHMARK(OnePoseUpdate);
 
-// A pose that is 100 ms late at 400 Hz: insert, update, replay 40 steps. In a history that lives
-// on, as in the daemon: a fresh copy for every pose would count page faults and cold caches, four
-// times as much as the work.
+// A pose that is 100 ms late at 400 Hz takes an insertion, an update and a replay of 40 steps. One
+// history is used throughout, as in the daemon: a fresh copy for every pose would add page faults
+// and cold caches, four times as much as the work itself.
 void ReplayOf100Ms(benchmark::State& state) {
   using Clock = std::chrono::steady_clock;
   FilterHistory history({Noise(), kG}, Start(), SampleAt(0));
@@ -90,7 +90,7 @@ void ReplayOf100Ms(benchmark::State& state) {
   drive_on(800);
   for (auto _ : state) {
     drive_on(40);
-    // Between two samples, 40 before the newest.
+    // The pose is between two samples, 40 before the newest.
     const Timestamp at = At(0.0025 * (num_samples - 40)) + Duration{1000};
     const PoseEvent event = EventFor(history.At(at));
     const Clock::time_point begin = Clock::now();

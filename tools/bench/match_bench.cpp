@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Time of each method's parts on one HDL-32E sweep of about 60 000 returns: reduce, match from a
-// guess such as an IMU gives, insert.
+// Measures each method's parts on one HDL-32E sweep of about 60 000 returns: reduction, match from
+// a guess such as an IMU gives, insertion. Run
 //   build/bin/lio-bench-match --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
 // and read the medians.
 #include <benchmark/benchmark.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kNumMapScans = 25;
 
-// One street, mapped along 10 m of a drive, and the sweep to match.
+// Holds one street, mapped along 10 m of a drive, and the sweep to match.
 struct Street {
   std::vector<Sweep> drive;
   std::vector<Pose> poses;
@@ -51,7 +51,7 @@ test::MethodBench MakeBench(MatchMethod method) {
 void BM_Reduce(benchmark::State& state) {
   Options options = test::MethodOptions(static_cast<MatchMethod>(state.range(0)));
   const auto reducer = MakeReducer(options, {});
-  for (int i = 0; i < 10; ++i) reducer->Reduce(TheStreet().sweep);  // lets the thinning settle
+  for (int i = 0; i < 10; ++i) reducer->Reduce(TheStreet().sweep);  // the thinning settles
   for (auto _ : state) benchmark::DoNotOptimize(reducer->Reduce(TheStreet().sweep));
   state.counters["returns"] = static_cast<double>(TheStreet().sweep.points.size());
 }
@@ -74,7 +74,7 @@ void BM_Match(benchmark::State& state) {
 void BM_Insert(benchmark::State& state) {
   test::MethodBench bench = MakeBench(static_cast<MatchMethod>(state.range(0)));
   const test::MethodScan scan = bench.Reduce(TheStreet().sweep);
-  double x = 5.0;  // each insertion elsewhere, so that it is a keyframe
+  double x = 5.0;  // each insertion has another place, so that it is a keyframe
   for (auto _ : state) bench.Insert(scan, test::SensorAt(x += 1.5, 0));
   state.counters["cells"] = static_cast<double>(bench.matcher().map_size().num_cells);
 }

@@ -1,23 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Is the covariance true? See usage.
+# Tests whether the covariance agrees with the errors, over many seeds: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
-Runs seeds of a scenario (20, of 40 s) through the whole pipeline, one a core at a time, and judges
-the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves in
-out/monte_carlo/SCENARIO/: a folder a seed with what lio-replay writes and truth.tum, and
-consistency.txt, .json and .png of the steady path, consistency_world.* of the level world.
-Seeds that the same programs and settings have done already are not done again, so an interrupted
-run goes on where it was.
-  --set KEY=VALUE    override one key of the estimator; may be given again
+Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline, one per core at a
+time, and judges all runs by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Writes
+into out/monte_carlo/SCENARIO/: one folder per seed with the files of lio-replay and truth.tum, and
+consistency.txt, .json and .png of the steady path, consistency_world.* of the level world. Seeds
+that the same programs and settings have finished are kept, so an interrupted run continues.
+  --set KEY=VALUE    override one key of the estimator; can be given several times
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
-  --first N          the first seed (1)
-  --jobs N           runs at a time (all cores)
-  --out DIR          another folder
+  --first N          first seed (1)
+  --jobs N           number of runs at a time (all cores)
+  --out DIR          write into this folder
 Examples:
   tools/bench/monte_carlo.sh street 50 60
   tools/bench/monte_carlo.sh --set filter.map_walk_scale=0.5 --out out/walk_half loop 20 60
@@ -66,7 +65,7 @@ one_run() { # SEED SETTINGS...
     --out "$dir" >"$dir/sim.log"
   build/bin/lio-replay --config "$dir/config.yaml" "${@:2}" "$dir/log.lcm" --out "$dir" \
     2>"$dir/replay.log" || code=$?
-  rm "$dir/log.lcm" # up to a gigabyte
+  rm "$dir/log.lcm" # it takes up to a gigabyte
   ((code == 0)) || { cat "$dir/replay.log" >&2 && return "$code"; }
   echo "$id" >"$dir/id"
   echo "seed $1 is done" >&2
@@ -82,5 +81,5 @@ judge() { # NAME TITLE ARGUMENTS...
   build/bin/lio-eval consistency "${@:3}" truth.tum "${dirs[@]}" --json "$root/$1.json" \
     --plot "$root/$1.png" | tee "$root/$1.txt"
 }
-judge consistency "the steady path: trajectory.tum by covariance.csv"
-judge consistency_world "the level world: trajectory_world.tum by covariance_world.csv" --world
+judge consistency "the steady path: trajectory.tum with covariance.csv"
+judge consistency_world "the level world: trajectory_world.tum with covariance_world.csv" --world

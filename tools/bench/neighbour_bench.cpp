@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Nearest neighbours in a submap of keyframes: our voxel index against nanoflann's k-d tree, which
-// has to be built anew whenever the submap changes.
+// Compares two searches for nearest neighbours in a submap of keyframes: liod's voxel index, and
+// nanoflann's k-d tree, which has to be rebuilt whenever the submap changes.
 #include <benchmark/benchmark.h>
 
 #include <nanoflann.hpp>
@@ -103,7 +103,7 @@ void BM_NanoflannSearch(benchmark::State& state) {
   }
 }
 
-// What a new keyframe costs: points into the index; a tree of the whole submap.
+// A new keyframe adds its points to the index, but rebuilds the tree of the whole submap.
 void BM_VoxelIndexAddKeyframe(benchmark::State& state) {
   KeyframeMap map = MakeIndex();
   for (auto _ : state) map.Add(TheSubmap().keyframes[5], TheSubmap().poses[5]);

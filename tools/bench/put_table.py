@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Puts a table where a page has its place for it: put_table.py PAGE.md NAME TABLE.md
+"""Puts a table into its place on a page: put_table.py PAGE.md NAME TABLE.md
 
-The place is what lies between the lines "<!-- NAME -->" and "<!-- end of NAME -->".
+The place is between the lines "<!-- NAME -->" and "<!-- end of NAME -->".
 """
 import pathlib
 import sys

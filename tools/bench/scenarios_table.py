@@ -10,11 +10,11 @@ import sys
 ERRORS = ("| scenario | path m | APE se3 cm | drift % | end cm | gap cm | z drift cm | tilt deg "
           "| step mm |")
 MATCHES = "| scenario | scans | converged | degenerate | no match | not fused | ms a scan | MB |"
-CLOSED_RATIO = 0.01  # a way that ends this near its start, by its length, is closed
+CLOSED_RATIO = 0.01  # a path that ends this near its start, relative to its length, is closed
 
 
 def closing_gap(score):
-    """Between first and last position, where the truth has none; else a dash."""
+    """Returns the distance from first to last position if the true path is closed; else a dash."""
     end = score["end"]
     if end["truth_gap_m"] > CLOSED_RATIO * score["path_length_m"]:
         return "-"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// LOAM's pose problem on Ceres: dense QR against normal equations, analytic against automatic
-// factors, on as many terms as a sweep gives.
+// Compares ways to solve LOAM's pose problem with Ceres: dense QR and normal equations, analytic
+// and automatic derivatives, on as many terms as a sweep gives.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -14,7 +14,7 @@ namespace {
 constexpr int kNumPlanes = 1600;
 constexpr int kNumEdges = 300;
 
-// Points of planes and lines in every direction, seen from a pose near `start`.
+// Adds points of planes and lines in every direction, seen from a pose near `start`.
 void Fill(LoamSolver& solver, double s) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0.0, 1.0);

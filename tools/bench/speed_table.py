@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Medians over the runs whose result folders are given: stage times, real-time factor, memory."""
+"""Prints medians over the runs in the given folders: stage times, real-time factor, memory."""
 import csv
 import json
 import pathlib
@@ -28,7 +28,7 @@ def main():
 
     print(f"{len(runs)} runs, {median('num_scans'):.0f} sweeps of "
           f"{points_per_sweep(folders[0]):.0f} returns")
-    print(f"{'stage':<8} {'median':>8} {'p99':>8}   ms a sweep")
+    print(f"{'stage':<8} {'median':>8} {'p99':>8}   ms per sweep")
     for stage in runs[0]["stage_ms"]:
         print(f"{stage:<8} {median('stage_ms', stage, 'median'):8.2f} "
               f"{median('stage_ms', stage, 'p99'):8.2f}")

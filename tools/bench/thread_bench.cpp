@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How much faster NDT matches a large scan on several threads: one match on one thread and one on
-// so many, in turns, so that what else the machine does meets both alike; `ratio` is of the
-// medians.
+// Measures how much faster NDT matches a large scan on several threads. A match on one thread and
+// one on several alternate, so that other load on the machine affects both alike; `ratio` is that
+// of the medians.
 //   build/bin/lio-bench-match --benchmark_filter=BM_NdtThreads
 #include <benchmark/benchmark.h>
 
@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-// Of 32 000 points that are looked at nearly all are matched.
+// Nearly all of the 32 000 points are matched.
 Options LargeScans(int num_threads) {
   Options options = test::MethodOptions(MatchMethod::kNdt);
   options.reduce.target_points = 40'000;

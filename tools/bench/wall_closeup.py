@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Close-ups of surfaces that a drive sees at its begin and again at its end, where it closes a loop:
-single when the estimate closes it, doubled by the drift when it does not.
+"""Draws close-ups of surfaces that a drive sees at its begin and again at its end, where it closes
+a loop: they are single when the estimate closes it, and doubled by the drift when it does not.
 
     wall_closeup.py FOLDER OUT.png
 
-FOLDER is what lio-sim wrote (log.lcm, truth.tum, config.yaml) with lio-replay's results in FOLDER/run.
-Every point is put where the pose of its own instant has it, by the truth and by the estimate; the
-two worlds meet in the first pose. Of each direction (along the way, across it, up) the flattest
-patch that both passes see is drawn edge-on, with heights of the picture stretched.
+FOLDER holds the files of lio-sim (log.lcm, truth.tum, config.yaml) and lio-replay's results in
+FOLDER/run. Every point is transformed with the pose of its own instant, once the truth's and once
+the estimate's; the two worlds are aligned at the first pose. For each direction (along the path,
+across it, up) the flattest patch that both passes see is drawn edge-on, with stretched heights.
 """
 import argparse
 import pathlib
@@ -23,22 +23,22 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "plot"))
 import plot_style as style  # noqa: E402
 from plot_style import plt  # noqa: E402
 
-NEAR_M = 15.0  # of the start: poses from which points are taken
+NEAR_M = 15.0  # points are taken from poses this near the start
 RANGE_M = 30.0
-STEP_M = 0.3  # between scans that are taken: at rest each sees the same points again
+STEP_M = 0.3  # between scans that are taken: at rest all would show the same points
 CELL_M = 2.5  # size of a patch
-MIN_POINTS = 250  # a pass
-FLAT_M = 0.05  # a patch with more scatter than this is no surface
+MIN_POINTS = 250  # per pass
+FLAT_M = 0.05  # a patch with more scatter than this is not flat
 HALF_VIEW_M = 0.15
 SYNC = 0xEDA1DA01
 POINT = np.dtype([("xyz", "<f4", 3), ("t_ns", "<u4"), ("intensity", "<u2"), ("ring", "<u2")])
-DIRECTIONS = ("along the way", "across the way", "up")
+DIRECTIONS = ("along the path", "across the path", "up")
 
 
 def chunks(path):
-    """(scan's number, stamp in s, points) of each LIO_SCAN event of an LCM log.
+    """Yields (scan number, stamp in s, points) of each LIO_SCAN event of an LCM log.
 
-    LCM's own numbers are big-endian, the packed points little-endian.
+    LCM's own numbers are big-endian; the packed points are little-endian.
     """
     with open(path, "rb") as stream:
         while len(head := stream.read(28)) == 28:
@@ -50,14 +50,15 @@ def chunks(path):
                 stream.seek(size, 1)
                 continue
             data = stream.read(size)
-            utime, _, seq, _, _, _, _, step, num, num_bytes = struct.unpack_from(">qqihhbbhii", data, 8)
+            utime, _, seq, _, _, _, _, step, num, num_bytes = struct.unpack_from(
+                ">qqihhbbhii", data, 8)
             if step != POINT.itemsize:
                 raise ValueError(f"{path}: points of {step} bytes")
             yield seq, 1e-6 * utime, np.frombuffer(data, POINT, num, len(data) - num_bytes)
 
 
 def rotations(q):
-    """Matrices of unit quaternions x y z w."""
+    """Returns the rotation matrices of unit quaternions x y z w."""
     x, y, z, w = q.T
     return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
                      2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
@@ -66,7 +67,7 @@ def rotations(q):
 
 
 class Path:
-    """Poses of imu, linear between rows (rotation: normalised quaternions)."""
+    """Interpolates poses of imu linearly between rows (rotation: normalised quaternions)."""
 
     def __init__(self, path):
         rows = np.loadtxt(path)
@@ -85,7 +86,7 @@ class Path:
 
 
 def numbers_of(config, key):
-    """The list behind a key of lio-sim's config.yaml, None where there is none."""
+    """Returns the list of a key of lio-sim's config.yaml, or None if there is none."""
     found = re.search(rf"^ *{key}: \[(.*)\]", config, re.MULTILINE)
     return np.array([float(word) for word in found[1].split(",")]) if found else None
 
@@ -101,7 +102,7 @@ def meet(estimate, truth):
 
 
 def collect(folder):
-    """Points in imu with their times, and which pass they are of (0 or 1)."""
+    """Returns the points in imu with their times and the pass to which they belong (0 or 1)."""
     truth = Path(folder / "truth.tum")
     config = (folder / "config.yaml").read_text()
     w, x, y, z = numbers_of(config, "rotation_wxyz")
@@ -129,12 +130,12 @@ def collect(folder):
 
 
 def thin(order, limit):
-    """A bounded, evenly spread share of the indices."""
+    """Returns a bounded, evenly spread share of the indices."""
     return order[:: max(1, len(order) // limit)]
 
 
 def patches(points, which, forward):
-    """For each direction the flattest cell seen in both passes: (centre, normal, tangent)."""
+    """Returns per direction the flattest cell seen in both passes: (centre, normal, tangent)."""
     across = np.array([-forward[1], forward[0], 0.0])
     axes = np.array([forward, across, [0.0, 0.0, 1.0]])
     best = {}
@@ -158,7 +159,7 @@ def patches(points, which, forward):
 
 
 def section(points, which, patch):
-    """Along and across the patch, of its points, for each pass."""
+    """Returns the coordinates of a patch's points along and across it, for each pass."""
     _, centre, normal, tangent = patch
     offset = points - centre
     third = np.cross(normal, tangent)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Recorded drives to LCM logs: the command line; the work is done in lio_io.
+// This is the command line of lio-convert, which converts recorded drives to LCM logs; lio_io does
+// the work.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -23,24 +24,25 @@ constexpr const char* kAbout =
     "      --truth drive.tum --rig rig.yaml --imu-rate 100\n"
     "  lio-convert kitti-odometry sequences/05 05.lcm --truth 05.tum \\\n"
     "      --vertical-correction 0.205\n\n"
-    "A summary goes to stdout: what was found, detected and lost. Exit codes: 0 done,\n"
-    "2 usage (an ambiguous topic too), 5 damaged, missing or unusable input; a damaged\n"
-    "recording is converted as far as it goes.";
+    "The summary on stdout says what was found, detected and lost. Exit codes: 0 done,\n"
+    "2 usage (also an ambiguous topic), 5 damaged, missing or unusable input; a damaged\n"
+    "recording is converted as far as it can be read.";
 
 constexpr const char* kAboutRosbag =
-    "A ROS 1 bag (file) or ROS 2 bag (folder with metadata.yaml, or one .db3) with\n"
+    "Convert a ROS 1 bag (file) or ROS 2 bag (folder with metadata.yaml, or one .db3) with\n"
     "sensor_msgs/PointCloud2 and sensor_msgs/Imu. Topics are found by type; unit and\n"
     "meaning of time stamps are detected from the data and printed.";
 
 constexpr const char* kAboutRaw =
-    "A KITTI raw drive, synchronised or extract release. Point time comes from azimuth,\n"
-    "the truth's position from integrated velocity, the rig from the day's calibration.";
+    "Convert a KITTI raw drive, synchronised or extract release. Point times are computed\n"
+    "from azimuth, the truth's positions from integrated velocity, and the rig from the\n"
+    "day's calibration.";
 
 constexpr const char* kAboutOdometry =
-    "A KITTI odometry sequence: velodyne/, times.txt, calib.txt. Poses (default\n"
-    "../../poses/NN.txt) are turned from the camera's frame into the lidar's.";
+    "Convert a KITTI odometry sequence: velodyne/, times.txt, calib.txt. The poses (default\n"
+    "../../poses/NN.txt) are converted from the camera's frame to the lidar's.";
 
-// No output may take the place of the recording.
+// No output may replace the recording.
 void Guard(const std::filesystem::path& input,
            const std::vector<std::optional<std::filesystem::path>>& outputs) {
   for (const auto& output : outputs) {
@@ -48,7 +50,8 @@ void Guard(const std::filesystem::path& input,
   }
 }
 
-// A bar while `convert` runs, then its summary; the exit code tells whether something was lost.
+// Shows a progress bar while `convert` runs, then its summary; the exit code says whether something
+// was lost.
 template <typename Options, typename Convert>
 int Run(Options& options, Convert&& convert) {
   const auto report = [&] {
@@ -61,7 +64,8 @@ int Run(Options& options, Convert&& convert) {
   }();
   std::cout << FormatReport(report, options);
   if (!report.IsDamaged()) return lio::kExitDone;
-  std::cerr << "lio-convert: the input is damaged: what is sound was converted, see the summary\n";
+  std::cerr
+      << "lio-convert: the input is damaged: its sound parts were converted, see the summary\n";
   return lio::kExitUnusableInput;
 }
 
@@ -69,17 +73,19 @@ CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
   using lio::StampMeaning;
   using lio::TimeUnit;
   CLI::App* command = app.add_subcommand("rosbag", kAboutRosbag);
-  command->add_option("IN", options.input, "The bag")->required();
+  command->add_option("IN", options.input, "Bag to convert")->required();
   command->add_option("OUT.lcm", options.output, "The log to write")->required();
-  command->add_option("--lidar-topic", options.lidar_topic, "PointCloud2 topic");
-  command->add_option("--imu-topic", options.imu_topic, "Imu topic");
+  command->add_option("--lidar-topic", options.lidar_topic, "Topic of the PointCloud2 messages");
+  command->add_option("--imu-topic", options.imu_topic, "Topic of the Imu messages");
   auto* truth = command->add_option("--truth", options.truth_file, "Write the truth, as TUM file");
   command
-      ->add_option("--truth-topic", options.truth_topic, "Odometry, PoseStamped or INSPVAX topic")
+      ->add_option("--truth-topic", options.truth_topic,
+                   "Topic of the truth: Odometry, PoseStamped or INSPVAX")
       ->needs(truth);
-  command->add_option("--lidar", options.lidar_model,
-                      "Model (hdl32e, vlp16, hdl64e, os1_64): gives rings and direction where the "
-                      "clouds do not");
+  command->add_option(
+      "--lidar", options.lidar_model,
+      "Lidar model (hdl32e, vlp16, hdl64e, os1_64), which gives rings and direction "
+      "if the clouds do not");
   const std::map<std::string, std::optional<TimeUnit>> units = {{"auto", std::nullopt},
                                                                 {"s", TimeUnit::kSeconds},
                                                                 {"ms", TimeUnit::kMilliseconds},
@@ -101,13 +107,16 @@ CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
           [stamps, &options](const std::string& name) {
             options.point_time.stamp = stamps.at(name);
           },
-          "What a cloud's stamp is of its sweep: auto, start, end")
+          "Instant of the sweep that a cloud's stamp gives: auto, start, end")
       ->check(CLI::IsMember(stamps));
-  command->add_option("--start", options.start_s, "Seconds after the bag's first message")
+  command
+      ->add_option("--start", options.start_s,
+                   "Begin this many seconds after the bag's first message")
       ->check(lio::NumberFromZero());
-  command->add_option("--duration", options.duration_s, "Seconds to convert")
+  command->add_option("--duration", options.duration_s, "Convert only this many seconds")
       ->check(lio::NumberAboveZero());
-  command->add_flag("--whole-scans", options.whole_scans, "One message a sweep, not chunks");
+  command->add_flag("--whole-scans", options.whole_scans,
+                    "Write one message per sweep instead of chunks");
   return command;
 }
 
@@ -128,7 +137,7 @@ CLI::App* AddKittiOdometry(CLI::App& app, lio::KittiOdometryOptions& options) {
   command->add_option("OUT.lcm", options.output, "The log to write")->required();
   auto* truth =
       command->add_option("--truth", options.truth_file, "Write the lidar's poses, as TUM file");
-  command->add_option("--poses", options.poses_file, "Camera poses, a KITTI pose file")
+  command->add_option("--poses", options.poses_file, "KITTI pose file with the camera's poses")
       ->needs(truth);
   command
       ->add_option("--vertical-correction", options.vertical_correction_deg,

@@ -4,7 +4,7 @@
 #   log      the LCM log
 #   truth    its true trajectory; empty when there is none
 #   configs  the configurations to run it with, unless the user named some
-# What was made or converted is kept under out/inputs/ and used again while the source is the same.
+# The inputs are kept under out/inputs/ and used again while their source is the same.
 
 # kept FOLDER SOURCE_ID: true when FOLDER was completed from the same source; else empties it.
 kept() {
@@ -16,7 +16,7 @@ kept() {
 # source_id PATH: changes when the file, or the folder's own list, does.
 source_id() { stat -c '%n %s %Y' "$(realpath "$1")"; }
 
-# What the simulated drive is made by: the program and its sensors' files.
+# The simulated drive depends on these: the program and its sensors' files.
 maker_id() { cat build/bin/lio-sim config/lidars/*.yaml config/imus/*.yaml | cksum; }
 
 make_input() {

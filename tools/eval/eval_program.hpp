@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the commands of lio-eval share.
+// Declares the parts that the commands of lio-eval share.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""NEES and NIS of many runs against their chi-square bands, from what lio-eval hands over."""
+"""Draws NEES and NIS of many runs with their chi-square bands, from the data of lio-eval."""
 import argparse
 
 import plot_style as style

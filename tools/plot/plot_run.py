@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Pictures of a run without truth: path.png and, with a map.pcd, map.png beside its files."""
+"""Draws a run without truth: path.png and, if there is a map.pcd, map.png beside its files."""
 import argparse
 import pathlib
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""What all pictures share: looks, loading, and how a script ends when it cannot draw."""
+"""Holds what all pictures share: style, loading, and the end of a script that cannot draw."""
 import json
 import sys
 
@@ -56,7 +56,7 @@ def load(path):
 
 
 def column(data, name):
-    """A list with nulls as an array with NaN, which breaks lines."""
+    """Returns a list with nulls as an array with NaN, which breaks lines."""
     return np.array([np.nan if v is None else v for v in data.get(name, [])], dtype=float)
 
 

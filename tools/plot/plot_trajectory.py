@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Pictures of one trajectory against the truth, from the data that lio-eval hands over."""
+"""Draws one trajectory against the truth, from the data of lio-eval."""
 import argparse
 import os
 
@@ -9,13 +9,13 @@ import plot_style as style
 import point_cloud
 from plot_style import ListedColormap, np, plt
 
-# Without the darkest third, which would vanish on the dark ground of the map picture.
+# The darkest third is left out, because it would vanish on the dark ground of the map picture.
 HEIGHTS = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.3, 1, 256)))
 CELLS = 1000
 
 
 def bounds(paths, margin):
-    """x and y limits around the paths, not narrower than a third of their longer side."""
+    """Returns x and y limits around the paths; no side is less than a third of the longer one."""
     xy = np.vstack(paths)
     low, high = np.nanmin(xy, axis=0), np.nanmax(xy, axis=0)
     centre, half = (low + high) / 2, (high - low) / 2
@@ -24,14 +24,14 @@ def bounds(paths, margin):
 
 
 def draw_cloud(axes, points, low, high, colour_by_height):
-    """The points as a picture of CELLS cells along its longer side, in each the highest point.
+    """Draws the points as a picture of CELLS cells along its longer side, each its highest point.
 
-    A scatter of a million points takes ten seconds, this takes a tenth of one.
+    A scatter plot of a million points takes ten seconds; this takes a tenth of one.
     """
     points = points[((points[:, :2] > low) & (points[:, :2] < high)).all(axis=1)]
     if not len(points):
         return None
-    points = points[np.argsort(points[:, 2], kind="stable")]  # the last to fill a cell stays
+    points = points[np.argsort(points[:, 2], kind="stable")]  # the last point to fill a cell stays
     cell = max(high - low) / CELLS
     column, row = ((points[:, :2] - low) / cell).astype(int).T
     heights = np.full((int(row.max()) + 1, int(column.max()) + 1), np.nan)
@@ -46,7 +46,7 @@ def draw_cloud(axes, points, low, high, colour_by_height):
 
 
 def plan_axes(data):
-    """The axes seen from above: x and y, but KITTI's camera has y down."""
+    """Returns the axes seen from above: x and y; for KITTI's camera, which has y down, x and z."""
     return "xy" if data["has_time"] else "xz"
 
 
@@ -78,7 +78,8 @@ def summary_line(summary):
     ape = summary["ape"]["position_m"]
     drift = summary["drift"]["translation_percent"]
     words = [f"path {summary['path_length_m']:.0f} m",
-             f"APE {ape['rmse']:.3f} m rmse, {ape['max']:.3f} m max ({summary['alignment']['mode']})"]
+             f"APE {ape['rmse']:.3f} m rmse, {ape['max']:.3f} m max "
+             f"({summary['alignment']['mode']})"]
     if drift is not None:
         words.append(f"drift {drift:.2f} %")
     words.append(f"end error {summary['end']['error_m']:.2f} m")
@@ -142,7 +143,7 @@ def overview(data, points, path):
 
 
 def fitted_figure(data, margin, extra_width):
-    """A figure as high as its path asks for."""
+    """Makes a figure whose height fits the path's shape."""
     low, high = bounds([plan(data, "truth"), plan(data, "estimate")], margin)
     width, height = high - low
     size = 9 * width / max(width, height), 9 * height / max(width, height)

@@ -5,11 +5,11 @@ import numpy as np
 
 TYPES = {("F", 4): "<f4", ("F", 8): "<f8", ("U", 1): "<u1", ("U", 2): "<u2", ("U", 4): "<u4",
          ("U", 8): "<u8", ("I", 1): "<i1", ("I", 2): "<i2", ("I", 4): "<i4", ("I", 8): "<i8"}
-MAX_POINTS = 4_000_000  # a picture shows no more
+MAX_POINTS = 4_000_000  # a picture cannot show more
 
 
 class BadCloud(Exception):
-    """The file is no PCD that can be read; the text says why."""
+    """Says that the file is no readable PCD; the text gives the reason."""
 
 
 def _header(stream):
@@ -77,7 +77,7 @@ def _compressed(stream, names, types, counts, num_points):
 
 
 def read_xyz(path):
-    """The finite points, N x 3; raises BadCloud or OSError."""
+    """Returns the finite points, N x 3; raises BadCloud or OSError."""
     with open(path, "rb") as stream:
         header = _header(stream)
         names, types, counts, num_points = _layout(header)

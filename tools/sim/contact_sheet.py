@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Lays pictures out on one sheet: contact_sheet.py FOLDER OUT.png
+"""Arranges pictures on one sheet: contact_sheet.py FOLDER OUT.png
 
-FOLDER holds `names`, one a line, and NAME.ppm for each. Called by contact_sheet.sh.
+FOLDER holds `names`, one per line, and NAME.ppm for each. contact_sheet.sh calls this script.
 """
 
 import math
@@ -23,7 +23,7 @@ COLOURS = 256  # a palette makes the file three times smaller and looks the same
 
 
 def read_ppm(path):
-    """Pixels of a binary PPM as lio-sim writes them."""
+    """Returns the pixels of a binary PPM as lio-sim writes it."""
     magic, size, depth, pixels = path.read_bytes().split(b"\n", 3)
     if magic != b"P6" or depth != b"255":
         raise ValueError(f"{path}: not a binary PPM of 8 bits")
@@ -43,7 +43,8 @@ def main():
     for axis, name in zip(axes.flat, names):
         axis.imshow(read_ppm(folder / f"{name}.ppm"), interpolation="antialiased")
         axis.set_title(name, fontsize=13, pad=4)
-    figure.subplots_adjust(left=0.004, right=0.996, top=0.975, bottom=0.004, wspace=0.012, hspace=0.09)
+    figure.subplots_adjust(left=0.004, right=0.996, top=0.975, bottom=0.004, wspace=0.012,
+                           hspace=0.09)
     figure.savefig(out, dpi=DPI)
     with Image.open(out) as sheet:
         small = sheet.convert("RGB").quantize(COLOURS, dither=Image.Dither.FLOYDSTEINBERG)

@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# A contact sheet of every scenario: one bird's-eye picture each, with the way.
+# Makes a contact sheet of every scenario: one picture from above each, with the sensor's path.
 #   tools/sim/contact_sheet.sh [OUT.png] [SEED]     (docs/images/contact_sheet.png, seed 1)
-# Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD names another build folder.
+# Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD names another build
+# folder.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${LIO_BUILD:-$here/../../build}

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-sim: a drive through a synthetic world, as the sensors would have logged it, with the truth.
+// lio-sim simulates a drive through a synthetic world and writes the log of its sensors and the
+// truth.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -49,6 +50,21 @@ std::string ScenarioTable() {
   return table;
 }
 
+std::string Footer() {
+  return ScenarioTable() +
+         "\nFaults with their defaults; start and duration are seconds of the log:\n" +
+         sim::DescribeFaults() + R"(
+Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
+(velocity, biases, rates) and config.yaml, which lio-replay and liod read with --config.
+
+Examples:
+  lio-sim --scenario street --out out/street
+  lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
+  lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
+  lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
+)";
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
       {"normal", sim::ImuVariant::kNormal},
@@ -58,52 +74,47 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       {"in-g-and-deg", sim::ImuVariant::kInGAndDeg},
       {"z-down", sim::ImuVariant::kZDown},
       {"turned", sim::ImuVariant::kTurned}};
-  app.add_flag("--list", arguments.lists, "print the scenarios' names, one a line");
-  app.add_option("--scenario", arguments.scenario, "which place and drive");
-  app.add_option("--out", arguments.folder, "folder to write into; made if it is not there");
-  app.add_option("--picture", arguments.picture,
-                 "draw the place from above with the way into this PPM file; alone or with --out");
+  app.add_flag("--list", arguments.lists, "print the scenarios' names, one per line");
+  app.add_option("--scenario", arguments.scenario,
+                 "place and drive to simulate; see the list below");
+  app.add_option("--out", arguments.folder, "folder to write into; it is created if missing");
+  app.add_option(
+      "--picture", arguments.picture,
+      "draw the place from above and the path into this PPM file; works alone or with --out");
   app.add_option("--duration", arguments.duration_s, "length of the log [s]");
-  app.add_option("--seed", arguments.seed, "another seed is another world and other noise")
+  app.add_option("--seed", arguments.seed, "seed of the world and of the noise")
       ->check(WholeNumberFromZero())
       ->capture_default_str();
   app.add_option("--lidar", arguments.lidar,
-                 "hdl32e, vlp16, hdl64e, os1_64 or a file of that form");
+                 "lidar model: hdl32e, vlp16, hdl64e, os1_64 or a data file like theirs");
   app.add_option("--imu", arguments.imu,
-                 "xsens_mti10, consumer_mems, ideal or a file of that form");
-  app.add_option("--imu-rate", arguments.imu_rate_hz, "samples a second [Hz]")
+                 "IMU model: xsens_mti10, consumer_mems, ideal or a data file like theirs");
+  app.add_option("--imu-rate", arguments.imu_rate_hz, "sample rate of the IMU [Hz]")
       ->check(NumberWithin(100.0, 1000.0));
   app.add_option("--imu-variant", arguments.imu_variant,
-                 "how its driver sends the readings: normal, gravity-removed, in-g, in-deg,\n"
+                 "units and axes of the IMU's samples: normal, gravity-removed, in-g, in-deg,\n"
                  "in-g-and-deg, z-down (forward, right, down), turned (right, forward, up)")
       ->transform(CLI::CheckedTransformer(variants).description(""))
       ->type_name("NAME");
-  app.add_option("--latitude", arguments.latitude_deg, "of the place, for its gravity [deg]")
+  app.add_option("--latitude", arguments.latitude_deg,
+                 "latitude of the place, which sets gravity [deg]")
       ->capture_default_str()
       ->check(NumberWithin(-90.0, 90.0));
-  app.add_option("--altitude", arguments.altitude_m, "of the place, for its gravity [m]")
+  app.add_option("--altitude", arguments.altitude_m,
+                 "altitude of the place, which sets gravity [m]")
       ->check(NumberWithin(-1000.0, 20000.0))
       ->capture_default_str();
-  app.add_flag("--moving-start", arguments.starts_moving, "begin the log in motion, without rest");
+  app.add_flag("--moving-start", arguments.starts_moving,
+               "begin the log in motion instead of at rest");
   app.add_option("--fault", arguments.faults,
-                 "something that goes wrong, as KIND:KEY=VALUE,...; may be given again; see below")
+                 "fault to simulate, as KIND:KEY=VALUE,...; can be given several times; see below")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--threads", arguments.num_threads, "changes the speed only, never a byte")
+  app.add_option("--threads", arguments.num_threads,
+                 "number of threads; the files do not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
-  app.footer(ScenarioTable() +
-             "\nFaults with their defaults; start and duration are seconds of the log:\n" +
-             sim::DescribeFaults() + R"(
-Writes log.lcm (LIO_IMU, LIO_SCAN), truth.tum (pose of the IMU, at its rate), truth_states.csv
-(velocity, biases, rates) and config.yaml, which lio-replay and liod take as it is.
-
-Examples:
-  lio-sim --scenario street --out out/street
-  lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
-  lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
-  lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
-)");
+  app.footer(Footer());
 }
 
 sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& scenario) {
@@ -123,7 +134,7 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   return options;
 }
 
-// Seconds that the recording took, by the clock and of all threads' work.
+// Holds the wall-clock time and the CPU time of all threads that the recording took [s].
 struct Spent {
   double wall_s = 0.0;
   double cpu_s = 0.0;
@@ -146,7 +157,7 @@ int Fail(const std::string& message, int code) {
   return code;
 }
 
-// Throws when the files cannot be written.
+// Writes the picture and the log as asked. Throws when a file cannot be written.
 void Write(const Arguments& arguments, const sim::Scenario& scenario,
            const sim::RecordOptions& options) {
   using Clock = std::chrono::steady_clock;
@@ -204,8 +215,8 @@ int main(int argc, char** argv) {
     return kExitDone;
   }
   if (arguments.scenario.empty())
-    return Fail("--scenario is required; --list names them", kExitUsage);
+    return Fail("--scenario is required; --list prints the scenarios", kExitUsage);
   if (arguments.folder.empty() && arguments.picture.empty())
-    return Fail("--out is required: the folder to write into", kExitUsage);
+    return Fail("--out is required; it names the folder to write into", kExitUsage);
   return Run(arguments);
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which pose of the truth belongs to which pose of the estimate. Stamps of two recordings never
-// meet: at the stamps of the sparser trajectory the denser one is interpolated (geodesic rotation,
-// linear translation), but never across a gap wider than `max_gap`. KITTI files have no stamps:
-// row i belongs to row i.
+// Pairs the poses of truth and estimate. The stamps of two recordings never coincide, so the denser
+// trajectory is interpolated at the stamps of the sparser one (geodesic rotation, linear
+// translation), but never across a gap wider than `max_gap`. KITTI files have no stamps: row i is
+// paired with row i.
 #pragma once
 
 #include <optional>
@@ -22,34 +22,36 @@ using PosePairs = std::vector<PosePair>;  // stamps strictly increasing
 
 enum class AssociationMethod { kTruthInterpolated, kEstimateInterpolated, kByIndex };
 
-// Times are zero when associated by index.
+// All times are zero when paired by index.
 struct Association {
   PosePairs pairs;
   AssociationMethod method = AssociationMethod::kTruthInterpolated;
   double max_gap_s = 0;
-  bool is_max_gap_automatic = true;  // from the interpolated trajectory's median period
+  bool is_max_gap_automatic = true;  // chosen from the interpolated trajectory's median period
   double truth_period_s = 0;         // median
   double estimate_period_s = 0;      // median
   int num_truth = 0;
   int num_estimate = 0;
-  int num_outside = 0;         // stamps before the first or after the last pose of the other
-  int num_in_gap = 0;          // stamps inside a gap wider than max_gap
-  int num_missing_frames = 0;  // estimates that its own rhythm (by index: the truth) would have
-  double coverage_ratio = 0;   // share of the truth's time (rows) that the estimate covers, 0..1
+  int num_outside = 0;  // stamps before the first or after the last pose of the other trajectory
+  int num_in_gap = 0;   // stamps inside a gap wider than max_gap
+  int num_missing_frames =
+      0;  // estimates missing from its own rhythm (by index: from the truth's rows)
+  double coverage_ratio =
+      0;  // share of the truth's time (by index: rows) that the estimate covers, 0..1
 };
 
-// Throws std::runtime_error saying what to do when fewer than three pairs come out, when a stamped
-// and an unstamped file differ in rows, or when a stamped file has a single pose.
+// Throws std::runtime_error that says what to do when there are fewer than three pairs, when a
+// stamped and an unstamped file differ in rows, or when a stamped file has a single pose.
 Association Associate(const Trajectory& truth, const Trajectory& estimate,
                       std::optional<double> max_gap_s = std::nullopt);
 
-// The pose of `poses` at `stamp`, interpolated across gaps of at most `max_gap_s`.
+// Interpolates `poses` at `stamp`, across gaps of at most `max_gap_s`.
 enum class LookUp { kFound, kOutside, kInGap };
 LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s, Pose& pose);
 
-// Median time between neighbours, s; 0 for fewer than two.
+// Returns the median time between neighbours [s]; 0 for fewer than two poses.
 double MedianPeriod(const StampedPoses& poses);
-// The widest gap that is interpolated across when nobody says otherwise, s.
+// Returns the widest gap [s] that is interpolated across when the user gives none.
 double AutomaticMaxGap(double period_s);
 
 }  // namespace lio

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Consistency as text and as JSON; the JSON's keys are a contract: docs/evaluation.md.
+// Writes the consistency as text and as JSON. The JSON's keys are a contract: docs/evaluation.md
+// lists them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,7 +14,8 @@ namespace lio {
 std::string ConsistencyText(const Consistency& consistency);
 nlohmann::ordered_json ConsistencyJson(const Consistency& consistency);
 
-// What tools/plot/plot_consistency.py draws: the JSON above with the series over time.
+// Returns the data that tools/plot/plot_consistency.py draws: the JSON above with the series over
+// time.
 nlohmann::ordered_json ConsistencyPictureData(const Consistency& consistency);
 
 }  // namespace lio

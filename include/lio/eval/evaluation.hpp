@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How far an estimated trajectory is from the truth: every figure of lio-eval. What each of them
-// means exactly: docs/evaluation.md.
+// Compares an estimated trajectory with the truth and computes every figure of lio-eval.
+// docs/evaluation.md defines each figure exactly.
 #pragma once
 
 #include <optional>
@@ -17,20 +17,21 @@ namespace lio {
 
 struct EvaluationOptions {
   AlignMode align = AlignMode::kSe3;
-  std::optional<double> max_gap_s;  // empty: from the data
+  std::optional<double> max_gap_s;  // empty: chosen from the data
 };
 
-// Absolute pose error after alignment. `vertical` and `horizontal` split `position` along the
-// truth's z.
+// Holds the absolute pose errors after alignment. `vertical` and `horizontal` split `position`
+// along the truth's z.
 struct AbsoluteErrors {
   ErrorStats position_m;
   ErrorStats horizontal_m;
   ErrorStats vertical_m;
   ErrorStats rotation_deg;
-  ErrorStats rotation_without_offset_deg;  // with the mean rotation between the bodies taken out
+  ErrorStats rotation_without_offset_deg;  // after removing the mean rotation between the bodies
 };
 
-// Height against the height at the first pair, in both worlds' own z: no alignment.
+// Holds the errors of the height above the first pair, along the z of each world: no alignment is
+// used.
 struct HeightDrift {
   double end_m = 0;  // estimate minus truth
   double end_percent = 0;
@@ -38,12 +39,13 @@ struct HeightDrift {
   double max_m = 0;
 };
 
-// From the first pair to the last.
+// Holds the error of the motion from the first pair to the last.
 struct EndErrors {
-  double truth_gap_m = 0;     // distance between first and last position
-  double estimate_gap_m = 0;  // of a drive that returns to its start: what a loop fails to close by
-  double error_m = 0;         // of the motion from first to last pose
-  double error_percent = 0;   // of the path
+  double truth_gap_m = 0;  // distance between first and last position
+  double estimate_gap_m =
+      0;                     // for a drive that returns to its start: the failure to close the loop
+  double error_m = 0;        // error of the motion from first to last pose
+  double error_percent = 0;  // relative to the path's length
   double rotation_error_deg = 0;
 };
 
@@ -57,25 +59,25 @@ struct Evaluation {
   Alignment alignment;
   RotationOffset rotation_offset;
   double path_length_m = 0;
-  double duration_s = 0;  // 0 by index
+  double duration_s = 0;  // 0 when paired by index
   AbsoluteErrors ape;
-  // Angle between the vertical as truth and estimate have it, in the body; no alignment. Like
-  // height, only with stamped files: those of KITTI are in camera axes.
+  // Angle between the verticals of truth and estimate, both in body axes; no alignment is used.
+  // Like the height, it needs stamped files: poses of KITTI files are in camera axes.
   std::optional<ErrorStats> tilt_deg;
   std::vector<RpeRow> rpe;
   StepErrors step;
   Drift drift;
   EndErrors end;
   std::optional<HeightDrift> height;
-  std::vector<std::string> notes;  // what a reader of the figures must know, one line each
+  std::vector<std::string> notes;  // caveats about the figures, one line each
 };
 
 // Throws std::runtime_error as Associate does.
 Evaluation Evaluate(const Trajectory& truth, const Trajectory& estimate,
                     const EvaluationOptions& options);
 
-// Per pair of `evaluation.association.pairs`, for pictures: the estimate's pose moved by the
-// alignment against the truth.
+// Holds one row per pair of `evaluation.association.pairs`, for pictures: the estimate's pose,
+// moved by the alignment, against the truth.
 struct ErrorSeries {
   std::vector<double> position_m;
   std::vector<double> rotation_deg;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An evaluation as text for people and as JSON for programs. The JSON's keys are a contract:
+// Writes an evaluation as text for people and as JSON for programs. The JSON's keys are a contract:
 // docs/evaluation.md lists them.
 #pragma once
 
@@ -19,7 +19,8 @@ struct ReportedFiles {
 std::string EvaluationText(const Evaluation& evaluation, const ReportedFiles& files);
 nlohmann::ordered_json EvaluationJson(const Evaluation& evaluation, const ReportedFiles& files);
 
-// What tools/plot/lio_plot.py draws: paths in the estimate's world, errors and heights over time.
+// Returns the data that tools/plot/plot_trajectory.py draws: paths in the estimate's world, errors
+// and heights over time.
 nlohmann::ordered_json PictureData(const Evaluation& evaluation, const ReportedFiles& files);
 
 }  // namespace lio

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One run of the estimator against the truth: its errors in the chart of its own covariance.
+// Compares one run of the estimator with the truth: its errors have the same parametrization as its
+// covariance.
 //
-// The estimate's world is level, but where it starts and how it is turned about the vertical is its
-// own choice. So the truth is moved, by a turn about z and a shift only, until it meets the
-// estimate at the first row; a tilt of the estimate stays an error, as it must.
+// The estimate's world is level, but its origin and its heading are arbitrary. The truth is
+// therefore moved, by a turn about z and a shift only, until it meets the estimate at the first
+// row; a tilt of the estimate remains an error.
 #pragma once
 
 #include <filesystem>
@@ -17,32 +18,32 @@
 namespace lio {
 
 enum class RunFrame {
-  kMap,    // trajectory.tum by covariance.csv: the steady path
-  kWorld,  // trajectory_world.tum by covariance_world.csv: level at all times
+  kMap,    // trajectory.tum with covariance.csv: the steady path
+  kWorld,  // trajectory_world.tum with covariance_world.csv: always level
 };
 
-// What a run left: poses with their covariances, and rows of registration.csv.
+// Holds the files of a run: poses with their covariances, and rows of registration.csv.
 struct RunFiles {
-  std::string name;  // the folder
+  std::string name;  // folder of the run
   StampedPoses truth;
   StampedPoses estimate;
-  std::vector<Matrix6> covariances;   // one an estimate
-  std::vector<Timestamp> nis_stamps;  // scans that were fused
-  std::vector<double> nis;            // of their six-dimensional innovations
+  std::vector<Matrix6> covariances;   // one per estimate
+  std::vector<Timestamp> nis_stamps;  // stamps of the scans that were fused
+  std::vector<double> nis;            // NIS of their six-dimensional innovations
   bool has_registration = false;
 };
 
-// Reads DIR's two files of `frame` and, where there is one, DIR/registration.csv. The truth is
-// DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error naming file and
-// line, also when the two tables' stamps differ.
+// Reads DIR's two files of `frame` and, when it exists, DIR/registration.csv. The truth is
+// DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error that names file
+// and line, also when the two tables' stamps differ.
 RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
                  RunFrame frame = RunFrame::kMap);
 
 struct RunInstant {
   double time_s = 0;  // since the run's first row
   Vector6 error;      // position in world [m]; rotation d, R_true = R_estimate Exp(d) [rad]
-  Matrix6 cov;        // the same order
-  Matrix6 cov_world;  // its rotation block turned into world: tilt and yaw apart
+  Matrix6 cov;        // in the order of `error`
+  Matrix6 cov_world;  // its rotation block is in world axes, which separates tilt and yaw
   Vector3 rotation_error_world;
 };
 
@@ -55,17 +56,17 @@ struct RunErrors {
   std::string name;
   std::vector<RunInstant> instants;
   std::vector<NisSample> nis;
-  double truth_period_s = 0;  // median
+  double truth_period_s = 0;  // median period
   int num_without_truth = 0;  // rows that the truth does not cover
-  int num_singular = 0;       // rows whose covariance cannot be inverted: left out
+  int num_singular = 0;       // rows left out because their covariance cannot be inverted
 };
 
-// The first row is left out: it has no error by construction. Throws std::runtime_error when no
+// Leaves out the first row, whose error is zero by construction. Throws std::runtime_error when no
 // row is left.
 RunErrors ComputeRunErrors(const RunFiles& run);
 
-// The turn about z and shift that carries `truth` onto `estimate` as far as such a motion can: the
-// rotation left between them has no vertical part.
+// Returns the turn about z and shift that carry `truth` onto `estimate` as far as such a motion
+// can: the rotation left between them has no vertical part.
 Pose LevelAlignment(const Pose& truth, const Pose& estimate);
 
 }  // namespace lio

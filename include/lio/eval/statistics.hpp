@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Summaries of samples.
+// Summarizes samples.
 #pragma once
 
 #include <vector>
 
 namespace lio {
 
-// All zero when count is 0. Of absolute values: signs of the samples do not matter.
+// Holds statistics of the samples' absolute values. All are zero when count is 0.
 struct ErrorStats {
   int count = 0;
   double rmse = 0;
@@ -18,7 +18,7 @@ struct ErrorStats {
 
 ErrorStats Summarise(std::vector<double> samples);
 
-// The middle value, or the mean of the two in the middle; 0 for none.
+// Returns the middle value, or the mean of the two in the middle; 0 for no samples.
 double Median(std::vector<double> samples);
 
 }  // namespace lio

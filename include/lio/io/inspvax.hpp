@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Truth from NovAtel's INSPVAX log (GNSS/INS position, velocity, attitude): poses of the receiver's
-// body (x right, y forward, z up) in a local east-north-up frame at the first good fix.
+// Reads the truth from NovAtel's INSPVAX log (GNSS/INS position, velocity, attitude): poses of the
+// receiver's body (x right, y forward, z up) in a local east-north-up frame whose origin is the
+// first good fix.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@
 namespace lio {
 
 struct InspvaxRow {
-  Timestamp stamp;     // UTC, from GPS week and time of week, less the leap seconds
-  int ins_status = 0;  // 3: solution good
+  Timestamp stamp;     // UTC, from GPS week and time of week minus the leap seconds
+  int ins_status = 0;  // 3: the solution is good
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;
   double ellipsoid_height_m = 0.0;  // height above sea level plus undulation
@@ -27,21 +28,21 @@ struct InspvaxRow {
 
 inline constexpr int kInsSolutionGood = 3;
 
-// Finds the row's fields by name, as novatel_oem7_msgs, novatel_msgs and the UrbanNav variant have
-// them. `received` decides between a time of week in seconds and in milliseconds. Nothing when a
-// field is missing or out of range.
+// Finds the row's fields by name, for the variants of novatel_oem7_msgs, novatel_msgs and UrbanNav.
+// `received` decides whether a time of week is in seconds or in milliseconds. Returns nothing when
+// a field is missing or out of range.
 std::optional<InspvaxRow> ToInspvaxRow(const RosNumbers& numbers, Timestamp received);
 
-// The definition that a ROS 2 bag without definitions needs; null for types not known.
+// Returns the definition that a ROS 2 bag without definitions needs; null for unknown types.
 const char* KnownInspvaxDefinition(std::string_view type);
 
-// GPS minus UTC at that GPS time [s since the GPS epoch, 1980-01-06].
+// Returns GPS minus UTC [s] at a GPS time [s since the GPS epoch, 1980-01-06].
 int LeapSeconds(std::int64_t gps_s);
 
-// R_enu_body = Rz(-azimuth) Rx(pitch) Ry(roll).
+// Returns R_enu_body = Rz(-azimuth) Rx(pitch) Ry(roll).
 Quaternion InspvaxAttitude(double roll_rad, double pitch_rad, double azimuth_rad);
 
-// Positions on WGS84 in the east-north-up frame of the first one.
+// Converts positions on WGS84 to the east-north-up frame at the first position.
 class LocalFrame {
  public:
   Vector3 ToLocal(double latitude_rad, double longitude_rad, double ellipsoid_height_m);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A KITTI odometry sequence to an LCM log without IMU. Its scans are already compensated for the
-// car's motion, to the instant of their stamp: all points of a scan get that one time.
+// Converts a KITTI odometry sequence to an LCM log without IMU. Its scans are already compensated
+// for the car's motion, to the instant of their stamp, so all points of a scan get that one time.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct KittiOdometryOptions {
   std::optional<std::filesystem::path> poses_file;  // default: ../../poses/NN.txt
   std::optional<std::filesystem::path> truth_file;
   double vertical_correction_deg = 0.0;  // added to every point's elevation
-  std::function<void(double)> progress;  // share done, 0..1; may be empty
+  std::function<void(double)> progress;  // called with the share done, 0..1; may be empty
 };
 
 struct KittiOdometryReport {
@@ -30,17 +30,17 @@ struct KittiOdometryReport {
   std::int64_t num_scans_missing = 0;
   std::int64_t num_scans_damaged = 0;
   std::int64_t num_truth_rows = 0;
-  std::int64_t num_poses_missing = 0;  // fewer poses than stamps
-  std::filesystem::path poses_file;    // that was used
+  std::int64_t num_poses_missing = 0;  // stamps that have no pose
+  std::filesystem::path poses_file;    // the file that was used
 
-  // Something was lost: exit code 5.
+  // Returns true when something was lost, which means exit code 5.
   bool IsDamaged() const { return num_scans_missing + num_scans_damaged + num_poses_missing > 0; }
 };
 
-// Lidar poses in the first lidar frame from camera poses in the first camera frame.
+// Converts a camera pose in the first camera frame to the lidar's pose in the first lidar frame.
 Pose CameraToLidarPose(const Pose& T_camera0_camera, const Pose& T_camera_lidar);
 
-// Turns a point up by `angle_rad` about the horizontal axis across its direction.
+// Raises a point's elevation by `angle_rad`.
 void RaiseElevation(LidarPoint& point, double angle_rad);
 
 // Throws InputError, or std::runtime_error when an output cannot be written.

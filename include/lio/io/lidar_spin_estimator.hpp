@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Finds out how a spinning lidar turns from the first clouds of a recording: in which order their
-// points come, which way and how fast the head turns, and how far each ring is ahead or behind.
+// Estimates how a spinning lidar turns from the first clouds of a recording: the order of its
+// points, the direction and rate of the head, and each ring's azimuth offset.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ class LidarSpinEstimator {
   static constexpr int kNumOffsetBins = 1200;
 
   void Add(const CloudPoints& points, std::span<const std::uint16_t> rings, Timestamp stamp);
-  // `table`: the model the user named, if any; it gives direction and offsets where the data does
-  // not. Throws InputError when the points neither are in order nor go all round.
+  // `table` is the model that the user named, if any; it gives direction and offsets if the data do
+  // not. Throws InputError when the points are in no known order and do not cover the whole circle.
   SpinModel Decide(const std::optional<BeamTable>& table) const;
 
  private:
@@ -31,7 +31,7 @@ class LidarSpinEstimator {
     double direction = 0.0;  // 0: unknown
     double first_azimuth_rad = 0.0;
     double covered_rad = 0.0;
-    double coverage_ratio = 0.0;  // of the circle
+    double coverage_ratio = 0.0;  // share of the circle
   };
 
   void AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
@@ -40,7 +40,7 @@ class LidarSpinEstimator {
   double Rate(double direction, PointOrder order, double fallback_hz, std::string& how) const;
 
   std::vector<Seen> seen_;
-  // By ring, how often which offset: medians do not mind the edges of gaps in the returns.
+  // Histogram of offsets for each ring: its median is not affected by edges of gaps in the returns.
   std::vector<std::array<std::int32_t, kNumOffsetBins>> offsets_;
 };
 

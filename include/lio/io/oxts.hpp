@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// KITTI's OXTS packets (GNSS/INS): an IMU stream and the reference poses of a raw drive.
+// Reads KITTI's OXTS packets (GNSS/INS): the IMU stream and the reference poses of a raw drive.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// One OXTS packet: what is used of its 30 numbers.
+// Holds those of the 30 numbers of an OXTS packet that are used.
 struct OxtsRow {
   Timestamp stamp;
   double roll_rad = 0.0;
@@ -23,15 +23,15 @@ struct OxtsRow {
   Vector3 w_imu_radps = Vector3::Zero();
 };
 
-// Nothing when the text is no row of at least 25 numbers.
+// Returns nothing when the text is no row of at least 25 numbers.
 std::optional<OxtsRow> ParseOxts(const std::string& text);
 
-// Poses of the IMU in east-north-up at the rows' stamps, the origin at the first: attitude as
-// measured, position by integrating velocity (trapezoid).
+// Returns the poses of the IMU at the rows' stamps, in an east-north-up frame with its origin at
+// the first: attitude as measured, position by integrating velocity (trapezoid).
 StampedPoses OxtsPoses(const std::vector<OxtsRow>& rows);
 
-// Samples every 1/rate_hz s from the first row's stamp on, linearly between rows; nullopt: the rows
-// themselves. `rows`: stamps strictly increasing.
+// Returns samples every 1/rate_hz s from the first row's stamp on, interpolated linearly between
+// rows; without a rate, the rows themselves. The stamps of `rows` must strictly increase.
 std::vector<ImuSample> OxtsImu(const std::vector<OxtsRow>& rows, std::optional<double> rate_hz);
 
 }  // namespace lio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where a PointCloud2 keeps what a lidar point consists of: found by field name, type and offset,
-// so that every driver's layout is read, and in double precision where time needs it.
+// Finds where a PointCloud2 keeps the values of a lidar point, by field name, type and offset, so
+// that every driver's layout is read, with double precision for times.
 #pragma once
 
 #include <optional>
@@ -19,20 +19,20 @@ struct PointLayout {
   std::optional<CloudField> time;  // "time", "t", "timestamp", "time_stamp", "offset_time", "ts"
 };
 
-// Nothing when x, y or z is missing or not floating point.
+// Returns nothing when x, y or z is missing or not floating point.
 std::optional<PointLayout> FindLayout(const std::vector<CloudField>& fields);
 
-// The points of one cloud as columns, in the message's order. Points that are not finite, at the
-// origin (a driver's "no return") or without finite time are left out.
+// Holds the points of one cloud as columns, in the message's order. Points that are not finite, at
+// the origin (a driver's "no return") or without finite time are left out.
 struct CloudPoints {
   std::vector<float> x_m, y_m, z_m;  // lidar frame
-  std::vector<float> intensity;      // 0 where the source has none
+  std::vector<float> intensity;      // 0 if the source has none
   std::vector<std::int32_t> ring;    // as the source numbers them; empty without a ring field
   std::vector<double> time;          // in the source's unit; empty without a time field
-  std::vector<std::uint32_t> row;    // of an organised cloud; empty for height 1
+  std::vector<std::uint32_t> row;    // row in an organised cloud; empty for height 1
   std::vector<std::uint32_t> column;
   std::int64_t num_nonfinite = 0;
-  std::int64_t num_zero = 0;  // no return
+  std::int64_t num_zero = 0;  // points without return
 
   std::size_t size() const { return x_m.size(); }
 };
@@ -40,7 +40,7 @@ struct CloudPoints {
 // Reuses the memory of `points`. `layout` must come from this cloud's fields.
 void ReadPoints(const RosCloud& cloud, const PointLayout& layout, CloudPoints& points);
 
-// "x y z intensity ring(uint16) time(float32)", for people.
+// Returns e.g. "x y z intensity ring(uint16) time(float32)", for the user.
 std::string DescribeFields(const std::vector<CloudField>& fields);
 
 }  // namespace lio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Ring numbers with 0 for the lowest beam, whatever the source numbers: drivers count from the
-// bottom (Velodyne), from the top (Ouster, Hesai) or not at all.
+// Assigns ring numbers that begin with 0 at the lowest beam, whatever the source's numbers are:
+// drivers count from the bottom (Velodyne), from the top (Ouster, Hesai) or not at all.
 #pragma once
 
 #include <cstdint>
@@ -24,20 +24,20 @@ struct RingRule {
   };
   Source source = Source::kNone;
   std::vector<std::uint16_t> ring_of_source;
-  BeamTable table;          // of kModel
-  std::string description;  // for people: "from field 'ring', counted from below"
+  BeamTable table;          // used by kModel
+  std::string description;  // for the user, e.g. "from field 'ring', counted from below"
 };
 
-// Looks at the first clouds of a recording.
+// Observes the first clouds of a recording.
 class RingObserver {
  public:
   void Add(const CloudPoints& points, std::uint32_t height, std::uint32_t width);
-  // `table`: the model the user named, if any.
+  // `table` is the model that the user named, if any.
   RingRule Decide(const std::optional<BeamTable>& table) const;
 
  private:
   struct Elevations {
-    std::vector<double> sum_rad;  // by source number
+    std::vector<double> sum_rad;  // one per source number
     std::vector<std::int64_t> count;
 
     void Add(std::size_t number, double elevation_rad);
@@ -48,12 +48,12 @@ class RingObserver {
   Elevations by_row_;
   Elevations by_column_;
   bool has_field_ = false;
-  bool field_is_ring_ = true;  // no negative or huge numbers seen
+  bool field_is_ring_ = true;  // false: negative or huge numbers were seen
   std::uint32_t max_height_ = 0;
   std::uint32_t max_width_ = 0;
 };
 
-// One ring per point; empty for kNone.
+// Returns one ring per point; empty for kNone.
 std::vector<std::uint16_t> AssignRings(const RingRule& rule, const CloudPoints& points);
 
 }  // namespace lio

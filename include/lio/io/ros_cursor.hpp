@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Walks over the bytes of one serialised ROS message: ROS 1 (packed, little-endian) or ROS 2's CDR
-// (aligned, either byte order, behind a header of four bytes). Never reads past the end: a read
-// that does not fit makes ok() false for good and gives zeros.
+// Reads the bytes of one serialised ROS message in order: ROS 1 (packed, little-endian) or ROS 2's
+// CDR (aligned, either byte order, after a header of four bytes). It never reads past the end: a
+// read that does not fit makes ok() false for good and returns zeros.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class RosCursor {
   bool ok() const { return ok_; }
   bool big_endian() const { return big_endian_; }
   RosEncoding encoding() const { return encoding_; }
-  // Everything is read, but for the few bytes CDR may pad with.
+  // Returns true when everything is read, except for the few bytes with which CDR may pad.
   bool AtEnd() const;
 
   template <typename T>
@@ -34,13 +34,14 @@ class RosCursor {
     return raw.empty() ? T{} : LoadAs<T>(raw.data(), big_endian_);
   }
   std::string_view ReadString();
-  // The length of a sequence whose items take at least `min_item_bytes` each: a count that cannot
-  // fit in what is left makes ok() false and is 0.
+  // Reads the length of a sequence whose items take at least `min_item_bytes` each. A count that
+  // cannot fit into the remaining bytes makes ok() false and is returned as 0.
   std::uint32_t ReadCount(std::size_t min_item_bytes);
   ByteView ReadBytes(std::size_t count);
   // Skips `count` values of `size` bytes (1, 2, 4 or 8) with their alignment.
   void SkipValues(std::size_t count, std::size_t size);
-  // Seconds and nanoseconds; a nanosecond count of a second and more is wrong and makes ok() false.
+  // Reads seconds and nanoseconds; a nanosecond count of a second and more is wrong and makes ok()
+  // false.
   Timestamp ReadTime();
 
  private:

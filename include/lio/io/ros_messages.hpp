@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The ROS messages that a drive consists of: sensor_msgs/Imu, sensor_msgs/PointCloud2,
-// nav_msgs/Odometry, geometry_msgs/PoseStamped. Decoding checks every length; a message that is
-// too short, too long or inconsistent gives nothing.
+// Decodes the ROS messages of a recorded drive: sensor_msgs/Imu, sensor_msgs/PointCloud2,
+// nav_msgs/Odometry and geometry_msgs/PoseStamped. Every length is checked; a message that is too
+// short, too long or inconsistent gives nothing.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace lio {
 
-// "sensor_msgs/msg/Imu" (ROS 2) and "sensor_msgs/Imu" (ROS 1) are one type: the second form.
+// Converts "sensor_msgs/msg/Imu" (ROS 2) to "sensor_msgs/Imu" (ROS 1): they are the same type.
 std::string Ros1TypeName(std::string_view type);
 
 struct RosHeader {
@@ -24,7 +24,7 @@ struct RosHeader {
 };
 RosHeader ReadHeader(RosCursor& cursor);
 
-// What sensor_msgs/PointField's datatype numbers mean.
+// The values are the datatype numbers of sensor_msgs/PointField.
 enum class FieldType : std::uint8_t {
   kInt8 = 1,
   kUint8 = 2,
@@ -45,7 +45,7 @@ struct CloudField {
   friend bool operator==(const CloudField&, const CloudField&) = default;
 };
 
-// A view of a sensor_msgs/PointCloud2: `data` lives as long as the message's bytes.
+// A RosCloud is a view of a sensor_msgs/PointCloud2: `data` lives as long as the message's bytes.
 struct RosCloud {
   Timestamp stamp;
   std::uint32_t height = 0;
@@ -60,8 +60,8 @@ struct RosCloud {
 };
 
 std::optional<ImuSample> DecodeRosImu(ByteView bytes, RosEncoding encoding);
-// Nothing also when a field reaches beyond the point, when `data` is too short for height and
-// width, and when a datatype is unknown.
+// Returns nothing also when a field extends beyond the point, when `data` is too short for height
+// and width, and when a datatype is unknown.
 std::optional<RosCloud> DecodeRosCloud(ByteView bytes, RosEncoding encoding);
 std::optional<StampedPose> DecodeRosOdometry(ByteView bytes, RosEncoding encoding);
 std::optional<StampedPose> DecodeRosPoseStamped(ByteView bytes, RosEncoding encoding);

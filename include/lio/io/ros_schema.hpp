@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads messages of any type by the definition that the bag stores beside them, for types whose
-// layout differs between drivers of the same name.
+// Reads messages of any type with the definition that the bag stores, for types whose layout
+// differs between drivers of the same name.
 #pragma once
 
 #include <map>
@@ -14,19 +14,19 @@
 
 namespace lio {
 
-// Number fields of one message by dotted name ("nov_header.gps_week_number"); elements of arrays of
-// up to 16 numbers by "name[3]", times in seconds. Strings and longer arrays are passed over.
+// Holds the numbers of one message by dotted name ("nov_header.gps_week_number"). Elements of
+// arrays of up to 16 numbers are named "name[3]"; times are in seconds. Strings and longer arrays
+// are skipped.
 using RosNumbers = std::map<std::string, double, std::less<>>;
 
 class RosSchema {
  public:
-  // `definition`: the message's fields, then those of the types it uses, each behind a line of
-  // "=" and "MSG: package/Type", as ROS writes it. Nothing when a type is missing or a line is no
-  // field.
-  // `type`: the message's own, "package/Type".
+  // `definition` lists the message's fields, then those of the types it uses, each after a line of
+  // "=" and "MSG: package/Type", as ROS writes it. `type` is the message's own type,
+  // "package/Type". Returns nothing when a type is missing or a line is no field.
   static std::optional<RosSchema> Parse(std::string_view definition, std::string_view type);
 
-  // Nothing when the bytes are not exactly such a message.
+  // Returns nothing when the bytes are not exactly such a message.
   std::optional<RosNumbers> Read(ByteView bytes, RosEncoding encoding) const;
 
  private:
@@ -36,7 +36,7 @@ class RosSchema {
     std::string type;  // as written, without the array's brackets
     Kind kind = Kind::kNumber;
     std::size_t message = 0;  // index into messages_
-    int fixed_count = -1;     // array of that many; -1: no fixed-size array
+    int fixed_count = -1;     // length of a fixed-size array; -1: no such array
     bool is_sequence = false;
   };
   struct Message {
@@ -50,14 +50,14 @@ class RosSchema {
   struct Walk {
     RosCursor cursor;
     RosNumbers numbers;
-    int num_values_left;  // a hostile definition may ask for billions
+    int num_values_left;  // limits what a hostile definition can ask for
     int depth = 0;
   };
   bool ReadMessage(Walk& walk, std::size_t message, const std::string& prefix) const;
-  // An empty name: the value is only passed over.
+  // With an empty name the value is skipped.
   bool ReadField(Walk& walk, const Field& field, const std::string& name) const;
 
-  std::vector<Message> messages_;  // the message itself first
+  std::vector<Message> messages_;  // the first is the message itself
 };
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The sensors' data files, in the folder that lio::ConfigDirectory() finds.
+// Finds the sensors' data files in the folder that lio::ConfigDirectory() returns.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace lio::sim {
 
-// The file `<config>/<folder>/<name>.yaml`, or `name` itself when it is a file. Throws
-// std::runtime_error naming the models there are.
+// Returns the path of `<config>/<folder>/<name>.yaml`, or `name` itself when it is a YAML file.
+// Throws std::runtime_error that lists the models of the folder when there is none of that name.
 std::filesystem::path FindDataFile(const std::string& folder, const std::string& name);
 
-// The models of a folder, sorted.
+// Returns the names of the models in a folder, sorted.
 std::vector<std::string> ListDataFiles(const std::string& folder);
 
 }  // namespace lio::sim

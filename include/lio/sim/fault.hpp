@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What goes wrong between a sensor and its log. A fault is written "kind:key=value,key=value", e.g.
-// "imu_gap:start=10,duration=0.6"; times are seconds from the log's begin. What is hit is drawn
-// from the seed, so that the same faults hit the same messages on any number of threads.
+// Simulates faults between a sensor and its log. A fault is written "kind:key=value,key=value",
+// e.g. "imu_gap:start=10,duration=0.6"; times are seconds from the log's begin. The affected
+// messages are drawn from the seed, so that the same faults hit the same messages on any number of
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -38,24 +39,24 @@ enum class FaultChannel { kImu, kLidar, kBoth };
 struct Fault {
   FaultKind kind = FaultKind::kImuGap;
   FaultChannel channel = FaultChannel::kBoth;
-  std::map<std::string, double> values;  // every key the kind has
+  std::map<std::string, double> values;  // holds every key of the kind
 
   double Get(const std::string& key) const { return values.at(key); }
 };
 
-// Throws std::invalid_argument that says what is wrong and what there is.
+// Throws std::invalid_argument that says what is wrong and lists the valid kinds or keys.
 Fault ParseFault(const std::string& text);
 
-// The kinds with their keys and defaults, for --help.
+// Lists the kinds with their keys and defaults, for --help.
 std::string DescribeFaults();
 
-// Applies the faults that concern messages.
+// Applies the faults that alter single messages.
 class FaultInjector {
  public:
-  // `begin`: stamp of the log's begin.
+  // `begin` is the stamp of the log's begin.
   FaultInjector(std::vector<Fault> faults, std::uint64_t seed, Timestamp begin);
 
-  // What becomes of a message: nothing, itself or several.
+  // Returns what the log receives for one message: nothing, the message itself or several messages.
   std::vector<Message> Apply(Message message) const;
 
  private:
@@ -67,9 +68,10 @@ class FaultInjector {
   Timestamp begin_;
 };
 
-// Faults that are not of single messages. `begin_s`: trajectory time of the log's begin.
+// The next two functions give the faults that do not alter single messages. `begin_s` is the
+// trajectory time of the log's begin [s].
 std::vector<Dust> DustOf(const std::vector<Fault>& faults, double begin_s);
-// The extrinsic that the configuration claims.
+// Returns the extrinsic that the configuration claims.
 Pose ClaimedExtrinsic(const std::vector<Fault>& faults, const Pose& T_imu_lidar);
 
 }  // namespace lio::sim

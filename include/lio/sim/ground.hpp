@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Uneven, sloping ground with roads sunk into it between kerbs.
+// Makes uneven, sloping ground with roads that lie lower than it, between kerbs.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace lio::sim {
 
-// Smooth ground: a slope, hills of 60 to 250 m and bumps of 5 to 15 m.
+// Gives the height of smooth ground: a slope, hills of 60 to 250 m and bumps of 5 to 15 m.
 class Terrain {
  public:
   struct Shape {
@@ -37,8 +37,8 @@ struct Road {
   double half_width_m = 4.0;
 };
 
-// Distance to the edge of the nearest road: negative on it. Corners where roads meet are rounded
-// with about `rounding_m`.
+// Gives the distance to the edge of the nearest road, negative on a road. Corners where roads meet
+// are rounded with about `rounding_m`.
 class RoadNetwork {
  public:
   explicit RoadNetwork(std::vector<Road> roads, double rounding_m = 4.0);
@@ -53,17 +53,17 @@ class RoadNetwork {
 
 struct GroundOptions {
   double cell_m = 1.0;
-  double reach_m = 40.0;       // how far beside the roads the fine mesh goes
-  double far_reach_m = 120.0;  // how far a coarse one, a little lower, goes on
-  double kerb_m = 0.12;        // 0: none
-  double pavement_m = 4.0;     // width of paving beside the road
+  double reach_m = 40.0;       // distance beside the roads that the fine mesh covers
+  double far_reach_m = 120.0;  // distance that a coarse, slightly lower mesh covers
+  double kerb_m = 0.12;        // 0: no kerb
+  double pavement_m = 4.0;     // width of the pavement beside the road
   Material road = Material::kAsphalt;
   Material pavement = Material::kPaving;
   Material beyond = Material::kGrass;
 };
 
-// Appends the ground to `mesh`: roads at the terrain's height, the rest a kerb higher, and the kerb
-// as a step along the exact edge.
+// Appends the ground to `mesh`: roads lie at the terrain's height, everything else lies a kerb
+// higher, and the kerb is a step along the exact edge of the road.
 void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
                const GroundOptions& options);
 

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An inertial unit as its data file in config/imus/ describes it.
+// Holds the error model of an IMU as its data file in config/imus/ describes it.
 #pragma once
 
 #include <string>
 
 namespace lio::sim {
 
-// Three equal axes of one kind; the unit is rad/s for a gyro, m/s^2 for an accelerometer.
+// Describes three equal axes of one kind; the unit is rad/s for a gyro and m/s^2 for an
+// accelerometer.
 struct InertialModel {
   double noise_density = 0.0;      // unit/sqrt(Hz)
   double bias_walk_density = 0.0;  // unit/s/sqrt(Hz)
@@ -16,8 +17,8 @@ struct InertialModel {
   double turn_on_bias_std = 0.0;  // unit
   double scale_std_ratio = 0.0;
   double misalignment_std_rad = 0.0;
-  double full_scale = 0.0;  // unit; 0: none
-  double step = 0.0;        // unit; 0: none
+  double full_scale = 0.0;  // unit; 0: no saturation
+  double step = 0.0;        // unit; 0: no quantization
 };
 
 struct ImuModel {
@@ -27,8 +28,8 @@ struct ImuModel {
   InertialModel accel;
 };
 
-// `name_or_path`: a model of config/imus/ or a file of that form. Throws std::runtime_error that
-// says what is missing or wrong and which models there are.
+// `name_or_path` is a model of config/imus/ or a file of that form. Throws std::runtime_error that
+// says what is missing or wrong and lists the models.
 ImuModel LoadImuModel(const std::string& name_or_path);
 
 }  // namespace lio::sim

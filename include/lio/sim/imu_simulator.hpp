@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An inertial unit that moves along a trajectory: reads specific force and angular rate at its
-// sample instants, with the errors of its model.
+// Simulates an IMU that moves along a trajectory: it measures specific force and angular rate at
+// its sample instants, with the errors of its model.
 //
 //   gyro  = clip(round(M_g w + b_g + n_g)),   accel = clip(round(M_a f + b_a + n_a)),
 //   f = R_imu_world (a - g_world)
 //
-// Densities become samples by their dt: n has sigma density / sqrt(dt), walks step by
-// density sqrt(dt). b is turn-on bias + random walk + a first-order Gauss-Markov process (bias
+// A sample of white noise n has sigma density / sqrt(dt), and a random walk steps by density
+// sqrt(dt). The bias b is turn-on bias + random walk + a first-order Gauss-Markov process (bias
 // instability). M is I + scale and misalignment errors. The Earth's rotation (15 deg/h) is left
 // out.
 #pragma once
@@ -21,14 +21,14 @@
 
 namespace lio::sim {
 
-// What the driver makes of the unit's readings before it sends them; see docs/simulator.md.
+// The units and axes in which the IMU's driver sends its samples; see docs/simulator.md.
 enum class ImuVariant {
-  kNormal,          // specific force in m/s^2, rates in rad/s, axes as the rig has them
-  kGravityRemoved,  // by the true attitude
-  kInG,             // 1 for 9.80665 m/s^2
+  kNormal,          // specific force in m/s^2, rates in rad/s, axes as in the rig
+  kGravityRemoved,  // gravity is removed with the true attitude
+  kInG,             // accelerations in units of 9.80665 m/s^2
   kInDeg,           // rates in deg/s
   kInGAndDeg,
-  kZDown,   // x forward, y right, z down, where the rig has x forward, y left, z up
+  kZDown,   // x forward, y right, z down, while the rig has x forward, y left, z up
   kTurned,  // x right, y forward, z up
 };
 
@@ -39,9 +39,9 @@ struct ImuSetup {
   std::uint64_t seed = 1;
 };
 
-// One instant: what was measured, and what is true.
+// Holds one instant's measurement and its true values.
 struct SimulatedImu {
-  ImuSample sample;  // stamp: trajectory time; not SI in some variants
+  ImuSample sample;  // stamp is trajectory time; units are not SI in some variants
   Kinematics truth;
   Vector3 gyro_bias_radps = Vector3::Zero();
   Vector3 accel_bias_mps2 = Vector3::Zero();
@@ -49,14 +49,14 @@ struct SimulatedImu {
 
 class ImuSimulator {
  public:
-  // Borrows the trajectory.
+  // Keeps a reference to the trajectory, which must outlive the simulator.
   ImuSimulator(const ImuSetup& setup, const Trajectory& trajectory);
 
-  // The sample at a trajectory time; times must ascend by the model's period.
+  // Returns the sample at a trajectory time; times must ascend by the model's period.
   SimulatedImu Sample(std::int64_t t_ns);
 
  private:
-  // Errors of three equal axes.
+  // Draws the errors of three equal axes.
   class Triad {
    public:
     Triad(const InertialModel& model, double dt_s, Random random);
@@ -82,7 +82,8 @@ class ImuSimulator {
   Triad accel_;
 };
 
-// Normal gravity at sea level and above (WGS 84, Somigliana's formula with free-air correction).
+// Returns normal gravity [m/s^2] at sea level and above (WGS 84, Somigliana's formula with free-air
+// correction).
 double NormalGravity(double latitude_rad, double altitude_m);
 
 }  // namespace lio::sim

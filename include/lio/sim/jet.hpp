@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A function of time at one instant with its first two derivatives: sums, products, sine and cosine
-// of such values are exact, so a pose written in them brings its velocity and acceleration along.
+// Holds a function of time at one instant with its first two derivatives. Sums, products, sine and
+// cosine of such values are exact, so a pose written in them carries its velocity and acceleration.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar as its data file in config/lidars/ describes it: where each beam points, when it
-// fires, how well it measures.
+// Holds the model of a spinning lidar as its data file in config/lidars/ describes it: where each
+// beam points, when it fires and how well it measures.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace lio::sim {
 
 struct Beam {
   double elevation_rad = 0.0;
-  double fire_time_s = 0.0;         // after the column's instant
+  double fire_time_s = 0.0;         // time after the column's instant
   double azimuth_offset_rad = 0.0;  // counter-clockwise from the column's heading
 };
 
@@ -23,15 +23,16 @@ struct LidarModel {
   double cut_azimuth_rad = 0.0;  // heading at which one sweep ends and the next begins
   double min_range_m = 0.9;
   double max_range_m = 100.0;
-  double range_std_m = 0.02;  // at normal incidence
+  double range_std_m = 0.02;  // range noise at normal incidence
   double range_step_m = 0.002;
   double beam_width_horizontal_rad = 2.8e-3;
-  double range_at_10_percent_m = 60.0;  // half of the echoes of a matt 10 % target are lost there
-  std::vector<Beam> beams;              // lowest first: the index is the ring
+  double range_at_10_percent_m =
+      60.0;                 // half of the echoes of a matt 10 % target are lost at this range
+  std::vector<Beam> beams;  // sorted from the lowest: the index is the ring
 };
 
-// `name_or_path`: a model of config/lidars/ or a file of that form. Throws std::runtime_error that
-// says what is missing or wrong and which models there are.
+// `name_or_path` is a model of config/lidars/ or a file of that form. Throws std::runtime_error
+// that says what is missing or wrong and lists the models.
 LidarModel LoadLidarModel(const std::string& name_or_path);
 
 }  // namespace lio::sim

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A spinning lidar carried through a scene: each beam is cast from the pose the sensor has at the
-// instant the beam fires, and its echo gets the errors a real one has.
+// Simulates a spinning lidar that is carried through a scene: each beam is cast from the pose the
+// sensor has at the instant the beam fires, and its echo gets the errors of a real one.
 //
-// Echo: a surface of reflectivity rho seen at incidence angle a and range r sends back
-// rho sqrt(cos a) / r^2 (rough surfaces fall off slower than Lambert's cosine); polished ones add a
-// lobe a few degrees wide. The chance of an echo falls from 1 to 0 around the strength that a 10 %
-// target has at the range of the model's data file. Range noise grows with incidence and with
-// weakness. Where a beam straddles an edge between two columns, the two echoes merge when they are
-// near each other, else one of them wins (mixed pixels). Numbers are drawn by (seed, column, beam),
-// so that any thread gets the same.
+// Echoes: a surface of reflectivity rho at incidence angle a and range r returns rho sqrt(cos a) /
+// r^2 (rough surfaces fall off slower than Lambert's cosine); polished surfaces add a lobe a few
+// degrees wide. The probability of an echo falls from 1 to 0 around the strength that a 10 % target
+// has at the range of the model's data file. Range noise grows with incidence and as the echo gets
+// weaker. When a beam straddles an edge between two columns, the two echoes merge if they are near
+// each other, else one of them is returned (mixed pixels). Random numbers are drawn by (seed,
+// column, beam), so that they do not depend on the thread.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@
 
 namespace lio::sim {
 
-// A cloud of dust or spray around the sensor for a while.
+// Describes a cloud of dust or spray around the sensor for a while.
 struct Dust {
   double begin_s = 0.0;
   double end_s = 0.0;
-  double echoes_per_m = 0.02;  // chance of an echo from dust per metre of ray
+  double echoes_per_m = 0.02;  // probability of an echo from dust per metre of ray
 };
 
 struct LidarErrors {
-  double noise_scale = 1.0;      // of the range noise
-  double dropout_ratio = 0.002;  // echoes lost for no reason
+  double noise_scale = 1.0;      // factor on the range noise
+  double dropout_ratio = 0.002;  // share of echoes lost at random
   bool has_mixed_pixels = true;
-  bool has_weak_echoes = true;  // false: every surface in range answers
+  bool has_weak_echoes = true;  // false: every surface in range returns an echo
   std::vector<Dust> dust;
 };
 
@@ -46,20 +46,20 @@ struct LidarSetup {
 };
 
 struct SimulatedSweep {
-  std::int64_t begin_ns = 0;  // trajectory time of t_offset_ns = 0
+  std::int64_t begin_ns = 0;  // trajectory time at which t_offset_ns = 0
   std::int64_t num_rays = 0;
-  std::vector<LidarPoint> points;     // in order of firing
-  std::vector<std::int32_t> objects;  // what each point is: see Hit::object
+  std::vector<LidarPoint> points;     // in the order of firing
+  std::vector<std::int32_t> objects;  // object that each point lies on: see Hit::object
 };
 
 class LidarSimulator {
  public:
-  // Borrows scene and trajectory.
+  // Keeps references to scene and trajectory, which must outlive the simulator.
   LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory);
 
-  // The turn number `index` from 0 on. Safe from several threads.
+  // Returns the turn number `index`, counted from 0. Safe from several threads.
   SimulatedSweep Sweep(std::int64_t index) const;
-  double SweepEnd_s(std::int64_t index) const;  // trajectory time of its last firing
+  double SweepEnd_s(std::int64_t index) const;  // trajectory time of the sweep's last firing
 
  private:
   struct Columns;
@@ -76,8 +76,8 @@ class LidarSimulator {
   LidarSetup setup_;
   const Scene* scene_;
   const Trajectory* trajectory_;
-  std::vector<Vector3> column_directions_;  // of each beam when the column's heading is 0
-  std::vector<std::size_t> firing_order_;   // beams by firing time
+  std::vector<Vector3> column_directions_;  // each beam's, when the column's heading is 0
+  std::vector<std::size_t> firing_order_;   // beams sorted by firing time
   double weakest_echo_ = 0.0;               // strength at which half of the echoes are lost
 };
 

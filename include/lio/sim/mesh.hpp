@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Triangle meshes with a material for each triangle, and the solids that things are put together
-// from. Metres; each mesh in its own frame, z up.
+// Holds triangle meshes with a material for each triangle, and makes the solids of which things
+// consist. Lengths are in metres; each mesh has its own frame with z up.
 #pragma once
 
 #include <array>
@@ -48,28 +48,29 @@ inline constexpr int kNumMaterials = 26;
 
 struct MaterialTraits {
   std::string_view name;
-  double reflectivity = 0.3;      // of a matt surface at 905 nm, 0..1; above 1 sends light back
-  double specular = 0.0;          // share of the light that leaves like from a mirror
-  std::array<float, 3> colour{};  // for pictures, 0..1
+  double reflectivity = 0.3;      // a matt surface's at 905 nm, 0..1; above 1: retroreflective
+  double specular = 0.0;          // share of the light that is reflected as by a mirror
+  std::array<float, 3> colour{};  // used in pictures, 0..1
 };
 const MaterialTraits& TraitsOf(Material material);
 
 struct Mesh {
   std::vector<Vector3f> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Material> materials;  // one a triangle
+  std::vector<Material> materials;  // one per triangle
 };
 
-// Every function below appends to `mesh`.
+// The functions below append to `mesh`.
 void AddMesh(Mesh& mesh, const Mesh& part, const Pose& T_mesh_part);
 void AddTriangle(Mesh& mesh, const Vector3& a, const Vector3& b, const Vector3& c,
                  Material material);
-// Corners in order around it; need not be plane.
+// The corners are given in order around the quad, which need not be plane.
 void AddQuad(Mesh& mesh, const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
              Material material);
-// Box with the given edges, its bottom's centre at the pose's origin.
+// Adds a box of the given size; the centre of its bottom is at the pose's origin.
 void AddBox(Mesh& mesh, const Pose& T_mesh_box, const Vector3& size_m, Material material);
-// Box that tapers: bottom and top rectangles around the z axis, sides and top of own materials.
+// Describes a tapering box: it has bottom and top rectangles around the z axis, and its sides and
+// top have materials of their own.
 struct Taper {
   Vector2 bottom_m;
   Vector2 top_m;
@@ -78,14 +79,14 @@ struct Taper {
 };
 void AddTaper(Mesh& mesh, const Pose& T_mesh_taper, const Taper& taper, Material sides,
               Material top);
-// Round bar from one point to another, closed at the far end.
+// Adds a round bar from one point to another, closed at the far end.
 void AddBar(Mesh& mesh, const Vector3& from_m, const Vector3& to_m, double from_radius_m,
             double to_radius_m, int num_sides, Material material);
-// Extrudes a polygon that is star-shaped about its first corner, standing from z to z + height.
+// Extrudes a polygon that is star-shaped about its first corner, from z to z + height.
 void AddPrism(Mesh& mesh, const std::vector<Vector2>& polygon_m, double z_m, double height_m,
               Material sides, Material top);
 
-// Pose with its x axis at a heading and z up.
+// Returns a pose whose x axis points to a heading and whose z axis points up.
 Pose UprightPose(const Vector3& position_m, double heading_rad);
 
 }  // namespace lio::sim

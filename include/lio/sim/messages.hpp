@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Messages on their way from the simulated sensors to the log.
+// Carries messages from the simulated sensors to the log.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +21,19 @@ struct ImuMessage {
 };
 
 struct Message {
-  Timestamp arrival;  // when it would be received; the log's order
+  Timestamp arrival;  // time at which it would be received; the log is in this order
   std::variant<ImuMessage, ScanChunk> body;
 };
 
-// Puts messages of bounded disorder into the order of arrival; equal arrivals keep the order in
-// which they came.
+// Puts messages of bounded disorder into the order of arrival; messages of equal arrival keep the
+// order in which they came.
 class ArrivalQueue {
  public:
   void Push(Message message) {
     const Timestamp arrival = message.arrival;
     waiting_.emplace(arrival, std::move(message));
   }
-  // The next message that arrives before `limit`.
+  // Returns the next message that arrives before `limit`.
   std::optional<Message> PopBefore(Timestamp limit) {
     if (waiting_.empty() || waiting_.begin()->first >= limit) return std::nullopt;
     Message message = std::move(waiting_.begin()->second);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A way on the ground, straights and arcs, by distance along it: what vehicles follow, streets are
-// built along and walkers walk on.
+// Describes a path on the ground, made of straights and arcs, by the distance along it. Vehicles
+// and walkers follow such paths, and streets are built along them.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,30 +25,30 @@ class Path {
  public:
   Path(const Vector2& start_m, double heading_rad);
 
-  // Corners of the given radius at each inner waypoint; a closed path ends where it starts, which
-  // must lie on a straight. Throws std::invalid_argument when corners overlap.
+  // Makes a path with a corner of the given radius at each inner waypoint. A closed path ends at
+  // its start, which must lie on a straight. Throws std::invalid_argument when corners overlap.
   static Path Rounded(const std::vector<Vector2>& waypoints_m, double radius_m, bool closed);
 
-  // Both append at the end. An arc of positive angle turns left.
+  // These two append at the end. An arc of positive angle turns left.
   void AddStraight(double length_m);
   void AddArc(double radius_m, double angle_rad);
 
   double length_m() const { return length_m_; }
-  PathPoint At(double distance_m) const;  // beyond the ends: straight on
-  // The path shifted to the left by a distance smaller than its radii.
+  PathPoint At(double distance_m) const;  // continues straight beyond the ends
+  // Returns a point beside the path: `left_m` to the left, which must be smaller than the radii.
   PathPoint Beside(double distance_m, double left_m) const;
-  // The same way from one distance to another; beside it to the left (to the right if negative, by
-  // less than its radii); backward.
+  // These three return the path between two distances, the path shifted to the left (to the right
+  // if negative) by less than its radii, and the path in the opposite direction.
   Path Cut(double from_m, double to_m) const;
   Path Shifted(double left_m) const;
   Path Reversed() const;
   Path Repeated(int times) const;
-  // Points every `step_m`, both ends included.
+  // Returns points every `step_m`, both ends included.
   std::vector<Vector2> Sampled(double step_m) const;
 
  private:
   struct Piece {
-    double start_m = 0.0;  // distance along the path where it begins
+    double start_m = 0.0;  // distance along the path at which it begins
     double length_m = 0.0;
     PathPoint begin;
   };
@@ -60,8 +60,8 @@ class Path {
   double length_m_ = 0.0;
 };
 
-// Height of the ground at a point; `along_m` is the distance along the path that is followed, which
-// tells the storeys of a building apart.
+// Gives the height of the ground at a point; `along_m` is the distance along the path that is
+// followed, which tells the storeys of a building apart.
 using HeightFunction = std::function<double(const Vector2& p_m, double along_m)>;
 
 }  // namespace lio::sim

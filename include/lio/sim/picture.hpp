@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Pictures of a scenario from above: parallel rays from a slope, sun and shade, the way drawn in.
+// Draws pictures of a scenario from above with parallel rays at a slope, with sun and shade, and
+// marks the sensor's path.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ struct PictureOptions {
   int width = 960;
   int height = 640;
   int samples = 3;              // per pixel and axis
-  double elevation_deg = 66.0;  // of the view: 90 is straight down
-  double azimuth_deg = -60.0;   // of where the viewer stands, from x
+  double elevation_deg = 66.0;  // viewer's elevation; 90 looks straight down
+  double azimuth_deg = -60.0;   // viewer's azimuth from x
 };
 
 struct Picture {
@@ -25,10 +26,10 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  // rows from the top
 };
 
-// The same for any number of threads.
+// The picture is the same for any number of threads.
 Picture DrawFromAbove(const Scenario& scenario, const PictureOptions& options, int num_threads);
 
-// Binary PPM. Throws std::runtime_error when it cannot be written.
+// Writes a binary PPM. Throws std::runtime_error when it cannot be written.
 void WritePpm(const Picture& picture, const std::filesystem::path& path);
 
 }  // namespace lio::sim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Things that stand, park and move in streets, each a mesh in its own frame: origin on the ground
-// below its middle, x forward, y left, z up, metres.
+// Makes things that stand, park and move in streets, each a mesh in its own frame: the origin is on
+// the ground below its middle, x forward, y left, z up, metres.
 #pragma once
 
 #include "lio/sim/mesh.hpp"
@@ -12,15 +12,15 @@ namespace lio::sim {
 enum class VehicleKind { kCar, kVan, kBus, kTruck };
 
 Mesh MakeVehicle(VehicleKind kind, Random& random);
-Vector2 VehicleSize(VehicleKind kind);  // length and width, m
+Vector2 VehicleSize(VehicleKind kind);  // length and width [m]
 
-// A person in two parts, so that the legs can swing about the hip at `kHipHeight_m`.
+// A person is made of two parts, so that the legs can swing about the hip at `kHipHeight_m`.
 inline constexpr double kHipHeight_m = 0.86;
 Mesh MakeTorso(Random& random);
 Mesh MakeLeg();                   // origin at the hip, hanging down
-Mesh MakePerson(Random& random);  // standing, in one part
+Mesh MakePerson(Random& random);  // a standing person in one part
 
-Mesh MakeTree(double height_m, Random& random);  // trunk, boughs, a crown of loose leaves
+Mesh MakeTree(double height_m, Random& random);  // trunk, boughs and a crown of loose leaves
 Mesh MakeBush(const Vector3& size_m, Random& random);
 Mesh MakeStreetLamp(double height_m, double arm_m);  // arm toward +x
 Mesh MakeSign(double height_m, Random& random);      // faces +x

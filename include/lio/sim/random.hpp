@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Random numbers that are a pure function of a key, so that worlds and measurements come out the
+// Draws random numbers that are a pure function of a key, so that worlds and measurements are the
 // same on any number of threads and with any standard library. The mixing step is the finaliser of
 // SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
 #pragma once
@@ -25,16 +25,17 @@ constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
   return key;
 }
 
-// Uniform in (0, 1): never 0, so that its logarithm exists, and never 1 (52 bits and a half are
-// exact in a double; with 53 the last one would round up to 1).
+// Maps bits to a number uniform in (0, 1). It is never 0, so that its logarithm exists, and never 1
+// (52 bits and a half are exact in a double; with 53 the last one would round up to 1).
 constexpr double UnitInterval(std::uint64_t bits) {
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
 }
 
-// What a key's draws are used for: keeps one purpose's numbers when another's count changes.
+// Names what a key's draws are used for, so that one purpose's numbers do not change with the
+// number of another purpose's draws.
 enum class Purpose : std::uint64_t { kWorld, kTraffic, kMotion, kImu, kLidar, kFault, kMount };
 
-// A sequence of draws from one key.
+// Draws a sequence of numbers from one key.
 class Random {
  public:
   Random(std::uint64_t seed, Purpose purpose, std::uint64_t stream = 0)
@@ -43,12 +44,12 @@ class Random {
   std::uint64_t Bits() { return MixBits(key_ ^ MixBits(counter_++)); }
   double Uniform() { return UnitInterval(Bits()); }
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
-  int Integer(int low, int high) {  // both included
+  int Integer(int low, int high) {  // both bounds are included
     return low + static_cast<int>(Uniform() * (high - low + 1));
   }
   bool Chance(double probability) { return Uniform() < probability; }
 
-  double Gaussian() {  // Box and Muller, one of the pair
+  double Gaussian() {  // Box and Muller's method; one of the pair is used
     const double radius = std::sqrt(-2.0 * std::log(Uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * Uniform());
   }

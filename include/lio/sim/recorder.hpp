@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Runs sensors through a scenario and writes what they saw and what was true:
+// Runs sensors through a scenario and writes their measurements and the truth:
 //   log.lcm           LIO_IMU and LIO_SCAN, each event at the time it would have been received
 //   truth.tum         pose of imu in world at each IMU instant: t x y z qx qy qz qw
 //   truth_states.csv  velocity, biases and rates at the same instants
@@ -39,13 +39,13 @@ struct RecordStats {
   std::int64_t num_points = 0;
 };
 
-// Creates the folder. `progress` gets the share done, 0..1; may be empty. Throws
+// Creates the folder. `progress` is called with the share done, 0..1, and may be empty. Throws
 // std::runtime_error when something cannot be written.
 RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::filesystem::path& folder,
                    const std::function<void(double)>& progress);
 
-// Sensor time of a trajectory time: the first sample of a trajectory has a stamp of late 2023.
+// Returns the sensor time of a trajectory time: trajectories begin at a stamp of late 2023.
 Timestamp StampOf(std::int64_t trajectory_ns);
 
 }  // namespace lio::sim

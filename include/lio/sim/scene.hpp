@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Rays into a world, by Embree. Objects that move are posed at each ray's own instant: within an
-// interval Embree moves them linearly between poses `kMoverStep_s` apart, which for a = 10 m/s^2
-// is off by 0.15 mm at most.
+// Casts rays into a world with Embree. Moving objects are posed at each ray's own instant: within
+// an interval Embree moves them linearly between poses `kMoverStep_s` apart, which at 10 m/s^2 is
+// an error of at most 0.15 mm.
 #pragma once
 
 #include <limits>
@@ -17,7 +17,7 @@ inline constexpr double kMoverStep_s = 0.011;
 
 struct Ray {
   Vector3f origin_m;
-  Vector3f direction;      // unit
+  Vector3f direction;      // unit vector
   float time_ratio = 0.0;  // 0 at the interval's begin, 1 at its end
 };
 
@@ -33,10 +33,10 @@ struct Hit {
 
 class Scene {
  public:
-  // The movers over one interval of time: cheap to make, used by one thread.
+  // Holds the movers over one interval of time; it is cheap to make and used by one thread.
   class Interval;
 
-  // Keeps what it needs of `world` but the movers' functions, which must outlive it. Throws
+  // Copies what it needs of `world` except the movers' functions, which must outlive it. Throws
   // std::runtime_error when Embree cannot start.
   explicit Scene(const World& world);
   ~Scene();
@@ -55,8 +55,8 @@ class Scene::Interval {
   ~Interval();
   Interval(Interval&&) noexcept;
 
-  // The nearest surface along each ray up to `max_range_m`. Both spans have one size. The answer
-  // for a ray does not depend on the others.
+  // Finds the nearest surface along each ray up to `max_range_m`. Both spans have the same size.
+  // The result for a ray does not depend on the other rays.
   void Cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
 
  private:

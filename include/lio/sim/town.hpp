@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Builds places along roads: rows of houses, trees, lamps, parked cars; people and cars that move.
-// Nothing is put where something stands already or where a road runs.
+// Builds places along roads: rows of houses, trees, lamps, parked cars, and people and cars that
+// move. Things are never put where something else stands or where a road runs.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace lio::sim {
 
-// A stretch of a path's one side; `left` positive or negative picks the side.
+// A frontage is a section of one side of a path; the sign of `left` picks the side.
 struct Frontage {
   double from_m = 0.0;
   double to_m = 0.0;
@@ -30,7 +30,7 @@ struct HouseRow {
   double min_width_m = 10.0;
   double max_width_m = 22.0;
   double depth_m = 12.0;
-  double gap_chance = 0.12;  // an alley after a house
+  double gap_chance = 0.12;  // probability of an alley after a house
   double min_gap_m = 2.0;
   double max_gap_m = 5.0;
   double max_setback_m = 0.8;
@@ -47,29 +47,30 @@ class Town {
   const Terrain& terrain() const { return terrain_; }
   double GroundHeight(const Vector2& p_m) const;  // kerbs included
 
-  // Puts `mesh` on the ground; `heading_rad` is where its x axis goes.
+  // Puts `mesh` on the ground; `heading_rad` is the direction of its x axis.
   void Place(const Mesh& mesh, const Vector2& p_m, double heading_rad);
-  // True when a rectangle is free of roads (by `road_margin_m`) and of other things; takes it.
+  // Returns true, and occupies the rectangle, when it is free of roads (by `road_margin_m`) and of
+  // other things.
   bool Reserve(const Vector2& centre_m, double heading_rad, const Vector2& size_m,
                double road_margin_m);
 
-  // Takes a lane of that width along a path, before anything is put there.
+  // Keeps a lane of that width along a path free; call it before anything is put there.
   void KeepClear(const Path& path, double width_m);
 
   void AddHouses(const Path& path, const Frontage& frontage, const HouseRow& row);
   void AddTrees(const Path& path, const Frontage& frontage, double spacing_m, double height_m);
   void AddLamps(const Path& path, const Frontage& frontage, double spacing_m);
   void AddStreetThings(const Path& path, const Frontage& frontage, double spacing_m);
-  // Along the kerb; `share` of the places are taken.
+  // Parks cars along the kerb; `share` of the places are taken.
   void AddParkedCars(const Path& path, const Frontage& frontage, double share);
   void AddHedges(const Path& path, const Frontage& frontage, double share);
   void AddBarrier(const Path& path, const Frontage& frontage, double post_m, double low_m,
                   double high_m, Material material);
-  // Painted lines; `gap_m` 0 is a line without breaks.
+  // Paints lines; `gap_m` 0 makes a line without breaks.
   void AddLaneMarks(const Path& path, const Frontage& frontage, double dash_m, double gap_m);
   void AddStandingPeople(const Path& path, const Frontage& frontage, int num);
 
-  // Walk to and fro between two points of a path, beside it.
+  // Adds people who walk to and fro between two points of a path, beside it.
   void AddWalkers(const Path& path, const Frontage& frontage, int num);
 
  private:
@@ -88,11 +89,11 @@ class Town {
   std::vector<Footprint> taken_;
 };
 
-// A person who walks where `body` says: torso and two swinging legs.
+// Adds a person who walks where `body` says: a torso and two swinging legs.
 void AddWalker(World& world, Random& random, double speed_mps,
                const std::function<Pose(double t_s)>& body);
 
-// A vehicle that follows a path, at `distance(t)` along it, on the given ground.
+// Adds a vehicle that follows a path, at `distance(t)` along it, on the given ground.
 void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
                      std::function<double(double t_s)> distance, HeightFunction height);
 

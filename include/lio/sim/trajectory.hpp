@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Analytic motion of a body: pose, velocity, acceleration and angular rate at any time, each the
-// exact derivative of the other.
+// Gives the analytic motion of a body: pose, velocity, acceleration and angular rate at any time,
+// each the exact derivative of the other.
 //
-// Model: position and yaw, pitch, roll of the body are uniform quintic B-splines in time (C4), to
-// which sinusoids are added (suspension, road roughness, a walker's gait) whose common strength is
-// such a spline too. The body frame lies on the ground below the vehicle or walker: x forward, y
-// left, z up; R_world_body = Rz(yaw) Ry(pitch) Rx(roll), pitch within +-80 deg. World is z up.
-// B-spline curves stay near their knots without passing through them; equal knots mean rest.
+// Position and yaw, pitch, roll of the body are uniform quintic B-splines in time (C4). Sinusoids
+// are added to them (suspension, road roughness, a walker's gait), whose common strength is a
+// B-spline, too. The body frame lies on the ground below the vehicle or walker: x forward, y left,
+// z up; R_world_body = Rz(yaw) Ry(pitch) Rx(roll), pitch within +-80 deg. World is z up. B-spline
+// curves stay near their knots without passing through them; equal knots mean rest.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,8 @@
 
 namespace lio::sim {
 
-// A control point. `liveliness` scales the oscillations: 0 at rest, 1 in full motion.
+// A knot is a control point of the spline. `liveliness` scales the oscillations: 0 at rest, 1 in
+// full motion.
 struct BodyKnot {
   Vector3 position_m = Vector3::Zero();
   double yaw_rad = 0.0;  // unwrapped
@@ -37,12 +38,13 @@ struct Oscillation {
 
 struct MotionPlan {
   double knot_interval_s = 0.25;
-  std::vector<BodyKnot> knots;  // the first holds at t = 0; at least two
+  std::vector<BodyKnot> knots;  // at least two; the first holds at t = 0
   std::vector<Oscillation> oscillations;
   Pose T_body_imu;
 };
 
-// Everything inertial at one instant; a of the IMU's origin, w of imu against world.
+// Holds position, velocity and acceleration a of the IMU's origin in world, and the angular rate w
+// of imu relative to world, at one instant.
 struct Kinematics {
   Pose T_world_imu;
   Vector3 v_world_mps = Vector3::Zero();
@@ -52,12 +54,15 @@ struct Kinematics {
 
 class Trajectory {
  public:
-  // Throws std::invalid_argument when the plan has fewer than two knots or no interval.
+  // Throws std::invalid_argument when the plan has fewer than two knots or an interval that is not
+  // positive.
   explicit Trajectory(MotionPlan plan);
 
-  // Any t; before the first and after the last knot the body rests there. Safe from any thread.
+  // Accepts any t; before the first and after the last knot the body rests there. Safe from any
+  // thread.
   Kinematics At(double t_s) const;
-  // Of the body frame on the ground, which traffic behind and ahead and the carrier's shape follow.
+  // Returns the pose of the body frame on the ground, which surrounding traffic and the carrier's
+  // shape follow.
   Pose BodyPoseAt(double t_s) const;
 
   double duration_s() const;

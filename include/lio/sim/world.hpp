@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What there is to see: one mesh that stands still, and objects that move.
+// Describes the surroundings of the sensors: one static mesh, and objects that move.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace lio::sim {
 
 struct Mover {
   std::size_t shape = 0;                          // index into World::shapes
-  std::function<Pose(double t_s)> T_world_mover;  // continuous; safe from any thread
+  std::function<Pose(double t_s)> T_world_mover;  // must be continuous and safe from any thread
 };
 
 struct World {
