@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Every registration method over one log: see usage.
+# Compares the registration methods on one log: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/compare.sh LOG TRUTH [OPTIONS]
 Runs every registration method over one log, with and without the IMU, and makes one Markdown table
-and one picture. Needs tools/setup.sh. Leaves out/compare/NAME/{table.md,paths.png} and each run,
-NAME that of LOG's folder.
+and one picture. Needs tools/setup.sh. Leaves table.md, paths.png and each run in out/compare/NAME/,
+where NAME is the name of LOG's folder.
   --config FILE  configuration with the rig; may be given again (default: config.yaml beside LOG, as
                  lio-sim leaves it)
-  --duration S   only so many seconds of the log
-  --out DIR      another folder
+  --duration S   use only so many seconds of the log
+  --out DIR      write into this folder instead
 USAGE
 }
 

@@ -1,23 +1,24 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Is the covariance true? See usage.
+# Judges the covariance by many simulated runs: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
-Runs seeds of a scenario (20, of 40 s) through the whole pipeline, one a core at a time, and judges
-the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves in
-out/monte_carlo/SCENARIO/: a folder a seed with what lio-replay writes and truth.tum, and
-consistency.txt, .json and .png of the steady path, consistency_world.* of the level world.
+Runs several seeds of a scenario (20, of 40 s) through the whole pipeline, one per core at a time,
+and judges the runs together by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Leaves
+in out/monte_carlo/SCENARIO/ a folder per seed with truth.tum and the files of lio-replay, and the
+results: consistency.txt, .json and .png for the poses in map, consistency_world.* for those in
+world.
 Seeds that the same programs and settings have done already are not done again, so an interrupted
-run goes on where it was.
+run can be continued.
   --set KEY=VALUE    override one key of the estimator; may be given again
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
   --first N          the first seed (1)
-  --jobs N           runs at a time (all cores)
-  --out DIR          another folder
+  --jobs N           number of runs at a time (one per core)
+  --out DIR          write into this folder instead
 Examples:
   tools/bench/monte_carlo.sh street 50 60
   tools/bench/monte_carlo.sh --set filter.map_walk_scale=0.5 --out out/walk_half loop 20 60
@@ -82,5 +83,5 @@ judge() { # NAME TITLE ARGUMENTS...
   build/bin/lio-eval consistency "${@:3}" truth.tum "${dirs[@]}" --json "$root/$1.json" \
     --plot "$root/$1.png" | tee "$root/$1.txt"
 }
-judge consistency "the steady path: trajectory.tum by covariance.csv"
-judge consistency_world "the level world: trajectory_world.tum by covariance_world.csv" --world
+judge consistency "poses in map: trajectory.tum by covariance.csv"
+judge consistency_world "poses in world: trajectory_world.tum by covariance_world.csv" --world

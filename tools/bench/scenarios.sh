@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The estimator over every scenario of the simulator: see usage.
+# Runs the estimator over every scenario of the simulator: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/scenarios.sh [OPTIONS] [SCENARIO...]
-Drives, replays and scores every scenario of lio-sim (or those named), and prints one Markdown table.
-Needs tools/setup.sh. Leaves in out/scenarios/SEED/: table.md, a folder a scenario with eval.txt,
-path.png and run/, and loop/closeup.png, surfaces that the loop sees at its begin and at its end.
-  --seed N         of the places, the traffic and every error (1)
+Drives, replays and scores every scenario of lio-sim (or those named), and prints a Markdown table.
+Needs tools/setup.sh. Leaves in out/scenarios/SEED/: table.md, a folder per scenario with eval.txt,
+path.png and run/, and loop/closeup.png, surfaces that the loop sees at its start and at its end.
+  --seed N         seed of the places, the traffic and all errors (1)
   --set KEY=VALUE  override one key of the estimator; may be given again
   --keep-logs      keep each log.lcm (up to 1.4 GB) and use it again while lio-sim is the same
   --docs           put the table into docs/results.md and the close-up into docs/images/

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# How fast is the whole pipeline? See usage.
+# Measures the speed of the whole pipeline: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/speed.sh [RUNS [THREADS]]
 Replays a simulated HDL-32E drive of full resolution several times (3, on 1 thread) and prints the
-medians over the runs: milliseconds a sweep by stage, real-time factor, memory. Needs
+medians over the runs: milliseconds per sweep and stage, real-time factor, memory. Needs
 tools/setup.sh. The drive is kept in out/inputs/speed/.
 USAGE
 }

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# A contact sheet of every scenario: one bird's-eye picture each, with the way.
+# Draws a contact sheet of all scenarios: one bird's-eye view each, with the path of the vehicle.
 #   tools/sim/contact_sheet.sh [OUT.png] [SEED]     (docs/images/contact_sheet.png, seed 1)
-# Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD names another build folder.
+# Needs a build (tools/setup.sh) and Debian's python3-matplotlib. LIO_BUILD may name a build folder.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${LIO_BUILD:-$here/../../build}
