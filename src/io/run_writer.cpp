@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -84,31 +85,12 @@ Json StageStats(std::vector<float> values_ms) {
           {"max", rounded(values_ms.back())}};
 }
 
-Json CounterStats(const Counters& c) {
-  return {{"num_scans", c.num_scans},
-          {"num_scans_dropped", c.num_scans_dropped},
-          {"num_scans_empty", c.num_scans_empty},
-          {"num_scans_late", c.num_scans_late},
-          {"num_scans_without_imu", c.num_scans_without_imu},
-          {"num_scan_gaps", c.num_scan_gaps},
-          {"num_imu", c.num_imu},
-          {"num_imu_nonfinite", c.num_imu_nonfinite},
-          {"num_imu_duplicate", c.num_imu_duplicate},
-          {"num_imu_late", c.num_imu_late},
-          {"num_imu_out_of_range", c.num_imu_out_of_range},
-          {"num_imu_clipped", c.num_imu_clipped},
-          {"num_imu_gaps", c.num_imu_gaps},
-          {"num_chunks", c.num_chunks},
-          {"num_chunks_duplicate", c.num_chunks_duplicate},
-          {"num_chunks_late", c.num_chunks_late},
-          {"num_chunks_missing", c.num_chunks_missing},
-          {"num_chunks_bad", c.num_chunks_bad},
-          {"num_points_nonfinite", c.num_points_nonfinite},
-          {"num_matches_rejected", c.num_matches_rejected},
-          {"num_gated", c.num_gated},
-          {"num_standstills", c.num_standstills},
-          {"num_clock_jumps", c.num_clock_jumps},
-          {"num_restarts", c.num_restarts}};
+Json CounterStats(const Counters& counters) {
+  Json json;
+  for (const CounterField& field : kCounterFields) {
+    json[std::string(field.name)] = counters.*field.count;
+  }
+  return json;
 }
 
 double PeakMemoryMb() {

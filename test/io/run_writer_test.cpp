@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "support/temp_dir.hpp"
 
@@ -176,6 +177,18 @@ TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
   writer.Finish({.counters = counters, .input = {}, .extra = {}});
   const std::string text = test::ReadText(out_ / "stats.json");
   for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
+}
+
+TEST_F(RunWriterTest, EachCountHasItsNameInTheStats) {
+  RunWriter writer(out_, Options{});
+  RunStats stats;
+  std::int64_t value = 1'000'000;
+  for (const CounterField& field : kCounterFields) stats.counters.*field.count = ++value;
+  writer.Finish(stats);
+  const auto json = Stats();
+  for (const CounterField& field : kCounterFields) {
+    EXPECT_EQ(json[std::string(field.name)], stats.counters.*field.count) << field.name;
+  }
 }
 
 TEST_F(RunWriterTest, WithoutScansStageTimesAreNull) {
