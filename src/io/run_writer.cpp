@@ -6,7 +6,6 @@
 #include <fmt/ostream.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -71,18 +70,12 @@ std::string RegistrationRow(const ScanReport& scan) {
   return row + "\n";
 }
 
-// The smallest value that `fraction` of all values do not exceed; `sorted` is not empty.
-float Quantile(const std::vector<float>& sorted, double fraction) {
-  return sorted[std::lround(fraction * static_cast<double>(sorted.size() - 1))];
-}
-
-Json StageStats(std::vector<float> values_ms) {
-  if (values_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
-  std::sort(values_ms.begin(), values_ms.end());
-  const auto rounded = [](float ms) { return std::round(static_cast<double>(ms) * 1e6) * 1e-6; };
-  return {{"median", rounded(Quantile(values_ms, 0.5))},
-          {"p99", rounded(Quantile(values_ms, 0.99))},
-          {"max", rounded(values_ms.back())}};
+Json StageStats(const QuantileSketch& times_ms) {
+  if (times_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
+  const auto rounded = [](double ms) { return std::round(ms * 1e6) * 1e-6; };
+  return {{"median", rounded(times_ms.Quantile(0.5))},
+          {"p99", rounded(times_ms.Quantile(0.99))},
+          {"max", rounded(times_ms.max())}};
 }
 
 Json CounterStats(const Counters& counters) {
@@ -159,7 +152,7 @@ void RunWriter::Write(const Output& output) {
 void RunWriter::WriteScan(const ScanOutput& output) {
   registration_.stream << RegistrationRow(output.scan);
   for (std::size_t i = 0; i < kNumStages; ++i) {
-    stage_ms_[i].push_back(static_cast<float>(Milliseconds(output.scan.stage_ns[i])));
+    stage_ms_[i].Add(Milliseconds(output.scan.stage_ns[i]));
   }
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
