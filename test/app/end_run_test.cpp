@@ -69,7 +69,7 @@ class EndRunTest : public ::testing::Test {
     std::int32_t num_scans = 0;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     for (int i = 0; !runner.fault(); ++i) {
-      if (i == 500) fail();
+      if (i == 700) fail();
       const bool is_read = reader.Next(event);
       if (is_read) {
         EXPECT_TRUE(bus_.Publish(event.channel, event.data));
@@ -106,7 +106,7 @@ class EndRunTest : public ::testing::Test {
               "error " + fault + "; the run ends here, please report this fault\n");
     EXPECT_GT(NumLines("trajectory.tum"), 5);
     EXPECT_EQ(NumLines("covariance.csv"), NumLines("trajectory.tum") + 1);
-    EXPECT_GT(NumLines("trajectory_imu_rate.tum"), 100);
+    EXPECT_GT(NumLines("trajectory_imu_rate.tum"), 50);
     EXPECT_TRUE(std::filesystem::exists(out_ / "map.pcd"));
     const auto stats = nlohmann::json::parse(test::ReadText(out_ / "stats.json"));
     EXPECT_GT(stats["num_scans"], 5);
