@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# The whole path with one command: see usage.
+# Runs the whole path from the sensors' data to the score with one command: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/demo.sh [OPTIONS] [INPUT]
 Sets up (tools/setup.sh), makes or converts the input, plays it with lcm-logplayer over UDP
-multicast to liod, scores the result with lio-eval, and leaves in out/demo/: path.png, error.png,
-map.png, trajectory.tum, eval.json and what else liod writes.
-INPUT is a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive folder, a KITTI odometry sequence folder,
-an LCM log, or a folder that lio-sim wrote. Without it a drive around a block is simulated.
-  --config FILE    configuration of liod; may be given again (default: by kind of input)
+multicast to liod, and scores the result with lio-eval. Leaves path.png, error.png, map.png,
+eval.json and the files that liod writes in out/demo/.
+INPUT is a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive folder, a KITTI odometry sequence
+folder, an LCM log, or a folder that lio-sim wrote. Without INPUT a drive around a block is
+simulated.
+  --config FILE    configuration of liod; may be given again (default: by the kind of input)
   --set KEY=VALUE  override one key; may be given again
   --truth FILE     true trajectory (default: from the input, or beside it)
-  --speed S        times real time to play at (1; 3 for the simulated drive)
+  --speed S        speed of playing, in multiples of real time (1; 3 for the simulated drive)
   --out DIR        folder of the results (out/demo)
 USAGE
 }
@@ -25,7 +26,7 @@ fail_usage() {
   exit 2
 }
 
-# A demo may be late, but not lossy: a busy machine drops no scans.
+# On a busy machine the demo may be late, but it drops no scans.
 settings=(--set pipeline.max_queued_scans=1000)
 input="" given_truth="" speed="" out=out/demo given_configs=()
 while (($#)); do
@@ -44,14 +45,14 @@ while (($#)); do
       ;;
     -*) fail_usage "unknown option $1" ;;
     *)
-      [[ -z $input ]] || fail_usage "one INPUT only"
+      [[ -z $input ]] || fail_usage "only one INPUT is possible"
       input=$(realpath -ms "$1")
       ;;
   esac
   shift
 done
 if [[ -n $input && ! -e $input ]]; then
-  echo "tools/demo.sh: $input is not there" >&2
+  echo "tools/demo.sh: $input does not exist" >&2
   exit 5
 fi
 
@@ -72,12 +73,12 @@ if ((${#given_configs[@]})); then configs=("${given_configs[@]}"); fi
 words=()
 for config in "${configs[@]}"; do words+=(--config "$config"); done
 mkdir -p "$out"
-rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # of an earlier run; liod replaces the rest
+rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # liod replaces the other files
 echo "demo: lcm-logplayer plays $log to liod at speed $speed"
 tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}"
 
 if [[ ! -s $out/trajectory.tum ]]; then
-  echo "tools/demo.sh: liod gave no trajectory; its words:" >&2
+  echo "tools/demo.sh: liod wrote no trajectory; its messages were:" >&2
   cat "$out/liod.log" >&2
   exit 1
 fi
@@ -85,7 +86,7 @@ if [[ -n $truth ]]; then
   build/bin/lio-eval "$truth" "$out/trajectory.tum" --json "$out/eval.json" --plots "$out" \
     --map "$out/map.pcd" >"$out/eval.txt"
 else
-  echo "demo: no truth is known for this input: path and map only"
+  echo "demo: this input has no true trajectory: drawing only path and map"
   /usr/bin/python3 tools/plot/plot_run.py "$out"
 fi
 /usr/bin/python3 tools/demo/table.py "$out"

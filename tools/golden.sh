@@ -1,22 +1,23 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Does the estimator still give the same bytes? See usage.
+# Checks that the estimator still gives the same bytes: see usage.
 set -euo pipefail
 
 usage() {
   cat <<'USAGE'
 Usage: tools/golden.sh [--update] [--list] [--jobs N] [CASE...]
-Replays short logs of every scenario, sensor and fault, and compares hashes of the results with those
-in test/golden/hashes.tsv: a change that is meant to leave the estimate alone must leave them alone.
-Needs tools/setup.sh. The logs are simulated once, into out/golden/logs; the real ones come from
-LIO_DATA, else ../shared/data, and are left out, saying so, without it.
-  --update   record today's hashes; the diff of hashes.tsv shows which logs a change touches
+Replays short logs of every scenario, sensor and fault, and compares hashes of the results with
+those in test/golden/hashes.tsv: a change that is meant to leave the estimate alone must leave them
+alone.
+Needs tools/setup.sh. The logs are simulated once, into out/golden/logs. The recorded ones come from
+LIO_DATA or else ../shared/data; without them their cases are left out, with a message.
+  --update   record the new hashes; the diff of hashes.tsv shows which logs a change touches
   --list     print the cases and their commands
-  --jobs N   cases at a time (one a core)
-  CASE       only these
-Exit codes: 0 the same, 1 something differs, 2 usage. The mathematics library and the ray caster give
-other last bits on other processors: where a simulated log differs, its case is not compared.
+  --jobs N   number of cases at a time (one per core)
+  CASE       run only these cases
+Exit codes: 0 the same, 1 something differs, 2 usage. The mathematics library and the ray caster
+give other last bits on other processors: a case whose simulated log differs is not compared.
 USAGE
 }
 

@@ -1,24 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Makes the programs: installs the Debian packages that are missing, configures, builds Release into
-# build/. Does only what is not done yet.
+# Makes the programs: installs the Debian packages that are missing, configures and builds Release
+# into build/. Steps that are done already are left out.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'USAGE'
 Usage: tools/setup.sh [--tests] [--spy]
-Installs missing Debian packages (asking for root when it has none), configures and builds Release
+Installs missing Debian packages (and asks for root when it must), configures and builds Release
 into build/; the programs are then in build/bin/.
-  --tests  also what only the tests need, and the tests themselves
-  --spy    also Java and what lio-spy needs of it
+  --tests  also build the tests, and install the packages that they need
+  --spy    also build lio-spy, and install Java
 Environment: LIO_PRESET  CMake preset that builds into build/ (release; ci when CI=true)
-             LIO_JOBS    parallel compilers (one a core)
+             LIO_JOBS    number of parallel compilers (one per core)
 USAGE
 }
 
-# What CMake looks for, then what the scripts call. libpcl-dev is large, but only its files are used.
+# The packages that CMake looks for, then those that the scripts call. libpcl-dev is large, but only
+# its files are used.
 packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libyaml-cpp-dev libspdlog-dev
   libfmt-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev liblz4-dev libbz2-dev libpcl-dev
   libembree-dev liblcm-dev liblcm-bin

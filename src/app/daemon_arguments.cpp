@@ -7,15 +7,15 @@
 namespace lio {
 namespace {
 
-// LCM's channel names have at most 63 characters; the longest of ours adds less than 23.
+// A channel name of LCM has at most 63 characters, and the longest of ours adds less than 23.
 constexpr std::size_t kMaxPrefixCharacters = 40;
 
 constexpr const char* kDescription =
     "LiDAR-inertial odometry over LCM.\n\n"
-    "Listens on LIO_IMU and LIO_SCAN; publishes LIO_ODOM (once a scan, level), LIO_ODOM_LOCAL\n"
-    "(the steady path), LIO_ODOM_IMU (once an inertial sample), LIO_STATE, LIO_REG, LIO_STATUS\n"
-    "(1 Hz), LIO_CLOUD (2 Hz, thinned) and, when asked for, LIO_CLOUD_FULL. Runs until SIGINT or\n"
-    "SIGTERM, then ends within a second.";
+    "Listens on LIO_IMU and LIO_SCAN. Publishes LIO_ODOM (once per scan, in the level frame\n"
+    "world), LIO_ODOM_LOCAL (once per scan, in the frame map, which never turns), LIO_ODOM_IMU\n"
+    "(once per inertial sample), LIO_STATE, LIO_REG, LIO_STATUS (1 Hz), LIO_CLOUD (2 Hz, thinned)\n"
+    "and, when asked for, LIO_CLOUD_FULL. Runs until SIGINT or SIGTERM, then ends within a second.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -24,7 +24,9 @@ constexpr const char* kExamples =
     "  liod --config config/default.yaml --config my_rig.yaml --lcm-url "
     "'udpm://239.255.76.67:7700'\n\n"
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport.";
+    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 70 internal fault (the files "
+    "of\n"
+    "--out are complete up to it).";
 
 }  // namespace
 
@@ -32,13 +34,15 @@ void DaemonArguments::AddTo(CLI::App& app) {
   app.description(kDescription);
   app.footer(kExamples);
   app.add_option("--lcm-url", lcm_url,
-                 "LCM transport; without it LCM_DEFAULT_URL, else LCM's default multicast group")
+                 "LCM transport; the default is LCM_DEFAULT_URL or else LCM's multicast group")
       ->type_name("URL");
-  app.add_option("--out", out, "Folder for the files that lio-replay writes too")->type_name("DIR");
-  app.add_flag("--map", writes_map, "With --out: write map.pcd at the end");
+  app.add_option("--out", out, "Write the files that lio-replay writes into this folder")
+      ->type_name("DIR");
+  app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");
   app.add_flag("--cloud-full", publishes_full_cloud,
-               "Publish every point, registered, on LIO_CLOUD_FULL; LIO_CMD may change it");
-  app.add_option("--channel-prefix", channel_prefix, "Of all channels, in and out")
+               "Publish every point, in the frame map, on LIO_CLOUD_FULL; LIO_CMD may change it");
+  app.add_option("--channel-prefix", channel_prefix,
+                 "First part of every channel's name, in and out")
       ->type_name("NAME")
       ->check(NameUpTo(kMaxPrefixCharacters))
       ->capture_default_str();

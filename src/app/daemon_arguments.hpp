@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// liod's command line.
+// The command line of liod.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct DaemonArguments {
 
   // `this` must outlive the app.
   void AddTo(CLI::App& app);
-  LiveOptions Live() const;
+  [[nodiscard]] LiveOptions Live() const;
 };
 
 }  // namespace lio

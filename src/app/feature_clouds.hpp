@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT, LIO_REMOVED: the sets
-// that LOAM's scan registration has made of a sweep, for eyes and for other programs.
+// The clouds LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT and
+// LIO_REMOVED: the feature sets that LOAM's scan registration has extracted from a sweep, for
+// viewers and for other programs.
 #pragma once
 
 #include <memory>
@@ -18,9 +19,10 @@ struct FeatureCloudTask {
   std::shared_ptr<const LoamFeatures> features;  // of the sweep
 };
 
-// The set's points as they were measured: lidar frame at each one's own instant, with ring, rebuilt
-// where the sweep had none. Chunks of at most kMaxChunkPoints; none of an empty set. The removed
-// ones are those at the border of a shadow and those on surfaces nearly parallel to the beam.
-std::vector<ScanChunk> FeatureCloud(const FeatureCloudTask& task, FeatureSet set);
+// Gives the points of a set as they were measured: in the lidar frame at each point's own instant,
+// with the ring, which is rebuilt when the sweep has none. The chunks have at most kMaxChunkPoints
+// points; an empty set has no chunk. The removed points are those at the border of a shadow and
+// those at grazing incidence.
+[[nodiscard]] std::vector<ScanChunk> FeatureCloud(const FeatureCloudTask& task, FeatureSet set);
 
 }  // namespace lio

@@ -69,10 +69,16 @@ std::unique_ptr<InboxItem> FilterInbox::Take() {
   return item;
 }
 
-MatchOutcome FilterInbox::TakeOutcome() {
+void FilterInbox::EndOutcomes() {
+  const std::lock_guard lock(mutex_);
+  are_outcomes_over_ = true;
+  filled_.notify_one();
+}
+
+std::optional<MatchOutcome> FilterInbox::TakeOutcome() {
   std::unique_lock lock(mutex_);
-  filled_.wait(lock, [this] { return outcome_.has_value(); });
-  return *std::exchange(outcome_, std::nullopt);
+  filled_.wait(lock, [this] { return outcome_ || are_outcomes_over_; });
+  return std::exchange(outcome_, std::nullopt);
 }
 
 FilterInbox::Losses FilterInbox::losses() const {

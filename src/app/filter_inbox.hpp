@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What waits for the filter thread: decoded messages in the order they arrived, and the outcome of
-// the match that is under way.
+// The queue in front of the filter thread: decoded messages in the order of their arrival, and the
+// outcome of the match that is under way.
 //
-// Bounded. Beyond kMaxPoints the chunks of the oldest scan are dropped, all of them; beyond kMaxImu
-// the newest sample is refused. Both are counted. Outcomes are taken first: there is never more
-// than one, and scans wait for it.
+// The queue is bounded. When more than kMaxPoints wait, all chunks of the oldest scan are dropped;
+// when kMaxImu samples wait, the newest is refused. Both are counted. An outcome is taken before
+// the messages: there is never more than one, and scans wait for it.
 #pragma once
 
 #include <condition_variable>
@@ -47,13 +47,15 @@ class FilterInbox {
   void Put(MatchOutcome outcome);
   // No message will come any more; outcomes may.
   void Close();
+  // No outcome will come any more, because the match thread has failed; messages may.
+  void EndOutcomes();
 
   // Waits for the next item; null once closed and empty.
-  std::unique_ptr<InboxItem> Take();
-  // Waits for the outcome and leaves messages where they are.
-  MatchOutcome TakeOutcome();
+  [[nodiscard]] std::unique_ptr<InboxItem> Take();
+  // Waits for the outcome and leaves messages where they are; nothing when none will come.
+  [[nodiscard]] std::optional<MatchOutcome> TakeOutcome();
 
-  Losses losses() const;
+  [[nodiscard]] Losses losses() const;
 
  private:
   void DropOldestScan();
@@ -67,6 +69,7 @@ class FilterInbox {
   std::size_t num_imu_ = 0;
   std::size_t num_points_ = 0;
   bool is_closed_ = false;
+  bool are_outcomes_over_ = false;
   Losses losses_;
 };
 

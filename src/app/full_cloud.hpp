@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// LIO_CLOUD_FULL: every finite point of a sweep, moved to where it stands in the map.
+// The cloud LIO_CLOUD_FULL: every finite point of a sweep, deskewed and in the frame `map`.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,9 @@ struct FullCloudTask {
   Pose T_map_imu;          // at the sweep's middle, as matched
 };
 
-// Chunks of at most kMaxChunkPoints, in the order of the sweep. Stamp and offsets stay the points'
-// own instants.
-std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task, const Pose& T_imu_lidar);
+// Gives chunks of at most kMaxChunkPoints points, in the order of the sweep. Stamps and offsets are
+// still the points' own instants.
+[[nodiscard]] std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task,
+                                                       const Pose& T_imu_lidar);
 
 }  // namespace lio

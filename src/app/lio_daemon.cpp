@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "app/daemon_arguments.hpp"
+#include "app/end_run.hpp"
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/socket_buffer.hpp"
@@ -15,20 +16,20 @@
 namespace lio {
 namespace {
 
-// Blocked in every thread, for threads inherit it: only WaitForEnd takes these signals.
+// Blocks the signals in every thread, because threads inherit the mask: only WaitForEnd takes them.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a broken tcpq connection is told by its calls
+  std::signal(SIGPIPE, SIG_IGN);  // calls on a broken tcpq connection return errors instead
   return signals;
 }
 
 void WaitForEnd(const sigset_t& signals, const LiveRunner& runner) {
   const timespec interval{.tv_sec = 0, .tv_nsec = 100'000'000};
-  while (sigtimedwait(&signals, nullptr, &interval) < 0 && !runner.has_ended()) {
+  while (sigtimedwait(&signals, nullptr, &interval) < 0 && !IsOver(runner)) {
   }
 }
 
@@ -52,11 +53,7 @@ int Run(const DaemonArguments& arguments, const Options& options) {
   LiveRunner runner(*bus, options, live);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
   WaitForEnd(signals, runner);
-  const bool is_lost = runner.has_ended() && !arguments.lcm_url.starts_with("file:");
-  runner.Stop();
-  if (!is_lost) return kExitDone;
-  spdlog::error("the connection to {} broke: start its server, then liod", arguments.lcm_url);
-  return kExitNoTransport;
+  return EndRun(runner, arguments.lcm_url);
 }
 
 }  // namespace

@@ -9,11 +9,13 @@
 namespace lio {
 
 MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
-                         std::function<void(MatchOutcome)> deliver)
+                         std::function<void(MatchOutcome)> deliver, OnFault on_fault)
     : worker_(options, clock, BeamElevations(options.rig.lidar.model)),
       collects_map_(collects_map),
       deliver_(std::move(deliver)),
-      thread_([this] { Run(); }) {}
+      thread_("match", std::move(on_fault)) {
+  thread_.Start([this] { Run(); });
+}
 
 MatchWorker::~MatchWorker() {
   Finish();
@@ -25,7 +27,7 @@ void MatchWorker::Finish() {
     is_finishing_ = true;
     told_.notify_one();
   }
-  if (thread_.joinable()) thread_.join();
+  thread_.Join();
 }
 
 void MatchWorker::Tell(MatchJob job) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The match thread: runs one job at a time and grows the map, in the order it is told.
+// The match thread: runs one job at a time and grows the map, in the order it is told. After a
+// fault it does nothing any more: no outcome comes, and what it is told is left undone.
 #pragma once
 
 #include <atomic>
@@ -8,9 +9,9 @@
 #include <deque>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <variant>
 
+#include "app/worker_thread.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 
@@ -18,21 +19,23 @@ namespace lio {
 
 class MatchWorker {
  public:
-  // `deliver` is called on the match thread with each job's outcome.
+  // `deliver` is called on the match thread with each job's outcome, `on_fault` when a job, an
+  // insertion or `deliver` has thrown.
   MatchWorker(const Options& options, ClockNs clock, bool collects_map,
-              std::function<void(MatchOutcome)> deliver);
-  ~MatchWorker();  // finishes what was told, then ends
+              std::function<void(MatchOutcome)> deliver, OnFault on_fault);
+  ~MatchWorker();  // as Finish
   MatchWorker(const MatchWorker&) = delete;
   MatchWorker& operator=(const MatchWorker&) = delete;
 
-  // By the estimator's protocol at most one job and the insertion before it are waiting.
+  // At most one job and the insertion before it are waiting: so Odometry hands them out.
   void Tell(MatchJob job);
   void Tell(InsertTask insert);
-  void Finish();  // as the destructor
+  // Does what it was told, then ends the thread.
+  void Finish();
 
-  std::size_t map_bytes() const { return map_bytes_; }
+  [[nodiscard]] std::size_t map_bytes() const { return map_bytes_; }
   // Points of map.pcd; only after Finish.
-  const MapCloud& map_cloud() const { return map_cloud_; }
+  [[nodiscard]] const MapCloud& map_cloud() const { return map_cloud_; }
 
  private:
   using Work = std::variant<MatchJob, InsertTask>;
@@ -51,7 +54,7 @@ class MatchWorker {
   std::condition_variable told_;
   std::deque<Work> work_;
   bool is_finishing_ = false;
-  std::thread thread_;
+  WorkerThread thread_;
 };
 
 }  // namespace lio

@@ -3,6 +3,7 @@
 #include "app/output_worker.hpp"
 
 #include <chrono>
+#include <thread>
 #include <utility>
 
 namespace lio {
@@ -11,19 +12,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kStatusInterval(1);
-// Between the chunks of a full cloud: a burst of them overruns receivers with stock buffers.
+// The pause between the chunks of a full cloud: a burst overruns receivers with stock buffers.
 constexpr std::chrono::milliseconds kChunkPause(1);
 
 }  // namespace
 
 OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
-                           std::string version, std::function<StatusReport()> compose)
+                           std::string version, std::function<StatusReport()> compose,
+                           OnFault on_fault)
     : publisher_(publisher),
       writer_(writer),
       T_imu_lidar_(T_imu_lidar),
       version_(std::move(version)),
       compose_(std::move(compose)),
-      thread_([this] { Run(); }) {}
+      thread_("output", std::move(on_fault)) {
+  thread_.Start([this] { Run(); });
+}
 
 OutputWorker::~OutputWorker() {
   Finish();
@@ -35,7 +39,12 @@ void OutputWorker::Finish() {
     is_finishing_ = true;
     put_.notify_one();
   }
-  if (thread_.joinable()) thread_.join();
+  thread_.Join();
+}
+
+void OutputWorker::WriteRowsLeft() {
+  for (const Output& row : tasks_.rows) writer_->Write(row);
+  tasks_.rows.clear();
 }
 
 void OutputWorker::PutRow(Output row) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The output thread: files, clouds and the status, everything that may wait for a disk or a socket
-// while the filter must not. Rows are kept in order, at most kMaxRows; beyond, the newest are
-// dropped and counted. Of clouds only the newest waits.
+// The output thread: it writes the files and sends the clouds and the status, because these may
+// wait for a disk or a socket and the filter must not. At most kMaxRows rows wait, in order; when
+// more come, the newest are dropped and counted. Only the newest cloud of each kind waits. After a
+// fault the rows are kept for WriteRowsLeft.
 #pragma once
 
 #include <atomic>
@@ -11,11 +12,11 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "app/feature_clouds.hpp"
 #include "app/full_cloud.hpp"
 #include "app/publisher.hpp"
+#include "app/worker_thread.hpp"
 #include "lio/io/run_writer.hpp"
 
 namespace lio {
@@ -24,9 +25,10 @@ class OutputWorker {
  public:
   static constexpr std::size_t kMaxRows = 20'000;  // 20 MB, some ten seconds of 1 kHz
 
-  // Borrowed: `publisher`, and `writer`, which is null without files. `compose` gives the status.
+  // `publisher` and `writer` are borrowed; `writer` is null without files. `compose` gives the
+  // status, on the output thread. `on_fault` is called when any of them has thrown.
   OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
-               std::string version, std::function<StatusReport()> compose);
+               std::string version, std::function<StatusReport()> compose, OnFault on_fault);
   ~OutputWorker();  // as Finish
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
@@ -35,11 +37,13 @@ class OutputWorker {
   void Put(RegisteredCloud cloud);
   void Put(FullCloudTask cloud);
   void Put(FeatureCloudTask features);
-  void AnnounceStatus();  // now, not at the next second
+  void AnnounceStatus();  // sends the status now, not at the next second
   // Writes and sends what is there, and a last status; then ends.
   void Finish();
+  // After Finish: writes the rows that a fault of the thread has left.
+  void WriteRowsLeft();
 
-  std::int64_t num_rows_dropped() const { return num_rows_dropped_; }
+  [[nodiscard]] std::int64_t num_rows_dropped() const { return num_rows_dropped_; }
 
  private:
   struct Tasks {
@@ -49,7 +53,9 @@ class OutputWorker {
     std::optional<FeatureCloudTask> features;
     bool status = false;
 
-    bool empty() const { return rows.empty() && !cloud && !full_cloud && !features && !status; }
+    [[nodiscard]] bool empty() const {
+      return rows.empty() && !cloud && !full_cloud && !features && !status;
+    }
   };
 
   void Run();
@@ -68,7 +74,7 @@ class OutputWorker {
   std::condition_variable put_;
   Tasks tasks_;
   bool is_finishing_ = false;
-  std::thread thread_;
+  WorkerThread thread_;
 };
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon's outputs onto the bus. Any thread may publish.
+// Publishes the daemon's outputs on the bus. Any thread may publish.
 #pragma once
 
 #include <atomic>
@@ -18,21 +18,22 @@ class Publisher {
   // Both are borrowed for as long as this lives.
   Publisher(Bus& bus, const Channels& channels) : bus_(bus), channels_(channels) {}
 
-  // Odometry, filter state and registration of a scan, odometry of an inertial sample.
+  // Publishes odometry, filter state and registration of a scan, or odometry of an inertial sample.
+  // Notices are not published here: the status has them.
   void Publish(const Output& output);
   void Publish(const StatusReport& status, const std::string& version);
-  // At most kMaxCloudPoints points.
+  // The cloud has at most kMaxCloudPoints points.
   void Publish(const RegisteredCloud& cloud);
-  // A part of LIO_CLOUD_FULL, registered already.
+  // Publishes a chunk of LIO_CLOUD_FULL, which is in the frame `map` already.
   void PublishFull(const ScanChunk& chunk);
-
-  // A part of one of LOAM's sets.
+  // Publishes a chunk of one of LOAM's feature sets.
   void PublishFeatures(FeatureSet set, const ScanChunk& chunk);
 
-  static constexpr std::size_t kMaxCloudPoints =
-      3000;  // 60 kB: one datagram, and Java's lcm-spy lives
+  // 60 kB: one datagram, and no more than Java's lcm-spy can take.
+  static constexpr std::size_t kMaxCloudPoints = 3000;
 
-  std::int64_t num_failed() const { return num_failed_; }
+  // How many messages the transport has refused.
+  [[nodiscard]] std::int64_t num_failed() const { return num_failed_; }
 
  private:
   void Send(const NavOutput& nav);

@@ -9,11 +9,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kImuCapacity = 4096;   // some seconds at 1 kHz
-constexpr int kScanCapacity = 1024;  // chunks: forty sweeps; LCM's own 30 would lose two thirds
+constexpr int kImuCapacity = 4096;  // samples: some seconds at 1 kHz
+constexpr int kScanCapacity =
+    1024;  // chunks: forty sweeps; LCM's default of 30 would lose two thirds of them
 constexpr int kCommandCapacity = 16;
-constexpr milliseconds kPollInterval(50);  // how soon Stop is noticed
-constexpr milliseconds kQuiet(20);         // without a message for this long, all have arrived
+constexpr milliseconds kPollInterval(50);  // after which Stop is noticed
+constexpr milliseconds kQuiet(20);         // after which without a message all have arrived
 constexpr milliseconds kMaxDrain(200);
 
 }  // namespace

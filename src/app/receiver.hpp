@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The receive thread: takes messages off the bus, decodes them in place (one bounded copy, no
-// computing) and puts them into the filter's inbox.
+// The receive thread: takes messages from the bus, decodes them (one bounded copy, no computing)
+// and puts them into the filter's inbox.
 #pragma once
 
 #include <atomic>
@@ -15,16 +15,19 @@ namespace lio {
 
 class Receiver {
  public:
-  // Subscribes. All are borrowed; `obey` is called on the receive thread.
+  // Subscribes to the input channels. All references are borrowed; `obey` is called on the receive
+  // thread.
   Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
            StatusBoard& board, std::function<void(const Command&)> obey);
 
-  // The thread's body: until Stop, or until the bus is closed. After Stop it still takes what has
-  // arrived already, for 200 ms at most, so that the last scan of a log is not lost.
+  // The thread's body: runs until Stop, or until the bus is closed. After Stop it still takes the
+  // messages that have arrived, for 200 ms at most, so that the last scan of a log is not lost.
   void Run();
   void Stop() { is_stopping_ = true; }
 
-  bool has_ended() const { return has_ended_; }  // the bus is closed: nothing will come any more
+  [[nodiscard]] bool has_ended() const {
+    return has_ended_;
+  }  // the bus is closed: nothing will come any more
 
  private:
   void OnImu(ByteView data, std::int64_t recv_utime);
@@ -39,7 +42,7 @@ class Receiver {
   StatusBoard& board_;
   std::function<void(const Command&)> obey_;
   InputDecoder decoder_;
-  std::int64_t num_oversized_ = 0;  // of the bus, those reported already
+  std::int64_t num_oversized_ = 0;  // messages of the bus that are counted already
   std::atomic<bool> is_stopping_ = false;
   std::atomic<bool> has_ended_ = false;
 };

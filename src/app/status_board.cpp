@@ -14,13 +14,6 @@
 namespace lio {
 namespace {
 
-std::int64_t CpuMicroseconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto us = [](const timeval& t) { return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_usec; };
-  return us(usage.ru_utime) + us(usage.ru_stime);
-}
-
 float ResidentMb() {
   std::int64_t total_pages = 0;
   std::int64_t resident_pages = 0;
@@ -45,8 +38,18 @@ std::int64_t HostUtime() {
       .count();
 }
 
-StatusBoard::StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes)
-    : last_utime_(HostUtime()), last_cpu_us_(CpuMicroseconds()) {
+std::int64_t ProcessCpuMicroseconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto us = [](const timeval& t) { return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_usec; };
+  return us(usage.ru_utime) + us(usage.ru_stime);
+}
+
+StatusBoard::StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
+                         StatusClocks clocks)
+    : clocks_(std::move(clocks)),
+      last_utime_(clocks_.host_utime()),
+      last_cpu_us_(clocks_.process_cpu_us()) {
   report_.start_utime = last_utime_;
   report_.config_hash = config_hash;
   report_.receive_buffer_bytes = receive_buffer_bytes;
@@ -89,8 +92,8 @@ InputCounters StatusBoard::input() const {
 
 StatusReport StatusBoard::Compose() {
   const std::lock_guard lock(mutex_);
-  report_.utime = HostUtime();
-  const std::int64_t cpu_us = CpuMicroseconds();
+  report_.utime = clocks_.host_utime();
+  const std::int64_t cpu_us = clocks_.process_cpu_us();
   const std::int64_t elapsed_us = std::max<std::int64_t>(report_.utime - last_utime_, 1);
   report_.cpu_load_cores =
       static_cast<float>(cpu_us - last_cpu_us_) / static_cast<float>(elapsed_us);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where the threads pin what LIO_STATUS will say.
+// Collects from all threads what LIO_STATUS reports. Any thread may call any function.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -11,37 +12,47 @@
 
 namespace lio {
 
+// Host's clock, us since the epoch.
+[[nodiscard]] std::int64_t HostUtime();
+// CPU time that this process has used, all threads together, us.
+[[nodiscard]] std::int64_t ProcessCpuMicroseconds();
+
+// The clocks that the status is made with.
+struct StatusClocks {
+  std::function<std::int64_t()> host_utime = HostUtime;
+  std::function<std::int64_t()> process_cpu_us = ProcessCpuMicroseconds;
+};
+
 class StatusBoard {
  public:
-  StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes);
+  StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
+              StatusClocks clocks = {});
 
   void SetEstimator(const Counters& counters, TrackingStatus state, Timestamp newest_stamp);
   void SetInput(const InputCounters& counters);
   void SetNote(std::string note);
   void CountRefusedCommand();
-  // Of one scan: from the arrival of its last datagram to the start of its match, and from there to
-  // its odometry.
+  // The times of one scan: `queue_ms` from the arrival of its last datagram to the start of its
+  // match, `compute_ms` from there to its odometry.
   void AddLatency(double queue_ms, double compute_ms);
 
-  InputCounters input() const;
+  [[nodiscard]] InputCounters input() const;
 
-  // All of the above and what this process uses; the latencies, and the time that the load is
-  // measured over, start anew.
-  StatusReport Compose();
+  // Everything above, with the memory and the CPU time that this process uses. The latencies and
+  // the load are those since the Compose before.
+  [[nodiscard]] StatusReport Compose();
 
  private:
   struct Latencies {
     std::vector<float> queue_ms, compute_ms, total_ms;
   };
 
+  const StatusClocks clocks_;
   mutable std::mutex mutex_;  // guards everything below
   StatusReport report_;
   Latencies latencies_;
   std::int64_t last_utime_;
   std::int64_t last_cpu_us_;
 };
-
-// Host's clock, us since the epoch.
-std::int64_t HostUtime();
 
 }  // namespace lio

@@ -135,7 +135,7 @@ void AddOptionsArguments(CLI::App& app, OptionsArguments& arguments) {
       ->allow_extra_args(false)
       ->check(CheckKeyValue)
       ->group(group);
-  // After the two above: CLI11 runs callbacks in this order.
+  // This flag is added after the two options above, because CLI11 runs callbacks in this order.
   const auto request = [&arguments] {
     arguments.print = true;
     throw PrintOptionsRequest();

@@ -101,8 +101,8 @@ struct EventLogReader::Impl {
     std::int64_t utime = 0;
     std::int64_t channel_bytes = 0;
     std::int64_t data_bytes = 0;
-    std::int64_t begin = 0;  // of the header, in the file
-    std::int64_t end = 0;    // one after the data
+    std::int64_t begin = 0;  // offset of the header in the file
+    std::int64_t end = 0;    // offset behind the data
   };
 
   int fd = -1;
@@ -134,7 +134,7 @@ bool EventLogReader::Impl::Load(std::int64_t at, std::uint8_t* to, std::size_t c
   return true;
 }
 
-// `count` (at most kBufferBytes) bytes of the file at `at`, or null beyond its end.
+// Gives `count` (at most kBufferBytes) bytes of the file from `at` on, or null beyond its end.
 const std::uint8_t* EventLogReader::Impl::At(std::int64_t at, std::size_t count) {
   if (at + static_cast<std::int64_t>(count) > size) return nullptr;
   const auto window_size = static_cast<std::int64_t>(window.size());
@@ -172,7 +172,7 @@ bool EventLogReader::Impl::ReadHeader(std::int64_t at, Header& header) {
                                            [](std::uint8_t c) { return c >= 0x20 && c != 0x7f; });
 }
 
-// Does an event, or the end of the file, come right after this one?
+// True when an event, or the end of the file, comes right after this event.
 bool EventLogReader::Impl::IsFollowed(const Header& header) {
   if (header.end == size) return true;
   std::uint8_t sync[4];
@@ -184,7 +184,7 @@ bool EventLogReader::Impl::IsFollowed(const Header& header) {
   return Load(header.end, sync, sizeof(sync)) && ReadBigEndian<std::uint32_t>(sync) == kSync;
 }
 
-// A header whose length was damaged claims bytes of the events behind it: look for one of those.
+// A header with a damaged length claims the bytes of the events behind it: look for one of those.
 bool EventLogReader::Impl::HoldsAnotherEvent(const Header& header) {
   if (known_good > header.begin) return known_good < header.end;
   for (std::int64_t at = header.begin + 1;; ++at) {
@@ -198,8 +198,8 @@ bool EventLogReader::Impl::HoldsAnotherEvent(const Header& header) {
   }
 }
 
-// Position of the first sync word that starts in [from, end), or -1. Searches what the window holds
-// before it loads more, so that many false syncs do not make it slow.
+// Finds the first sync word that starts in [from, end); -1 when there is none. It searches the
+// bytes in the window before it loads more, so that many false sync words do not make it slow.
 std::int64_t EventLogReader::Impl::FindSync(std::int64_t from, std::int64_t end) {
   end = std::min(end, size - 3);
   while (from < end) {

@@ -35,8 +35,9 @@ bool InputDecoder::Accept(DecodeStatus status) {
 bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
   std::int32_t seq = 0;
   if (!Accept(DecodeImu(bytes, sample, seq))) return false;
-  // Modulo 2^32, so that a wrapping sequence is no hole. A step back is a driver that started anew
-  // or a reordered sample, a step of thousands a new driver: neither says how many were lost.
+  // The difference is modulo 2^32, so that a sequence that wraps has no gap. A step back comes from
+  // a driver that started again or from a reordered sample, a step of thousands from another
+  // driver; neither tells how many samples were lost.
   constexpr std::uint32_t kMaxHole = 10'000;
   const std::uint32_t step =
       static_cast<std::uint32_t>(seq) - static_cast<std::uint32_t>(last_imu_seq_);

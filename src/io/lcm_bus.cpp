@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The bus over liblcm, by its C interface and raw subscriptions: the typed ones decode before
-// anybody can look at the bytes, and one bad count then ends the process.
+// The bus over liblcm, through its C interface and raw subscriptions. Typed subscriptions decode
+// before the bytes can be checked, and one bad count then ends the process.
 #include <lcm/lcm.h>
 #include <poll.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +14,7 @@
 #include <vector>
 
 #include "lio/io/bus.hpp"
+#include "stderr_capture.hpp"
 
 namespace lio {
 namespace {
@@ -40,37 +38,6 @@ std::string Literally(const std::string& channel) {
   return expression;
 }
 
-// liblcm explains itself on stderr, over several lines. Collects what is written there meanwhile,
-// so that it can become a part of the one line that an error gets.
-class StderrCapture {
- public:
-  StderrCapture() : saved_(::dup(STDERR_FILENO)), memory_(::memfd_create("stderr", MFD_CLOEXEC)) {
-    ::dup2(memory_, STDERR_FILENO);
-  }
-  ~StderrCapture() {
-    if (saved_ >= 0) Finish();
-  }
-  StderrCapture(const StderrCapture&) = delete;
-  StderrCapture& operator=(const StderrCapture&) = delete;
-
-  std::string Finish() {
-    std::fflush(stderr);
-    std::string text(static_cast<std::size_t>(std::max<off_t>(::lseek(memory_, 0, SEEK_END), 0)),
-                     ' ');
-    text.resize(static_cast<std::size_t>(
-        std::max<ssize_t>(::pread(memory_, text.data(), text.size(), 0), 0)));
-    ::dup2(saved_, STDERR_FILENO);
-    ::close(saved_);
-    ::close(memory_);
-    saved_ = -1;
-    return text;
-  }
-
- private:
-  int saved_;
-  int memory_;
-};
-
 std::string WhatToDo(const std::string& url) {
   if (url.starts_with("tcpq:")) return "start its server: java -cp lcm.jar lcm.lcm.TCPService PORT";
   if (url.starts_with("file:")) return "name an existing log";
@@ -82,14 +49,16 @@ std::string WhatToDo(const std::string& url) {
 lcm_t* Open(const std::string& url) {
   StderrCapture capture;
   lcm_t* lcm = lcm_create(url.c_str());
-  // Asking for the descriptor makes udpm open its receive socket now, not with the first
-  // subscription, so that FindUdpSocket finds it; and tells whether tcpq has a connection.
+  // Asking for the descriptor makes udpm open its receive socket now and not with the first
+  // subscription, so that FindUdpSocket finds it. It also shows whether tcpq has a connection.
   const bool is_usable = lcm != nullptr && lcm_get_fileno(lcm) >= 0;
   const std::string words = capture.Finish();
   if (!is_usable) {
     if (lcm != nullptr) lcm_destroy(lcm);
-    throw TransportError("LCM cannot open " + url + " (" + words.substr(0, words.find('\n')) +
-                         "); " + WhatToDo(url));
+    const std::string reason = capture.fault().empty()
+                                   ? words.substr(0, words.find('\n'))
+                                   : "its reason went to stderr, " + capture.fault();
+    throw TransportError("LCM cannot open " + url + " (" + reason + "); " + WhatToDo(url));
   }
   std::fputs(words.c_str(), stderr);
   return lcm;
@@ -113,8 +82,8 @@ class LcmBus final : public Bus {
     lcm_subscription_set_queue_capacity(subscription, queue_capacity);
   }
 
-  // Polls itself: lcm_handle_timeout aborts the process when a tcpq connection is down, and with
-  // more than 1024 files open.
+  // Calls poll itself, because lcm_handle_timeout aborts the process when a tcpq connection is down
+  // and when more than 1024 files are open.
   ReceiveResult Receive(std::chrono::milliseconds timeout) override {
     pollfd waiting{.fd = lcm_get_fileno(lcm_), .events = POLLIN, .revents = 0};
     if (waiting.fd < 0) {
@@ -141,8 +110,9 @@ class LcmBus final : public Bus {
     Handler handler;
   };
 
-  // liblcm's C frames are below: nothing may be thrown through them. The size is checked first,
-  // because a datagram without the end of its channel name is announced with almost 2^32 bytes.
+  // liblcm's C frames are below on the stack: no exception may pass through them. The size is
+  // checked first, because liblcm announces a datagram whose channel name has no end with almost
+  // 2^32 bytes.
   static void Deliver(const lcm_recv_buf_t* buffer, const char*, void* user) noexcept {
     const auto& subscriber = *static_cast<const Subscriber*>(user);
     if (buffer->data_size > kMaxMessageBytes) {

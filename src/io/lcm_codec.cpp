@@ -21,11 +21,11 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "points are little-endian on the wire and copied as they are");
 
-// Sizes of the encoded messages, their eight bytes of fingerprint included.
+// Sizes of the encoded messages, including the eight bytes of the fingerprint.
 constexpr std::size_t kImuBytes = 8 + 8 + 8 + 4 + 4 + 7 * 8;
 constexpr std::size_t kScanFixedBytes = 8 + 8 + 8 + 4 + 2 + 2 + 1 + 1 + 2 + 4 + 4;
 
-// Half of what fits into nanoseconds, so that no difference or offset of stamps overflows.
+// Half of the largest number of nanoseconds, so that no difference or offset of stamps overflows.
 constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
 
 bool ReadStamp(FieldReader& reader, Timestamp& stamp) {
@@ -53,7 +53,7 @@ void Copy(const Eigen::Matrix<double, n, n>& from, double (&to)[n][n]) {
   }
 }
 
-// The fields that every scan_t shares; `num_points` points follow.
+// Writes the fields that every scan_t has; `num_points` points follow.
 scan_t ScanMessage(Timestamp stamp, std::size_t num_points) {
   if (num_points > kMaxMessageBytes / sizeof(LidarPoint)) {
     throw std::invalid_argument("a scan message of " + std::to_string(num_points) +
@@ -74,7 +74,7 @@ void StorePoint(const LidarPoint& point, std::size_t index, scan_t& message) {
   std::memcpy(message.points.data() + index * sizeof(LidarPoint), &point, sizeof(LidarPoint));
 }
 
-// What holds whatever the frame is.
+// Fills the fields that do not depend on the frame.
 odometry_t OdometryMessage(const NavOutput& nav) {
   odometry_t message{};
   message.utime = nav.stamp.Microseconds();
@@ -204,7 +204,7 @@ Bytes EncodeOdometry(const NavOutput& nav) {
   return EncodeMessage(message);
 }
 
-// Covariances in the terms of those in world.
+// Converts the covariances of the pose in map to the convention of those in world.
 Bytes EncodeLocalOdometry(const FilterReport& report) {
   NavOutput local = report.nav;
   Matrix6 to_map = Matrix6::Identity();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the parts of the codec share.
+// Helpers of lcm_codec.cpp and status_codec.cpp.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace lio {
 
-// Reads big-endian fields one after the other; the caller has checked the size.
+// Reads big-endian fields one after another. The caller has checked the size.
 class FieldReader {
  public:
   explicit FieldReader(const std::uint8_t* data) : next_(data) {}
@@ -37,7 +37,7 @@ class FieldReader {
   const std::uint8_t* next_;
 };
 
-// kOk when `bytes` is of the type and has its fixed part.
+// kOk when `bytes` is a message of the type and has at least its fixed part.
 inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint, std::size_t fixed_bytes) {
   if (bytes.size() > kMaxMessageBytes) return DecodeStatus::kTooLarge;
   if (bytes.size() < sizeof(fingerprint)) return DecodeStatus::kTruncated;
@@ -47,7 +47,7 @@ inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint, std::si
   return bytes.size() < fixed_bytes ? DecodeStatus::kTruncated : DecodeStatus::kOk;
 }
 
-// By the generated code, whose counts must agree with its vectors.
+// Encodes by the generated code; the counts in `message` must agree with its vectors.
 template <typename Message>
 Bytes EncodeMessage(const Message& message) {
   Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));

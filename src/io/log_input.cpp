@@ -10,9 +10,9 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kMaxAhead = 64;  // messages; 85 MB where each is a whole sweep
+constexpr std::size_t kMaxAhead = 64;  // messages; 85 MB when each is a whole sweep
 
-// In floating point, because a damaged log may hold any number.
+// Floating point, because a damaged log may hold any number.
 double SecondsBetweenUtimes(std::int64_t from, std::int64_t to) {
   return (static_cast<double>(to) - static_cast<double>(from)) * 1e-6;
 }
@@ -37,7 +37,7 @@ class LogInput::Impl {
     if (!options_.reads_ahead) return Read();
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return !ahead_.empty(); });
-    if (!ahead_.front()) return std::nullopt;  // the end stays there for whoever asks again
+    if (!ahead_.front()) return std::nullopt;  // the end stays there for further calls
     std::optional<InputItem> item = std::move(ahead_.front());
     ahead_.pop_front();
     room_.notify_one();
@@ -60,11 +60,11 @@ class LogInput::Impl {
   EventLogReader reader_;
   InputDecoder decoder_;
   LogEvent event_;
-  std::optional<std::int64_t> log_utime_;    // of the log's first event
-  std::optional<std::int64_t> begin_utime_;  // of the first that was handed out
-  std::int64_t last_utime_ = 0;              // of the last
+  std::optional<std::int64_t> log_utime_;    // when the log's first event was received
+  std::optional<std::int64_t> begin_utime_;  // the same of the first item handed out
+  std::int64_t last_utime_ = 0;              // the same of the last item handed out
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards everything below
   std::condition_variable filled_;
   std::condition_variable room_;
   std::deque<std::optional<InputItem>> ahead_;
@@ -85,7 +85,7 @@ std::optional<InputItem> LogInput::Impl::Read() {
   while (reader_.Next(event_)) {
     if (!log_utime_) log_utime_ = event_.utime;
     const double since_s = SecondsBetweenUtimes(*log_utime_, event_.utime);
-    // From 0 on, events that the log received before its first one are taken too: a clock was set.
+    // With a start of 0, events received before the first one are taken too: a clock was set.
     if (options_.start_s > 0 && since_s < options_.start_s) continue;
     if (since_s >= options_.start_s + options_.duration_s) continue;
     const std::int64_t begin_ns = Now();

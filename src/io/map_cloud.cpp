@@ -11,7 +11,7 @@ void MapCloud::Add(std::span<const Eigen::Vector3f> points_imu, const Pose& T_ma
     const Vector3 point = rotation * point_imu.cast<double>() + T_map_imu.translation;
     const Eigen::Vector3f voxel = (point / kVoxel_m).cast<float>();
     const float limit = static_cast<float>(kVoxelCoordinateLimit);
-    if (!(voxel.cwiseAbs().maxCoeff() < limit)) continue;  // 200 km away, or not a number
+    if (!(voxel.cwiseAbs().maxCoeff() < limit)) continue;  // more than 200 km away, or NaN
     const VoxelKey key =
         PackVoxel(FloorToInt(voxel.x()), FloorToInt(voxel.y()), FloorToInt(voxel.z()));
     if (voxels_.insert(key).second) points_map_.push_back(point.cast<float>());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The buses that need no transport.
+// The buses without a transport: in memory, and to nowhere.
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -36,7 +36,8 @@ class MemoryBus final : public Bus {
       messages_.pop_front();
       --subscribers_[message.subscriber].num_waiting;
     }
-    // Outside the lock, so that handlers may publish; `subscribers_` no longer changes by contract.
+    // The lock is released, so that handlers may publish; `subscribers_` no longer changes, by
+    // contract.
     try {
       subscribers_[message.subscriber].handler(message.data, message.recv_utime);
     } catch (...) {

@@ -15,7 +15,7 @@ std::string_view LastPart(std::string_view dotted) {
 
 }  // namespace
 
-// Three rows of the usual table: rows i-2, i-1 and i.
+// Rows i-2, i-1 and i of the table of the Damerau-Levenshtein distance.
 int EditDistance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// The shortest text that reads back as the same double, and looks like one.
+// The shortest text that reads back as the same double and that YAML takes for a number.
 std::string Text(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
@@ -53,7 +53,7 @@ std::string Choices(const T& /*field*/) {
 
 class Printer {
  public:
-  // `left_out` is the key of a value that is not printed, in whichever group.
+  // `left_out` is a key whose value is not printed, in any group.
   explicit Printer(std::string_view left_out = {}) : left_out_(left_out) {}
 
   template <class T>

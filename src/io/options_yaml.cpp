@@ -21,7 +21,7 @@ std::string Join(const std::string& path, const std::string& key) {
 }
 
 struct Key {
-  std::function<std::string(const YAML::Node&)> parse;  // null: a group of keys
+  std::function<std::string(const YAML::Node&)> parse;  // null for a group of keys
 };
 
 struct OptionalGroup {
@@ -104,11 +104,11 @@ class Loader {
 
   LoadResult result_;
   KeyTable keys_{result_.options};
-  std::map<std::string, std::string> given_;  // where each given key has its value from, by path
+  std::map<std::string, std::string> given_;  // the source of each given key's value, by path
   std::string source_;                        // the file, or "--set"
   bool is_set_ = false;
   bool is_file_unusable_ = false;
-  std::set<std::string> refused_;  // keys whose value last given could not be read
+  std::set<std::string> refused_;  // keys whose last given value could not be read
 };
 
 void Loader::ApplyFile(const std::filesystem::path& file) {
@@ -207,7 +207,7 @@ void Loader::SettleOptionalGroups() {
   }
 }
 
-// The core cannot look for files: that there is a beam table is checked here.
+// Checks that the lidar model has a beam table, because the core does not look for files.
 std::vector<OptionFault> CheckLidarModel(const Options& options) {
   const std::string& model = options.rig.lidar.model;
   if (model == "generic") return {};
@@ -228,9 +228,9 @@ LoadResult Loader::Finish() {
     faults.insert(faults.end(), more.begin(), more.end());
   }
   for (const OptionFault& fault : faults) {
-    if (refused_.contains(fault.key)) continue;  // nothing of its text was taken
+    if (refused_.contains(fault.key)) continue;  // its value was refused, which is reported already
     const auto where = given_.find(fault.key);
-    // What is not given may stand in the file that could not be used: its fault is the one to mend.
+    // A key that is not given may be in the file that could not be used: that fault comes first.
     if (where == given_.end() && is_file_unusable_) continue;
     Fault(where == given_.end() ? "configuration" : where->second,
           fault.key + ": " + fault.message);

@@ -20,7 +20,7 @@ void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f
                                 : pcl::PCDWriter().writeBinary(path.string(), cloud) == 0;
     if (is_written) return;
   } catch (const pcl::IOException&) {
-    // Told below, with the file's name.
+    // The error below names the file.
   }
   throw std::runtime_error("cannot write " + path.string());
 }

@@ -6,11 +6,11 @@
 #include <fmt/ostream.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -70,45 +70,20 @@ std::string RegistrationRow(const ScanReport& scan) {
   return row + "\n";
 }
 
-// The smallest value that `fraction` of all values do not exceed; `sorted` is not empty.
-float Quantile(const std::vector<float>& sorted, double fraction) {
-  return sorted[std::lround(fraction * static_cast<double>(sorted.size() - 1))];
+Json StageStats(const QuantileSketch& times_ms) {
+  if (times_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
+  const auto rounded = [](double ms) { return std::round(ms * 1e6) * 1e-6; };
+  return {{"median", rounded(times_ms.Quantile(0.5))},
+          {"p99", rounded(times_ms.Quantile(0.99))},
+          {"max", rounded(times_ms.max())}};
 }
 
-Json StageStats(std::vector<float> values_ms) {
-  if (values_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
-  std::sort(values_ms.begin(), values_ms.end());
-  const auto rounded = [](float ms) { return std::round(static_cast<double>(ms) * 1e6) * 1e-6; };
-  return {{"median", rounded(Quantile(values_ms, 0.5))},
-          {"p99", rounded(Quantile(values_ms, 0.99))},
-          {"max", rounded(values_ms.back())}};
-}
-
-Json CounterStats(const Counters& c) {
-  return {{"num_scans", c.num_scans},
-          {"num_scans_dropped", c.num_scans_dropped},
-          {"num_scans_empty", c.num_scans_empty},
-          {"num_scans_late", c.num_scans_late},
-          {"num_scans_without_imu", c.num_scans_without_imu},
-          {"num_scan_gaps", c.num_scan_gaps},
-          {"num_imu", c.num_imu},
-          {"num_imu_nonfinite", c.num_imu_nonfinite},
-          {"num_imu_duplicate", c.num_imu_duplicate},
-          {"num_imu_late", c.num_imu_late},
-          {"num_imu_out_of_range", c.num_imu_out_of_range},
-          {"num_imu_clipped", c.num_imu_clipped},
-          {"num_imu_gaps", c.num_imu_gaps},
-          {"num_chunks", c.num_chunks},
-          {"num_chunks_duplicate", c.num_chunks_duplicate},
-          {"num_chunks_late", c.num_chunks_late},
-          {"num_chunks_missing", c.num_chunks_missing},
-          {"num_chunks_bad", c.num_chunks_bad},
-          {"num_points_nonfinite", c.num_points_nonfinite},
-          {"num_matches_rejected", c.num_matches_rejected},
-          {"num_gated", c.num_gated},
-          {"num_standstills", c.num_standstills},
-          {"num_clock_jumps", c.num_clock_jumps},
-          {"num_restarts", c.num_restarts}};
+Json CounterStats(const Counters& counters) {
+  Json json;
+  for (const CounterField& field : kCounterFields) {
+    json[std::string(field.name)] = counters.*field.count;
+  }
+  return json;
 }
 
 double PeakMemoryMb() {
@@ -177,7 +152,7 @@ void RunWriter::Write(const Output& output) {
 void RunWriter::WriteScan(const ScanOutput& output) {
   registration_.stream << RegistrationRow(output.scan);
   for (std::size_t i = 0; i < kNumStages; ++i) {
-    stage_ms_[i].push_back(static_cast<float>(Milliseconds(output.scan.stage_ns[i])));
+    stage_ms_[i].Add(Milliseconds(output.scan.stage_ns[i]));
   }
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;

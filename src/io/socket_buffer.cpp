@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// Of the linux/sock_diag.h layout that SO_MEMINFO fills: the ninth word counts drops.
+// SO_MEMINFO fills an array as linux/sock_diag.h describes it: the ninth word counts drops.
 constexpr int kMemInfoDrops = 8;
 constexpr int kMemInfoWords = 9;
 
@@ -52,7 +52,7 @@ std::optional<int> FindUdpSocket(int port) {
 
 int RaiseReceiveBuffer(int fd, int wanted_bytes) {
   if (ReceiveBytes(fd) < wanted_bytes) {
-    // The first may be refused for want of privilege; the second then goes as far as it is let.
+    // The first call may lack the privilege; the second one then goes up to the system's limit.
     if (::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &wanted_bytes, sizeof(wanted_bytes)) != 0) {
       ::setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &wanted_bytes, sizeof(wanted_bytes));
     }

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "lcm_wire.hpp"
+#include "lio/base/counters_fields.hpp"
 #include "lio/command_t.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
@@ -13,31 +14,18 @@ namespace {
 constexpr std::uint64_t kCommandFingerprint = 0xb3339b3ca0a8fda7;
 constexpr std::size_t kCommandBytes = 8 + 8 + 8 + 4;
 
-void CopyCounters(const Counters& from, status_t& to) {
-  to.imu = from.num_imu;
-  to.imu_nonfinite = from.num_imu_nonfinite;
-  to.imu_duplicate = from.num_imu_duplicate;
-  to.imu_late = from.num_imu_late;
-  to.imu_out_of_range = from.num_imu_out_of_range;
-  to.imu_clipped = from.num_imu_clipped;
-  to.imu_gaps = from.num_imu_gaps;
-  to.chunks = from.num_chunks;
-  to.chunks_duplicate = from.num_chunks_duplicate;
-  to.chunks_late = from.num_chunks_late;
-  to.chunks_missing = from.num_chunks_missing;
-  to.chunks_bad = from.num_chunks_bad;
-  to.points_nonfinite = from.num_points_nonfinite;
-  to.scans = from.num_scans;
-  to.scans_empty = from.num_scans_empty;
-  to.scans_dropped = from.num_scans_dropped;
-  to.scans_late = from.num_scans_late;
-  to.scans_without_imu = from.num_scans_without_imu;
-  to.scan_gaps = from.num_scan_gaps;
-  to.matches_rejected = from.num_matches_rejected;
-  to.gated = from.num_gated;
-  to.standstills = from.num_standstills;
-  to.clock_jumps = from.num_clock_jumps;
-  to.restarts = from.num_restarts;
+// On the wire the estimator's counts follow one another in the order of kCounterFields, after the
+// fingerprint, utime, start_utime, sensor_utime, seq and state. A test compares with the type.
+constexpr std::size_t kCountersOffset = 8 + 8 + 8 + 8 + 4 + 1;
+
+void WriteCounters(const Counters& counters, Bytes& bytes) {
+  std::size_t at = kCountersOffset;
+  for (const CounterField& field : kCounterFields) {
+    const auto value = static_cast<std::uint64_t>(counters.*field.count);
+    for (int shift = 56; shift >= 0; shift -= 8) {
+      bytes.at(at++) = static_cast<std::uint8_t>(value >> shift);
+    }
+  }
 }
 
 void CopyLosses(const StatusReport& from, status_t& to) {
@@ -92,7 +80,6 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   message.sensor_utime = report.newest_stamp.Microseconds();
   message.seq = report.seq;
   message.state = static_cast<std::int8_t>(report.state);
-  CopyCounters(report.counters, message);
   CopyLosses(report, message);
   message.rcvbuf_bytes = report.receive_buffer_bytes;
   CopyLatencies(report, message);
@@ -102,7 +89,9 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   message.config_hash = static_cast<std::int64_t>(report.config_hash);
   CopyVersion(version, message.version);
   message.note = report.note;
-  return EncodeMessage(message);
+  Bytes bytes = EncodeMessage(message);
+  WriteCounters(report.counters, bytes);
+  return bytes;
 }
 
 DecodeStatus DecodeCommand(ByteView bytes, Command& command) {

@@ -11,7 +11,7 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kNumFirst = 400;
-constexpr double kGapRatio = 3.0;  // of the typical period
+constexpr double kGapRatio = 3.0;  // a gap is longer than so many typical periods
 
 }  // namespace
 
@@ -40,7 +40,7 @@ double StreamStats::TypicalPeriod() const {
 double StreamStats::rate_hz() const {
   const double period = TypicalPeriod();
   if (num_ < 2 || period <= 0.0) return 0.0;
-  // The mean is finer than the median, unless there are holes.
+  // Without gaps the mean is more exact than the median.
   const double mean = span_s() / static_cast<double>(num_ - 1);
   constexpr double kClose = 0.02;
   return 1.0 / (std::abs(mean / period - 1.0) < kClose ? mean : period);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kKittiColumns = 12;
-constexpr double kMaxPosition_m = 1e12;     // more is a damaged number: squares must stay exact
-constexpr double kMaxRotationError = 1e-2;  // files with three decimals pass
+constexpr double kMaxPosition_m = 1e12;     // more is a damaged number; squares of less stay finite
+constexpr double kMaxRotationError = 1e-2;  // so that files with three decimals are accepted
 
 std::vector<std::string_view> Words(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r\v\f";
@@ -42,7 +42,7 @@ std::optional<double> ParseFinite(std::string_view text) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// Reads a file line by line; knows where it is, for messages.
+// Reads a file line by line and keeps the position for messages.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : name_(file.string()) {}
@@ -145,7 +145,7 @@ std::string KittiRow(const StampedPose& row) {
   return fmt::format("{:.12e}", fmt::join(matrix.data(), matrix.data() + kKittiColumns, " "));
 }
 
-// A decimal number apart: digits without leading zeros, times 10^exponent.
+// The parts of a decimal number: digits without leading zeros, times 10^exponent.
 struct Decimal {
   bool is_negative = false;
   std::string digits;
@@ -186,7 +186,8 @@ std::optional<Decimal> SplitDecimal(std::string_view text) {
 std::optional<Timestamp> ParseStamp(std::string_view text) {
   std::optional<Decimal> decimal = SplitDecimal(text);
   if (!decimal) return std::nullopt;
-  // In nanoseconds: drop digits below one, rounding by the first dropped, or append zeros.
+  // Converts to nanoseconds: drops the digits below one, rounding by the first of them, or appends
+  // zeros.
   const long num_digits = static_cast<long>(decimal->digits.size()) + decimal->exponent + 9;
   if (decimal->digits.empty() || num_digits < 0) return Timestamp{0};
   if (num_digits > 19) return std::nullopt;

@@ -9,7 +9,7 @@ namespace lio {
 namespace {
 
 bool IsUnquoted(const YAML::Node& node) {
-  return node.IsScalar() && node.Tag() != "!";  // yaml-cpp's mark of quotes
+  return node.IsScalar() && node.Tag() != "!";  // yaml-cpp marks quoted text with this tag
 }
 
 template <class Number>
@@ -76,8 +76,8 @@ std::string ParseValue(const YAML::Node& node, Quaternion& value) {
   std::string problem = ParseNumbers<4>(node, wxyz);
   if (!problem.empty()) return problem;
   value = Quaternion(wxyz(0), wxyz(1), wxyz(2), wxyz(3));
-  // Farther off: left for Validate to refuse. Right to the last bits: left alone, so that printed
-  // options load as the same bits.
+  // A norm that is farther off is left for Validate to refuse. One that is right to the last bits
+  // is left alone, so that printed options load as the same bits.
   const double norm_error = std::abs(value.norm() - 1.0);
   if (norm_error > 1e-15 && norm_error <= kMaxQuaternionNormError) value.normalize();
   return "";

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One YAML value into one option field, strictly: what is not exactly of the field's type is
-// refused with words. Each ParseValue returns what is wrong, and leaves the value alone then; empty
-// when the value was taken. Ranges are not its business.
+// Reads one YAML value into one field of the options, strictly: a value that is not exactly of the
+// field's type is refused. Each ParseValue returns an empty text when the value was taken,
+// otherwise what is wrong with it, and then leaves the field alone. Ranges are checked elsewhere.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -15,7 +15,7 @@
 
 namespace lio {
 
-// What the node holds, for messages.
+// Describes the contents of the node, for messages.
 std::string Describe(const YAML::Node& node);
 
 std::string ParseValue(const YAML::Node& node, double& value);
@@ -23,7 +23,7 @@ std::string ParseValue(const YAML::Node& node, int& value);
 std::string ParseValue(const YAML::Node& node, bool& value);
 std::string ParseValue(const YAML::Node& node, std::string& value);
 std::string ParseValue(const YAML::Node& node, Vector3& value);
-// Normalised when the norm is off by no more than rounding to a few digits.
+// The quaternion is normalised when its norm is off by no more than rounding to a few digits.
 std::string ParseValue(const YAML::Node& node, Quaternion& value);
 
 template <class Enum>

@@ -89,10 +89,10 @@ TEST(DaemonArguments, WordsThatAreNoneAreRefused) {
 }
 
 TEST(DaemonArguments, HelpTeaches) {
-  EXPECT_THAT(
-      Parsed({}).help,
-      AllOf(HasSubstr("LIO_IMU and LIO_SCAN"), HasSubstr("Examples:"), HasSubstr("--lcm-url"),
-            HasSubstr("sudo ip route add 224.0.0.0/4 dev lo"), HasSubstr("4 no transport")));
+  EXPECT_THAT(Parsed({}).help,
+              AllOf(HasSubstr("LIO_IMU and LIO_SCAN"), HasSubstr("Examples:"),
+                    HasSubstr("--lcm-url"), HasSubstr("sudo ip route add 224.0.0.0/4 dev lo"),
+                    HasSubstr("4 no transport"), HasSubstr("70 internal fault")));
 }
 
 }  // namespace

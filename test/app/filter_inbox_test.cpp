@@ -59,7 +59,7 @@ TEST(FilterInbox, TakingTheOutcomeLeavesMessages) {
   MatchOutcome outcome;
   outcome.num_used = 7;
   std::thread matcher([&] { inbox.Put(outcome); });
-  EXPECT_EQ(inbox.TakeOutcome().num_used, 7);
+  EXPECT_EQ(inbox.TakeOutcome().value().num_used, 7);
   matcher.join();
   inbox.Close();
   EXPECT_THAT(Contents(inbox), ElementsAre(1));
@@ -106,6 +106,16 @@ TEST(FilterInbox, SamplesBeyondTheLimitAreRefusedAndCounted) {
   inbox.Close();
   EXPECT_EQ(inbox.losses().num_imu, 3);
   EXPECT_THAT(Contents(inbox), ElementsAre(1, 2));
+}
+
+TEST(FilterInbox, WhenNoOutcomeWillComeTheWaitForItEnds) {
+  FilterInbox inbox;
+  MatchOutcome outcome;
+  outcome.num_used = 7;
+  inbox.Put(std::move(outcome));
+  inbox.EndOutcomes();
+  EXPECT_EQ(inbox.TakeOutcome().value().num_used, 7) << "it had come before";
+  EXPECT_FALSE(inbox.TakeOutcome().has_value());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "lio/io/cpu_clock.hpp"
@@ -25,10 +27,15 @@ InsertTask SomePoints() {
   return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, Pose::Identity()};
 }
 
+void ExpectNoFault(const std::string& fault) {
+  ADD_FAILURE() << fault;
+}
+
 TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {
   std::vector<std::int32_t> done;
-  MatchWorker worker(Options{}, ThreadCpuNs, true,
-                     [&](const MatchOutcome& outcome) { done.push_back(outcome.sweep->scan_seq); });
+  MatchWorker worker(
+      Options{}, ThreadCpuNs, true,
+      [&](const MatchOutcome& outcome) { done.push_back(outcome.sweep->scan_seq); }, ExpectNoFault);
   for (int i = 0; i < 20; ++i) {
     worker.Tell(SomePoints());
     worker.Tell(EmptyJob(i));
@@ -41,20 +48,39 @@ TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {
 }
 
 TEST(MatchWorker, TheMapsPointsAreCollectedOnlyWhenAskedFor) {
-  MatchWorker worker(Options{}, ThreadCpuNs, false, [](const MatchOutcome&) {});
+  MatchWorker worker(
+      Options{}, ThreadCpuNs, false, [](const MatchOutcome&) {}, ExpectNoFault);
   worker.Tell(SomePoints());
   worker.Finish();
   EXPECT_TRUE(worker.map_cloud().points_map().empty());
 }
 
 TEST(MatchWorker, ANewMapForgetsTheOldOnesPoints) {
-  MatchWorker worker(Options{}, ThreadCpuNs, true, [](const MatchOutcome&) {});
+  MatchWorker worker(
+      Options{}, ThreadCpuNs, true, [](const MatchOutcome&) {}, ExpectNoFault);
   worker.Tell(SomePoints());
   MatchJob job = EmptyJob(1);
   job.map_action = MapAction::kClear;
   worker.Tell(std::move(job));
   worker.Finish();
   EXPECT_TRUE(worker.map_cloud().points_map().empty());
+}
+
+TEST(MatchWorker, AFaultIsReportedOnceAndEndsTheWork) {
+  std::vector<std::string> faults;
+  int num_delivered = 0;
+  MatchWorker worker(
+      Options{}, ThreadCpuNs, true,
+      [&](const MatchOutcome&) {
+        ++num_delivered;
+        throw std::runtime_error("nobody takes it");
+      },
+      [&](const std::string& fault) { faults.push_back(fault); });
+  worker.Tell(EmptyJob(1));
+  worker.Tell(EmptyJob(2));
+  worker.Finish();
+  EXPECT_EQ(faults, std::vector<std::string>{"the match thread failed: nobody takes it"});
+  EXPECT_EQ(num_delivered, 1);
 }
 
 }  // namespace

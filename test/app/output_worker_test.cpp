@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <future>
+#include <stdexcept>
+#include <thread>
 
 #include "support/temp_dir.hpp"
 
@@ -34,6 +37,10 @@ class OutputWorkerTest : public ::testing::Test {
   std::vector<std::size_t> sizes_;
 };
 
+void ExpectNoFault(const std::string& fault) {
+  ADD_FAILURE() << fault;
+}
+
 NavOutput ImuRate(std::int64_t stamp_ns) {
   NavOutput nav;
   nav.stamp = Timestamp{stamp_ns};
@@ -45,8 +52,9 @@ TEST_F(OutputWorkerTest, RowsThatWaitAreWrittenBeforeItEnds) {
   const test::TempDir folder;
   RunWriter writer(folder.path(), Options{});
   {
-    OutputWorker worker(publisher_, &writer, Pose::Identity(), "1.0.0",
-                        [] { return StatusReport{}; });
+    OutputWorker worker(
+        publisher_, &writer, Pose::Identity(), "1.0.0", [] { return StatusReport{}; },
+        ExpectNoFault);
     for (int i = 1; i <= 1000; ++i) worker.PutRow(ImuRate(i));
   }
   writer.Finish({});
@@ -55,16 +63,16 @@ TEST_F(OutputWorkerTest, RowsThatWaitAreWrittenBeforeItEnds) {
 }
 
 TEST_F(OutputWorkerTest, WithoutFilesRowsAreIgnored) {
-  OutputWorker worker(publisher_, nullptr, Pose::Identity(), "1.0.0",
-                      [] { return StatusReport{}; });
+  OutputWorker worker(
+      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   worker.PutRow(ImuRate(1));
   worker.Finish();
   EXPECT_EQ(worker.num_rows_dropped(), 0);
 }
 
 TEST_F(OutputWorkerTest, StatusIsSentAtTheStartWhenAnnouncedAndAtTheEnd) {
-  OutputWorker worker(publisher_, nullptr, Pose::Identity(), "1.0.0",
-                      [] { return StatusReport{}; });
+  OutputWorker worker(
+      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   while (NumReceived(channels_.status) < 1) std::this_thread::yield();
   worker.AnnounceStatus();
   while (NumReceived(channels_.status) < 2) std::this_thread::yield();
@@ -73,8 +81,8 @@ TEST_F(OutputWorkerTest, StatusIsSentAtTheStartWhenAnnouncedAndAtTheEnd) {
 }
 
 TEST_F(OutputWorkerTest, CloudsAreSentFullOnesInChunksOfOneDatagram) {
-  OutputWorker worker(publisher_, nullptr, Pose::Identity(), "1.0.0",
-                      [] { return StatusReport{}; });
+  OutputWorker worker(
+      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   worker.Put(RegisteredCloud{Timestamp{1}, 0, std::vector<Eigen::Vector3f>(10)});
   auto sweep = std::make_shared<Sweep>();
   sweep->end = Timestamp{100'000'000};
@@ -84,6 +92,23 @@ TEST_F(OutputWorkerTest, CloudsAreSentFullOnesInChunksOfOneDatagram) {
   EXPECT_EQ(NumReceived(channels_.cloud), 1);
   EXPECT_EQ(NumReceived(channels_.cloud_full), 2);
   EXPECT_LE(*std::max_element(sizes_.begin(), sizes_.end()), 65'499u);  // LCM's datagram
+}
+
+TEST_F(OutputWorkerTest, AfterAFaultTheRowsAreKeptAndCanBeWritten) {
+  const test::TempDir folder;
+  RunWriter writer(folder.path(), Options{});
+  std::promise<std::string> reported;
+  OutputWorker worker(
+      publisher_, &writer, Pose::Identity(), "1.0.0",
+      []() -> StatusReport { throw std::runtime_error("no status"); },
+      [&](const std::string& fault) { reported.set_value(fault); });
+  EXPECT_EQ(reported.get_future().get(), "the output thread failed: no status");
+  for (int i = 1; i <= 10; ++i) worker.PutRow(ImuRate(i));
+  worker.Finish();
+  worker.WriteRowsLeft();
+  writer.Finish({});
+  const std::string text = test::ReadText(folder.path() / "trajectory_imu_rate.tum");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10);
 }
 
 }  // namespace

@@ -37,16 +37,16 @@ class ReceiverTest : public ::testing::Test {
 
 TEST_F(ReceiverTest, WhatArrivedBeforeTheStopIsTaken) {
   for (int i = 0; i < 500; ++i) bus_->Publish("LIO_IMU", EncodeImu({}, i));
-  bus_->Publish("LIO_SCAN", EncodeChunk({}));
+  EXPECT_TRUE(bus_->Publish("LIO_SCAN", EncodeChunk({})));
   ReceiveAll();
   EXPECT_EQ(NumItems(), 501);
 }
 
 TEST_F(ReceiverTest, GarbageIsCountedByReasonAndGoesNoFurther) {
-  bus_->Publish("LIO_IMU", Bytes(3));
-  bus_->Publish("LIO_IMU", EncodeChunk({}));
-  bus_->Publish("LIO_SCAN", Bytes(100, 0xff));
-  bus_->Publish("LIO_SCAN", Bytes(kMaxMessageBytes + 1));
+  EXPECT_TRUE(bus_->Publish("LIO_IMU", Bytes(3)));
+  EXPECT_TRUE(bus_->Publish("LIO_IMU", EncodeChunk({})));
+  EXPECT_TRUE(bus_->Publish("LIO_SCAN", Bytes(100, 0xff)));
+  EXPECT_TRUE(bus_->Publish("LIO_SCAN", Bytes(kMaxMessageBytes + 1)));
   ReceiveAll();
   EXPECT_EQ(NumItems(), 0);
   const auto& refused = board_.input().num_refused;
@@ -56,8 +56,8 @@ TEST_F(ReceiverTest, GarbageIsCountedByReasonAndGoesNoFurther) {
 }
 
 TEST_F(ReceiverTest, CommandsAreObeyedAndBadOnesCounted) {
-  bus_->Publish("LIO_CMD", EncodeCommand({5, CommandAction::kCloudFullOn}));
-  bus_->Publish("LIO_CMD", Bytes(28));
+  EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({5, CommandAction::kCloudFullOn})));
+  EXPECT_TRUE(bus_->Publish("LIO_CMD", Bytes(28)));
   ReceiveAll();
   ASSERT_EQ(commands_.size(), 1u);
   EXPECT_EQ(commands_[0].request_id, 5);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lio/io/cpu_clock.hpp"
+
 namespace lio {
 namespace {
 
@@ -45,13 +47,24 @@ TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
 }
 
 TEST(StatusBoard, LoadIsCpuTimeSinceTheLastReport) {
-  StatusBoard board(0, 0);
-  const std::int64_t until = HostUtime() + 50'000;
-  while (HostUtime() < until) {
+  std::int64_t utime = 1'000'000;
+  std::int64_t cpu_us = 70'000;
+  StatusBoard board(0, 0, {[&] { return utime; }, [&] { return cpu_us; }});
+  utime += 2'000'000;
+  cpu_us += 500'000;
+  EXPECT_EQ(board.Compose().cpu_load_cores, 0.25F);
+  utime += 1'000'000;
+  cpu_us += 1'500'000;
+  EXPECT_EQ(board.Compose().cpu_load_cores, 1.5F) << "two threads";
+  EXPECT_EQ(board.Compose().cpu_load_cores, 0.0F) << "no time has passed";
+}
+
+TEST(ProcessCpuMicroseconds, GrowsByWhatAThreadUses) {
+  const std::int64_t before = ProcessCpuMicroseconds();
+  const std::int64_t thread_before = ThreadCpuNs();
+  while (ThreadCpuNs() - thread_before < 20'000'000) {
   }
-  const float load = board.Compose().cpu_load_cores;
-  EXPECT_GT(load, 0.05F);  // other processes may have had most of the core
-  EXPECT_LT(load, 1.5F);
+  EXPECT_GE(ProcessCpuMicroseconds() - before, 10'000);  // the kernel's ticks are coarse
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "lio/io/bus.hpp"
 #include "lio/io/event_log.hpp"
+#include "support/descriptor_limit.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -32,30 +33,44 @@ std::string WordsOf(const std::function<void()>& action) {
 }
 
 TEST(LcmBus, AnUnusableUrlSaysWhatAUrlIs) {
-  EXPECT_THAT(WordsOf([] { OpenLcmBus("nonsense://somewhere"); }),
+  EXPECT_THAT(WordsOf([] { static_cast<void>(OpenLcmBus("nonsense://somewhere")); }),
               AllOf(HasSubstr("nonsense://somewhere"), HasSubstr("give a URL of udpm://"),
                     Not(HasSubstr("\n"))));
 }
 
 TEST(LcmBus, AMissingServerIsNamed) {
   // Nobody listens there.
-  EXPECT_THAT(WordsOf([] { OpenLcmBus("tcpq://127.0.0.1:1"); }), HasSubstr("TCPService"));
+  EXPECT_THAT(WordsOf([] { static_cast<void>(OpenLcmBus("tcpq://127.0.0.1:1")); }),
+              HasSubstr("TCPService"));
 }
 
 TEST(LcmBus, AMissingLogIsAskedFor) {
   const test::TempDir dir;
   const std::string url = "file://" + (dir.path() / "missing.lcm").string();
-  EXPECT_THAT(WordsOf([&] { OpenLcmBus(url); }),
+  EXPECT_THAT(WordsOf([&] { static_cast<void>(OpenLcmBus(url)); }),
               AllOf(HasSubstr(url), HasSubstr("name an existing log")));
-  EXPECT_THROW(OpenLcmBus(url), TransportError);
+  EXPECT_THROW(static_cast<void>(OpenLcmBus(url)), TransportError);
 }
 
 // liblcm's message about an address goes into the error, not to stderr as well.
 TEST(LcmBus, FaultsAreSaidOnce) {
   testing::internal::CaptureStderr();
-  const std::string words = WordsOf([] { OpenLcmBus("udpm://nonsense"); });
+  const std::string words = WordsOf([] { static_cast<void>(OpenLcmBus("udpm://nonsense")); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_THAT(words, HasSubstr("LCM cannot open udpm://nonsense ("));
+}
+
+TEST(LcmBus, WithoutAFreeDescriptorTheErrorSaysWhereTheReasonIs) {
+  testing::internal::CaptureStderr();
+  std::string words;
+  {
+    const test::NoFreeDescriptors none;
+    words = WordsOf([] { static_cast<void>(OpenLcmBus("nonsense://somewhere")); });
+  }
+  EXPECT_THAT(words, AllOf(HasSubstr("LCM cannot open nonsense://somewhere (its reason went to "
+                                     "stderr, dup: Too many open files)"),
+                           HasSubstr("give a URL of udpm://"), Not(HasSubstr("\n"))));
+  EXPECT_NE(testing::internal::GetCapturedStderr(), "") << "liblcm's own words";
 }
 
 TEST(LcmBus, ALogIsPlayedToItsEndAndThenClosed) {

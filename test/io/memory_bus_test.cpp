@@ -25,11 +25,11 @@ TEST(MemoryBus, AFullQueueLosesTheNewestMessageAsLcmDoes) {
   const auto bus = OpenMemoryBus();
   std::vector<std::uint8_t> heads;
   bus->Subscribe("LIO_IMU", 2, [&](ByteView data, std::int64_t) { heads.push_back(data[0]); });
-  for (std::uint8_t head = 1; head <= 3; ++head) bus->Publish("LIO_IMU", Bytes{head});
+  for (std::uint8_t head = 1; head <= 3; ++head) EXPECT_TRUE(bus->Publish("LIO_IMU", Bytes{head}));
   Drain(*bus);
   EXPECT_THAT(heads, ElementsAre(1, 2));
   // There is room again.
-  bus->Publish("LIO_IMU", Bytes{4});
+  EXPECT_TRUE(bus->Publish("LIO_IMU", Bytes{4}));
   Drain(*bus);
   EXPECT_THAT(heads, ElementsAre(1, 2, 4));
 }
@@ -39,7 +39,7 @@ TEST(MemoryBus, QueuesOfDifferentSubscribersFillOnTheirOwn) {
   int num_narrow = 0, num_wide = 0;
   bus->Subscribe("LIO_IMU", 1, [&](ByteView, std::int64_t) { ++num_narrow; });
   bus->Subscribe("LIO_IMU", 5, [&](ByteView, std::int64_t) { ++num_wide; });
-  for (int i = 0; i < 7; ++i) bus->Publish("LIO_IMU", Bytes{1});
+  for (int i = 0; i < 7; ++i) EXPECT_TRUE(bus->Publish("LIO_IMU", Bytes{1}));
   Drain(*bus);
   EXPECT_EQ(num_narrow, 1);
   EXPECT_EQ(num_wide, 5);
@@ -48,9 +48,10 @@ TEST(MemoryBus, QueuesOfDifferentSubscribersFillOnTheirOwn) {
 TEST(MemoryBus, HandlersMayPublish) {
   const auto bus = OpenMemoryBus();
   std::vector<std::uint8_t> heads;
-  bus->Subscribe("LIO_CMD", 5, [&](ByteView data, std::int64_t) { bus->Publish("LIO_ACK", data); });
+  bus->Subscribe("LIO_CMD", 5,
+                 [&](ByteView data, std::int64_t) { EXPECT_TRUE(bus->Publish("LIO_ACK", data)); });
   bus->Subscribe("LIO_ACK", 5, [&](ByteView data, std::int64_t) { heads.push_back(data[0]); });
-  bus->Publish("LIO_CMD", Bytes{7});
+  EXPECT_TRUE(bus->Publish("LIO_CMD", Bytes{7}));
   Drain(*bus);
   EXPECT_THAT(heads, ElementsAre(7));
 }
@@ -59,7 +60,7 @@ TEST(MemoryBus, AWaitingReceiverIsWokenByAnotherThread) {
   const auto bus = OpenMemoryBus();
   std::atomic<int> num_calls = 0;
   bus->Subscribe("LIO_IMU", 1, [&](ByteView, std::int64_t) { ++num_calls; });
-  std::thread publisher([&] { bus->Publish("LIO_IMU", Bytes{1}); });
+  std::thread publisher([&] { EXPECT_TRUE(bus->Publish("LIO_IMU", Bytes{1})); });
   EXPECT_EQ(bus->Receive(std::chrono::seconds(30)), ReceiveResult::kMessage);
   publisher.join();
   EXPECT_EQ(num_calls, 1);

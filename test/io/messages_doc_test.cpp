@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/command_t.hpp"
 #include "lio/filter_state_t.hpp"
 #include "lio/imu_t.hpp"
@@ -40,6 +41,14 @@ TEST(MessagesDoc, EveryTypeIsListed) {
   for (const auto& entry : std::filesystem::directory_iterator(source / "lcmtypes")) {
     const std::string stem = entry.path().stem().string();  // lio_imu_t
     EXPECT_THAT(doc, ::testing::HasSubstr("| `" + stem.substr(4) + "` |")) << stem;
+  }
+}
+
+TEST(MessagesDoc, EveryCounterIsListedWithItsMeaning) {
+  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::string doc = test::ReadText(source / "docs" / "messages.md");
+  for (const CounterField& field : kCounterFields) {
+    EXPECT_THAT(doc, ::testing::HasSubstr(fmt::format("| `{}` | {} |", field.name, field.meaning)));
   }
 }
 

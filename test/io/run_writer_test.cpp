@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "support/temp_dir.hpp"
 
@@ -176,6 +177,36 @@ TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
   writer.Finish({.counters = counters, .input = {}, .extra = {}});
   const std::string text = test::ReadText(out_ / "stats.json");
   for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
+}
+
+TEST_F(RunWriterTest, EachCountHasItsNameInTheStats) {
+  RunWriter writer(out_, Options{});
+  RunStats stats;
+  std::int64_t value = 1'000'000;
+  for (const CounterField& field : kCounterFields) stats.counters.*field.count = ++value;
+  writer.Finish(stats);
+  const auto json = Stats();
+  for (const CounterField& field : kCounterFields) {
+    EXPECT_EQ(json[std::string(field.name)], stats.counters.*field.count) << field.name;
+  }
+}
+
+TEST_F(RunWriterTest, ALongRunsStageTimesAreRightToOnePercent) {
+  RunWriter writer(out_, Options{});
+  ScanOutput scan = Scan(kStamp);
+  scan.filter.reset();
+  constexpr int kNumScans = 8'000;
+  for (int i = 1; i <= kNumScans; ++i) {
+    // 7919 is prime: every value of 1 .. kNumScans once, in mixed order.
+    scan.scan.stage_ns[static_cast<std::size_t>(Stage::kMatch)] =
+        (std::int64_t{i} * 7919 % kNumScans + 1) * 1'000;
+    writer.Write(scan);
+  }
+  writer.Finish({});
+  const auto match = Stats()["stage_ms"]["match"];
+  EXPECT_NEAR(match["median"].get<double>(), 4.0, 0.04);
+  EXPECT_NEAR(match["p99"].get<double>(), 7.92, 0.079);
+  EXPECT_EQ(match["max"], 8.0);
 }
 
 TEST_F(RunWriterTest, WithoutScansStageTimesAreNull) {

@@ -3,12 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <filesystem>
+#include <regex>
 #include <set>
 
+#include "lio/base/counters_fields.hpp"
 #include "lio/command_t.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
+#include "support/temp_dir.hpp"
 
 namespace lio {
 namespace {
@@ -55,6 +60,38 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
   EXPECT_EQ(arrived, std::set<std::int64_t>(values.begin(), values.end()));
   EXPECT_EQ(message.gated, report.counters.num_gated);
   EXPECT_EQ(message.chunks_bad, report.counters.num_chunks_bad);
+}
+
+// The names of the type's int64 fields between "imu" and "bad_truncated", in their order.
+std::vector<std::string> CountsOfTheType() {
+  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::string type = test::ReadText(source / "lcmtypes" / "lio_status_t.lcm");
+  const std::regex field("int64_t (\\w+);");
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(type.begin(), type.end(), field), end; at != end; ++at) {
+    names.push_back((*at)[1]);
+  }
+  names.erase(names.begin(), std::find(names.begin(), names.end(), "imu"));
+  names.erase(std::find(names.begin(), names.end(), "bad_truncated"), names.end());
+  return names;
+}
+
+TEST(StatusCodec, TheTypeHasTheFieldListsCountsInItsOrder) {
+  std::vector<std::string> listed;
+  for (const CounterField& field : kCounterFields) {
+    listed.emplace_back(field.name.substr(std::string_view("num_").size()));
+  }
+  EXPECT_EQ(CountsOfTheType(), listed);
+}
+
+TEST(StatusCodec, NegativeAndLargeCountsArriveUnchanged) {
+  StatusReport report;
+  report.counters.num_imu = -2;
+  report.counters.num_restarts = 0x0123456789abcdef;
+  const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
+  EXPECT_EQ(message.imu, -2);
+  EXPECT_EQ(message.restarts, 0x0123456789abcdef);
+  EXPECT_EQ(message.bad_truncated, 0);
 }
 
 TEST(StatusCodec, LossesLatenciesAndIdentityArrive) {

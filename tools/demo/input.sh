@@ -1,22 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Sourced by tools/demo.sh. make_input and find_input set
+# tools/demo.sh sources this file. make_input and find_input set
 #   log      the LCM log
 #   truth    its true trajectory; empty when there is none
 #   configs  the configurations to run it with, unless the user named some
-# The inputs are kept under out/inputs/ and used again while their source is the same.
+# Logs that were made or converted are kept under out/inputs/ and used again while their source is
+# the same.
 
-# kept FOLDER SOURCE_ID: true when FOLDER was completed from the same source; else empties it.
+# kept FOLDER SOURCE_ID: true when FOLDER was completed from the same source; otherwise empties it.
 kept() {
   if [[ -f $1/source && $(<"$1/source") == "$2" ]]; then return 0; fi
   rm -rf "$1" && mkdir -p "$1"
   return 1
 }
 
-# source_id PATH: changes when the file, or the folder's own list, does.
+# source_id PATH: changes when the file changes, or the list of files in the folder.
 source_id() { stat -c '%n %s %Y' "$(realpath "$1")"; }
 
-# The simulated drive depends on these: the program and its sensors' files.
+# maker_id: changes when the program or a sensor file changes that the simulated drive is made with.
 maker_id() { cat build/bin/lio-sim config/lidars/*.yaml config/imus/*.yaml | cksum; }
 
 make_input() {
@@ -35,8 +36,8 @@ take_simulated() {
   if [[ ! -f $truth ]]; then truth=; fi
 }
 
-# convert INPUT WORDS...: lio-convert WORDS, where @ is a kept folder named after INPUT. A damaged
-# input gives what was sound in it; one that gives nothing is an error.
+# convert INPUT WORDS...: runs lio-convert WORDS, where @ is a kept folder named after INPUT.
+# The sound parts of a damaged input are converted; an input without any is an error.
 convert() {
   local input=$1 id folder code=0
   shift
@@ -59,12 +60,12 @@ convert_bag() {
     echo "demo: trying again without truth"
     convert "$bag" rosbag "$bag" @/log.lcm
   fi
-  for sibling in "${bag%.*}.gt.tum" "${bag%.*}.tum"; do # a finer truth beside the bag
+  for sibling in "${bag%.*}.gt.tum" "${bag%.*}.tum"; do # a better truth beside the bag
     if [[ -f $sibling ]]; then truth=$sibling; fi
   done
 }
 
-# KITTI gives out poses for the first half of its sequences only.
+# KITTI publishes poses only for the first half of its sequences.
 convert_sequence() {
   local sequence=$1 poses words=()
   poses=$(dirname "$(dirname "$sequence")")/poses/$(basename "$sequence").txt
@@ -94,7 +95,7 @@ find_input() {
     if [[ -f $folder/truth.tum ]]; then truth=$folder/truth.tum; fi
     if [[ -f $folder/config.yaml ]]; then configs=("$folder/config.yaml"); fi
   else
-    echo "tools/demo.sh: $input is no ROS bag, KITTI drive or sequence folder, LCM log, or" \
+    echo "tools/demo.sh: $input is not a ROS bag, KITTI drive or sequence folder, LCM log, or" \
       "folder of lio-sim" >&2
     return 5
   fi

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# Plays an LCM log with lcm-logplayer over real UDP multicast to liod, in a network namespace of its
-# own where that is allowed (other LCM programs of this machine then hear nothing), else on the
-# machine's multicast route.
+# Plays an LCM log with lcm-logplayer over real UDP multicast to liod. It uses an own network
+# namespace when that is allowed, so that other LCM programs of this machine receive nothing, and
+# otherwise the machine's multicast route.
 #   tools/demo/play.sh LOG.lcm OUT_DIR SPEED LIOD_ARGUMENT...
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -16,7 +16,7 @@ if [[ ${LIO_IN_NAMESPACE:-} != yes ]]; then
     fi
   done
   if ! ip route get 239.255.76.67 >/dev/null 2>&1; then
-    echo "play: no multicast route and no right to make a network namespace; as root run:" \
+    echo "play: there is no multicast route, and a network namespace is not allowed; as root run:" \
       "ip route add 224.0.0.0/4 dev lo" >&2
     exit 4
   fi
@@ -28,7 +28,7 @@ fi
 log=$1 out=$2 speed=$3
 shift 3
 mkdir -p "$out"
-# liod's words go to a file first: it says there when it listens, and what it found odd.
+# liod's messages go to a file, which shows when it listens and what it found odd.
 "$root/build/bin/liod" "$@" --out "$out" --map 2>"$out/liod.log" &
 liod=$!
 trap 'kill "$liod" 2>/dev/null || true' EXIT
@@ -44,8 +44,9 @@ until grep -qs listening "$out/liod.log"; do
 done
 
 lcm-logplayer --speed="$speed" "$log" >/dev/null
-# Nothing else comes: liod is done when for a second none of its threads works or waits for a core,
-# on a busy machine some time after the player. (Little CPU time is no sign: it may be starved.)
+# All messages are sent now. liod is done when none of its threads has worked or waited for a core
+# for a second, which on a busy machine is some time after the player's end. (Little CPU time proves
+# nothing, because other processes may take it.)
 works() {
   cat /proc/"$liod"/task/*/stat 2>/dev/null |
     awk '{ sub(/.*\) /, ""); if ($1 == "R" || $1 == "D") found = 1 } END { exit !found }'

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Prints what a run came to, from its stats.json and, where there is one, eval.json."""
+"""Prints the results of a run from its stats.json and, when there is one, its eval.json."""
 import json
 import pathlib
 import sys
@@ -13,7 +13,7 @@ def load(path):
 
 LOSSES = ("num_chunks_missing", "num_imu_missing", "num_kernel_dropped", "num_imu_queue_dropped",
           "num_chunks_queue_dropped")
-CLOSED_RATIO = 0.01  # a way that ends this near its start, by its length, is a loop
+CLOSED_RATIO = 0.01  # a path whose end is this near its start, relative to its length, is a loop
 
 
 def num_lost(stats):
@@ -63,7 +63,7 @@ def main():
         print(f"  {name:<{width}}  {value}")
     print()
     if num_lost(stats):
-        print("  Something was lost, for this machine was too busy; play slower: --speed S\n")
+        print("  Data were lost because this machine was too busy; play slower: --speed S\n")
 
 
 if __name__ == "__main__":

@@ -12,14 +12,14 @@ namespace lio {
 namespace {
 
 constexpr char kFooter[] = R"(
-Each ESTIMATE_DIR is what lio-replay or liod wrote with --out: trajectory.tum and covariance.csv,
-with --world trajectory_world.tum and covariance_world.csv, and, for the innovations,
-registration.csv. What each figure means: docs/evaluation.md.
+Each ESTIMATE_DIR was written by lio-replay or liod with --out. It has trajectory.tum and
+covariance.csv, or with --world trajectory_world.tum and covariance_world.csv, and, for the
+innovations, registration.csv. docs/evaluation.md explains each figure.
 
 Examples:
   lio-eval consistency truth.tum runs/seed_*           one truth for all runs
   lio-eval consistency truth.tum runs/seed_* --json out/nees.json --plot out/nees.png
-                                                       each run's own, if its folder holds truth.tum)";
+                                                       a truth.tum in each run's folder)";
 
 struct Arguments {
   std::string truth;
@@ -53,7 +53,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 
 int ConsistencyMain(int argc, const char* const* argv) {
-  CLI::App app("Is the covariance honest: NEES and NIS of runs against their chi-square bands.",
+  CLI::App app("Judges covariances: NEES and NIS of runs against their chi-square bands.",
                "lio-eval consistency");
   Arguments arguments;
   app.add_option(
@@ -63,8 +63,8 @@ int ConsistencyMain(int argc, const char* const* argv) {
       ->type_name("FILE");
   app.add_option("ESTIMATE_DIR", arguments.dirs, "Folders of runs")->required()->type_name("");
   app.add_flag("--world", arguments.in_world,
-               "Judge the poses in world, level at all times, instead of the steady path in map");
-  app.add_option("--json", arguments.json, "Write the figures there")->type_name("FILE");
+               "Judge the poses in world, which is always level, instead of those in map");
+  app.add_option("--json", arguments.json, "Write the figures into this file")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw NEES and NIS over time with their bands")
       ->type_name("FILE.png");
   app.footer(kFooter);

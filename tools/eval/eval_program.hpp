@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Declares the parts that the commands of lio-eval share.
+// Helpers that the commands of lio-eval share.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,13 +10,13 @@ namespace lio {
 
 inline constexpr char kProgram[] = "lio-eval";
 
-// Tells the message on one line of stderr; gives the exit code back.
+// Writes the message on one line of stderr and returns the exit code.
 int Fail(int exit_code, const std::string& message);
 
-// kExitDone, or kExitUsage after telling that the file cannot be written.
+// Writes the file. Returns kExitDone, or kExitUsage after an error message.
 int WriteJson(const std::string& file, const nlohmann::ordered_json& json);
 
-// The command "consistency"; argv[0] is that word.
+// Runs the command "consistency"; argv[0] is that word.
 int ConsistencyMain(int argc, const char* const* argv);
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-eval TRUTH ESTIMATE: how far a trajectory is from the truth; and lio-eval consistency.
+// lio-eval: measures how far a trajectory is from the truth; and lio-eval consistency.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string_view>
@@ -16,14 +16,14 @@ namespace lio {
 namespace {
 
 constexpr char kFooter[] = R"(
-Files are TUM (t x y z qx qy qz qw) or KITTI (12 numbers a row); the format is found by itself.
-What each figure means: docs/evaluation.md.
+Files are TUM (t x y z qx qy qz qw) or KITTI (12 numbers per row); the format is detected.
+docs/evaluation.md explains each figure.
 
 Examples:
   lio-eval truth.tum out/trajectory.tum
   lio-eval truth.tum out/trajectory.tum --json out/eval.json --plot out/eval.png --map out/map.pcd
   lio-eval poses/05.txt mine.txt --align none
-  lio-eval consistency --help                     is the covariance honest?
+  lio-eval consistency --help                     to judge the covariance
 
 Exit codes: 0 done, 2 usage, 3 no matplotlib for the pictures, 5 missing or unusable input.)";
 
@@ -51,7 +51,7 @@ void Describe(CLI::App& app, Arguments& arguments) {
                  "Interpolate across gaps of at most so many seconds (default: from the data)")
       ->check(NumberAboveZero())
       ->type_name("S");
-  app.add_option("--json", arguments.json, "Write the figures there")->type_name("FILE");
+  app.add_option("--json", arguments.json, "Write the figures into this file")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw paths, errors and height in one picture")
       ->type_name("FILE.png");
   app.add_option("--plots", arguments.plots, "Draw path.png, error.png and, with --map, map.png")
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "consistency") {
     return lio::ConsistencyMain(argc - 1, argv + 1);
   }
-  CLI::App app("How far an estimated trajectory is from the truth.", lio::kProgram);
+  CLI::App app("Measures how far an estimated trajectory is from the truth.", lio::kProgram);
   lio::Arguments arguments;
   lio::Describe(app, arguments);
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) return *exit_code;

@@ -31,7 +31,7 @@ std::optional<std::filesystem::path> FindScript(const std::string& script) {
   return std::nullopt;
 }
 
-// A file that goes away with this object.
+// A file that is removed with this object.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text) {
@@ -55,7 +55,7 @@ class TemporaryFile {
   std::string path_;
 };
 
-// The child's exit code; empty when it could not be started or was killed.
+// Returns the child's exit code; nothing when it could not be started or was killed.
 std::optional<int> RunChild(std::vector<std::string> command) {
   std::vector<char*> argv;
   for (std::string& word : command) argv.push_back(word.data());

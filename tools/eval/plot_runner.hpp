@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Pictures are drawn by the Python scripts in tools/plot, run as a child process.
+// Draws pictures with the Python scripts in tools/plot, which run as a child process.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@
 namespace lio {
 
 // Runs `script` with the data (as a temporary JSON file, its first argument) and `arguments`.
-// Looked for in LIO_PLOT_DIR, beside the program (../share/liod/plot, ../../tools/plot), and where
-// it was built from; the interpreter is LIO_PYTHON or /usr/bin/python3. Returns the exit code to
-// end with: kExitDone, or the script's own after it has told why on stderr, or
-// kExitConfiguration, told on stderr, when script or interpreter are missing.
+// The script is looked for in LIO_PLOT_DIR, beside the program (../share/liod/plot,
+// ../../tools/plot), and in the source tree; the interpreter is LIO_PYTHON or /usr/bin/python3.
+// Returns the exit code to end with: kExitDone; the script's own after its error message; or
+// kExitConfiguration, after an error message, when script or interpreter are missing.
 int RunPlot(const std::string& program, const std::string& script,
             const nlohmann::ordered_json& data, const std::vector<std::string>& arguments);
 

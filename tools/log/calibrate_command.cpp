@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-log calibrate: clock offset and rotation between lidar and IMU from a log.
-// docs/calibration.md
+// lio-log calibrate: estimates clock offset and rotation between lidar and IMU from a log
+// (docs/calibration.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,23 +20,21 @@ namespace lio {
 namespace {
 
 constexpr const char* kAboutCalibrate =
-    "Clock offset and rotation between lidar and IMU, with standard deviations, from a log of "
-    "some\n"
-    "motion: lidar-only odometry gives turns, the gyro others, and what makes them agree is "
-    "found.\n"
-    "Half a minute of walking with turns about all axes does. Refuses when the motion does not "
-    "show\n"
-    "the offset to 1 ms and the rotation to 0.2 deg. rig.T_imu_lidar of the configuration is not\n"
-    "used but for its translation, which this does not find.\n\n"
+    "Estimates the clock offset and the rotation between lidar and IMU, with standard deviations:\n"
+    "those that make the rotations of lidar-only odometry agree with the gyro's. The log needs\n"
+    "motion; half a minute of walking with turns about all axes is enough. The program refuses\n"
+    "when the motion does not determine the offset to 1 ms and the rotation to 0.2 deg. The\n"
+    "translation is not estimated: it is taken from rig.T_imu_lidar of the configuration, whose\n"
+    "rotation is not used.\n\n"
     "Example:\n"
     "  lio-log calibrate walk.lcm --config my_rig.yaml --rig calibrated.yaml";
 
 constexpr double kDegrees = 180.0 / M_PI;
 
-// What a pass over the log found.
+// The results of a pass over the log.
 struct Pass {
   std::vector<ImuSample> samples;
-  StampedPoses sweeps;  // T_map_lidar at their middles
+  StampedPoses sweeps;  // T_map_lidar at the middle of each sweep
   int num_unmatched = 0;
   std::int64_t num_chunks = 0;
   std::int64_t num_skipped_bytes = 0;
@@ -72,8 +70,8 @@ Pass ReadLog(const CalibrateArguments& arguments, const Options& options, int nu
   return pass;
 }
 
-// Where the lidar was all the time: poses by matching, turns by the gyro as if it sat on the lidar
-// and kept its clock.
+// The path of the lidar: poses from matching, angular rates from the gyro, expressed in the lidar
+// frame and in the lidar's clock.
 SweepPath PathOf(const Pass& pass, const RotationCalibration& found) {
   std::vector<ImuSample> rates;
   const Quaternion R_lidar_imu = found.R_imu_lidar.conjugate();
@@ -110,8 +108,8 @@ void Print(const RotationCalibration& found, const Options& options, const Pass&
   const Vector3 std_deg = RotationStdDeg(found);
   const Vector3& bias = found.gyro_bias_radps;
   fmt::print(
-      "clock:    lidar stamps are {:.3f} ms {} the IMU's (1 sigma {:.3f} ms): offset_s {:.6f} "
-      "is to be added to them\n",
+      "clock:    lidar stamps are {:.3f} ms {} the IMU's (1 sigma {:.3f} ms): add offset_s "
+      "{:.6f} to them\n",
       1e3 * std::abs(found.offset_s), found.offset_s < 0 ? "ahead of" : "behind",
       1e3 * found.offset_std_s, found.offset_s);
   fmt::print(
@@ -119,12 +117,12 @@ void Print(const RotationCalibration& found, const Options& options, const Pass&
       "{:.4f} {:.4f} deg about the lidar's axes)\n",
       q.w(), q.x(), q.y(), q.z(), std_deg.x(), std_deg.y(), std_deg.z());
   if (const auto change_deg = ChangeDeg(found, options)) {
-    fmt::print("          {:.3f} deg from the configuration's\n", *change_deg);
+    fmt::print("          this is {:.3f} deg from the configuration's rotation\n", *change_deg);
   }
   fmt::print("gyro:     bias [{:.5f}, {:.5f}, {:.5f}] rad/s\n", bias.x(), bias.y(), bias.z());
   fmt::print(
-      "from:     {} turns between sweeps, {:.2f} rad/s rms, correlation {:.4f}; a sweep's "
-      "rotation scatters by {:.4f} deg; misfit {:.2f}; {} sweeps unmatched\n",
+      "data:     {} rotations between sweeps, {:.2f} rad/s rms, correlation {:.4f}; rotation of a "
+      "sweep {:.4f} deg (1 sigma); residual scale {:.2f}; {} sweeps not matched\n",
       found.num_turns, found.turn_rate_rms_radps, found.correlation, kDegrees * found.sweep_std_rad,
       found.misfit, pass.num_unmatched);
 }
@@ -176,7 +174,7 @@ void WriteRig(const std::string& file, const RotationCalibration& found, const P
                         t.z(), q.w(), q.x(), q.y(), q.z(), found.offset_s));
 }
 
-// Empty: go on. The rotation need not be configured, it is what is sought.
+// Loads the options; nothing means go on. The rotation need not be configured: it is estimated.
 std::optional<int> Configure(const CalibrateArguments& arguments, Options& options) {
   std::vector<std::string> sets = arguments.options.sets;
   sets.emplace_back("pipeline.use_imu=false");
@@ -188,19 +186,20 @@ std::optional<int> Configure(const CalibrateArguments& arguments, Options& optio
   options = loaded.options;
   if (arguments.rig_file.empty() || options.rig.T_imu_lidar) return std::nullopt;
   fmt::print(stderr,
-             "lio-log: --rig needs rig.T_imu_lidar in a --config file: its translation is "
-             "taken over, calibration finds the rotation alone\n");
+             "lio-log: --rig needs rig.T_imu_lidar in a --config file: the translation is taken "
+             "from it, because calibration estimates only the rotation\n");
   return kExitConfiguration;
 }
 
-// Why calibration cannot even be tried; empty when it can.
+// Says why calibration cannot be tried; empty when it can.
 std::string MissingInput(const CalibrateArguments& arguments, const Pass& pass) {
   const std::string& prefix = arguments.channel_prefix;
   std::string missing;
   if (pass.samples.empty()) missing = prefix + "IMU";
   if (pass.num_chunks == 0) missing += (missing.empty() ? "" : " and ") + prefix + "SCAN";
   if (missing.empty()) return {};
-  return fmt::format("nothing on {}; see what the log holds with 'lio-log info'", missing);
+  return fmt::format("the log has no messages on {}; list its channels with 'lio-log info'",
+                     missing);
 }
 
 int Refuse(const CalibrateArguments& arguments, const std::string& why) {
@@ -217,15 +216,15 @@ CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments) {
       ->required();
   command->add_option("--json", arguments.json_file, "Write the result as JSON too")
       ->type_name("FILE");
-  command->add_option("--rig", arguments.rig_file, "Write it as a configuration file")
+  command->add_option("--rig", arguments.rig_file, "Write the result as a configuration file")
       ->type_name("OUT.yaml");
   command->add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--duration", arguments.duration_s, "Use S seconds and no more")
+  command->add_option("--duration", arguments.duration_s, "Use only S seconds")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
-  command->add_option("--max-offset", arguments.max_offset_s, "Search offsets up to this [s]")
+  command->add_option("--max-offset", arguments.max_offset_s, "Search for offsets up to this [s]")
       ->type_name("S")
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
@@ -234,7 +233,9 @@ CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments) {
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
   arguments.channel_prefix = kDefaultChannelPrefix;
-  command->add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
+  command
+      ->add_option("--channel-prefix", arguments.channel_prefix,
+                   "First part of the channels' names")
       ->type_name("NAME")
       ->capture_default_str();
   AddOptionsArguments(*command, arguments.options);
@@ -249,7 +250,7 @@ int RunCalibrate(const CalibrateArguments& arguments) {
     return Refuse(arguments, missing);
   }
   RotationCalibrationResult result = Calibrate(arguments, pass);
-  // Again along what was found: the first pass deskews by constant velocity.
+  // The first pass deskews by constant velocity; the others deskew along the path that was found.
   for (int number = 2; number <= arguments.num_passes && result.found; ++number) {
     const SweepPath path = PathOf(pass, *result.found);
     pass = ReadLog(arguments, options, number, &path);
@@ -266,8 +267,8 @@ int RunCalibrate(const CalibrateArguments& arguments) {
   }
   if (pass.num_skipped_bytes + pass.num_refused == 0) return kExitDone;
   return Refuse(arguments,
-                fmt::format("damaged: {} bytes skipped, {} messages refused; the rest was "
-                            "used",
+                fmt::format("the log is damaged: {} bytes skipped, {} messages refused; the "
+                            "rest was used",
                             pass.num_skipped_bytes, pass.num_refused));
 }
 

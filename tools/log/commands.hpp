@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The subcommands of lio-log: each adds its arguments to the program and runs once they are parsed.
+// The subcommands of lio-log: each adds its arguments to the program, and runs after parsing.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct CalibrateArguments {
   std::string json_file;
   std::string rig_file;
   double start_s = 0.0;
-  double duration_s = 0.0;  // 0: to the end
+  double duration_s = 0.0;  // 0 means to the end of the log
   double max_offset_s = 0.5;
   int num_passes = 3;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-log info: what a log holds, and what is missing of it.
+// lio-log info: prints what a log contains and what is missing in it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,14 +18,13 @@ namespace lio {
 namespace {
 
 constexpr const char* kAboutInfo =
-    "What a log holds: channels with counts and rates, span, gaps, damage; of the inertial "
-    "samples\n"
-    "and sweeps also what their own stamps say.\n\n"
+    "Prints the contents of a log: channels with counts, rates and gaps, the time span, damage,\n"
+    "and the same figures of the inertial samples and sweeps by their own stamps.\n\n"
     "Example:\n"
     "  lio-log info drive.lcm";
 
 struct ChannelInfo {
-  StreamStats events;  // by the time the log received them
+  StreamStats events;  // stamped with the time when the log received them
   std::int64_t num_bytes = 0;
 };
 
@@ -64,16 +63,17 @@ class LogInfo {
                  1e-6 * static_cast<double>(channel.num_bytes), channel.events.rate_hz(),
                  channel.events.num_gaps(), channel.events.longest_gap_s());
     }
-    fmt::print("a gap: more than three times the usual step, chunks of a sweep included\n");
-    if (samples_.num() + sweeps_.num() > 0) fmt::print("\nby their own stamps\n");
+    fmt::print(
+        "A gap is a pause of more than three usual periods; the chunks of a sweep count, too.\n");
+    if (samples_.num() + sweeps_.num() > 0) fmt::print("\nBy their own stamps:\n");
     PrintStream("inertial samples", samples_);
     PrintStream("sweeps", sweeps_);
     if (samples_.num() > 0) {
-      fmt::print("  accelerometer: {:.3f} m/s^2 at its quietest: {}\n", forces_.quiet_mean_mps2(),
-                 forces_.Suggestion());
+      fmt::print("  accelerometer: {:.3f} m/s^2 in its quietest second: {}\n",
+                 forces_.quiet_mean_mps2(), forces_.Suggestion());
     }
     if (sweeps_.num() > 0) {
-      fmt::print("  points a sweep: {:.0f}\n",
+      fmt::print("  points per sweep: {:.0f}\n",
                  static_cast<double>(num_points_) / static_cast<double>(sweeps_.num()));
     }
     fmt::print("\ndamage: {} bytes skipped, {} messages refused, {} inertial samples missing\n",
@@ -92,7 +92,7 @@ class LogInfo {
     forces_.Add(sample);
   }
 
-  // A sweep counts by its first chunk.
+  // The first chunk of a sweep stands for the sweep.
   void AddChunk(const LogEvent& event, Timestamp received) {
     if (!decoder_.Chunk(event.data, chunk_)) return;
     num_points_ += static_cast<std::int64_t>(chunk_.points.size());
@@ -104,8 +104,8 @@ class LogInfo {
   static void PrintStream(const char* name, const StreamStats& stats) {
     if (stats.num() == 0) return;
     fmt::print(
-        "  {}: {}, {:.3f} s at {:.2f} Hz, {} gaps (longest {:.3f} s), {} not after the one "
-        "before, received {:.1f} ms after their stamp\n",
+        "  {}: {}, {:.3f} s at {:.2f} Hz, {} gaps (longest {:.3f} s), {} stamped no later than the "
+        "one before, received {:.1f} ms after their stamp\n",
         name, stats.num(), stats.span_s(), stats.rate_hz(), stats.num_gaps(), stats.longest_gap_s(),
         stats.num_backwards(), 1e3 * stats.mean_delay_s());
   }
@@ -127,7 +127,9 @@ CLI::App* AddInfoCommand(CLI::App& app, InfoArguments& arguments) {
   CLI::App* command = app.add_subcommand("info", kAboutInfo);
   command->add_option("LOG", arguments.log, "LCM log")->type_name("IN.lcm")->required();
   arguments.channel_prefix = kDefaultChannelPrefix;
-  command->add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to decode")
+  command
+      ->add_option("--channel-prefix", arguments.channel_prefix,
+                   "First part of the channels' names")
       ->type_name("NAME")
       ->capture_default_str();
   return command;
@@ -138,7 +140,7 @@ int RunInfo(const InfoArguments& arguments) {
   LogInfo info(arguments.channel_prefix);
   info.Read(reader);
   if (!info.HasEvents()) {
-    fmt::print(stderr, "lio-log: {} holds no LCM events: is it an LCM log?\n", arguments.log);
+    fmt::print(stderr, "lio-log: {} contains no LCM events: is it an LCM log?\n", arguments.log);
     return kExitUnusableInput;
   }
   info.Print(arguments.log, reader);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Looks into LCM logs: the command line; info_command.cpp and calibrate_command.cpp do the work.
+// lio-log, the command line; info_command.cpp and calibrate_command.cpp do the work.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 namespace {
 
 constexpr const char* kAbout =
-    "Looks into LCM logs and diagnoses a sensor set-up from them.\n\n"
+    "Shows the contents of LCM logs and calibrates a sensor set-up from them.\n\n"
     "Examples:\n"
     "  lio-log info drive.lcm\n"
     "  lio-log calibrate drive.lcm --config config/ulhk.yaml\n"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The whole pipeline over a log: no clock, no drops.
+// lio-replay: runs the estimator over a log, without a clock and without dropping anything.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -33,11 +33,12 @@ struct ReplayArguments {
 
 constexpr const char* kDescription =
     "Runs LiDAR-inertial odometry over an LCM log, as fast as the machine goes.\n\n"
-    "Writes into DIR: trajectory.tum (imu in map: the steady path, a row a scan), covariance.csv,\n"
-    "trajectory_world.tum (in world: level at all times), covariance_world.csv,\n"
-    "trajectory_imu_rate.tum, registration.csv, stats.json, options.yaml, map.pcd with --map, and\n"
-    "trajectory_base.tum where the rig names T_base_imu.\n"
-    "The same log and options give the same files byte for byte, but for times of computing.";
+    "Writes into DIR: trajectory.tum (the pose of imu in map, which never turns; one row per "
+    "scan),\n"
+    "covariance.csv, trajectory_world.tum (the pose of imu in world, which is always level),\n"
+    "covariance_world.csv, trajectory_imu_rate.tum, registration.csv, stats.json, options.yaml,\n"
+    "map.pcd with --map, and trajectory_base.tum when the rig has T_base_imu.\n"
+    "The same log and options give the same files byte for byte, except for computing times.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -53,27 +54,27 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
       ->type_name("IN.lcm")
       ->required();
-  app.add_option("--out", arguments.out, "Folder for the results; made where needed")
+  app.add_option("--out", arguments.out, "Folder for the results; created when it is missing")
       ->type_name("DIR")
       ->required();
   app.add_option("--threads", arguments.num_threads,
                  "Instead of pipeline.num_threads; 2 or more also read and decode the log ahead")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
-  app.add_flag("--map", arguments.writes_map, "Write map.pcd, one point each 0.2 m");
+  app.add_flag("--map", arguments.writes_map, "Write map.pcd with one point per voxel of 0.2 m");
   app.add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
       ->type_name("S")
       ->check(NumberFromZero());
-  app.add_option("--duration", arguments.duration_s, "Replay S seconds and no more")
+  app.add_option("--duration", arguments.duration_s, "Replay only S seconds")
       ->type_name("S")
       ->check(NumberAboveZero());
-  app.add_option("--channel-prefix", arguments.channel_prefix, "Of the channels to read")
+  app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option(
          "--match-lag", arguments.match_lag,
-         "Take each match's result N messages late, as liod does under load; a check, since\n"
-         "the files must be the same")
+         "Take each match's result N messages late, as liod does under load; the files must\n"
+         "be the same, so this is a check")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
   AddOptionsArguments(app, arguments.options);
@@ -105,12 +106,12 @@ class Replay {
   }
 
   const Counters& counters() const { return odometry_.counters(); }
-  // Why the configuration cannot be right for the log; empty when it can.
+  // Says why the configuration contradicts the log; empty when it does not.
   const std::string& refusal() const { return refusal_; }
 
  private:
   void Add(InputItem item) {
-    // The inertial samples of a scan count as its work; chunks carry it on.
+    // The time of decoding inertial samples counts for the scan they come with.
     decode_ns_ += item.decode_ns;
     if (const auto* sample = std::get_if<ImuSample>(&item.data)) {
       odometry_.AddImu(*sample);
@@ -172,13 +173,13 @@ class Replay {
   MapCloud map_;
   bool writes_map_;
   int match_lag_;
-  std::optional<MatchOutcome> outcome_;  // of the job that is out
-  int num_messages_to_wait_ = 0;         // before it is taken
+  std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
+  int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;
   std::string refusal_;
 };
 
-// What was wrong with the log, in one line; empty when nothing was.
+// Says in one line what was wrong with the log; empty when nothing was.
 std::string Complaint(const LogInput& input, const Counters& counters,
                       const ReplayArguments& arguments) {
   if (counters.num_chunks == 0) {

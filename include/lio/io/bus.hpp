@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where messages come from and go to: LCM (any URL), memory (tests), or nowhere (benchmarks).
-// Bytes only: what they mean is lcm_codec's business.
+// A bus carries messages as bytes: over LCM (any URL), in memory (for tests), or to nowhere (for
+// benchmarks). lcm_codec.hpp encodes and decodes them.
 //
 // One thread receives; any thread may publish. Subscribe before the first Receive, and never after
 // it: liblcm 1.3.1 corrupts memory when subscriptions change while it delivers.
@@ -18,7 +18,7 @@
 
 namespace lio {
 
-// No transport: the message says what to do. Programs end with exit code 4.
+// The transport cannot be used. The message says what to do; programs end with exit code 4.
 class TransportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,8 +26,8 @@ class TransportError : public std::runtime_error {
 
 enum class ReceiveResult {
   kMessage,  // one message was handed to its subscriber
-  kTimeout,  // none came in time, or a signal interrupted the wait
-  kClosed,   // none will come any more: a log is at its end, a connection broke
+  kTimeout,  // no message came in time, or a signal interrupted the wait
+  kClosed,   // no message will come any more: a log is at its end, a connection broke
 };
 
 class Bus {
@@ -39,31 +39,32 @@ class Bus {
   virtual ~Bus() = default;
 
   // `channel` is a plain name, not an expression. At most `queue_capacity` messages wait inside the
-  // transport; newer ones are lost there. What a handler throws is counted and goes no further.
+  // transport; newer ones are lost there. An exception of a handler is counted and goes no further.
   virtual void Subscribe(const std::string& channel, int queue_capacity, Handler handler) = 0;
 
   // Waits up to `timeout` for a message and hands it to its handlers.
-  virtual ReceiveResult Receive(std::chrono::milliseconds timeout) = 0;
+  [[nodiscard]] virtual ReceiveResult Receive(std::chrono::milliseconds timeout) = 0;
 
   // False when the transport refused the message.
-  virtual bool Publish(const std::string& channel, ByteView data) = 0;
+  [[nodiscard]] virtual bool Publish(const std::string& channel, ByteView data) = 0;
 
-  // Messages above kMaxMessageBytes, and those whose handler threw; neither got any further.
-  virtual std::int64_t num_oversized() const = 0;
-  virtual std::int64_t num_handler_faults() const = 0;
+  // How many messages were above kMaxMessageBytes, and for how many a handler threw. Neither got
+  // any further.
+  [[nodiscard]] virtual std::int64_t num_oversized() const = 0;
+  [[nodiscard]] virtual std::int64_t num_handler_faults() const = 0;
 };
 
-// An LCM transport. Empty `url`: LCM_DEFAULT_URL of the environment, else LCM's own default. Throws
-// TransportError when LCM cannot open it.
-std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
+// Opens an LCM transport. An empty `url` stands for LCM_DEFAULT_URL of the environment, or else for
+// LCM's own default. Throws TransportError when LCM cannot open it.
+[[nodiscard]] std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
 
-// Messages published on it come back to its own subscribers, in order.
-std::unique_ptr<Bus> OpenMemoryBus();
+// A bus whose messages come back to its own subscribers, in order.
+[[nodiscard]] std::unique_ptr<Bus> OpenMemoryBus();
 
-// Takes everything, delivers nothing.
-std::unique_ptr<Bus> OpenNullBus();
+// A bus that takes every message and delivers none.
+[[nodiscard]] std::unique_ptr<Bus> OpenNullBus();
 
-// The UDP port that OpenLcmBus(url) listens on; 0 when it is not udpm.
-int UdpPort(const std::string& url);
+// The UDP port that OpenLcmBus(url) listens on; 0 when the URL is not udpm://.
+[[nodiscard]] int UdpPort(const std::string& url);
 
 }  // namespace lio

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Numbers out of unaligned bytes of either byte order. This project runs on little-endian machines.
+// Reads numbers from unaligned bytes in either byte order. This project runs on little-endian
+// machines.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the command lines of all programs share: exit codes, errors in one line, and --config, --set
-// and --print-options of the programs that run the pipeline.
+// The parts that the command lines of all programs share: exit codes, errors in one line, and
+// --config, --set and --print-options of the programs that run the pipeline.
 #pragma once
 
 #include <filesystem>
@@ -20,30 +20,31 @@ namespace lio {
 
 enum ExitCode : int {
   kExitDone = 0,
-  kExitUsage = 2,          // a wrong command line
-  kExitConfiguration = 3,  // a missing or faulty file, key or value of the configuration
-  kExitNoTransport = 4,    // LCM cannot be reached
-  kExitUnusableInput = 5,  // damaged, missing or unusable input
+  kExitUsage = 2,           // a wrong command line
+  kExitConfiguration = 3,   // a missing or faulty file, key or value of the configuration
+  kExitNoTransport = 4,     // LCM cannot be reached
+  kExitUnusableInput = 5,   // damaged, missing or unusable input
+  kExitInternalFault = 70,  // a thread of liod failed: EX_SOFTWARE of sysexits.h
 };
 
-// Parses; empty means go on. Otherwise the exit code to end with now: kExitDone after --help and
-// --version, kExitUsage after a usage error, told in one line on stderr. Adds --version (of
-// LIO_VERSION, passed by the caller).
-std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
-                                    const std::string& version);
+// Parses the command line. Nothing means that the program goes on; otherwise it ends now with this
+// exit code: kExitDone after --help and --version, kExitUsage after a usage error, which is told in
+// one line on stderr. Adds --version, which prints `version`.
+[[nodiscard]] std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
+                                                  const std::string& version);
 
-// For CLI::Option::check: the option takes a finite number in that range. CLI11's own checks let
-// NaN pass, and tell the largest double in full.
+// Checks for CLI::Option::check: the option takes a finite number in that range. CLI11's own checks
+// let NaN pass and print the largest double in full.
 using TextCheck = std::function<std::string(const std::string&)>;
-TextCheck NumberWithin(double least, double most);
-TextCheck NumberFromZero();
-TextCheck NumberAboveZero();
-TextCheck WholeNumberFromZero();  // of 64 bits
-// And: a name of at most so many characters.
-TextCheck NameUpTo(std::size_t max_characters);
+[[nodiscard]] TextCheck NumberWithin(double least, double most);
+[[nodiscard]] TextCheck NumberFromZero();
+[[nodiscard]] TextCheck NumberAboveZero();
+[[nodiscard]] TextCheck WholeNumberFromZero();  // of 64 bits
+// The option takes a name of at most so many characters.
+[[nodiscard]] TextCheck NameUpTo(std::size_t max_characters);
 
-// Throws UsageError when writing `output` would destroy `input`, which is the same file; or, when
-// `input` is a folder, a file of recorded data in it.
+// Throws UsageError when writing `output` would destroy the input: when `output` is the file
+// `input` or, when `input` is a folder, a file of recorded data in it.
 void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output);
 
 struct OptionsArguments {
@@ -57,11 +58,12 @@ struct OptionsArguments {
 // outlive the app.
 void AddOptionsArguments(CLI::App& app, OptionsArguments& arguments);
 
-// ParseCommandLine, then loads the options. Empty means go on with valid `options`. Otherwise the
-// exit code: also kExitDone after --print-options, whose text goes to stdout, and
-// kExitConfiguration, with every fault on a line of stderr.
-std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
-                                    const std::string& version, OptionsArguments& arguments,
-                                    Options& options);
+// Calls ParseCommandLine and then loads the options. Nothing means that the program goes on with
+// valid `options`; otherwise it ends now with this exit code, which is also kExitDone after
+// --print-options, whose text goes to stdout, and kExitConfiguration after faults of the
+// configuration, each of which is told on a line of stderr.
+[[nodiscard]] std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
+                                                  const std::string& version,
+                                                  OptionsArguments& arguments, Options& options);
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The clock that the estimator's stage times are measured with.
+// The clock for the stage times of the estimator.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace lio {
 
-// CPU time of the calling thread; costs a system call of some 0.3 us.
-inline std::int64_t ThreadCpuNs() {
+// CPU time of the calling thread. One call takes about 0.3 us, the time of a system call.
+[[nodiscard]] inline std::int64_t ThreadCpuNs() {
   std::timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;

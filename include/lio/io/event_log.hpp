@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// LCM event logs, as lcm-logger writes them: header (sync word 0xEDA1DA01, event number, utime,
-// lengths; big-endian), channel, payload. The reader goes past damage to the next plausible event
-// and counts what it skipped; liblcm's own stops there or crashes (docs/messages.md).
+// Reads and writes LCM event logs as lcm-logger does: each event has a header (sync word
+// 0xEDA1DA01, event number, utime, lengths; big-endian), a channel and a payload. The reader skips
+// damage up to the next plausible event and counts the skipped bytes; liblcm's reader stops there
+// or crashes (docs/messages.md).
 #pragma once
 
 #include <cstdint>
@@ -51,11 +52,12 @@ class EventLogReader {
 
   // Reads the next event into `event`, reusing its memory; false at the end. Never throws on
   // damage and never allocates more than the file could hold.
-  bool Next(LogEvent& event);
+  [[nodiscard]] bool Next(LogEvent& event);
 
-  std::int64_t skipped_bytes() const;   // damage passed over so far, a cut end included
-  std::int64_t position_bytes() const;  // for progress bars
-  std::int64_t size_bytes() const;
+  // Bytes of damage skipped so far; an event that the end of the file cuts off counts as damage.
+  [[nodiscard]] std::int64_t skipped_bytes() const;
+  [[nodiscard]] std::int64_t position_bytes() const;  // for progress bars
+  [[nodiscard]] std::int64_t size_bytes() const;
 
  private:
   struct Impl;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Names of the channels, and the step from a channel's bytes to samples and chunks, which replay
-// and the daemon share so that both count alike.
+// The names of the channels, and the decoding of the input channels, which lio-replay and liod
+// share so that both count alike.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace lio {
 
 inline constexpr const char* kDefaultChannelPrefix = "LIO_";
 
-// Which of LOAM's sets a cloud holds; the order of Channels::features.
+// The feature set of LOAM that a cloud holds; in the order of Channels::features.
 enum class FeatureSet { kCornerSharp, kCornerLessSharp, kSurfFlat, kSurfLessFlat, kRemoved };
 inline constexpr std::size_t kNumFeatureSets = 5;
 
@@ -29,27 +29,27 @@ struct Channels {
   std::array<std::string, kNumFeatureSets> features;  // by FeatureSet
 };
 
-// What was refused before the estimator saw it. Zero everywhere on a clean log.
+// Messages that were refused before the estimator saw them. All zero on a clean log.
 struct InputCounters {
   std::array<std::int64_t, kNumDecodeStatuses> num_refused{};  // by DecodeStatus; kOk stays 0
-  std::int64_t num_imu_missing = 0;  // holes in imu_t.seq: lost on the way here
+  std::int64_t num_imu_missing = 0;  // gaps in imu_t.seq: lost before they arrived
 
-  std::int64_t TotalRefused() const;
+  [[nodiscard]] std::int64_t TotalRefused() const;
 };
 
-// Not for several threads at once.
+// One thread at a time.
 class InputDecoder {
  public:
-  // False when the bytes were refused, and counted.
-  bool Imu(ByteView bytes, ImuSample& sample);
-  bool Chunk(ByteView bytes, ScanChunk& chunk);
-  // A message that was refused unread.
+  // False when the bytes were refused, which is counted.
+  [[nodiscard]] bool Imu(ByteView bytes, ImuSample& sample);
+  [[nodiscard]] bool Chunk(ByteView bytes, ScanChunk& chunk);
+  // Counts a message that was refused unread.
   void Refuse(DecodeStatus reason) { ++counters_.num_refused[static_cast<std::size_t>(reason)]; }
 
-  const InputCounters& counters() const { return counters_; }
+  [[nodiscard]] const InputCounters& counters() const { return counters_; }
 
  private:
-  bool Accept(DecodeStatus status);
+  [[nodiscard]] bool Accept(DecodeStatus status);
 
   InputCounters counters_;
   bool has_imu_ = false;

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Why a program cannot do its work, as exceptions that carry one line for the user. Damage inside
-// an otherwise sound input is not one of them: that is counted, and the work goes on.
+// The exceptions that end a program, each with one line for the user. Damage inside an otherwise
+// sound input is not among them: it is counted, and the work goes on.
 #pragma once
 
 #include <stdexcept>
 
 namespace lio {
 
-// The command line asks for something that cannot be (an ambiguous topic): exit code 2.
+// The command line asks for something impossible, e.g. an ambiguous topic. Exit code 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The input is missing, of an unknown kind or unusable: exit code 5.
+// The input is missing, of an unknown kind or unusable. Exit code 5.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A file cannot be created or written in full: the command line named a wrong place, exit code 2.
+// A file cannot be created or written in full: the command line named a wrong place. Exit code 2.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -18,10 +18,10 @@ namespace lio {
 
 struct LogInputOptions {
   Channels channels;
-  double start_s = 0.0;  // leaves out what the log received before this, from its first event on
+  double start_s = 0.0;  // events received earlier than this after the first are left out
   double duration_s = std::numeric_limits<double>::infinity();
   ClockNs clock = nullptr;   // for decode_ns
-  bool reads_ahead = false;  // on a thread of its own; changes nothing but the speed
+  bool reads_ahead = false;  // on a further thread; the items are the same
 };
 
 struct InputItem {
@@ -39,14 +39,14 @@ class LogInput {
   LogInput(const LogInput&) = delete;
   LogInput& operator=(const LogInput&) = delete;
 
-  // Nothing at the end.
-  std::optional<InputItem> Next();
+  // The next item; nothing at the end.
+  [[nodiscard]] std::optional<InputItem> Next();
 
-  std::int64_t size_bytes() const;
-  // Complete once Next gave nothing.
-  const InputCounters& counters() const;
-  std::int64_t num_skipped_bytes() const;
-  double duration_s() const;  // from the first event handed out to the last
+  [[nodiscard]] std::int64_t size_bytes() const;
+  // The counts are complete once Next has given nothing.
+  [[nodiscard]] const InputCounters& counters() const;
+  [[nodiscard]] std::int64_t num_skipped_bytes() const;
+  [[nodiscard]] double duration_s() const;  // from the first event handed out to the last
 
  private:
   class Impl;

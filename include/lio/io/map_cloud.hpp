@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The points of map.pcd: of all scans that grew the map, the first point of each voxel.
+// Collects the points of map.pcd: the first point in each voxel among all scans that were inserted
+// into the map.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +22,7 @@ class MapCloud {
   void Add(std::span<const Eigen::Vector3f> points_imu, const Pose& T_map_imu);
   void Clear();
 
-  const std::vector<Eigen::Vector3f>& points_map() const { return points_map_; }
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& points_map() const { return points_map_; }
 
  private:
   std::vector<Eigen::Vector3f> points_map_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// "Did you mean ...?": the name that a mistyped one was probably meant to be.
+// Finds the name that was probably meant by a mistyped one, for "did you mean ...?".
 #pragma once
 
 #include <span>
@@ -9,11 +9,12 @@
 
 namespace lio {
 
-// Insertions, deletions, substitutions and swaps of neighbours that turn a into b.
-int EditDistance(std::string_view a, std::string_view b);
+// The least number of insertions, deletions, substitutions and swaps of neighbours that turn `a`
+// into `b`.
+[[nodiscard]] int EditDistance(std::string_view a, std::string_view b);
 
-// The name with the smallest edit distance, the first of equals; empty without names. A dotted name
-// whose last part alone is near counts as near, whatever stands before it.
-std::string NearestName(std::string_view wrong, std::span<const std::string> names);
+// The name with the smallest edit distance, the first of equal ones; empty when there are no names.
+// A dotted name also counts as near when only its last part is near.
+[[nodiscard]] std::string NearestName(std::string_view wrong, std::span<const std::string> names);
 
 }  // namespace lio

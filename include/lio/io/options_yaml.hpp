@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Options from YAML, strictly, and back as commented YAML. Keys are those of
+// Loads options from YAML, strictly, and prints them as commented YAML. The keys are those of
 // lio/pipeline/options_fields.hpp, nested as the structs are.
 #pragma once
 
@@ -17,20 +17,22 @@ struct LoadResult {
   std::vector<std::string> faults;  // one line each; empty means `options` is usable
 };
 
-// Defaults, then each file key by key, then each of `sets` ("a.b.c=VALUE", VALUE is YAML): later
-// wins. Faults are all that can be found at once, each "file:line: message", or with the set's
-// text, or "configuration: message" for what nobody gave: unreadable files, bad syntax, unknown
-// keys (with the nearest right one), doubled keys, wrong types, values out of range, half-given
-// groups, and what Validate finds in the whole. Quaternions are normalised. `null` takes an
-// optional group back. Never throws for what the files hold.
-LoadResult LoadOptions(const std::vector<std::filesystem::path>& files,
-                       const std::vector<std::string>& sets);
+// Takes the defaults, then each file key by key, then each of `sets` ("a.b.c=VALUE", VALUE is
+// YAML); later values win. `null` removes an optional group. Quaternions are normalised.
+//
+// All faults are reported at once: unreadable files, bad syntax, unknown keys (with the nearest
+// right one), doubled keys, wrong types, values out of range, groups given in part, and the faults
+// that Validate finds in the whole. Each reads "file:line: message", or begins with the set's text,
+// or with "configuration:" when it is about a key that was not given. The contents of the files
+// never make this throw.
+[[nodiscard]] LoadResult LoadOptions(const std::vector<std::filesystem::path>& files,
+                                     const std::vector<std::string>& sets);
 
-// All options as YAML with a comment each; LoadOptions of the text gives the same values to the
-// last bit. Optional groups that are absent are shown in comments.
-std::string PrintOptions(const Options& options);
+// Prints all options as YAML with a comment each. LoadOptions of the text gives the same values to
+// the last bit. Optional groups that are absent are shown in comments.
+[[nodiscard]] std::string PrintOptions(const Options& options);
 
-// The like without the count of threads, which changes no result.
-std::string PrintResultOptions(const Options& options);
+// The same without the number of threads, which changes no result.
+[[nodiscard]] std::string PrintResultOptions(const Options& options);
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Clouds as PCD files, which every viewer of point clouds opens.
+// Writes point clouds as PCD files, which every viewer of point clouds opens.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,8 @@
 
 namespace lio {
 
-// Binary, fields x y z [m]. Overwrites. Throws std::runtime_error naming the file when it cannot.
+// The file is binary, with the fields x y z [m]; an existing one is overwritten. Throws
+// std::runtime_error naming the file when it cannot.
 void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points);
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How far long work has come, drawn on stderr when that is a terminal, and nothing otherwise.
+// Draws the progress of long work on stderr when that is a terminal, and nothing otherwise.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace lio {
 
 class ProgressBar {
  public:
-  // `total` in whatever unit Update gets; 0 draws nothing.
+  // `total` is in the unit of Update's argument; with 0 nothing is drawn.
   ProgressBar(std::string label, std::int64_t total);
-  ~ProgressBar();  // wipes the bar, so that what follows stands on a clean line
+  ~ProgressBar();  // wipes the bar, so that the next output begins on a clean line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
@@ -20,7 +20,7 @@ class ProgressBar {
   void Update(std::int64_t done);
 
   // The bar as text, e.g. "replay [####----]  50 %"; `percent` 0..100.
-  static std::string Draw(const std::string& label, int percent);
+  [[nodiscard]] static std::string Draw(const std::string& label, int percent);
 
  private:
   std::string label_;

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of one run, the same from lio-replay and from liod --out:
-//   trajectory.tum: a row a scan once started, t x y z qx qy qz qw, imu in map at the sweep's end
-//   covariance.csv: the same rows, t_s and the 6x6 of [position; right rotation], of the error that
-//     those poses have in a world that is level as the truth is
-//   trajectory_world.tum, covariance_world.csv: the same of imu in world, which is level, and bent
-//     with each correction of the tilt
-//   trajectory_base.tum: the rows of base in map, with rig.T_base_imu
-//   trajectory_imu_rate.tum: of imu in map, a row an inertial sample
-//   registration.csv: a row a scan, of points, residual, information, status, stage times
+// Writes the files of one run, the same from lio-replay and from liod --out:
+//   trajectory.tum: one row per scan after initialization, t x y z qx qy qz qw: the pose of imu in
+//     map at the end of the sweep
+//   covariance.csv: for the same rows t_s and the 6x6 covariance of [position; right rotation] of
+//     the error that these poses have in a level world, as the truth is
+//   trajectory_world.tum, covariance_world.csv: the same for imu in world, which is level and is
+//     bent by each correction of the tilt
+//   trajectory_base.tum: the poses of base in map, when rig.T_base_imu is given
+//   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
+//   registration.csv: one row per scan: points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times
-//   options.yaml: the effective options, but for the count of threads
-//   map.pcd: when asked for
+//   options.yaml: the effective options without the number of threads
+//   map.pcd: the points of the map, when asked for
 //
-// Everything but times of computing is the same, byte for byte, for the same input.
+// For the same input all but the computing times is the same, byte for byte.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +27,7 @@
 #include <vector>
 
 #include "lio/io/input_decoder.hpp"
+#include "lio/io/quantile_sketch.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
@@ -42,11 +44,11 @@ struct RunStats {
 
 class RunWriter {
  public:
-  // Creates the folder where needed and overwrites what is there from earlier runs. Throws
+  // Creates the folder when it is missing and overwrites the files of earlier runs. Throws
   // std::runtime_error naming the file when it cannot.
   RunWriter(const std::filesystem::path& folder, const Options& options);
 
-  // Rows that would not be later than the one before are left out and counted in stats.json.
+  // A row that is not later than the one before is left out and counted in stats.json.
   void Write(const Output& output);
   void WriteMap(std::span<const Eigen::Vector3f> points);
   // Completes all files. Throws std::runtime_error when a file could not be written in full.
@@ -78,7 +80,7 @@ class RunWriter {
   std::optional<Timestamp> last_scan_;
   std::optional<Timestamp> last_imu_rate_;
   std::int64_t num_rows_not_later_ = 0;
-  std::array<std::vector<float>, kNumStages> stage_ms_;
+  std::array<QuantileSketch, kNumStages> stage_ms_;
 };
 
 }  // namespace lio

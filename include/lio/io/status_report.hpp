@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the daemon tells about itself on LIO_STATUS, and what it may be told on LIO_CMD.
+// The daemon's report on LIO_STATUS and the commands that it takes on LIO_CMD.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lio {
 
-// Of one second's scans; all zero when there were none.
+// Latencies of the scans of one second; all zero when there were none.
 struct LatencySummary {
   float p50_ms = 0.0F;
   float p99_ms = 0.0F;
@@ -44,8 +44,8 @@ struct StatusReport {
   std::string note;  // the last notice
 };
 
-// `version` as "major.minor.patch".
-Bytes EncodeStatus(const StatusReport& report, const std::string& version);
+// `version` reads "major.minor.patch".
+[[nodiscard]] Bytes EncodeStatus(const StatusReport& report, const std::string& version);
 
 enum class CommandAction : std::int32_t { kCloudFullOff = 0, kCloudFullOn = 1 };
 
@@ -54,11 +54,12 @@ struct Command {
   CommandAction action = CommandAction::kCloudFullOff;
 };
 
-// Unknown actions are kBadFormat.
+// An unknown action gives kBadFormat.
 DecodeStatus DecodeCommand(ByteView bytes, Command& command);
-Bytes EncodeCommand(const Command& command);
+[[nodiscard]] Bytes EncodeCommand(const Command& command);
 
-// 64-bit FNV-1a: a short name for a text, e.g. a set of options.
-std::uint64_t Fnv1a(std::string_view text);
+// The 64-bit FNV-1a hash of a text, e.g. of the printed options
+// (http://www.isthe.com/chongo/tech/comp/fnv).
+[[nodiscard]] std::uint64_t Fnv1a(std::string_view text);
 
 }  // namespace lio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a converter can say of a sensor's stream in bounded memory: rate, span, gaps, delays, and
-// for an IMU what its accelerometer measures.
+// Statistics of a sensor's stream in bounded memory: rate, span, gaps and delays, and for an IMU
+// the unit of its accelerometer.
 #pragma once
 
 #include <cstdint>
@@ -42,17 +42,18 @@ class StreamStats {
   std::optional<double> typical_s_;  // once kNumFirst periods are in
 };
 
-// Judges an accelerometer from its quietest second.
+// Judges the unit of an accelerometer from its quietest second.
 class AccelerometerStats {
  public:
   void Add(const ImuSample& sample);
 
-  double mean_mps2() const;        // mean length of all readings
-  double quiet_mean_mps2() const;  // of those in the quietest second
+  [[nodiscard]] double mean_mps2() const;        // mean norm of all samples
+  [[nodiscard]] double quiet_mean_mps2() const;  // mean norm in the quietest second
   double largest_rate_radps() const { return largest_rate_; }
   std::int64_t num_nonfinite() const { return num_nonfinite_; }
-  // "specific force in m/s^2, gravity present", or what else it looks like and what to do.
-  std::string Suggestion() const;
+  // "specific force in m/s^2, gravity present", or what the samples look like instead and what to
+  // do.
+  [[nodiscard]] std::string Suggestion() const;
 
  private:
   struct Window {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the points of one sweep to the chunks that travel: sorted by time, cut to datagram size,
-// each chunk with the stamp of its own first point, and the instant at which a driver would have
-// sent it.
+// Cuts the points of one sweep into the chunks that are sent: sorted by time, of datagram size,
+// each with the stamp of its own first point and the instant at which a driver would have sent it.
 #pragma once
 
 #include <span>
@@ -20,18 +19,21 @@ struct TimedSweep {
 
 // `instants_ns` has one instant per point and spans at most 4 s. The points' own offsets are
 // overwritten. An empty sweep stays empty.
-TimedSweep SortSweep(std::vector<LidarPoint> points, std::span<const std::int64_t> instants_ns);
+[[nodiscard]] TimedSweep SortSweep(std::vector<LidarPoint> points,
+                                   std::span<const std::int64_t> instants_ns);
 
 struct SentChunk {
   ScanChunk chunk;
   Timestamp sent;
 };
 
-// `received`: when the last point was in. Chunks of at most `max_points` points.
-std::vector<SentChunk> SplitSweep(const TimedSweep& sweep, std::int32_t scan_seq,
-                                  Timestamp received, std::size_t max_points = kMaxChunkPoints);
+// Gives chunks of at most `max_points` points. `received` is the instant when the last point was
+// in.
+[[nodiscard]] std::vector<SentChunk> SplitSweep(const TimedSweep& sweep, std::int32_t scan_seq,
+                                                Timestamp received,
+                                                std::size_t max_points = kMaxChunkPoints);
 
-// The sensor's own intensity as the wire has it: rounded, clamped to 0..65535, 0 for NaN.
-std::uint16_t QuantiseIntensity(float intensity);
+// Converts the sensor's own intensity for the wire: rounded, clamped to 0..65535, 0 for NaN.
+[[nodiscard]] std::uint16_t QuantiseIntensity(float intensity);
 
 }  // namespace lio

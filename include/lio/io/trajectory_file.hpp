@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Trajectories as text. TUM: "t x y z qx qy qz qw" a row, t in seconds; KITTI: the upper 3x4 of a
-// pose matrix a row, row-major, no stamps. Stamps are read and written as decimal integers, never
-// through a double: nanoseconds survive.
+// Reads and writes trajectories as text. A row of TUM is "t x y z qx qy qz qw" with t in seconds; a
+// row of KITTI is the upper 3x4 of a pose matrix, row-major, without stamp. Stamps are read and
+// written as decimal integers, never through a double, so that nanoseconds survive.
 #pragma once
 
 #include <filesystem>
@@ -21,26 +21,29 @@ struct Trajectory {
   StampedPoses poses;  // kKitti: stamp.ns is the row's index, 0 first
 };
 
-// Reads either format, told apart by the first row's columns (8 or 12, separated by blanks). Empty
-// lines and lines that start with # are passed over. Strict: throws std::runtime_error
-// "FILE:LINE: message", with the column where one is at fault, for a column count that differs, a
-// word that is no finite number, a stamp not above the one before, a quaternion or matrix that is
-// no rotation (small rounding is normalised away), and "FILE: message" when the file cannot be read
-// or holds no pose.
-Trajectory ReadTrajectory(const std::filesystem::path& file);
+// Reads either format; the number of columns of the first row, 8 or 12, tells them apart. Columns
+// are separated by blanks. Empty lines and lines that start with # are skipped. Small rounding
+// errors of a rotation are normalised away.
+//
+// Throws std::runtime_error "FILE:LINE: message", with the column when one is at fault, for a
+// different number of columns, a word that is not a finite number, a stamp that is not above the
+// one before, and a quaternion or matrix that is not a rotation; and "FILE: message" when the file
+// cannot be read or holds no pose.
+[[nodiscard]] Trajectory ReadTrajectory(const std::filesystem::path& file);
 
-// Overwrite; throw std::runtime_error naming the file when it cannot be written.
+// Both overwrite an existing file, and throw std::runtime_error naming the file when it cannot be
+// written.
 void WriteTum(const std::filesystem::path& file, const StampedPoses& poses);
 void WriteKitti(const std::filesystem::path& file, const StampedPoses& poses);
 
-// One row without line end: the stamp with 9 decimals, then 9 decimals each.
-std::string TumRow(const StampedPose& pose);
+// One row without line end; all numbers have 9 decimals.
+[[nodiscard]] std::string TumRow(const StampedPose& pose);
 
-// Seconds with 9 decimals, exact.
-std::string StampText(Timestamp stamp);
+// The stamp in seconds with 9 decimals, exact.
+[[nodiscard]] std::string StampText(Timestamp stamp);
 
-// Decimal seconds, also in exponent form, rounded to the nearest nanosecond; empty for anything
-// else and for what 64 bits of nanoseconds cannot hold.
-std::optional<Timestamp> ParseStamp(std::string_view text);
+// Parses decimal seconds, also in exponent form, and rounds to the nearest nanosecond. Gives
+// nothing for any other text and for a stamp that 64 bits of nanoseconds cannot hold.
+[[nodiscard]] std::optional<Timestamp> ParseStamp(std::string_view text);
 
 }  // namespace lio

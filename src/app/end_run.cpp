@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "app/end_run.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+namespace lio {
+
+bool IsOver(const LiveRunner& runner) {
+  return runner.has_ended() || runner.fault().has_value();
+}
+
+ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url) {
+  const bool is_connection_lost = runner.has_ended() && !lcm_url.starts_with("file:");
+  std::string unfinished;
+  try {
+    runner.Stop();
+  } catch (const std::exception& error) {
+    if (!runner.fault()) throw;
+    unfinished = fmt::format("; {}", error.what());
+  }
+  if (const auto fault = runner.fault()) {
+    spdlog::error("{}{}; the run ends here, please report this fault", *fault, unfinished);
+    return kExitInternalFault;
+  }
+  if (!is_connection_lost) return kExitDone;
+  spdlog::error("the connection to {} broke: start its server, then liod", lcm_url);
+  return kExitNoTransport;
+}
+
+}  // namespace lio

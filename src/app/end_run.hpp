@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// How a run of liod ends: the files are completed, and the exit code says why it ended.
+#pragma once
+
+#include <string>
+
+#include "app/live_runner.hpp"
+#include "lio/io/command_line.hpp"
+
+namespace lio {
+
+// True when there is nothing more to wait for: the bus has ended or a thread has failed.
+[[nodiscard]] bool IsOver(const LiveRunner& runner);
+
+// Stops the runner and tells in one line on stderr why, unless it was asked to end or a log that
+// `lcm_url` names is over. Returns the exit code. Throws std::runtime_error when a file could not
+// be completed.
+[[nodiscard]] ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url);
+
+}  // namespace lio

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The threads of the daemon. An exception that leaves a thread's body ends that thread and not the
+// process: it is reported in words, so that the run can end in order, with its files complete.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace lio {
+
+// Called with one line, e.g. "the match thread failed: std::bad_alloc". Must not throw.
+using OnFault = std::function<void(const std::string& fault)>;
+
+// Runs `body` on the calling thread. Returns nothing when it ended well, otherwise one line that
+// says what `who` (e.g. "the match thread") was ended by.
+[[nodiscard]] std::optional<std::string> RunCatching(const std::string& who,
+                                                     const std::function<void()>& body);
+
+class WorkerThread {
+ public:
+  // `on_fault` is called on the thread itself, after the body was left by an exception.
+  WorkerThread(std::string name, OnFault on_fault);
+  ~WorkerThread();  // joins: whoever owns the thread tells its body to end first
+  WorkerThread(const WorkerThread&) = delete;
+  WorkerThread& operator=(const WorkerThread&) = delete;
+
+  // Once only. Throws std::system_error when the system has no thread left.
+  void Start(std::function<void()> body);
+  // Waits for the body to end. Does nothing before Start and after an earlier Join.
+  void Join();
+  // Waits for the body to end, but no longer than `timeout`; false when it is still running.
+  // True before Start.
+  [[nodiscard]] bool EndsWithin(std::chrono::milliseconds timeout) const;
+
+ private:
+  void Run(const std::function<void()>& body);
+
+  std::string name_;
+  OnFault on_fault_;
+  std::promise<void> ended_;
+  std::future<void> has_ended_ = ended_.get_future();
+  std::thread thread_;
+};
+
+// Keeps the first fault of several threads. Any thread may call any function.
+class FaultLatch {
+ public:
+  void Set(const std::string& fault);
+  [[nodiscard]] std::optional<std::string> first() const;
+
+ private:
+  mutable std::mutex mutex_;  // guards first_
+  std::optional<std::string> first_;
+};
+
+}  // namespace lio
