@@ -111,6 +111,7 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
   scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
   const auto match_from = [&](const Pose& T_map_imu_guess, const Matrix6& cov) {
+    ++outcome.num_matches;
     return matcher_->Match({.points_imu = scan.to_match,
                             .T_map_imu_guess = T_map_imu_guess,
                             .guess_cov = cov,
@@ -143,6 +144,7 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   begin = Now();
   scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
   const std::vector<float> from_mid_sweep_s = TimesFromMidSweep(times, scan.reduced);
+  ++outcome.num_matches;
   outcome.match = matcher_->Match({scan.to_match, outcome.match.T_map_imu, Matrix6::Zero(), true,
                                    scan.tags_to_match, outcome.points_imu, job.prior.shift_std_m,
                                    from_mid_sweep_s});
