@@ -6,13 +6,11 @@
 
 #include "lio/pipeline/match_method.hpp"
 #include "lio/registration/match_budget.hpp"
+#include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
 
 namespace lio {
 namespace {
-
-constexpr int kMaxMatchesPerScan = 4;
-constexpr int kNumCoarsePoints = 300;
 
 // The trajectory over the sweep, bent so that its middle is where the scan was found: the error of
 // a constant velocity has grown in proportion to the time since the last located scan.
@@ -67,7 +65,7 @@ struct RegistrationWorker::ScanInWork {
   MatchOutcome outcome = {};
   std::vector<Eigen::Vector3f> to_match = {};  // of outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
-  MatchBudget budget = MatchBudget(kMaxMatchesPerScan);
+  MatchBudget budget = MatchBudget(kRelocalization.max_matches_per_scan);
 
   MatchInput InputFrom(const Pose& T_map_imu_guess, const Matrix6& cov) const {
     return {.points_imu = to_match,
@@ -139,7 +137,8 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
 }
 
 void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) {
-  const std::vector<std::uint32_t> few = SpreadIndices(scan.to_match.size(), kNumCoarsePoints);
+  const std::vector<std::uint32_t> few =
+      SpreadIndices(scan.to_match.size(), kRelocalization.num_coarse_points);
   const std::vector<Eigen::Vector3f> few_points = Pick(scan.to_match, few);
   const std::vector<FeatureTag> few_tags = Pick(scan.tags_to_match, few);
   const int num_for_deskew = scan.job.refines_deskew ? 1 : 0;

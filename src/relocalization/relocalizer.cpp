@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "relocalization/place_guesses.hpp"
+#include "lio/relocalization/parameters.hpp"
+#include "relocalization/place_candidates.hpp"
 #include "relocalization/place_verification.hpp"
 
 namespace lio {
 namespace {
-
-constexpr double kAlignedStd_m = 0.5;  // of a prior that was aligned
-constexpr std::size_t kMinScansForVelocity = 3;
 
 // How much speaks for a coarse match: the number of points on surfaces times their share of those
 // that come to one. Ground gives many points anywhere, so that the number alone does not tell.
@@ -33,7 +31,7 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
   };
   std::vector<Candidate> candidates;
   for (const Pose& guess : guesses) {
-    const MatchResult coarse = match_coarsely(guess, GuessedPlaceCov());
+    const MatchResult coarse = match_coarsely(guess, CandidateCov());
     const double support = SupportOf(coarse);
     candidates.push_back({support > 0.0 ? coarse.T_map_imu : guess, support});
   }
@@ -51,10 +49,10 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
 
 std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
                                                  const MotionPrior& prior) {
-  const Quaternion R_level_map = LevelOf(prior.up_map);
+  const Quaternion R_level_map = LevelFromMap(prior.up_map);
   velocity_search_.Add(scan.stamp,
                        Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
-  if (velocity_search_.num_scans() < kMinScansForVelocity) return {};
+  if (velocity_search_.num_scans() < kRelocalization.velocity.min_scans) return {};
   const auto v_level = velocity_search_.Find();
   if (!v_level) return {};
   return R_level_map.conjugate() * Vector3(v_level->x(), v_level->y(), 0.0);
@@ -62,7 +60,7 @@ std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
 
 MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prior) const {
   if (!last_) return prior;
-  const Quaternion R_level_map = LevelOf(prior.up_map);
+  const Quaternion R_level_map = LevelFromMap(prior.up_map);
   VelocitySearch search;
   search.Add(last_->stamp,
              Levelled(last_->points_imu, R_level_map * last_->match.T_map_imu.rotation));
@@ -74,7 +72,8 @@ MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prio
   MotionPrior aligned = prior;
   aligned.T_map_imu.translation =
       last_->match.T_map_imu.translation + R_level_map.conjugate() * shift_level;
-  aligned.cov.topLeftCorner<3, 3>() = kAlignedStd_m * kAlignedStd_m * Matrix3::Identity();
+  aligned.cov.topLeftCorner<3, 3>() =
+      kRelocalization.aligned_std_m * kRelocalization.aligned_std_m * Matrix3::Identity();
   return aligned;
 }
 
@@ -116,14 +115,14 @@ void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& sc
   const PlacedScan earlier{last_->points_imu, last.T_map_imu};
   const PlacedScan now{scan.points_imu, prior.T_map_imu};
   std::vector<Pose> candidates = RankedCandidates(
-      GuessPlaces(earlier, now, prior.cov, LevelOf(prior.up_map)), matcher.match_coarsely);
+      PlaceCandidates(earlier, now, prior.cov, LevelFromMap(prior.up_map)), matcher.match_coarsely);
   const auto is_new = [&](const Pose& place) { return !tried_.Contains(prior.T_map_imu, place); };
   if (std::none_of(candidates.begin(), candidates.end(), is_new)) tried_.Clear();
   std::stable_partition(candidates.begin(), candidates.end(), is_new);
   int num_left = matcher.max_matches;
   for (const Pose& candidate : candidates) {
     if (num_left-- <= 0) return;
-    const MatchResult match = matcher.match(candidate, GuessedPlaceCov());
+    const MatchResult match = matcher.match(candidate, CandidateCov());
     tried_.Add(prior.T_map_imu, candidate);
     const bool is_beyond_doubt = IsVerifiedBeyondDoubt(match, last);
     const bool is_more = match.num_matched > found.match.num_matched;
@@ -140,17 +139,17 @@ void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& pri
                                  const MatchFrom& match, Found& found) const {
   found.is_clock_set = IsNearAlternative(found.match, prior.T_map_imu, alternative);
   if (found.is_clock_set) return;
-  const MatchResult there = match(alternative, GuessedPlaceCov());
+  const MatchResult there = match(alternative, CandidateCov());
   const bool is_better = IsClearlyBetter(there, found.match);
   if (there.degenerate_mask != 0 || !IsVerified(there, last_->match) || !is_better) return;
   found.match = there;
-  found.match.status = MatchStatus::kConverged;  // or to and fro, by little
+  found.match.status = MatchStatus::kConverged;  // or its steps oscillate by little
   found.is_clock_set = true;
 }
 
 void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
                                  MatchResult& match) {
-  hold_.Apply(points_imu, LevelOf(up_map), match);
+  hold_.Apply(points_imu, LevelFromMap(up_map), match);
 }
 
 void Relocalizer::SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,

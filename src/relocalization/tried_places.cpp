@@ -4,17 +4,13 @@
 
 #include <algorithm>
 
+#include "lio/relocalization/parameters.hpp"
+
 namespace lio {
-namespace {
-
-constexpr double kSame_m = 1.0;
-constexpr double kSame_rad = 0.1;
-
-}  // namespace
-
 bool IsSamePlace(const Pose& a, const Pose& b) {
   const Pose apart = a.Inverse() * b;
-  return apart.translation.norm() < kSame_m && LogSo3(apart.rotation).norm() < kSame_rad;
+  return apart.translation.norm() < kRelocalization.tried_same_m &&
+         LogSo3(apart.rotation).norm() < kRelocalization.tried_same_rad;
 }
 
 bool TriedPlaces::Contains(const Pose& T_map_prior, const Pose& T_map_place) const {
