@@ -3,6 +3,7 @@
 // A scan that is not found where it was guessed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "lio/pipeline/registration_worker.hpp"
@@ -33,7 +34,7 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
   return job;
 }
 
-// That nothing is known of its place but for metres and a fifth of a radian.
+// A job whose prior has a standard deviation of 2 m and 0.2 rad.
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   MatchJob job = JobFor(start_s, guess_error);
   job.prior.cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
@@ -67,6 +68,22 @@ TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
   const Pose error = Driving()(0.98).Inverse() * outcome.match.T_map_imu;
   EXPECT_LT(error.translation.norm(), 0.1);
   EXPECT_LT(LogSo3(error.rotation).norm(), 0.01);
+}
+
+// The scan sees a street that the map has not: every candidate is tried in vain.
+TEST(RegistrationWorkerPlace, AtMostFourFullMatchesRunForAScan) {
+  RegistrationWorker side(test::DriveRig());
+  FillMap(side);
+  int most = 0;
+  for (int i = 0; i < 4; ++i) {
+    MatchJob job = UnsureJobFor(6.0 + 0.1 * i, Vector6::Zero());
+    job.prior.T_map_imu = Driving()(1.0) * ExpSe3(FarAhead());
+    job.task = Relocalize{{}, {SearchRegion::kAnywhere, Driving()(0.5)}};
+    const int num_matches = side.Run(job).num_matches;
+    EXPECT_LE(num_matches, 4);
+    most = std::max(most, num_matches);
+  }
+  EXPECT_GE(most, 3) << "it was searched for";
 }
 
 TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {

@@ -44,8 +44,8 @@ TEST(PlaceCandidates, AreWhereTheViewsAgreeAndAtLastWhereItWas) {
 
 TEST(PlaceCandidates, OfBareGroundAreOnlyWhereItWas) {
   const std::vector<Eigen::Vector3f> ground{{5.f, 0.f, -1.8f}, {0.f, 5.f, -1.8f}};
-  const std::vector<Pose> guesses = PlaceCandidates({ground, Pose{}}, {ground, Pose{}},
-                                                Matrix6::Identity(), LevelFromMap(Vector3::UnitZ()));
+  const std::vector<Pose> guesses = PlaceCandidates(
+      {ground, Pose{}}, {ground, Pose{}}, Matrix6::Identity(), LevelFromMap(Vector3::UnitZ()));
   EXPECT_EQ(guesses.size(), 1u);
 }
 

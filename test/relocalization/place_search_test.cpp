@@ -40,7 +40,7 @@ const PlanarRange kFarAround{{12.f, 12.f}, 3.15f};
 
 TEST(PlaceSearch, FindsWhereTheSensorIsAfterItWasBlind) {
   for (const PlanarPose& truth : {PlanarPose{{7.3f, -4.1f}, 0.6f}, PlanarPose{{0.f, 0.f}, 0.f},
-                                PlanarPose{{-9.2f, 10.6f}, -2.9f}}) {
+                                  PlanarPose{{-9.2f, 10.6f}, -2.9f}}) {
     const auto found =
         FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)), PlanarPose{}, kFarAround);
     ASSERT_FALSE(found.empty());

@@ -189,14 +189,15 @@ TEST_F(RelocalizerTest, AlignmentBringsAPriorToWhereThePostsSay) {
 }
 
 TEST_F(RelocalizerTest, AVelocityIsFoundFromThreeScans) {
-  std::optional<Vector3> v_map_mps;
+  std::vector<Vector3> found_mps;
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FALSE(v_map_mps);
+    EXPECT_TRUE(found_mps.empty());
     const std::vector<Eigen::Vector3f> points = Wood(At(2.0 * i, 0.5 * i, 0.0));
-    v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+    const auto v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+    if (v_map_mps) found_mps.push_back(*v_map_mps);
   }
-  ASSERT_TRUE(v_map_mps);
-  EXPECT_LT((*v_map_mps - Vector3(20, 5, 0)).norm(), 1.0);
+  ASSERT_EQ(found_mps.size(), 1u);
+  EXPECT_LT((found_mps[0] - Vector3(20, 5, 0)).norm(), 1.0);
 }
 
 }  // namespace
