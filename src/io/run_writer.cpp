@@ -49,6 +49,7 @@ std::string RegistrationHeader() {
       "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
       "degenerate_mask";
   for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
+  header += ",matches";
   for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
   return header + "\n";
 }
@@ -66,6 +67,7 @@ std::string RegistrationRow(const ScanReport& scan) {
   for (const double eigenvalue : scan.information_eigenvalues) {
     row += fmt::format(",{:.9e}", eigenvalue);
   }
+  row += fmt::format(",{}", scan.num_matches);
   for (const std::int64_t ns : scan.stage_ns) row += fmt::format(",{:.6f}", Milliseconds(ns));
   return row + "\n";
 }

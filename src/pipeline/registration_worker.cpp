@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "lio/pipeline/match_method.hpp"
+#include "lio/registration/match_budget.hpp"
+#include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
 
 namespace lio {
@@ -63,6 +65,17 @@ struct RegistrationWorker::ScanInWork {
   MatchOutcome outcome = {};
   std::vector<Eigen::Vector3f> to_match = {};  // of outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
+  MatchBudget budget = MatchBudget(kRelocalization.max_matches_per_scan);
+
+  MatchInput InputFrom(const Pose& T_map_imu_guess, const Matrix6& cov) const {
+    return {.points_imu = to_match,
+            .T_map_imu_guess = T_map_imu_guess,
+            .guess_cov = cov,
+            .is_far_off = job.refines_deskew,
+            .tags = tags_to_match,
+            .scan_points_imu = outcome.points_imu,
+            .shift_std_m = job.prior.shift_std_m};
+  }
 };
 
 RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
@@ -102,33 +115,50 @@ void RegistrationWorker::Do(const Relocalize& task, ScanInWork& scan) {
   FinishMatch(task.track, scan);
 }
 
+MatchResult RegistrationWorker::MatchFully(const MatchInput& input, ScanInWork& scan) {
+  if (scan.budget.Take()) return matcher_->Match(input);
+  MatchResult none;
+  none.status = MatchStatus::kMaxIterations;
+  none.T_map_imu = input.T_map_imu_guess;
+  return none;
+}
+
 void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* search,
                                         ScanInWork& scan) {
   const std::int64_t begin = Now();
   const MatchJob& job = scan.job;
-  MatchOutcome& outcome = scan.outcome;
   scan.tags_to_match = Pick(scan.reduced.tags, scan.reduced.to_match);
-  scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
+  scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
-  const auto match_from = [&](const Pose& T_map_imu_guess, const Matrix6& cov) {
-    return matcher_->Match({.points_imu = scan.to_match,
-                            .T_map_imu_guess = T_map_imu_guess,
-                            .guess_cov = cov,
-                            .is_far_off = job.refines_deskew,
-                            .tags = scan.tags_to_match,
-                            .scan_points_imu = outcome.points_imu,
-                            .shift_std_m = job.prior.shift_std_m});
-  };
   const MotionPrior prior = task.aligns_prior ? relocalizer_.Align(deskewed, job.prior) : job.prior;
-  outcome.match = match_from(prior.T_map_imu, prior.cov);
-  if (search != nullptr) {
-    const Relocalizer::Found found =
-        relocalizer_.Search(*search, deskewed, job.prior, outcome.match, match_from);
-    outcome.match = found.match;
-    outcome.is_relocalized = found.is_relocalized;
-    outcome.is_clock_set = found.is_clock_set;
-  }
-  AddTime(Stage::kMatch, begin, outcome);
+  scan.outcome.match = MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
+  if (search != nullptr) Search(*search, scan);
+  AddTime(Stage::kMatch, begin, scan.outcome);
+}
+
+void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) {
+  const std::vector<std::uint32_t> few =
+      SpreadIndices(scan.to_match.size(), kRelocalization.num_coarse_points);
+  const std::vector<Eigen::Vector3f> few_points = Pick(scan.to_match, few);
+  const std::vector<FeatureTag> few_tags = Pick(scan.tags_to_match, few);
+  const int num_for_deskew = scan.job.refines_deskew ? 1 : 0;
+  const CandidateMatcher matcher{[&](const Pose& guess, const Matrix6& cov) {
+                                   return MatchFully(scan.InputFrom(guess, cov), scan);
+                                 },
+                                 [&](const Pose& guess, const Matrix6& cov) {
+                                   MatchInput input = scan.InputFrom(guess, cov);
+                                   input.points_imu = few_points;
+                                   input.tags = few_tags;
+                                   input.is_far_off = false;
+                                   return matcher_->Match(input);
+                                 },
+                                 scan.budget.num_left() - num_for_deskew};
+  const DeskewedScan deskewed{scan.job.sweep->middle(), scan.to_match};
+  const Relocalizer::Found found =
+      relocalizer_.Search(request, deskewed, scan.job.prior, scan.outcome.match, matcher);
+  scan.outcome.match = found.match;
+  scan.outcome.is_relocalized = found.is_relocalized;
+  scan.outcome.is_clock_set = found.is_clock_set;
 }
 
 void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
@@ -143,9 +173,10 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   begin = Now();
   scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
   const std::vector<float> from_mid_sweep_s = TimesFromMidSweep(times, scan.reduced);
-  outcome.match = matcher_->Match({scan.to_match, outcome.match.T_map_imu, Matrix6::Zero(), true,
-                                   scan.tags_to_match, outcome.points_imu, job.prior.shift_std_m,
-                                   from_mid_sweep_s});
+  outcome.match =
+      MatchFully({scan.to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, scan.tags_to_match,
+                  outcome.points_imu, job.prior.shift_std_m, from_mid_sweep_s},
+                 scan);
   if (const auto& error = outcome.match.turn_rate_error; error && scan.motion.size() > 1) {
     outcome.turn_rate = Corrected(*error, scan.motion);
   }
@@ -200,6 +231,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;
   times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;
   last_insert_ns_ = 0;
+  outcome.num_matches = scan.budget.num_taken();
   return std::move(scan.outcome);
 }
 

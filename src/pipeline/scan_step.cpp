@@ -73,6 +73,7 @@ ScanReport MakeScanReport(const MatchOutcome& outcome) {
   report.num_raw = static_cast<int>(outcome.sweep->points.size());
   report.num_used = outcome.num_used;
   report.num_matched = outcome.match.num_matched;
+  report.num_matches = outcome.num_matches;
   report.iterations = outcome.match.iterations;
   report.status = outcome.match.status;
   report.residual_rms_m = outcome.match.residual_rms_m;

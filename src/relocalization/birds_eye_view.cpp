@@ -8,22 +8,14 @@
 #include <numbers>
 #include <utility>
 
+#include "lio/relocalization/parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr float kReach_m = 60.f;  // of the view, to each side
-constexpr float kColumn_m = 0.5f;
-constexpr float kMinHeight_m = 0.4f;  // of a column's points above each other
-constexpr float kCell_m = 0.25f;      // of how near is near
-constexpr int kSide = 2 * static_cast<int>(kReach_m / kCell_m);
-constexpr int kRoughCell = 4;  // in cells
-constexpr int kRoughSide = kSide / kRoughCell;
-constexpr std::size_t kMinPlaces = 20;
-constexpr std::size_t kMaxPlaces = 300;
-// What is part of a line, a wall or a rail, says nothing of the way along it.
-constexpr int kLineReach_m = 3;  // each way
-constexpr int kNumDirections = 24;
-constexpr std::size_t kMinAlone = 40;  // else lines must do, too
+constexpr BirdsEyeViewParameters kView = kRelocalization.view;
+constexpr int kSide = 2 * static_cast<int>(kView.half_width_m / kView.cell_m);  // in cells
+constexpr int kRoughSide = kSide / kView.coarse_cell;
 
 struct Column {
   float low = 0.f;
@@ -32,13 +24,13 @@ struct Column {
   int num = 0;
 };
 
-bool IsInView(const Eigen::Vector2f& place) {
-  return place.cwiseAbs().maxCoeff() < kReach_m;
+bool IsInView(const Eigen::Vector2f& point) {
+  return point.cwiseAbs().maxCoeff() < kView.half_width_m;
 }
 
-// Of a coordinate in view.
+// The cell of a coordinate that is in view.
 int CellOf(float coordinate) {
-  return static_cast<int>(std::floor((coordinate + kReach_m) / kCell_m));
+  return static_cast<int>(std::floor((coordinate + kView.half_width_m) / kView.cell_m));
 }
 
 bool IsInside(int x, int y, int side) {
@@ -58,13 +50,13 @@ void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) 
   }
 }
 
-// Ordered, so that the result depends on points alone.
+// Ordered, so that the result depends on the points alone.
 std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
   std::map<std::pair<int, int>, Column> columns;
   for (const Eigen::Vector3f& point : points) {
     if (!IsInView(point.head<2>())) continue;
-    const std::pair at(static_cast<int>(std::floor(point.x() / kColumn_m)),
-                       static_cast<int>(std::floor(point.y() / kColumn_m)));
+    const std::pair at(static_cast<int>(std::floor(point.x() / kView.column_m)),
+                       static_cast<int>(std::floor(point.y() / kView.column_m)));
     Column& column = columns.try_emplace(at, Column{point.z(), point.z()}).first->second;
     column.low = std::min(column.low, point.z());
     column.high = std::max(column.high, point.z());
@@ -79,73 +71,76 @@ std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f>
 BirdsEyeView::BirdsEyeView(std::span<const Eigen::Vector3f> points)
     : near_(static_cast<std::size_t>(kSide) * kSide, 0),
       roughly_near_(static_cast<std::size_t>(kRoughSide) * kRoughSide, 0) {
-  std::vector<Eigen::Vector2f> places;
+  std::vector<Eigen::Vector2f> structures;
   for (const auto& [at, column] : ColumnsOf(points)) {
-    if (column.high - column.low < kMinHeight_m) continue;
-    const Eigen::Vector2f place = column.sum / static_cast<float>(column.num);
-    places.push_back(place);
-    const int x = CellOf(place.x());
-    const int y = CellOf(place.y());
+    if (column.high - column.low < kView.min_height_m) continue;
+    const Eigen::Vector2f structure = column.sum / static_cast<float>(column.num);
+    structures.push_back(structure);
+    const int x = CellOf(structure.x());
+    const int y = CellOf(structure.y());
     MarkAround(x, y, kSide, near_);
-    MarkAround(x / kRoughCell, y / kRoughCell, kRoughSide, roughly_near_);
+    MarkAround(x / kView.coarse_cell, y / kView.coarse_cell, kRoughSide, roughly_near_);
   }
-  std::vector<Eigen::Vector2f> alone;
-  for (const Eigen::Vector2f& place : places) {
-    if (!IsOnLine(place)) alone.push_back(place);
+  std::vector<Eigen::Vector2f> off_lines;
+  for (const Eigen::Vector2f& structure : structures) {
+    if (!IsOnLine(structure)) off_lines.push_back(structure);
   }
-  places_ = EvenlyChosen(alone.size() < kMinAlone ? places : alone, kMaxPlaces);
+  structures_ = SpreadEvenly(off_lines.size() < kView.min_off_lines ? structures : off_lines,
+                             kView.max_structures);
 }
 
-inline bool BirdsEyeView::IsNear(const Eigen::Vector2f& place) const {
-  if (!IsInView(place)) return false;
-  const int x = CellOf(place.x());
-  const int y = CellOf(place.y());
+inline bool BirdsEyeView::IsNear(const Eigen::Vector2f& structure) const {
+  if (!IsInView(structure)) return false;
+  const int x = CellOf(structure.x());
+  const int y = CellOf(structure.y());
   return IsInside(x, y, kSide) && near_[IndexOf(x, y, kSide)] != 0;
 }
 
-bool BirdsEyeView::IsOnLine(const Eigen::Vector2f& place) const {
-  for (int i = 0; i < kNumDirections; ++i) {
-    const float angle_rad = static_cast<float>(i) * std::numbers::pi_v<float> / kNumDirections;
+bool BirdsEyeView::IsOnLine(const Eigen::Vector2f& structure) const {
+  for (int i = 0; i < kView.num_line_directions; ++i) {
+    const float angle_rad =
+        static_cast<float>(i) * std::numbers::pi_v<float> / kView.num_line_directions;
     const Eigen::Vector2f metre(std::cos(angle_rad), std::sin(angle_rad));
-    int reach_m = 0;
-    while (reach_m < kLineReach_m && IsNear(place + (reach_m + 1) * metre) &&
-           IsNear(place - (reach_m + 1) * metre)) {
-      ++reach_m;
+    int half_length_m = 0;
+    while (half_length_m < kView.line_half_length_m &&
+           IsNear(structure + (half_length_m + 1) * metre) &&
+           IsNear(structure - (half_length_m + 1) * metre)) {
+      ++half_length_m;
     }
-    if (reach_m == kLineReach_m) return true;
+    if (half_length_m == kView.line_half_length_m) return true;
   }
   return false;
 }
 
-int BirdsEyeView::NumNear(std::span<const Eigen::Vector2f> places,
+int BirdsEyeView::NumNear(std::span<const Eigen::Vector2f> structures,
                           const Eigen::Vector2f& shift) const {
   int num = 0;
-  for (const Eigen::Vector2f& place : places) num += IsNear(place + shift) ? 1 : 0;
+  for (const Eigen::Vector2f& structure : structures) num += IsNear(structure + shift) ? 1 : 0;
   return num;
 }
 
-int BirdsEyeView::NumRoughlyNear(std::span<const Eigen::Vector2f> places,
+int BirdsEyeView::NumRoughlyNear(std::span<const Eigen::Vector2f> structures,
                                  const Eigen::Vector2f& shift) const {
   int num = 0;
-  for (const Eigen::Vector2f& unmoved : places) {
-    const Eigen::Vector2f place = unmoved + shift;
-    if (!IsInView(place)) continue;
-    const int x = CellOf(place.x()) / kRoughCell;
-    const int y = CellOf(place.y()) / kRoughCell;
+  for (const Eigen::Vector2f& unmoved : structures) {
+    const Eigen::Vector2f structure = unmoved + shift;
+    if (!IsInView(structure)) continue;
+    const int x = CellOf(structure.x()) / kView.coarse_cell;
+    const int y = CellOf(structure.y()) / kView.coarse_cell;
     num += IsInside(x, y, kRoughSide) && roughly_near_[IndexOf(x, y, kRoughSide)] != 0 ? 1 : 0;
   }
   return num;
 }
 
-bool BirdsEyeView::SaysEnough() const {
-  return places_.size() >= kMinPlaces;
+bool BirdsEyeView::HasEnoughStructures() const {
+  return structures_.size() >= kView.min_structures;
 }
 
-std::vector<Eigen::Vector2f> EvenlyChosen(const std::vector<Eigen::Vector2f>& places,
+std::vector<Eigen::Vector2f> SpreadEvenly(const std::vector<Eigen::Vector2f>& structures,
                                           std::size_t max) {
-  const std::size_t num = std::min(places.size(), max);
+  const std::size_t num = std::min(structures.size(), max);
   std::vector<Eigen::Vector2f> chosen;
-  for (std::size_t i = 0; i < num; ++i) chosen.push_back(places[i * places.size() / num]);
+  for (std::size_t i = 0; i < num; ++i) chosen.push_back(structures[i * structures.size() / num]);
   return chosen;
 }
 

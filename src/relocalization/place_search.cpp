@@ -6,23 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "lio/relocalization/parameters.hpp"
+
 namespace lio {
 namespace {
 
-// What is sought roughly may be off by half a step of each, at the ends of the view by a metre.
-constexpr float kRoughStep_m = 1.f;
-constexpr float kRoughStep_rad = 0.035f;
-constexpr float kFineStep_m = 0.25f;
-constexpr float kFineStep_rad = 0.00875f;
-constexpr std::size_t kMaxRoughPlaces = 60;
-constexpr std::size_t kMaxRefined = 100;
-constexpr std::size_t kMaxFound = 12;
-// Two poses nearer than this are the same.
-constexpr float kSame_m = 2.f;
-constexpr float kSame_rad = 0.1f;
+constexpr PlaceSearchParameters kPlace = kRelocalization.place;
 
 struct Scored {
-  FlatPose pose;
+  PlanarPose pose;
   int score = 0;
 };
 
@@ -37,13 +29,13 @@ Eigen::Matrix2f TurnBy(float angle_rad) {
 }
 
 struct Grid {
-  FlatPose middle;
-  FlatRange range;
+  PlanarPose middle;
+  PlanarRange range;
   float step_m = 0.f;
   float step_rad = 0.f;
 };
 
-// Calls `take` with each shift of a grid and the number of turned places that fit there.
+// Calls `take` with each shift of a grid and the number of turned structures that agree there.
 template <class NumNear, class Take>
 void ScoreShifts(const std::vector<Eigen::Vector2f>& turned, float turn_rad, const Grid& grid,
                  const NumNear& num_near, const Take& take) {
@@ -58,17 +50,17 @@ void ScoreShifts(const std::vector<Eigen::Vector2f>& turned, float turn_rad, con
   }
 }
 
-// The same with each pose of a grid.
+// Calls `take` with each pose of a grid and the number of structures that agree there.
 template <class NumNear, class Take>
-void ScoreGrid(const std::vector<Eigen::Vector2f>& places, const Grid& grid,
+void ScoreGrid(const std::vector<Eigen::Vector2f>& structures, const Grid& grid,
                const NumNear& num_near, const Take& take) {
   const int num_turns = NumSteps(grid.range.turn_rad, grid.step_rad);
-  std::vector<Eigen::Vector2f> turned(places.size());
+  std::vector<Eigen::Vector2f> turned(structures.size());
   for (int k = -num_turns; k <= num_turns; ++k) {
     const float turn_rad = grid.middle.turn_rad + static_cast<float>(k) * grid.step_rad;
     const Eigen::Matrix2f turn = TurnBy(turn_rad);
-    std::transform(places.begin(), places.end(), turned.begin(),
-                   [&](const Eigen::Vector2f& place) { return turn * place; });
+    std::transform(structures.begin(), structures.end(), turned.begin(),
+                   [&](const Eigen::Vector2f& structure) { return turn * structure; });
     ScoreShifts(turned, turn_rad, grid, num_near, take);
   }
 }
@@ -77,7 +69,7 @@ bool IsBetter(const Scored& a, const Scored& b) {
   return a.score > b.score;
 }
 
-// The best of all so far, best first; of equal ones those that came first.
+// The best of all so far, best first; among equal ones those that came first stay.
 class Best {
  public:
   explicit Best(std::size_t max) : max_(max) {}
@@ -93,38 +85,43 @@ class Best {
   std::vector<Scored> best_;
 };
 
-bool IsSame(const FlatPose& a, const FlatPose& b) {
+bool IsSame(const PlanarPose& a, const PlanarPose& b) {
   const float turn = std::remainder(a.turn_rad - b.turn_rad, 2.f * std::numbers::pi_v<float>);
-  return (a.shift_m - b.shift_m).norm() < kSame_m && std::abs(turn) < kSame_rad;
+  return (a.shift_m - b.shift_m).norm() < kPlace.same_m && std::abs(turn) < kPlace.same_rad;
 }
 
 }  // namespace
 
-std::vector<FlatPose> FindPlaces(const BirdsEyeView& earlier, const BirdsEyeView& later,
-                                 const FlatPose& middle, const FlatRange& range) {
-  if (!earlier.SaysEnough() || !later.SaysEnough()) return {};
-  Best rough(kMaxRefined);
+std::vector<PlanarPose> FindPlaces(const BirdsEyeView& earlier, const BirdsEyeView& later,
+                                   const PlanarPose& middle, const PlanarRange& range) {
+  if (!earlier.HasEnoughStructures() || !later.HasEnoughStructures()) return {};
+  Best rough(kPlace.max_refined);
   ScoreGrid(
-      EvenlyChosen(later.places(), kMaxRoughPlaces),
-      Grid{middle, range, kRoughStep_m, kRoughStep_rad},
-      [&](const auto& places, const auto& shift) { return earlier.NumRoughlyNear(places, shift); },
+      SpreadEvenly(later.structures(), kPlace.max_coarse_structures),
+      Grid{middle, range, kPlace.coarse_step_m, kPlace.coarse_step_rad},
+      [&](const auto& structures, const auto& shift) {
+        return earlier.NumRoughlyNear(structures, shift);
+      },
       [&](const Scored& scored) { rough.Take(scored); });
-  Best fine(kMaxRefined);
-  const FlatRange around{Eigen::Vector2f::Constant(0.5f * kRoughStep_m), 0.5f * kRoughStep_rad};
+  Best fine(kPlace.max_refined);
+  const PlanarRange around{Eigen::Vector2f::Constant(0.5f * kPlace.coarse_step_m),
+                           0.5f * kPlace.coarse_step_rad};
   for (const Scored& scored : rough.all()) {
     Best one(1);
     ScoreGrid(
-        later.places(), Grid{scored.pose, around, kFineStep_m, kFineStep_rad},
-        [&](const auto& places, const auto& shift) { return earlier.NumNear(places, shift); },
+        later.structures(), Grid{scored.pose, around, kPlace.fine_step_m, kPlace.fine_step_rad},
+        [&](const auto& structures, const auto& shift) {
+          return earlier.NumNear(structures, shift);
+        },
         [&](const Scored& finer) { one.Take(finer); });
     fine.Take(one.all().front());
   }
-  std::vector<FlatPose> found;
+  std::vector<PlanarPose> found;
   for (const Scored& scored : fine.all()) {
-    const auto is_same = [&](const FlatPose& other) { return IsSame(scored.pose, other); };
+    const auto is_same = [&](const PlanarPose& other) { return IsSame(scored.pose, other); };
     if (std::any_of(found.begin(), found.end(), is_same)) continue;
     found.push_back(scored.pose);
-    if (found.size() == kMaxFound) break;
+    if (found.size() == kPlace.max_found) break;
   }
   return found;
 }

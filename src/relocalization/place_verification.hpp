@@ -9,23 +9,24 @@
 namespace lio {
 
 // Is a pose predicted so well that matching from it finds the scan, if it is there?
-bool IsWithinReachOfMatching(const Matrix6& prior_cov);
+[[nodiscard]] bool IsWithinReachOfMatching(const Matrix6& prior_cov);
 
-// Does the scan lie on the map's surfaces there? Holds for poses that steps go to and fro around,
-// too.
-bool IsVerified(const MatchResult& match, const MatchResult& last);
+// Does the scan lie on the map's surfaces there? Steps that oscillate around a pose count as a
+// match.
+[[nodiscard]] bool IsVerified(const MatchResult& match, const MatchResult& last);
 
-// The same far from the prior: bare ground fits everywhere, so that no direction may be degenerate
-// that was not before.
-bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last);
+// The same far from the prior: bare ground agrees everywhere, so that no direction may be
+// degenerate unless the last scan had one.
+[[nodiscard]] bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last);
 
 // With so many points on surfaces that there is no need to search on.
-bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last);
+[[nodiscard]] bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last);
 
 // Is the match much nearer to `alternative` than to `prior`, two poses that are apart?
-bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& alternative);
+[[nodiscard]] bool IsNearAlternative(const MatchResult& match, const Pose& prior,
+                                     const Pose& alternative);
 
 // Has `match` clearly more points on surfaces than `other`?
-bool IsClearlyBetter(const MatchResult& match, const MatchResult& other);
+[[nodiscard]] bool IsClearlyBetter(const MatchResult& match, const MatchResult& other);
 
 }  // namespace lio

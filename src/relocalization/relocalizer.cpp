@@ -2,25 +2,57 @@
 // SPDX-License-Identifier: MIT
 #include "lio/relocalization/relocalizer.hpp"
 
+#include <algorithm>
 #include <utility>
 
-#include "relocalization/place_guesses.hpp"
+#include "lio/relocalization/parameters.hpp"
+#include "relocalization/place_candidates.hpp"
 #include "relocalization/place_verification.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kAlignedStd_m = 0.5;  // of a prior that was aligned
-constexpr std::size_t kMinScansForVelocity = 3;
+// How much speaks for a coarse match: the number of points on surfaces times their share of those
+// that come to one. Ground gives many points anywhere, so that the number alone does not tell.
+double SupportOf(const MatchResult& match) {
+  const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
+  if (!may_be_there) return 0.0;
+  const double share =
+      match.num_in_map == 0 ? 1.0 : static_cast<double>(match.num_matched) / match.num_in_map;
+  return share * match.num_matched;
+}
+
+// The guesses, moved to where a coarse match ends, best first, each place once.
+std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
+                                   const MatchFrom& match_coarsely) {
+  struct Candidate {
+    Pose T_map_imu;
+    double support = 0.0;
+  };
+  std::vector<Candidate> candidates;
+  for (const Pose& guess : guesses) {
+    const MatchResult coarse = match_coarsely(guess, CandidateCov());
+    const double support = SupportOf(coarse);
+    candidates.push_back({support > 0.0 ? coarse.T_map_imu : guess, support});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.support > b.support; });
+  std::vector<Pose> ranked;
+  for (const Candidate& candidate : candidates) {
+    const auto is_same = [&](const Pose& other) { return IsSamePlace(candidate.T_map_imu, other); };
+    if (std::none_of(ranked.begin(), ranked.end(), is_same)) ranked.push_back(candidate.T_map_imu);
+  }
+  return ranked;
+}
 
 }  // namespace
 
 std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
                                                  const MotionPrior& prior) {
-  const Quaternion R_level_map = LevelOf(prior.up_map);
+  const Quaternion R_level_map = LevelFromMap(prior.up_map);
   velocity_search_.Add(scan.stamp,
                        Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
-  if (velocity_search_.num_scans() < kMinScansForVelocity) return {};
+  if (velocity_search_.num_scans() < kRelocalization.velocity.min_scans) return {};
   const auto v_level = velocity_search_.Find();
   if (!v_level) return {};
   return R_level_map.conjugate() * Vector3(v_level->x(), v_level->y(), 0.0);
@@ -28,7 +60,7 @@ std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
 
 MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prior) const {
   if (!last_) return prior;
-  const Quaternion R_level_map = LevelOf(prior.up_map);
+  const Quaternion R_level_map = LevelFromMap(prior.up_map);
   VelocitySearch search;
   search.Add(last_->stamp,
              Levelled(last_->points_imu, R_level_map * last_->match.T_map_imu.rotation));
@@ -40,31 +72,34 @@ MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prio
   MotionPrior aligned = prior;
   aligned.T_map_imu.translation =
       last_->match.T_map_imu.translation + R_level_map.conjugate() * shift_level;
-  aligned.cov.topLeftCorner<3, 3>() = kAlignedStd_m * kAlignedStd_m * Matrix3::Identity();
+  aligned.cov.topLeftCorner<3, 3>() =
+      kRelocalization.aligned_std_m * kRelocalization.aligned_std_m * Matrix3::Identity();
   return aligned;
 }
 
 Relocalizer::Found Relocalizer::Search(const SearchRequest& request, const DeskewedScan& scan,
                                        const MotionPrior& prior, const MatchResult& near_prior,
-                                       const MatchFrom& match_from) const {
+                                       const CandidateMatcher& matcher) {
   Found found{near_prior};
   if (!last_) return found;
-  SearchPlaces(request, scan, prior, match_from, found);
+  CandidateMatcher of_places = matcher;
+  if (request.T_map_imu_alternative) --of_places.max_matches;
+  SearchPlaces(request, scan, prior, of_places, found);
   if (request.T_map_imu_alternative && !found.is_relocalized) {
-    TryAlternative(*request.T_map_imu_alternative, prior, match_from, found);
+    TryAlternative(*request.T_map_imu_alternative, prior, matcher.match, found);
   }
   return found;
 }
 
 void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan& scan,
-                               const MotionPrior& prior, const MatchFrom& match_from,
-                               Found& found) const {
+                               const MotionPrior& prior, const CandidateMatcher& matcher,
+                               Found& found) {
   const MatchResult& last = last_->match;
   if (request.region == SearchRegion::kAlternative) return;
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
   if (found.match.IsUsable() && IsWithinReachOfMatching(prior.cov)) return;
   if (!IsVerifiedBeyondDoubt(found.match, last)) {
-    TryPlaces(request, scan, prior, match_from, found);
+    TryPlaces(request, scan, prior, matcher, found);
   }
   if (IsVerified(found.match, last)) {
     if (!found.match.IsUsable()) found.match.status = MatchStatus::kConverged;
@@ -74,13 +109,21 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
 }
 
 void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& scan,
-                            const MotionPrior& prior, const MatchFrom& match_from,
-                            Found& found) const {
+                            const MotionPrior& prior, const CandidateMatcher& matcher,
+                            Found& found) {
   const MatchResult& last = last_->match;
   const PlacedScan earlier{last_->points_imu, last.T_map_imu};
   const PlacedScan now{scan.points_imu, prior.T_map_imu};
-  for (const Pose& guess : GuessPlaces(earlier, now, prior.cov, LevelOf(prior.up_map))) {
-    const MatchResult match = match_from(guess, GuessedPlaceCov());
+  std::vector<Pose> candidates = RankedCandidates(
+      PlaceCandidates(earlier, now, prior.cov, LevelFromMap(prior.up_map)), matcher.match_coarsely);
+  const auto is_new = [&](const Pose& place) { return !tried_.Contains(prior.T_map_imu, place); };
+  if (std::none_of(candidates.begin(), candidates.end(), is_new)) tried_.Clear();
+  std::stable_partition(candidates.begin(), candidates.end(), is_new);
+  int num_left = matcher.max_matches;
+  for (const Pose& candidate : candidates) {
+    if (num_left-- <= 0) return;
+    const MatchResult match = matcher.match(candidate, CandidateCov());
+    tried_.Add(prior.T_map_imu, candidate);
     const bool is_beyond_doubt = IsVerifiedBeyondDoubt(match, last);
     const bool is_more = match.num_matched > found.match.num_matched;
     if (!IsVerifiedElsewhere(match, last)) continue;
@@ -93,25 +136,26 @@ void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& sc
 }
 
 void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& prior,
-                                 const MatchFrom& match_from, Found& found) const {
+                                 const MatchFrom& match, Found& found) const {
   found.is_clock_set = IsNearAlternative(found.match, prior.T_map_imu, alternative);
   if (found.is_clock_set) return;
-  const MatchResult match = match_from(alternative, GuessedPlaceCov());
-  const bool is_better = IsClearlyBetter(match, found.match);
-  if (match.degenerate_mask != 0 || !IsVerified(match, last_->match) || !is_better) return;
-  found.match = match;
-  found.match.status = MatchStatus::kConverged;  // or to and fro, by little
+  const MatchResult there = match(alternative, CandidateCov());
+  const bool is_better = IsClearlyBetter(there, found.match);
+  if (there.degenerate_mask != 0 || !IsVerified(there, last_->match) || !is_better) return;
+  found.match = there;
+  found.match.status = MatchStatus::kConverged;  // or its steps oscillate by little
   found.is_clock_set = true;
 }
 
 void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
                                  MatchResult& match) {
-  hold_.Apply(points_imu, LevelOf(up_map), match);
+  hold_.Apply(points_imu, LevelFromMap(up_map), match);
 }
 
 void Relocalizer::SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,
                              const MatchResult& match) {
   last_ = {stamp, std::move(points_imu), match};
+  tried_.Clear();
 }
 
 }  // namespace lio

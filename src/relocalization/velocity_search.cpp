@@ -6,26 +6,24 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/relocalization/parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr float kStep_mps = 0.5f;
-constexpr int kMaxSteps = 90;  // 45 m/s each way
-constexpr int kNumSteps = 2 * kMaxSteps + 1;
-constexpr float kPeakWidth_m = 1.f;  // what is farther from the best shift must fit worse ...
-constexpr double kClearly = 2.0;     // ... by so many roots of the best score
-constexpr double kFlatTop = 0.88;
+constexpr VelocitySearchParameters kVelocity = kRelocalization.velocity;
+constexpr int kNumSteps = 2 * kVelocity.max_steps + 1;
 
 Eigen::Vector2f VelocityOf(int x, int y) {
-  return kStep_mps *
-         Eigen::Vector2f(static_cast<float>(x - kMaxSteps), static_cast<float>(y - kMaxSteps));
+  return kVelocity.step_mps * Eigen::Vector2f(static_cast<float>(x - kVelocity.max_steps),
+                                              static_cast<float>(y - kVelocity.max_steps));
 }
 
 }  // namespace
 
 void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> points) {
   Scan scan{stamp, BirdsEyeView(points)};
-  if (!scan.view.SaysEnough()) return;
+  if (!scan.view.HasEnoughStructures()) return;
   for (const Scan& before : scans_) AddPair(before, scan);
   scans_.push_back(std::move(scan));
 }
@@ -37,7 +35,7 @@ void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
   for (int y = 0; y < kNumSteps; ++y) {
     for (int x = 0; x < kNumSteps; ++x, ++score) {
       const Eigen::Vector2f shift = dt_s * VelocityOf(x, y);
-      *score += before.view.NumNear(after.view.places(), shift);
+      *score += before.view.NumNear(after.view.structures(), shift);
     }
   }
 }
@@ -50,7 +48,8 @@ std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
       static_cast<int>(std::max_element(scores_.begin(), scores_.end()) - scores_.begin());
   const int best_x = best % kNumSteps;
   const int best_y = best / kNumSteps;
-  const int width = std::max(1, static_cast<int>(kPeakWidth_m / (span_s * kStep_mps)));
+  const int width =
+      std::max(1, static_cast<int>(kVelocity.peak_width_m / (span_s * kVelocity.step_mps)));
   const int peak = scores_[static_cast<std::size_t>(best)];
   int rival = 0;
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();  // of the peak's flat top
@@ -61,12 +60,12 @@ std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
     const int score = scores_[static_cast<std::size_t>(i)];
     if (std::max(std::abs(x - best_x), std::abs(y - best_y)) > width) {
       rival = std::max(rival, score);
-    } else if (static_cast<double>(score) > kFlatTop * peak) {
+    } else if (static_cast<double>(score) > kVelocity.flat_top * peak) {
       sum += VelocityOf(x, y);
       ++num;
     }
   }
-  if (peak - rival < kClearly * std::sqrt(static_cast<double>(peak))) return {};
+  if (peak - rival < kVelocity.min_lead * std::sqrt(static_cast<double>(peak))) return {};
   return sum / static_cast<float>(num);
 }
 

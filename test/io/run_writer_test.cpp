@@ -124,6 +124,16 @@ TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
   EXPECT_THAT(rows[1], HasSubstr(",empty_map,0,"));
 }
 
+TEST_F(RunWriterTest, ARowSaysHowManyFullMatchesItTook) {
+  ScanOutput scan = Scan(kStamp);
+  scan.scan.num_matches = 3;
+  WriteRun(scan);
+  const auto rows = Lines(out_ / "registration.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_THAT(rows[0], HasSubstr(",information_eigenvalue_5,matches,decode_ms,"));
+  EXPECT_THAT(rows[1], HasSubstr(",3,0.000000,"));
+}
+
 TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {
   RunWriter writer(out_, Options{});
   for (const Timestamp stamp : {kStamp, kStamp, kStamp - Duration{5}, kStamp + Duration{1}}) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tests scans that are not found at the guessed pose.
+// A scan that is not found where it was guessed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "lio/pipeline/registration_worker.hpp"
@@ -33,7 +34,7 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
   return job;
 }
 
-// Returns a job whose pose is known only to metres and a fifth of a radian.
+// A job whose prior has a standard deviation of 2 m and 0.2 rad.
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   MatchJob job = JobFor(start_s, guess_error);
   job.prior.cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
@@ -51,7 +52,7 @@ void FillMap(RegistrationWorker& side) {
   }
 }
 
-// Returns the guess error after a clock step: the motion of a second that did not exist.
+// As after a clock that jumped: the motion of a second that never was.
 Vector6 FarAhead() {
   Vector6 error;
   error << 12.0, 3.0, 1.5, 0.0, 0.0, 0.3;
@@ -67,6 +68,22 @@ TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
   const Pose error = Driving()(0.98).Inverse() * outcome.match.T_map_imu;
   EXPECT_LT(error.translation.norm(), 0.1);
   EXPECT_LT(LogSo3(error.rotation).norm(), 0.01);
+}
+
+// The scan sees a street that the map has not: every candidate is tried in vain.
+TEST(RegistrationWorkerPlace, AtMostFourFullMatchesRunForAScan) {
+  RegistrationWorker side(test::DriveRig());
+  FillMap(side);
+  int most = 0;
+  for (int i = 0; i < 4; ++i) {
+    MatchJob job = UnsureJobFor(6.0 + 0.1 * i, Vector6::Zero());
+    job.prior.T_map_imu = Driving()(1.0) * ExpSe3(FarAhead());
+    job.task = Relocalize{{}, {SearchRegion::kAnywhere, Driving()(0.5)}};
+    const int num_matches = side.Run(job).num_matches;
+    EXPECT_LE(num_matches, 4);
+    most = std::max(most, num_matches);
+  }
+  EXPECT_GE(most, 3) << "it was searched for";
 }
 
 TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {
@@ -85,7 +102,7 @@ TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
   EXPECT_FALSE(side.Run(job).is_relocalized);
 }
 
-// After stamps jumped by a second, the vehicle may have driven on, or the clock may have been set.
+// After stamps that went a second forth: did the vehicle drive on, or was the clock set?
 TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
   for (const bool was_set : {true, false}) {
     RegistrationWorker side(test::DriveRig());

@@ -24,10 +24,10 @@ bool IsRoughlyNear(const BirdsEyeView& view, const Eigen::Vector2f& place) {
 TEST(BirdsEyeView, DoesNotCountGround) {
   Points points;
   AddRings(points);
-  EXPECT_TRUE(BirdsEyeView(points).places().empty());
+  EXPECT_TRUE(BirdsEyeView(points).structures().empty());
   AddPost({7.f, 3.f}, {0.f, 0.f}, points);
   const BirdsEyeView view(points);
-  ASSERT_EQ(view.places().size(), 1u);
+  ASSERT_EQ(view.structures().size(), 1u);
   EXPECT_TRUE(IsNear(view, {7.1f, 2.9f}));
   EXPECT_FALSE(IsNear(view, {8.f, 3.f}));
 }
@@ -43,17 +43,17 @@ TEST(BirdsEyeView, LeavesWallsOutWhereEnoughStandsAlone) {
   const BirdsEyeView view(points);
   EXPECT_TRUE(IsNear(view, {0.f, 12.f}));
   int num_of_wall = 0;
-  for (const Eigen::Vector2f& place : view.places()) num_of_wall += place.y() > 11.f ? 1 : 0;
+  for (const Eigen::Vector2f& place : view.structures()) num_of_wall += place.y() > 11.f ? 1 : 0;
   EXPECT_LE(num_of_wall, 12);  // its ends
-  EXPECT_GE(view.places().size(), 50u);
+  EXPECT_GE(view.structures().size(), 50u);
 }
 
 TEST(BirdsEyeView, SaysEnoughFromTwentyThings) {
   Points points;
   for (int i = 0; i < 19; ++i) AddPost({3.f * static_cast<float>(i), 8.f}, {0.f, 0.f}, points);
-  EXPECT_FALSE(BirdsEyeView(points).SaysEnough());
+  EXPECT_FALSE(BirdsEyeView(points).HasEnoughStructures());
   AddPost({3.f, -8.f}, {0.f, 0.f}, points);
-  EXPECT_TRUE(BirdsEyeView(points).SaysEnough());
+  EXPECT_TRUE(BirdsEyeView(points).HasEnoughStructures());
 }
 
 TEST(BirdsEyeView, RoughlyNearReachesFartherThanNear) {
@@ -66,12 +66,12 @@ TEST(BirdsEyeView, RoughlyNearReachesFartherThanNear) {
   EXPECT_FALSE(IsNear(view, {200.f, 3.f}));  // outside the view
 }
 
-TEST(EvenlyChosen, KeepsAllOfFewAndSpreadsOverMany) {
+TEST(SpreadEvenly, KeepsAllOfFewAndSpreadsOverMany) {
   std::vector<Eigen::Vector2f> places;
-  EXPECT_TRUE(EvenlyChosen(places, 5).empty());
+  EXPECT_TRUE(SpreadEvenly(places, 5).empty());
   for (int i = 0; i < 10; ++i) places.emplace_back(static_cast<float>(i), 0.f);
-  EXPECT_EQ(EvenlyChosen(places, 12), places);
-  const auto chosen = EvenlyChosen(places, 5);
+  EXPECT_EQ(SpreadEvenly(places, 12), places);
+  const auto chosen = SpreadEvenly(places, 5);
   ASSERT_EQ(chosen.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(chosen[i].x(), 2.f * static_cast<float>(i));
 }

@@ -19,8 +19,8 @@ Eigen::Matrix2f TurnBy(float angle_rad) {
   return Eigen::Rotation2Df(angle_rad).toRotationMatrix();
 }
 
-// Returns posts at random places, as seen from `sensor`.
-Points Wood(const FlatPose& sensor, unsigned seed = 4) {
+// Posts at random places, as seen from `sensor`.
+Points Wood(const PlanarPose& sensor, unsigned seed = 4) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> coordinate(-50.f, 50.f);
   Points points;
@@ -36,13 +36,13 @@ double AngleBetween(float a_rad, float b_rad) {
   return std::abs(std::remainder(a_rad - b_rad, 2.0 * M_PI));
 }
 
-const FlatRange kFarAround{{12.f, 12.f}, 3.15f};
+const PlanarRange kFarAround{{12.f, 12.f}, 3.15f};
 
 TEST(PlaceSearch, FindsWhereTheSensorIsAfterItWasBlind) {
-  for (const FlatPose& truth : {FlatPose{{7.3f, -4.1f}, 0.6f}, FlatPose{{0.f, 0.f}, 0.f},
-                                FlatPose{{-9.2f, 10.6f}, -2.9f}}) {
+  for (const PlanarPose& truth : {PlanarPose{{7.3f, -4.1f}, 0.6f}, PlanarPose{{0.f, 0.f}, 0.f},
+                                  PlanarPose{{-9.2f, 10.6f}, -2.9f}}) {
     const auto found =
-        FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)), FlatPose{}, kFarAround);
+        FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)), PlanarPose{}, kFarAround);
     ASSERT_FALSE(found.empty());
     EXPECT_LT((found.front().shift_m - truth.shift_m).norm(), 0.4f) << truth.shift_m.transpose();
     EXPECT_LT(AngleBetween(found.front().turn_rad, truth.turn_rad), 0.015);
@@ -50,10 +50,10 @@ TEST(PlaceSearch, FindsWhereTheSensorIsAfterItWasBlind) {
 }
 
 TEST(PlaceSearch, SeeksAroundWhereItIsTold) {
-  const FlatPose truth{{25.f, 3.f}, 0.2f};
-  const FlatRange range{{3.f, 3.f}, 0.1f};
+  const PlanarPose truth{{25.f, 3.f}, 0.2f};
+  const PlanarRange range{{3.f, 3.f}, 0.1f};
   const auto found = FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)),
-                                FlatPose{{24.f, 2.f}, 0.25f}, range);
+                                PlanarPose{{24.f, 2.f}, 0.25f}, range);
   ASSERT_FALSE(found.empty());
   EXPECT_LT((found.front().shift_m - truth.shift_m).norm(), 0.4f);
 }

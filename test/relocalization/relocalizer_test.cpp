@@ -77,15 +77,22 @@ class RelocalizerTest : public ::testing::Test {
 
   Relocalizer::Found Search(const SearchRequest& request, const MotionPrior& prior) {
     const std::vector<Eigen::Vector3f> points = Wood(truth_);
-    return relocalizer_.Search(
-        request, {StampAt(1.0), points}, prior, matcher_(prior.T_map_imu),
-        [this](const Pose& guess, const Matrix6& /*cov*/) { return matcher_(guess); });
+    const auto match = [this](const Pose& guess, const Matrix6& /*cov*/) {
+      return matcher_(guess);
+    };
+    const auto match_coarsely = [this](const Pose& guess, const Matrix6& /*cov*/) {
+      return coarse_(guess);
+    };
+    return relocalizer_.Search(request, {StampAt(1.0), points}, prior, matcher_(prior.T_map_imu),
+                               {match, match_coarsely, max_matches_});
   }
 
   Pose earlier_ = At(1, 2, 0.5);
   Pose truth_ = At(8, -1, 1.1);
   MotionPrior far_prior_ = PriorAt(At(10.5, 1, 0.9), 1.5, 0.2);
   PlayedMatcher matcher_{truth_};
+  PlayedMatcher coarse_{truth_};
+  int max_matches_ = 2;
   Relocalizer relocalizer_;
 };
 
@@ -114,6 +121,37 @@ TEST_F(RelocalizerTest, AScanThatIsNowhereIsRejected) {
   const auto found = Search({SearchRegion::kAnywhere, {}}, far_prior_);
   EXPECT_FALSE(found.is_relocalized);
   EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints);
+}
+
+TEST_F(RelocalizerTest, TheCoarseMatchesSayWhichCandidateIsMatchedFirst) {
+  max_matches_ = 1;
+  EXPECT_TRUE(Search({SearchRegion::kAnywhere, {}}, far_prior_).is_relocalized);
+  EXPECT_EQ(matcher_.num_matches, 2) << "from the prior, and from the best candidate";
+}
+
+TEST_F(RelocalizerTest, TheBudgetHoldsAndTheSearchGoesOnWithTheNextScan) {
+  // Coarsely every place looks alike, so that the right one is not matched first.
+  coarse_ = PlayedMatcher(At(500, 500, 0));
+  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), Matched(earlier_, 0.98));
+  truth_ = earlier_;  // the last candidate
+  matcher_ = PlayedMatcher(truth_);
+  max_matches_ = 1;
+  int num_scans = 0;
+  for (bool is_found = false; !is_found && num_scans < 20; ++num_scans) {
+    matcher_.num_matches = 0;
+    is_found = Search({SearchRegion::kAnywhere, {}}, far_prior_).is_relocalized;
+    EXPECT_LE(matcher_.num_matches, 2);
+  }
+  EXPECT_LE(num_scans, 13);
+}
+
+TEST_F(RelocalizerTest, TheAlternativeHasAMatchOfTheBudget) {
+  for (const int max_matches : {1, 2}) {
+    max_matches_ = max_matches;
+    matcher_ = PlayedMatcher(At(500, 500, 0));
+    EXPECT_FALSE(Search({SearchRegion::kAnywhere, At(-30, 0, 0)}, far_prior_).is_clock_set);
+    EXPECT_EQ(matcher_.num_matches, 1 + max_matches);
+  }
 }
 
 TEST_F(RelocalizerTest, AfterADegenerateScanInertialPredictionIsBelieved) {
@@ -151,14 +189,15 @@ TEST_F(RelocalizerTest, AlignmentBringsAPriorToWhereThePostsSay) {
 }
 
 TEST_F(RelocalizerTest, AVelocityIsFoundFromThreeScans) {
-  std::optional<Vector3> v_map_mps;
+  std::vector<Vector3> found_mps;
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FALSE(v_map_mps);
+    EXPECT_TRUE(found_mps.empty());
     const std::vector<Eigen::Vector3f> points = Wood(At(2.0 * i, 0.5 * i, 0.0));
-    v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+    const auto v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+    if (v_map_mps) found_mps.push_back(*v_map_mps);
   }
-  ASSERT_TRUE(v_map_mps);
-  EXPECT_LT((*v_map_mps - Vector3(20, 5, 0)).norm(), 1.0);
+  ASSERT_EQ(found_mps.size(), 1u);
+  EXPECT_LT((found_mps[0] - Vector3(20, 5, 0)).norm(), 1.0);
 }
 
 }  // namespace

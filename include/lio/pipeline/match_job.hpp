@@ -64,6 +64,7 @@ struct MatchOutcome {
   bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
   std::optional<Vector3> v_map_imu_mps;  // of FindVelocity; absent while no velocity is clear
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
+  int num_matches = 0;                   // full matches of the scan against the map
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle

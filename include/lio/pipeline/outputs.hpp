@@ -84,8 +84,9 @@ struct ScanReport {
   std::int64_t scan_seq = 0;
   int num_raw = 0;
   int num_used = 0;
-  int num_matched = 0;
-  int iterations = 0;
+  int num_matched = 0;  // points
+  int num_matches = 0;  // full matches against the map, of guesses and after another deskew
+  int iterations = 0;   // of the last match
   MatchStatus status = MatchStatus::kConverged;
   bool fused = false;
   double residual_rms_m = 0.0;

@@ -39,7 +39,10 @@ class RegistrationWorker {
   void Do(const FindVelocity& task, ScanInWork& scan);
   void Do(const Track& task, ScanInWork& scan);
   void Do(const Relocalize& task, ScanInWork& scan);
+  // A match with these points that counts; one without budget finds nothing.
+  MatchResult MatchFully(const MatchInput& input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
+  void Search(const SearchRequest& request, ScanInWork& scan);
   void RefineDeskew(ScanInWork& scan);
   void FinishMatch(const Track& task, ScanInWork& scan);
   void TakeDensePoints(ScanInWork& scan);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where things stand in a scan, seen from above: what a velocity or a place is sought with before
-// matching can tell. Ground is left out, since a spinning lidar's rings on it move with the sensor.
-// Points in metres, in axes whose z is up to about 10 deg, origin at the sensor; what is within 60
-// m of it to each side counts.
+// The vertical structures of a scan (posts, trees, walls, cars), seen from above. Two views laid
+// over each other tell a velocity or a place before matching can. Ground is left out, since a
+// spinning lidar's rings on it move with the sensor. Points are in metres, in axes whose z is up to
+// about 10 deg, with the origin at the sensor; those within 60 m of it to each side count.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,29 +18,31 @@ class BirdsEyeView {
  public:
   explicit BirdsEyeView(std::span<const Eigen::Vector3f> points);
 
-  // One point a column, at most a few hundred, evenly chosen; none of a line, a wall or a rail,
-  // unless there is little else.
-  const std::vector<Eigen::Vector2f>& places() const { return places_; }
-  // How many of these places, moved by `shift`, have something standing within about a quarter of
-  // a metre?
-  int NumNear(std::span<const Eigen::Vector2f> places, const Eigen::Vector2f& shift) const;
+  // One point for each structure, at most a few hundred, evenly chosen. Structures in a row, as of
+  // a wall or a rail, are left out unless there are few others.
+  const std::vector<Eigen::Vector2f>& structures() const { return structures_; }
+  // How many of these structures, moved by `shift`, have one of this view within about a quarter of
+  // a metre.
+  [[nodiscard]] int NumNear(std::span<const Eigen::Vector2f> structures,
+                            const Eigen::Vector2f& shift) const;
   // The same within one to two metres.
-  int NumRoughlyNear(std::span<const Eigen::Vector2f> places, const Eigen::Vector2f& shift) const;
-  // Do enough things stand there to lay it over another view?
-  bool SaysEnough() const;
+  [[nodiscard]] int NumRoughlyNear(std::span<const Eigen::Vector2f> structures,
+                                   const Eigen::Vector2f& shift) const;
+  // Are there enough structures to lay the view over another one?
+  [[nodiscard]] bool HasEnoughStructures() const;
 
  private:
-  bool IsNear(const Eigen::Vector2f& place) const;
-  // Do things stand in a row to both sides of there?
-  bool IsOnLine(const Eigen::Vector2f& place) const;
+  bool IsNear(const Eigen::Vector2f& point) const;
+  // Do structures stand in a row to both sides of there?
+  bool IsOnLine(const Eigen::Vector2f& point) const;
 
-  std::vector<Eigen::Vector2f> places_;
+  std::vector<Eigen::Vector2f> structures_;
   std::vector<std::uint8_t> near_;          // by cell of a square around the origin
   std::vector<std::uint8_t> roughly_near_;  // the same, of larger cells
 };
 
 // At most `max` of them, evenly over their order.
-std::vector<Eigen::Vector2f> EvenlyChosen(const std::vector<Eigen::Vector2f>& places,
-                                          std::size_t max);
+[[nodiscard]] std::vector<Eigen::Vector2f> SpreadEvenly(
+    const std::vector<Eigen::Vector2f>& structures, std::size_t max);
 
 }  // namespace lio

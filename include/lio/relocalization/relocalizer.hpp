@@ -18,6 +18,7 @@
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/relocalization/birds_eye_hold.hpp"
 #include "lio/relocalization/search_request.hpp"
+#include "lio/relocalization/tried_places.hpp"
 #include "lio/relocalization/velocity_search.hpp"
 
 namespace lio {
@@ -28,11 +29,17 @@ struct DeskewedScan {
   std::span<const Eigen::Vector3f> points_imu;
 };
 
+// Matches the scan in question against the map, from a guess with its covariance (right error).
+using MatchFrom = std::function<MatchResult(const Pose& T_map_imu_guess, const Matrix6& cov)>;
+
+struct CandidateMatcher {
+  MatchFrom match;           // with all points: max_matches times at most
+  MatchFrom match_coarsely;  // with a few hundred points
+  int max_matches = 1;
+};
+
 class Relocalizer {
  public:
-  // Matches the scan in question against the map, from a guess with its covariance (right error).
-  using MatchFrom = std::function<MatchResult(const Pose& T_map_imu_guess, const Matrix6& cov)>;
-
   struct Found {
     MatchResult match;
     bool is_relocalized = false;  // the match is one that the place search led to
@@ -51,10 +58,11 @@ class Relocalizer {
   [[nodiscard]] MotionPrior Align(const DeskewedScan& scan, const MotionPrior& prior) const;
 
   // Where the scan is if `near_prior`, its match from the prior, is not the place: `near_prior`
-  // itself if it stands.
+  // itself if it stands. Candidates are ranked by coarse matches; those that the matcher's bound
+  // leaves untried come first in the search for the next scan.
   [[nodiscard]] Found Search(const SearchRequest& request, const DeskewedScan& scan,
                              const MotionPrior& prior, const MatchResult& near_prior,
-                             const MatchFrom& match_from) const;
+                             const CandidateMatcher& matcher);
 
   // Corrects degenerate directions of a usable match. `points_imu`: all of the scan.
   void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
@@ -72,14 +80,15 @@ class Relocalizer {
   };
 
   void SearchPlaces(const SearchRequest& request, const DeskewedScan& scan,
-                    const MotionPrior& prior, const MatchFrom& match_from, Found& found) const;
+                    const MotionPrior& prior, const CandidateMatcher& matcher, Found& found);
   void TryPlaces(const SearchRequest& request, const DeskewedScan& scan, const MotionPrior& prior,
-                 const MatchFrom& match_from, Found& found) const;
-  void TryAlternative(const Pose& alternative, const MotionPrior& prior,
-                      const MatchFrom& match_from, Found& found) const;
+                 const CandidateMatcher& matcher, Found& found);
+  void TryAlternative(const Pose& alternative, const MotionPrior& prior, const MatchFrom& match,
+                      Found& found) const;
 
   VelocitySearch velocity_search_;
   BirdsEyeHold hold_;
+  TriedPlaces tried_;  // since the last located scan
   std::optional<Located> last_;
 };
 

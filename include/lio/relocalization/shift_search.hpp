@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How far the sensor has gone since a few earlier scans, where surfaces do not tell: along an open
-// road posts, trees and cars do, and all of them are laid over those of the earlier views at once.
-// How well each place fits is taken for how likely it is, so the covariance says whether one place
-// stands out, or a stretch of road looks the same. Good to about 0.2 m. Views are of the same axes,
-// whose z is up to about 10 deg. After Olson, "Real-Time Correlative Scan Matching", ICRA 2009.
+// Finds the sensor's position relative to a few earlier scans in directions that surfaces leave
+// degenerate: along an open road posts, trees and cars tell it. The view is laid over all earlier
+// views at once, at every shift in a range; the score of a shift is taken for its log-likelihood,
+// so that the covariance says whether one position stands out or a length of road looks the same.
+// It is good to about 0.2 m. All views are in the same axes, whose z is up to about 10 deg. After
+// E. Olson, "Real-Time Correlative Scan Matching", ICRA 2009.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,11 +26,12 @@ struct FoundShift {
   Eigen::Matrix2d cov;  // m^2
 };
 
-// Where `now` was seen from, sought up to `range_m` around `guess_m` in x and y. Absent where too
-// little stands, and where the views are as alike unshifted: along plain walls a sensor sees its
-// own rings, which move with it, and at rest there is nothing to seek; and where the best
-// place is at the border of what was looked at.
-std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier, const BirdsEyeView& now,
-                                    const Eigen::Vector2f& guess_m, float range_m);
+// The position that `now` was seen from, searched up to `range_m` around `guess_m` in x and y.
+// Absent where there are too few structures; where the views agree as well unshifted (along plain
+// walls a sensor sees its own rings, which move with it, and at rest there is nothing to find); and
+// where the best position is at the border of the range.
+[[nodiscard]] std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier,
+                                                  const BirdsEyeView& now,
+                                                  const Eigen::Vector2f& guess_m, float range_m);
 
 }  // namespace lio

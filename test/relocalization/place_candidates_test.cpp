@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "relocalization/place_guesses.hpp"
+#include "relocalization/place_candidates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<Eigen::Vector3f> Wood(const Pose& T_map_imu) {
   return points;
 }
 
-TEST(PlaceGuesses, AreWhereTheViewsAgreeAndAtLastWhereItWas) {
+TEST(PlaceCandidates, AreWhereTheViewsAgreeAndAtLastWhereItWas) {
   const Pose earlier{ExpSo3(Vector3(0, 0, 0.5)), Vector3(1, 2, 0)};
   const Pose now{ExpSo3(Vector3(0, 0, 1.1)), Vector3(8, -1, 0)};
   const Pose expected{ExpSo3(Vector3(0, 0, 0.9)), Vector3(9.5, 0.5, 0)};
@@ -34,7 +34,7 @@ TEST(PlaceGuesses, AreWhereTheViewsAgreeAndAtLastWhereItWas) {
   Matrix6 cov = Matrix6::Zero();
   cov.diagonal() << Vector3::Constant(2.0), Vector3::Constant(0.04);
   const std::vector<Pose> guesses =
-      GuessPlaces({points_then, earlier}, {points_now, expected}, cov, Quaternion::Identity());
+      PlaceCandidates({points_then, earlier}, {points_now, expected}, cov, Quaternion::Identity());
   ASSERT_GE(guesses.size(), 2u);
   const Pose error = now.Inverse() * guesses.front();
   EXPECT_LT(error.translation.norm(), 0.5);
@@ -42,10 +42,10 @@ TEST(PlaceGuesses, AreWhereTheViewsAgreeAndAtLastWhereItWas) {
   EXPECT_EQ(guesses.back().translation, earlier.translation);
 }
 
-TEST(PlaceGuesses, OfBareGroundAreOnlyWhereItWas) {
+TEST(PlaceCandidates, OfBareGroundAreOnlyWhereItWas) {
   const std::vector<Eigen::Vector3f> ground{{5.f, 0.f, -1.8f}, {0.f, 5.f, -1.8f}};
-  const std::vector<Pose> guesses = GuessPlaces({ground, Pose{}}, {ground, Pose{}},
-                                                Matrix6::Identity(), LevelOf(Vector3::UnitZ()));
+  const std::vector<Pose> guesses = PlaceCandidates(
+      {ground, Pose{}}, {ground, Pose{}}, Matrix6::Identity(), LevelFromMap(Vector3::UnitZ()));
   EXPECT_EQ(guesses.size(), 1u);
 }
 

@@ -1,20 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "relocalization/place_guesses.hpp"
+#include "relocalization/place_candidates.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "lio/relocalization/parameters.hpp"
 #include "lio/relocalization/place_search.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kSigmas = 2.0;
-constexpr double kMaxShift_m = 60.0;  // farther off the views do not overlap
-constexpr double kGuessedStd_m = 0.5;
-constexpr double kGuessedStd_rad = 0.03;
+constexpr PlaceCandidateParameters kCandidate = kRelocalization.candidate;
 
 double LargestStd(const Matrix3& cov) {
   return std::sqrt(std::max(0.0, cov.diagonal().maxCoeff()));
@@ -31,41 +29,42 @@ std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_im
   return levelled;
 }
 
-Quaternion LevelOf(const Vector3& up_map) {
+Quaternion LevelFromMap(const Vector3& up_map) {
   return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
 }
 
-Matrix6 GuessedPlaceCov() {
+Matrix6 CandidateCov() {
   Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(kGuessedStd_m * kGuessedStd_m),
-      Vector3::Constant(kGuessedStd_rad * kGuessedStd_rad);
+  cov.diagonal() << Vector3::Constant(kCandidate.std_m * kCandidate.std_m),
+      Vector3::Constant(kCandidate.std_rad * kCandidate.std_rad);
   return cov;
 }
 
-std::vector<Pose> GuessPlaces(const PlacedScan& earlier, const PlacedScan& now, const Matrix6& cov,
-                              const Quaternion& R_level_map) {
+std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& now,
+                                  const Matrix6& cov, const Quaternion& R_level_map) {
   const Quaternion R_level_imu = R_level_map * earlier.T_map_imu.rotation;
   const Vector3 moved_level =
       R_level_map * (now.T_map_imu.translation - earlier.T_map_imu.translation);
   const double turned_rad = YawOf(R_level_map * now.T_map_imu.rotation * R_level_imu.conjugate());
-  const double shift_m = kSigmas * LargestStd(cov.topLeftCorner<3, 3>());
-  const double turn_rad = kSigmas * LargestStd(cov.bottomRightCorner<3, 3>());
+  const double shift_m = kCandidate.range_sigmas * LargestStd(cov.topLeftCorner<3, 3>());
+  const double turn_rad = kCandidate.range_sigmas * LargestStd(cov.bottomRightCorner<3, 3>());
   const Vector3 range_m =
-      (0.5 * moved_level.cwiseAbs().array() + shift_m).min(kMaxShift_m).matrix();
-  const FlatPose middle{0.5f * moved_level.head<2>().cast<float>(), static_cast<float>(turned_rad)};
-  const FlatRange range{range_m.head<2>().cast<float>(),
-                        static_cast<float>(std::min(turn_rad, std::numbers::pi))};
+      (0.5 * moved_level.cwiseAbs().array() + shift_m).min(kCandidate.max_shift_m).matrix();
+  const PlanarPose middle{0.5f * moved_level.head<2>().cast<float>(),
+                          static_cast<float>(turned_rad)};
+  const PlanarRange range{range_m.head<2>().cast<float>(),
+                          static_cast<float>(std::min(turn_rad, std::numbers::pi))};
   const BirdsEyeView view_then(Levelled(earlier.points_imu, R_level_imu));
   const BirdsEyeView view_now(Levelled(now.points_imu, R_level_imu));
-  std::vector<Pose> guesses;
-  for (const FlatPose& flat : FindPlaces(view_then, view_now, middle, range)) {
+  std::vector<Pose> candidates;
+  for (const PlanarPose& flat : FindPlaces(view_then, view_now, middle, range)) {
     const Vector3 shift_level(flat.shift_m.x(), flat.shift_m.y(), moved_level.z());
     const Quaternion turn = ExpSo3(Vector3(0, 0, static_cast<double>(flat.turn_rad)));
-    guesses.push_back({R_level_map.conjugate() * turn * R_level_imu,
-                       earlier.T_map_imu.translation + R_level_map.conjugate() * shift_level});
+    candidates.push_back({R_level_map.conjugate() * turn * R_level_imu,
+                          earlier.T_map_imu.translation + R_level_map.conjugate() * shift_level});
   }
-  guesses.push_back(earlier.T_map_imu);
-  return guesses;
+  candidates.push_back(earlier.T_map_imu);
+  return candidates;
 }
 
 }  // namespace lio
