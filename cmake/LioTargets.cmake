@@ -32,24 +32,27 @@ function(lio_library name)
     list(APPEND sources ${module_sources})
   endforeach()
   add_library(${name} STATIC ${sources})
-  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/include)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  target_link_libraries(${name} PRIVATE lio_warnings)
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:lio_warnings>)
 endfunction()
 
 # Everything a user runs; tools/setup.sh builds this and leaves the tests alone.
 add_custom_target(lio_programs)
 
-# lio_program(NAME SOURCE... LIBS LIBRARY...): one thin program, installed with the others. Its own
-# sources only read arguments and call libraries: at -O1 they compile in two thirds of the time.
+# lio_program(NAME SOURCE... LIBS LIBRARY... [INTERNAL]): one thin program, installed with the others
+# unless it is INTERNAL, a helper of tests and benchmarks. Its own sources only read arguments and
+# call libraries: at -O1 they compile in two thirds of the time.
 function(lio_program name)
-  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(arg "INTERNAL" "" "LIBS" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_compile_definitions(${name} PRIVATE LIO_VERSION="${PROJECT_VERSION}")
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS})
   add_dependencies(lio_programs ${name})
-  install(TARGETS ${name} RUNTIME)
+  if(NOT arg_INTERNAL)
+    install(TARGETS ${name} RUNTIME)
+  endif()
 endfunction()
 
 # lio_test(NAME MODULE... LIBS LIBRARY... PROPERTIES PROPERTY VALUE...): one test program of every

@@ -26,7 +26,7 @@ complain() {
   failed=1
 }
 
-mapfile -t sources < <(find include src test tools -name '*.hpp' -o -name '*.cpp' | sort)
+mapfile -t sources < <(find include src test tools examples -name '*.hpp' -o -name '*.cpp' | sort)
 mapfile -t scripts < <(find tools test .ci -name '*.sh' -o -name '*.py' -o -path .ci/run | sort)
 
 clang-format --dry-run --Werror "${sources[@]}" || complain "run clang-format -i on the files above"

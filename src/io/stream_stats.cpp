@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/io/point_time.hpp"
-
 namespace lio {
 namespace {
 
@@ -14,6 +12,13 @@ constexpr std::size_t kNumFirst = 400;
 constexpr double kGapRatio = 3.0;  // a gap is longer than so many typical periods
 
 }  // namespace
+
+double UpperMedian(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 void StreamStats::Add(Timestamp stamp, Timestamp received) {
   ++num_;
@@ -25,7 +30,7 @@ void StreamStats::Add(Timestamp stamp, Timestamp received) {
     longest_s_ = std::max(longest_s_, period);
     if (first_periods_s_.size() < kNumFirst) {
       first_periods_s_.push_back(period);
-      if (first_periods_s_.size() == kNumFirst) typical_s_ = Median(first_periods_s_);
+      if (first_periods_s_.size() == kNumFirst) typical_s_ = UpperMedian(first_periods_s_);
     } else if (period > kGapRatio * *typical_s_) {
       ++num_gaps_after_;
     }
@@ -34,7 +39,7 @@ void StreamStats::Add(Timestamp stamp, Timestamp received) {
 }
 
 double StreamStats::TypicalPeriod() const {
-  return typical_s_.value_or(Median(first_periods_s_));
+  return typical_s_.value_or(UpperMedian(first_periods_s_));
 }
 
 double StreamStats::rate_hz() const {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "lio/io/kitti_odometry.hpp"
-#include "lio/io/kitti_raw.hpp"
-#include "lio/io/rosbag_convert.hpp"
+#include "lio/convert/kitti_odometry.hpp"
+#include "lio/convert/kitti_raw.hpp"
+#include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "support/lio_log.hpp"
 #include "support/ros_bag.hpp"

@@ -51,6 +51,15 @@ class LioReplayTest : public ::testing::Test {
   test::TempDir folder_;
 };
 
+TEST_F(LioReplayTest, TheMapIsAPlyFileWhenAskedFor) {
+  ASSERT_EQ(Replay(kLog, "a", {"--map", "--map-format", "ply"}).exit_code, 0);
+  EXPECT_TRUE(File("a/map.ply").starts_with("ply\n"));
+  EXPECT_GT(File("a/map.ply").size(), 10'000u);
+  EXPECT_FALSE(std::filesystem::exists(Path("a/map.pcd")));
+  // Without --map there is no map to choose a format for.
+  EXPECT_EQ(Replay(kLog, "b", {"--map-format", "ply"}).exit_code, 2);
+}
+
 TEST_F(LioReplayTest, TwiceAndOnMoreThreadsItWritesTheSameBytes) {
   ASSERT_EQ(Replay(kLog, "a", {"--map"}).exit_code, 0);
   ASSERT_EQ(Replay(kLog, "b", {"--map"}).exit_code, 0);

@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "lio/io/kitti_files.hpp"
-#include "lio/io/kitti_raw.hpp"
+#include "lio/convert/kitti_files.hpp"
+#include "lio/convert/kitti_raw.hpp"
 #include "lio/sim/random.hpp"
 
 namespace lio::sim {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/io/ros_messages.hpp"
+#include "lio/convert/ros_messages.hpp"
 
 struct sqlite3;
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "lio/io/lidar_spin_estimator.hpp"
+#include "lio/convert/lidar_spin_estimator.hpp"
 #include "support/spinning_lidar.hpp"
 
 namespace lio::test {

@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "lio/convert/kitti_odometry.hpp"
+#include "lio/convert/kitti_raw.hpp"
+#include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
-#include "lio/io/kitti_odometry.hpp"
-#include "lio/io/kitti_raw.hpp"
 #include "lio/io/progress_bar.hpp"
-#include "lio/io/rosbag_convert.hpp"
 
 namespace {
 

@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "lio/io/beam_table.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
+#include "lio/io/ply_file.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/run_writer.hpp"
 #include "lio/pipeline/registration_worker.hpp"
@@ -26,6 +28,7 @@ struct ReplayArguments {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::optional<int> num_threads;
   bool writes_map = false;
+  std::string map_format = "pcd";
   double start_s = 0.0;
   double duration_s = std::numeric_limits<double>::infinity();
   int match_lag = 0;
@@ -62,6 +65,11 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(1, 64));
   app.add_flag("--map", arguments.writes_map, "Write map.pcd with one point per voxel of 0.2 m");
+  app.add_option("--map-format", arguments.map_format,
+                 "Of the map: pcd, or ply to have map.ply in place of map.pcd")
+      ->needs("--map")
+      ->check(CLI::IsMember({"pcd", "ply"}))
+      ->capture_default_str();
   app.add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
       ->type_name("S")
       ->check(NumberFromZero());
@@ -82,12 +90,15 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
 
 // Feeds the estimator and carries its outputs to the files.
 class Replay {
+  using Path = std::filesystem::path;
+
  public:
   Replay(const Options& options, const ReplayArguments& arguments, RunWriter& writer)
       : writer_(writer),
         odometry_(options, ThreadCpuNs),
         worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
         writes_map_(arguments.writes_map),
+        ply_(arguments.map_format == "ply" ? Path(arguments.out) / "map.ply" : Path()),
         match_lag_(arguments.match_lag) {}
 
   void Run(LogInput& input) {
@@ -157,7 +168,8 @@ class Replay {
   }
 
   void Finish(const LogInput& input, double wall_s) {
-    if (writes_map_) writer_.WriteMap(map_.points_map());
+    if (writes_map_ && ply_.empty()) writer_.WriteMap(map_.points_map());
+    if (writes_map_ && !ply_.empty()) WritePly(ply_, map_.points_map());
     RunStats stats;
     stats.counters = odometry_.counters();
     stats.input = input.counters();
@@ -172,6 +184,7 @@ class Replay {
   RegistrationWorker worker_;
   MapCloud map_;
   bool writes_map_;
+  Path ply_;  // in place of map.pcd; empty: map.pcd
   int match_lag_;
   std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
@@ -219,6 +232,7 @@ int Main(int argc, char** argv) {
   std::optional<RunWriter> writer;
   try {
     writer.emplace(arguments.out, options);
+    std::filesystem::remove(std::filesystem::path(arguments.out) / "map.ply");  // of a run before
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;

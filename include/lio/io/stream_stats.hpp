@@ -14,6 +14,9 @@
 
 namespace lio {
 
+// The middle value, the upper one of the two in the middle; 0 for none.
+double UpperMedian(std::vector<double> values);
+
 class StreamStats {
  public:
   void Add(Timestamp stamp, Timestamp received);

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Clouds as PLY files, for programs that edit meshes and clouds (MeshLab, CloudCompare, Blender).
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <span>
+
+namespace lio {
+
+// Binary, one element `vertex` of the floats x y z [m]. Overwrites. Throws std::runtime_error
+// naming the file when it cannot be written.
+void WritePly(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points);
+
+}  // namespace lio

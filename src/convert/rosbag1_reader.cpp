@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Reads a ROS 1 bag from front to back. The index at its end serves only two purposes: to know all
+// topics early, and to find how much of a truncated bag is missing.
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+#include "byte_source.hpp"
+#include "lio/convert/bag_reader.hpp"
+#include "lio/io/input_error.hpp"
+#include "rosbag1_record.hpp"
+
+namespace lio {
+namespace {
+
+constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar message is larger
+constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
+
+class Rosbag1Reader : public BagReader {
+ public:
+  explicit Rosbag1Reader(const std::filesystem::path& path);
+
+  const std::vector<BagTopic>& topics() const override { return topics_; }
+  bool knows_all_topics() const override { return knows_all_topics_; }
+  void Select(std::function<bool(const BagTopic&)> wanted) override { wanted_ = std::move(wanted); }
+  bool Next(BagMessage& message) override;
+  const BagDamage& damage() const override { return damage_; }
+  std::optional<Timestamp> begin_time() const override { return begin_time_; }
+  std::int64_t position_bytes() const override { return static_cast<std::int64_t>(position_); }
+  std::int64_t size_bytes() const override { return static_cast<std::int64_t>(size_); }
+
+ private:
+  enum class Step { kMessage, kGoOn, kEnd };
+  struct Chunk {
+    std::uint64_t begin = 0;  // file positions of the present chunk's data
+    std::uint64_t end = 0;
+    std::uint64_t missing = 0;     // bytes of the last chunk that are missing from the file
+    std::uint64_t inflated = 0;    // size to which the present chunk should inflate
+    std::uint64_t understood = 0;  // bytes of the chunk's records that were sound
+  };
+
+  void ReadBagHeader();
+  void ReadTopicsOfIndex();
+  Step StepOutside(BagMessage& message);
+  Step StepInside(BagMessage& message);
+  void EnterChunk(const RecordHeader& header);
+  void LeaveChunk(RecordStatus status);
+  Step TakeMessage(const RecordHeader& header, ByteSource& source, BagMessage& message);
+  bool TakeConnection(const RecordHeader& header, ByteSource& source);
+  void Finish();
+  void Damage(const std::string& reason);
+  std::uint64_t Here() { return static_cast<std::uint64_t>(file_.tellg()); }
+
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+  std::uint64_t position_ = 0;  // start of the outer record being read
+  std::unique_ptr<FileSpan> outside_;
+  std::unique_ptr<ByteSource> inside_;  // content of the present chunk
+  Chunk chunk_;
+  bool finished_ = false;
+
+  RecordHeader bag_header_;
+  std::uint32_t num_chunks_ = 0;
+  std::uint32_t num_chunk_infos_ = 0;
+  std::vector<BagTopic> topics_;
+  bool knows_all_topics_ = false;
+  std::map<std::uint32_t, std::size_t> topic_of_connection_;
+  std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
+  std::optional<Timestamp> begin_time_;
+  std::vector<std::uint8_t> buffer_;
+  BagDamage damage_;
+};
+
+Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) : file_(path, std::ios::binary) {
+  std::string magic(kMagic.size(), '\0');
+  if (!file_ || !file_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
+      magic != kMagic) {
+    throw InputError(path.string() + ": no ROS 1 bag of format 2.0");
+  }
+  size_ = std::filesystem::file_size(path);
+  outside_ = std::make_unique<FileSpan>(file_, size_ - kMagic.size());
+  position_ = kMagic.size();
+  ReadBagHeader();
+  ReadTopicsOfIndex();
+}
+
+void Rosbag1Reader::ReadBagHeader() {
+  const RecordStatus status = ReadRecordHeader(*outside_, bag_header_);
+  if (status != RecordStatus::kOk || bag_header_.op != RecordOp::kBagHeader) {
+    damage_.cut_short = true;
+    Damage("there is no bag header");
+    damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
+    finished_ = true;
+    return;
+  }
+  outside_->Skip(bag_header_.data_bytes);
+  damage_.not_closed = bag_header_.index_position.value_or(0) == 0;
+}
+
+void Rosbag1Reader::ReadTopicsOfIndex() {
+  const std::uint64_t index = bag_header_.index_position.value_or(0);
+  if (finished_ || index == 0 || index >= size_) return;
+  const std::uint64_t here = Here();
+  file_.seekg(static_cast<std::streamoff>(index));
+  FileSpan span(file_, size_ - index);
+  RecordHeader header;
+  std::uint32_t num_connections = 0;
+  while (ReadRecordHeader(span, header) == RecordStatus::kOk &&
+         header.op == RecordOp::kConnection) {
+    if (!TakeConnection(header, span)) break;
+    ++num_connections;
+  }
+  knows_all_topics_ = num_connections == bag_header_.num_connections;
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(here));
+}
+
+bool Rosbag1Reader::Next(BagMessage& message) {
+  while (!finished_) {
+    const Step step = inside_ ? StepInside(message) : StepOutside(message);
+    if (step == Step::kMessage) return true;
+    if (step == Step::kEnd) Finish();
+  }
+  return false;
+}
+
+Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
+  position_ = Here();
+  RecordHeader header;
+  const RecordStatus status = ReadRecordHeader(*outside_, header);
+  if (status == RecordStatus::kEnd) return Step::kEnd;
+  const bool fits = header.data_bytes <= outside_->left();
+  if (status != RecordStatus::kOk || (!fits && header.op != RecordOp::kChunk)) {
+    damage_.cut_short = true;
+    damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
+    Damage(status == RecordStatus::kBroken ? "bytes that are no record"
+                                           : "the file ends inside a record");
+    return Step::kEnd;
+  }
+  if (header.op == RecordOp::kChunk) {
+    EnterChunk(header);
+    return Step::kGoOn;
+  }
+  if (header.op == RecordOp::kMessage) return TakeMessage(header, *outside_, message);
+  if (header.op == RecordOp::kConnection) {
+    TakeConnection(header, *outside_);
+    return Step::kGoOn;
+  }
+  if (header.op == RecordOp::kChunkInfo) ++num_chunk_infos_;
+  outside_->Skip(header.data_bytes);
+  return Step::kGoOn;
+}
+
+void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
+  ++num_chunks_;
+  chunk_.begin = Here();
+  // A recorder that dies leaves the size of its last chunk at zero.
+  const bool open = header.data_bytes == 0 && damage_.not_closed;
+  chunk_.end = open ? size_ : chunk_.begin + header.data_bytes;
+  chunk_.inflated = header.uncompressed_bytes;
+  if (chunk_.end > size_) {
+    damage_.cut_short = true;
+    Damage("the file ends inside a chunk");
+    chunk_.missing = chunk_.end - size_;
+    chunk_.end = size_;
+  }
+  auto span = std::make_unique<FileSpan>(file_, chunk_.end - chunk_.begin);
+  if (header.compression == "none") {
+    inside_ = std::move(span);
+  } else if (header.compression == "lz4") {
+    inside_ = MakeLz4Source(std::move(span));
+  } else if (header.compression == "bz2") {
+    inside_ = MakeBz2Source(std::move(span));
+  } else {
+    ++damage_.num_chunks_damaged;
+    damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end - chunk_.begin);
+    Damage("chunk of unknown compression '" + header.compression.substr(0, 20) + "'");
+    inside_ = std::make_unique<FileSpan>(file_, 0);
+  }
+}
+
+Rosbag1Reader::Step Rosbag1Reader::StepInside(BagMessage& message) {
+  chunk_.understood = inside_->num_delivered();
+  RecordHeader header;
+  const RecordStatus status = ReadRecordHeader(*inside_, header);
+  if (status == RecordStatus::kOk && header.op == RecordOp::kMessage) {
+    return TakeMessage(header, *inside_, message);
+  }
+  if (status == RecordStatus::kOk && header.op == RecordOp::kConnection) {
+    if (TakeConnection(header, *inside_)) return Step::kGoOn;
+    LeaveChunk(RecordStatus::kCut);
+    return Step::kGoOn;
+  }
+  LeaveChunk(status == RecordStatus::kOk ? RecordStatus::kBroken : status);
+  return Step::kGoOn;
+}
+
+// `status` is kEnd when the chunk ended between two records, as it should.
+void Rosbag1Reader::LeaveChunk(RecordStatus status) {
+  if (status != RecordStatus::kEnd && chunk_.end == size_) {
+    damage_.cut_short = true;
+    Damage("the last chunk is incomplete");
+  } else if (status != RecordStatus::kEnd) {
+    ++damage_.num_chunks_damaged;
+    Damage("broken chunk");
+    const double understood_ratio = chunk_.inflated == 0
+                                        ? 0.0
+                                        : std::min(1.0, static_cast<double>(chunk_.understood) /
+                                                            static_cast<double>(chunk_.inflated));
+    damage_.lost_bytes += static_cast<std::int64_t>(static_cast<double>(chunk_.end - chunk_.begin) *
+                                                    (1.0 - understood_ratio));
+  }
+  inside_.reset();
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(chunk_.end));
+  outside_ = std::make_unique<FileSpan>(file_, size_ - chunk_.end);
+}
+
+Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteSource& source,
+                                               BagMessage& message) {
+  const auto topic = header.connection ? topic_of_connection_.find(*header.connection)
+                                       : topic_of_connection_.end();
+  const bool known = topic != topic_of_connection_.end() && header.time;
+  const bool sound = known && header.data_bytes <= kMaxMessageBytes1;
+  const bool wanted = sound && wanted_(topics_[topic->second]);
+  const bool whole = wanted ? ReadRecordData(source, header.data_bytes, buffer_)
+                            : source.Skip(header.data_bytes) == header.data_bytes;
+  if (!whole) {
+    if (inside_) {
+      LeaveChunk(RecordStatus::kCut);
+      return Step::kGoOn;
+    }
+    damage_.cut_short = true;
+    Damage("the file ends inside a message");
+    return Step::kEnd;
+  }
+  if (!sound) {
+    ++damage_.num_messages_damaged;
+    Damage("a message record without topic or time, or of impossible length");
+    return Step::kGoOn;
+  }
+  if (!begin_time_) begin_time_ = header.time;
+  ++topics_[topic->second].num_messages;
+  if (!wanted) return Step::kGoOn;
+  message.topic = topic->second;
+  message.received = *header.time;
+  message.data = buffer_;
+  return Step::kMessage;
+}
+
+// Returns false when the source ends inside.
+bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& source) {
+  std::vector<std::uint8_t> data;
+  if (header.data_bytes > kMaxConnectionBytes) return false;
+  if (!ReadRecordData(source, header.data_bytes, data)) return false;
+  if (!header.connection || topic_of_connection_.contains(*header.connection)) return true;
+  BagTopic topic;
+  topic.name = header.topic;
+  VisitFields(data, [&](std::string_view name, std::string_view value) {
+    if (name == "type") topic.type = value;
+    if (name == "message_definition") topic.definition = value;
+  });
+  const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
+    return other.name == topic.name && other.type == topic.type;
+  });
+  topic_of_connection_[*header.connection] = static_cast<std::size_t>(same - topics_.begin());
+  if (same == topics_.end()) topics_.push_back(std::move(topic));
+  return true;
+}
+
+void Rosbag1Reader::Finish() {
+  finished_ = true;
+  position_ = size_;
+  const std::uint64_t index = bag_header_.index_position.value_or(0);
+  const std::uint64_t missing = std::max(chunk_.missing, index > size_ ? index - size_ : 0);
+  if (missing > 0) damage_.cut_short = true;
+  damage_.lost_bytes += static_cast<std::int64_t>(missing);
+  const bool complete =
+      num_chunks_ >= bag_header_.num_chunks && num_chunk_infos_ >= bag_header_.num_chunks;
+  if (index > 0 && !complete) {
+    damage_.cut_short = true;
+    Damage(std::to_string(num_chunks_) + " of " + std::to_string(bag_header_.num_chunks) +
+           " chunks exist");
+  }
+}
+
+void Rosbag1Reader::Damage(const std::string& reason) {
+  if (!damage_.first_reason.empty()) return;
+  damage_.first_reason = reason + " at byte " + std::to_string(position_);
+}
+
+}  // namespace
+
+std::unique_ptr<BagReader> OpenRosbag1(const std::filesystem::path& path) {
+  return std::make_unique<Rosbag1Reader>(path);
+}
+
+}  // namespace lio

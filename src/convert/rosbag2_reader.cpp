@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Reads ROS 2 bags: a folder with metadata.yaml and one or more SQLite files, in order.
+#include <sqlite3.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+
+#include "lio/convert/bag_reader.hpp"
+#include "lio/convert/byte_order.hpp"
+#include "lio/convert/ros_messages.hpp"
+#include "lio/io/input_error.hpp"
+
+namespace lio {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxMessageBytes2 = 1 << 28;  // 256 MiB: no lidar message is larger
+
+constexpr std::int64_t kMaxStampNs =
+    4'294'967'296'000'000'000;  // the year 2106, the limit of ROS 1, too
+
+struct CloseDatabase {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+};
+struct FinalizeStatement {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
+
+struct BagFiles {
+  std::vector<fs::path> databases;
+  std::int64_t num_messages = -1;  // -1: not known
+};
+
+std::string Text(sqlite3_stmt* row, int column) {
+  const auto* text = sqlite3_column_text(row, column);
+  return text == nullptr ? std::string() : reinterpret_cast<const char*>(text);
+}
+
+// Recorders make an index. Without it, sorting would copy the whole bag, so rows are read in the
+// order in which they were written.
+bool HasTimestampIndex(sqlite3* database) {
+  sqlite3_stmt* raw = nullptr;
+  sqlite3_prepare_v2(database,
+                     "SELECT 1 FROM sqlite_master WHERE type = 'index' AND tbl_name = 'messages' "
+                     "AND sql LIKE '%timestamp%'",
+                     -1, &raw, nullptr);
+  const Statement row(raw);
+  return raw != nullptr && sqlite3_step(raw) == SQLITE_ROW;
+}
+
+// Returns true when the file is shorter than its SQLite header says.
+bool IsCut(const fs::path& path) {
+  std::array<std::uint8_t, 32> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(header.data()), header.size());
+  constexpr std::uint32_t kLargestPage = 65'536;  // stored as 1
+  const std::uint32_t stored = LoadAs<std::uint16_t>(header.data() + 16, true);
+  const std::uint64_t page_bytes = stored == 1 ? kLargestPage : stored;
+  return fs::file_size(path) < page_bytes * LoadAs<std::uint32_t>(header.data() + 28, true);
+}
+
+// Throws InputError for storage formats that this reader does not support.
+void CheckStorage(const YAML::Node& info, const fs::path& path) {
+  const auto storage = info["storage_identifier"].as<std::string>("sqlite3");
+  if (storage != "sqlite3") {
+    throw InputError(path.string() + ": storage '" + storage +
+                     "' is not supported: convert it with 'ros2 bag convert' to sqlite3");
+  }
+  const auto compression = info["compression_format"].as<std::string>("");
+  if (!compression.empty()) {
+    throw InputError(path.string() + ": compression '" + compression +
+                     "' is not supported: convert it with 'ros2 bag convert' to no compression");
+  }
+}
+
+BagFiles FilesOfMetadata(const fs::path& path) {
+  BagFiles files;
+  try {
+    const YAML::Node info = YAML::LoadFile(path.string())["rosbag2_bagfile_information"];
+    if (!info.IsMap()) throw InputError(path.string() + ": no metadata of a ROS 2 bag");
+    CheckStorage(info, path);
+    for (const YAML::Node& name : info["relative_file_paths"]) {
+      // Old recorders wrote the folder's own name in front.
+      const fs::path relative = name.as<std::string>();
+      const fs::path direct = path.parent_path() / relative;
+      files.databases.push_back(fs::exists(direct) ? direct
+                                                   : path.parent_path() / relative.filename());
+    }
+    files.num_messages = info["message_count"].as<std::int64_t>(-1);
+  } catch (const YAML::Exception& error) {
+    throw InputError(path.string() + ": cannot be read as YAML: " + error.what());
+  }
+  if (files.databases.empty()) throw InputError(path.string() + ": names no files");
+  return files;
+}
+
+BagFiles FindFiles(const fs::path& path) {
+  if (fs::is_regular_file(path) && path.extension() == ".db3") return {{path}, -1};
+  const fs::path metadata = fs::is_directory(path) ? path / "metadata.yaml" : path;
+  if (fs::exists(metadata)) return FilesOfMetadata(metadata);
+  BagFiles files;  // a recorder that died leaves no metadata
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.path().extension() == ".db3") files.databases.push_back(entry.path());
+  }
+  std::sort(files.databases.begin(), files.databases.end());
+  if (files.databases.empty()) throw InputError(path.string() + ": no ROS 2 bag: no .db3 file");
+  return files;
+}
+
+class Rosbag2Reader : public BagReader {
+ public:
+  explicit Rosbag2Reader(const fs::path& path);
+
+  const std::vector<BagTopic>& topics() const override { return topics_; }
+  bool knows_all_topics() const override { return true; }
+  void Select(std::function<bool(const BagTopic&)> wanted) override { wanted_ = std::move(wanted); }
+  bool Next(BagMessage& message) override;
+  const BagDamage& damage() const override { return damage_; }
+  std::optional<Timestamp> begin_time() const override { return begin_time_; }
+  std::int64_t position_bytes() const override;
+  std::int64_t size_bytes() const override { return size_; }
+
+ private:
+  Database Open(const fs::path& path);
+  void ReadTopics(sqlite3* database, std::map<std::int64_t, std::size_t>& topic_of_id);
+  void ReadDefinitions(sqlite3* database);
+  bool OpenNextFile();
+  void CloseFile(int status);
+  void Damage(const std::string& reason);
+
+  BagFiles files_;
+  std::size_t next_file_ = 0;
+  Database database_;  // declared before its statement, closed after it
+  Statement rows_;
+  std::map<std::int64_t, std::size_t> topic_of_id_;  // topics of the open file
+  std::vector<BagTopic> topics_;
+  std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
+  std::optional<Timestamp> begin_time_;
+  std::int64_t num_rows_ = 0;
+  std::int64_t bytes_read_ = 0;
+  std::int64_t size_ = 0;
+  BagDamage damage_;
+};
+
+Rosbag2Reader::Rosbag2Reader(const fs::path& path) : files_(FindFiles(path)) {
+  for (const fs::path& file : files_.databases) {
+    if (!fs::exists(file)) continue;
+    size_ += static_cast<std::int64_t>(fs::file_size(file));
+    std::map<std::int64_t, std::size_t> ignored;
+    if (Database database = Open(file)) ReadTopics(database.get(), ignored);
+  }
+  damage_ = BagDamage{};  // damage is counted anew, and once, while reading
+  if (topics_.empty()) throw InputError(path.string() + ": no ROS 2 bag: no topics in it");
+}
+
+Database Rosbag2Reader::Open(const fs::path& path) {
+  sqlite3* raw = nullptr;
+  // A recorder that died leaves a write-ahead log beside the file, which an immutable connection
+  // would not see. Without such a log, an immutable connection makes read-only folders work.
+  const bool has_log = fs::exists(path.string() + "-wal") && fs::file_size(path.string() + "-wal");
+  std::string uri = "file:";
+  for (const char c : fs::absolute(path).string()) {
+    const bool special = c == '?' || c == '#' || c == '%';
+    uri += special ? (c == '?' ? "%3f" : c == '#' ? "%23" : "%25") : std::string(1, c);
+  }
+  uri += has_log ? "" : "?immutable=1";
+  const int status =
+      sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  Database database(raw);
+  if (status != SQLITE_OK) {
+    Damage(path.filename().string() + ": " + (raw ? sqlite3_errmsg(raw) : "cannot be opened"));
+    return {};
+  }
+  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxMessageBytes2);
+  // This lets SQLite read a file that is shorter than its header says, as far as it goes.
+  sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+  return database;
+}
+
+void Rosbag2Reader::ReadTopics(sqlite3* database,
+                               std::map<std::int64_t, std::size_t>& topic_of_id) {
+  sqlite3_stmt* raw = nullptr;
+  sqlite3_prepare_v2(database, "SELECT id, name, type, serialization_format FROM topics", -1, &raw,
+                     nullptr);
+  const Statement rows(raw);
+  while (raw != nullptr && sqlite3_step(raw) == SQLITE_ROW) {
+    BagTopic topic;
+    topic.name = Text(raw, 1);
+    topic.type = Ros1TypeName(Text(raw, 2));
+    topic.encoding = Text(raw, 3) == "ros1" ? RosEncoding::kRos1 : RosEncoding::kCdr;
+    const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
+      return other.name == topic.name && other.type == topic.type;
+    });
+    topic_of_id[sqlite3_column_int64(raw, 0)] = static_cast<std::size_t>(same - topics_.begin());
+    if (same == topics_.end()) topics_.push_back(std::move(topic));
+  }
+  ReadDefinitions(database);
+}
+
+// Recorders since ROS 2 Iron store the definitions in a table of their own.
+void Rosbag2Reader::ReadDefinitions(sqlite3* database) {
+  sqlite3_stmt* raw = nullptr;
+  sqlite3_prepare_v2(database,
+                     "SELECT topic_type, encoded_message_definition FROM message_definitions "
+                     "WHERE encoding = 'ros2msg'",
+                     -1, &raw, nullptr);
+  const Statement rows(raw);
+  while (raw != nullptr && sqlite3_step(raw) == SQLITE_ROW) {
+    const std::string type = Ros1TypeName(Text(raw, 0));
+    for (BagTopic& topic : topics_) {
+      if (topic.type == type) topic.definition = Text(raw, 1);
+    }
+  }
+}
+
+bool Rosbag2Reader::OpenNextFile() {
+  while (next_file_ < files_.databases.size()) {
+    const fs::path& path = files_.databases[next_file_++];
+    if (!fs::exists(path)) {
+      Damage(path.filename().string() + " is missing");
+      damage_.cut_short = true;
+      continue;
+    }
+    database_ = Open(path);
+    if (!database_) {
+      damage_.cut_short = true;
+      continue;
+    }
+    topic_of_id_.clear();
+    ReadTopics(database_.get(), topic_of_id_);
+    // A truncated file may lack pages of the index that are needed early: more can be read through
+    // its table.
+    const bool in_time_order = HasTimestampIndex(database_.get()) && !IsCut(path);
+    const std::string query = std::string("SELECT topic_id, timestamp, data FROM messages") +
+                              (in_time_order ? " ORDER BY timestamp, id" : "");
+    sqlite3_stmt* raw = nullptr;
+    const int status = sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &raw, nullptr);
+    rows_.reset(raw);
+    if (status == SQLITE_OK) return true;
+    CloseFile(status);
+  }
+  return false;
+}
+
+void Rosbag2Reader::CloseFile(int status) {
+  if (status != SQLITE_DONE && status != SQLITE_OK) {
+    damage_.cut_short = true;
+    Damage(files_.databases[next_file_ - 1].filename().string() + ": " +
+           sqlite3_errmsg(database_.get()));
+  }
+  rows_.reset();
+  database_.reset();
+}
+
+bool Rosbag2Reader::Next(BagMessage& message) {
+  while (rows_ || OpenNextFile()) {
+    const int status = sqlite3_step(rows_.get());
+    if (status != SQLITE_ROW) {
+      CloseFile(status);
+      continue;
+    }
+    ++num_rows_;
+    const auto topic = topic_of_id_.find(sqlite3_column_int64(rows_.get(), 0));
+    if (topic == topic_of_id_.end()) {
+      ++damage_.num_messages_damaged;
+      Damage("a message without topic");
+      continue;
+    }
+    const Timestamp received{sqlite3_column_int64(rows_.get(), 1)};
+    if (received.ns < 0 || received.ns > kMaxStampNs) {
+      ++damage_.num_messages_damaged;
+      Damage("a message received at an impossible time");
+      continue;
+    }
+    if (!begin_time_) begin_time_ = received;
+    ++topics_[topic->second].num_messages;
+    if (!wanted_(topics_[topic->second])) continue;
+    const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(rows_.get(), 2));
+    const int size = sqlite3_column_bytes(rows_.get(), 2);
+    bytes_read_ += size;
+    message.topic = topic->second;
+    message.received = received;
+    message.data = ByteView(data, data == nullptr ? 0 : static_cast<std::size_t>(size));
+    return true;
+  }
+  damage_.num_messages_missing = std::max<std::int64_t>(0, files_.num_messages - num_rows_);
+  if (damage_.num_messages_missing > 0) {
+    damage_.cut_short = true;
+    Damage(std::to_string(num_rows_) + " of " + std::to_string(files_.num_messages) +
+           " messages exist");
+  }
+  return false;
+}
+
+std::int64_t Rosbag2Reader::position_bytes() const {
+  return std::min(bytes_read_, size_);
+}
+
+void Rosbag2Reader::Damage(const std::string& reason) {
+  if (damage_.first_reason.empty()) damage_.first_reason = reason;
+}
+
+}  // namespace
+
+std::unique_ptr<BagReader> OpenRosbag2(const fs::path& path) {
+  return std::make_unique<Rosbag2Reader>(path);
+}
+
+std::unique_ptr<BagReader> OpenBag(const fs::path& path) {
+  if (!fs::exists(path)) throw InputError(path.string() + ": no such file or folder");
+  const fs::path extension = path.extension();
+  const bool is_ros2 = fs::is_directory(path) || extension == ".db3" || extension == ".yaml";
+  if (extension == ".mcap") {
+    throw InputError(path.string() +
+                     ": MCAP is not supported: convert it with 'ros2 bag convert' to sqlite3");
+  }
+  return is_ros2 ? OpenRosbag2(path) : OpenRosbag1(path);
+}
+
+}  // namespace lio
