@@ -9,7 +9,7 @@
 
 #include "calib/rate_search.hpp"
 #include "calib/turn_fit.hpp"
-#include "lio/sensor/sample_lookup.hpp"
+#include "lio/filter/sample_lookup.hpp"
 
 namespace lio {
 namespace {

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "lio/filter/preintegration.hpp"
-#include "lio/sensor/sample_lookup.hpp"
+#include "lio/filter/sample_lookup.hpp"
 
 namespace lio {
 namespace {

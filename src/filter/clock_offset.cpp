@@ -8,7 +8,7 @@
 
 #include "lio/base/chi_square.hpp"
 #include "lio/filter/preintegration.hpp"
-#include "lio/sensor/sample_lookup.hpp"
+#include "lio/filter/sample_lookup.hpp"
 
 namespace lio {
 namespace {

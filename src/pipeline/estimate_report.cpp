@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "lio/filter/published_estimate.hpp"
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/base_motion.hpp"
-#include "lio/sensor/sample_lookup.hpp"
 
 namespace lio {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/coarse_tracking.hpp"
-#include "lio/sensor/sample_lookup.hpp"
 
 namespace lio {
 namespace {

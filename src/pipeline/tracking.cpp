@@ -4,9 +4,9 @@
 
 #include <utility>
 
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/estimate_report.hpp"
 #include "lio/pipeline/scan_step.hpp"
-#include "lio/sensor/sample_lookup.hpp"
 #include "pipeline/history_options.hpp"
 
 namespace lio {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lio/stream/imu_buffer.hpp"
 
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/start_state.hpp"
-#include "lio/sensor/sample_lookup.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
 namespace lio {

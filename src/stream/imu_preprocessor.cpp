@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "lio/sensor/sample_lookup.hpp"
+#include "lio/filter/sample_lookup.hpp"
 
 namespace lio {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sensor/sample_lookup.hpp"
+#include "lio/filter/sample_lookup.hpp"
 
 #include <gtest/gtest.h>
 
