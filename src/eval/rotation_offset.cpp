@@ -69,7 +69,7 @@ void SetAngleAndAxis(RotationOffset& offset) {
 
 }  // namespace
 
-RotationOffset FindRotationOffset(const PosePairs& pairs, const Alignment& se3) {
+RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3) {
   RotationOffset offset;
   // The attitudes helped to align: they cannot testify against themselves.
   if (se3.used_attitude) return offset;

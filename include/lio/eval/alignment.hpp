@@ -16,7 +16,7 @@ enum class AlignMode {
   kSe3,   // turn and move
 };
 
-struct Alignment {
+struct PathAlignment {
   AlignMode mode = AlignMode::kNone;
   Pose T_truth_estimate;       // p_truth = T_truth_estimate * p_estimate
   bool used_attitude = false;  // the path alone did not fix the rotation: straight, or at rest
@@ -28,7 +28,7 @@ struct Alignment {
 // Least squares over positions, no scale (Umeyama, TPAMI 13(4), 1991). Where the path leaves the
 // rotation open (spread below 5 cm across its main direction; for kYaw in the plane), what is open
 // is taken from the attitudes.
-Alignment Align(const PosePairs& pairs, AlignMode mode);
+PathAlignment Align(const PosePairs& pairs, AlignMode mode);
 
 // R_truth = R_align R_estimate Inverse(rotation), up to noise: `rotation` maps the estimate's body
 // axes to the truth's.
@@ -45,7 +45,7 @@ struct RotationOffset {
 };
 
 // `se3` must be Align(pairs, kSe3): with another alignment a turned world looks like a turned body.
-RotationOffset FindRotationOffset(const PosePairs& pairs, const Alignment& se3);
+RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3);
 
 // The mean rotation, in the sense of the smallest sum of squared chordal distances (Markley et al.,
 // "Averaging quaternions", 2007). At least one.

@@ -54,7 +54,7 @@ struct RpeRow {
 
 struct Evaluation {
   Association association;
-  Alignment alignment;
+  PathAlignment alignment;
   RotationOffset rotation_offset;
   double path_length_m = 0;
   double duration_s = 0;  // 0 by index
