@@ -24,7 +24,7 @@ if(LIO_SANITIZE)
   add_link_options(-fsanitize=${LIO_SANITIZE})
 endif()
 
-# lio_precompile(TARGET HEADER...): reads the headers that cost most once per target, not per source.
+# lio_precompile(TARGET HEADER...): reads the headers that cost most once a target, not once a source.
 # Only with LIO_PCH: ccache and a build after a small change do better without.
 function(lio_precompile target)
   if(LIO_PCH)
@@ -63,7 +63,7 @@ function(lio_program name)
 endfunction()
 
 # lio_test_options(NAME LIBRARY...): a sanitized build compiles a test program's own sources without
-# optimization, since most of them take longer to compile than to run. It links the estimator ahead of the
+# optimization: most of them take longer to compile than to run. It links the estimator ahead of the
 # test's objects: the linker keeps the first copy of an Eigen function that both hold, and the
 # estimator's is optimized.
 function(lio_test_options name)

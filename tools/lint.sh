@@ -11,6 +11,7 @@ The checks of form, those that fail fastest first:
   licence tags, length of files
   tools/lint/tests.py   every source has its test (docs/testing.md)
   tools/lint/layers.py  includes between folders follow tools/lint/layers.txt, as design.md draws it
+  tools/lint/names.py   no two types of one name, which the linker would mix up
   tools/lint/sizes.py   20 data members a class, 60 lines a function (exceptions: sizes.txt)
   tools/lint/prose.py   width of docs, comments that have a subject
   clang-format, and clang-tidy over src/ (the checks and why others are off: .clang-tidy)
@@ -42,7 +43,7 @@ while read -r file; do
   complain "$file lacks the two SPDX lines"
 done < <(grep -L 'SPDX-License-Identifier: MIT' "${sources[@]}" "${scripts[@]}")
 
-for check in tests layers sizes prose; do
+for check in tests layers names sizes prose; do
   /usr/bin/python3 -B "tools/lint/$check.py" || failed=1
 done
 clang-format --dry-run --Werror "${sources[@]}" || complain "run clang-format -i on the files above"

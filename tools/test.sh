@@ -7,15 +7,16 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/test.sh [--fast | --asan | --tsan] [CTEST_ARGUMENT...]
-Sets up, with what only tests need, and runs all tests by ctest; then those of the core, of input and
-output and of the daemon under the address and undefined-behaviour sanitizers, and the daemon's under
-the thread sanitizer. Tests that need the real data look for it in LIO_DATA, else in ../shared/data,
-and are reported as skipped without it.
+Sets up, with what only tests need, and runs all tests by ctest; then the tests of core, io and app
+under the address and undefined-behaviour sanitizers, and those of app under the thread sanitizer.
+Tests that need the real data look for it in LIO_DATA, else in ../shared/data, and are reported as
+skipped without it.
   --fast  without the sanitizers
   --asan  only those under the address and undefined-behaviour sanitizers (build-asan/)
   --tsan  only those under the thread sanitizer (build-tsan/)
-The sanitizers build with clang++, a second compiler beside g++. GTEST_FILTER chooses among their tests.
-Environment: LIO_JOBS  parallel compilers and tests (one a core)
+The sanitizers build with clang++, a second compiler beside g++.
+Environment: LIO_JOBS      parallel compilers and tests (one a core)
+             GTEST_FILTER  which of the tests run under the sanitizers (all)
 USAGE
 }
 

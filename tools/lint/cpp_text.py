@@ -32,6 +32,7 @@ class Class:
     line: int
     num_members: int = 0
     num_methods: int = 0
+    namespace: tuple = ()  # from outside in; an unnamed one is ""
 
 
 @dataclasses.dataclass
@@ -59,6 +60,7 @@ class Reader:
         self.tokens = tokens_of(text)
         self.classes = []
         self.functions = []
+        self.namespaces = []
         self._read_scope(0, None, "")
 
     def _end_of(self, at):
@@ -74,7 +76,7 @@ class Reader:
         return at
 
     def _read_scope(self, at, owner, prefix):
-        """Reads declarations until the closing brace of the scope; gives the index of that brace."""
+        """Reads declarations up to the closing brace of the scope, whose index it gives."""
         start = at
         while at < len(self.tokens) and self.tokens[at].text != "}":
             text = self.tokens[at].text
@@ -92,11 +94,15 @@ class Reader:
         return at
 
     def _read_braces(self, start, at, owner, prefix):
-        """Tells by what stands before a brace what it opens; gives where the next declaration is."""
+        """Tells by the words before a brace what it opens; gives where the next declaration is."""
         head = without_brackets(self.tokens[start:at])
         words = [token.text for token in head]
         if "namespace" in words or words[:1] == ["extern"]:
-            return self._read_scope(at + 1, None, prefix) + 1
+            self.namespaces.append("".join(words[words.index("namespace") + 1:])
+                                   if "namespace" in words else "extern")
+            end = self._read_scope(at + 1, None, prefix) + 1
+            self.namespaces.pop()
+            return end
         if is_class(words):
             return self._read_class(start, at, owner, prefix, words)
         if "enum" in words or not is_function(words):
@@ -119,7 +125,7 @@ class Reader:
     def _read_class(self, start, at, owner, prefix, words):
         where = max(words.index(word) for word in CLASS_WORDS if word in words)
         name = prefix + class_name(words[where + 1:])
-        found = Class(name, self.tokens[start].line)
+        found = Class(name, self.tokens[start].line, namespace=tuple(self.namespaces))
         self.classes.append(found)
         end = self._read_scope(at + 1, found, name + "::") + 1
         behind = end
@@ -157,7 +163,7 @@ class Reader:
 
 
 def without_brackets(tokens):
-    """The tokens outside of all brackets, <...> among them, and the outermost brackets themselves."""
+    """The tokens outside of all brackets, <...> included, and the outermost brackets."""
     kept, depth, angle = [], 0, 0
     for index, token in enumerate(tokens):
         text = token.text

@@ -76,8 +76,8 @@ def check_includes(allowed, to_mend):
                 elif target == folder or is_private and folder == "tools/bench":
                     continue
                 elif is_private:
-                    faults.append(f"{file}:{number}: {text} is private to src/{target}: declare what "
-                                  f"others need in include/lio/{target}")
+                    faults.append(f"{file}:{number}: {text} is private to src/{target}: "
+                                  f"declare what others need in include/lio/{target}")
                 elif target not in allowed[folder]:
                     faults.append(f"{file}:{number}: {folder} may not include {target} ({PAGE})")
     for file, text in sorted(mended):
@@ -85,7 +85,7 @@ def check_includes(allowed, to_mend):
     for folder, others in allowed.items():
         for other in others:
             if (folder, other) not in used:
-                faults.append(f"{PAGE}: {folder} does not include {other} any more: remove it there")
+                faults.append(f"{PAGE}: {folder} includes {other} no more: remove it there")
     return faults
 
 
@@ -96,8 +96,8 @@ def check_tests():
         folder = path.relative_to(ROOT).parts[1]
         for number, text, target, is_private in includes(path):
             if is_private and target != folder:
-                faults.append(f"{path.relative_to(ROOT)}:{number}: {text} is private to src/{target} "
-                              f"and its tests in test/{target}")
+                faults.append(f"{path.relative_to(ROOT)}:{number}: {text} is private to "
+                              f"src/{target} and its tests in test/{target}")
     return faults
 
 

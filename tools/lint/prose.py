@@ -18,6 +18,7 @@ PAGE = "tools/lint/prose.txt"
 MAX_COLUMNS = 100
 FIRST_WORD = re.compile(r"\W*(Of|What|Where|That|By|With)\b")
 CPP_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*')
+SHELL_COMMENT = re.compile(r"(?:^|(?<=\s))#[^\n]*")
 COMMENT_MARK = re.compile(r"^(//+|#+)\s*")
 
 
@@ -37,7 +38,7 @@ def comments_of(path):
             if token.type == tokenize.COMMENT:
                 yield token.start[0], token.string, not token.line[:token.start[1]].strip()
         return
-    pattern = CPP_COMMENT if path.suffix in (".cpp", ".hpp") else re.compile(r"(?:^|(?<=\s))#[^\n]*")
+    pattern = CPP_COMMENT if path.suffix in (".cpp", ".hpp") else SHELL_COMMENT
     for number, line in enumerate(text.splitlines(), 1):
         for match in pattern.finditer(line):
             if not match.group().startswith('"'):
