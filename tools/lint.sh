@@ -7,9 +7,15 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/lint.sh [--fast]
-The checks of form: clang-format, file length, licence tags, a test for every source
-(docs/testing.md), and clang-tidy over src/ (the checks and why others are off: .clang-tidy). Needs
-what tools/setup.sh --tests installs and builds.
+The checks of form, those that fail fastest first:
+  licence tags, length of files
+  tools/lint/tests.py   every source has its test (docs/testing.md)
+  tools/lint/layers.py  includes between folders follow tools/lint/layers.txt, as design.md draws it
+  tools/lint/names.py   no two types of one name, which the linker would mix up
+  tools/lint/sizes.py   20 data members a class, 60 lines a function (exceptions: sizes.txt)
+  tools/lint/prose.py   width of docs, comments that have a subject
+  clang-format, and clang-tidy over src/ (the checks and why others are off: .clang-tidy)
+Needs what tools/setup.sh --tests installs and builds.
   --fast  without clang-tidy
 USAGE
 }
@@ -29,7 +35,6 @@ complain() {
 mapfile -t sources < <(find include src test tools examples -name '*.hpp' -o -name '*.cpp' | sort)
 mapfile -t scripts < <(find tools test .ci -name '*.sh' -o -name '*.py' -o -path .ci/run | sort)
 
-clang-format --dry-run --Werror "${sources[@]}" || complain "run clang-format -i on the files above"
 for file in "${sources[@]}"; do
   lines=$(wc -l <"$file")
   ((lines <= 500)) || complain "$file has $lines lines; split it (500 is the wall, 300 the budget)"
@@ -38,7 +43,10 @@ while read -r file; do
   complain "$file lacks the two SPDX lines"
 done < <(grep -L 'SPDX-License-Identifier: MIT' "${sources[@]}" "${scripts[@]}")
 
-/usr/bin/python3 tools/lint/tests.py || failed=1
+for check in tests layers names sizes prose; do
+  /usr/bin/python3 -B "tools/lint/$check.py" || failed=1
+done
+clang-format --dry-run --Werror "${sources[@]}" || complain "run clang-format -i on the files above"
 
 [[ ${1:-} == --fast ]] || /usr/bin/python3 tools/lint/tidy.py || failed=1
 ((failed == 0)) && echo "lint: ${#sources[@]} files in form"

@@ -8,11 +8,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'USAGE'
-Usage: tools/setup.sh [--tests] [--spy]
+Usage: tools/setup.sh [--tests | --test-packages] [--spy] [--no-build]
 Installs missing Debian packages (and asks for root when it must), configures and builds Release
 into build/; the programs are then in build/bin/.
-  --tests  also build the tests, and install the packages that they need
-  --spy    also build lio-spy, and install Java
+  --tests          also build the tests, and install the packages that they need
+  --test-packages  install the packages that the tests need, but do not build the tests
+  --spy            also build lio-spy, and install Java
+  --no-build       install the packages alone
 Environment: LIO_PRESET  CMake preset that builds into build/ (release; ci when CI=true)
              LIO_JOBS    number of parallel compilers (one per core)
 USAGE
@@ -25,13 +27,15 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libyaml-cp
   libembree-dev liblcm-dev liblcm-bin
   python3 python3-matplotlib iproute2 util-linux xz-utils)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev
-  clang-format clang-tidy)
+  clang clang-format clang-tidy)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
 
-with_tests=OFF with_spy=no
+with_tests=OFF with_spy=no target=lio_programs with_build=yes
 while (($#)); do
   case $1 in
-    --tests) with_tests=ON && packages+=("${test_packages[@]}") ;;
+    --tests) with_tests=ON && target=all && packages+=("${test_packages[@]}") ;;
+    --test-packages) with_tests=ON && packages+=("${test_packages[@]}") ;;
+    --no-build) with_build=no ;;
     --spy) with_spy=yes && packages+=("${spy_packages[@]}") ;;
     -h | --help) usage && exit 0 ;;
     *) echo "tools/setup.sh: unknown argument $1; see tools/setup.sh --help" >&2 && exit 2 ;;
@@ -75,6 +79,8 @@ else
   echo "setup: not a Debian system; CMake will say what is missing of: ${packages[*]}" >&2
 fi
 
+[[ $with_build == yes ]] || exit 0
+
 preset=${LIO_PRESET:-$([[ ${CI:-} == true ]] && echo ci || echo release)}
 jobs=${LIO_JOBS:-$(nproc)}
 # Tests once asked for stay in the build folder; a plain set-up then leaves them alone.
@@ -85,8 +91,6 @@ elif [[ $with_spy == yes && ! -f build/share/liod/lio_types.jar ]]; then
   echo "setup: configuring build/ again, for Java"
   cmake build --log-level=NOTICE >/dev/null
 fi
-target=lio_programs
-[[ $with_tests == ON ]] && target=all
 echo "setup: building $target with $jobs jobs"
 cmake --build build --target "$target" --parallel "$jobs"
 echo "setup: done; the programs are in build/bin/"

@@ -6,31 +6,79 @@ set -euo pipefail
 
 usage() {
   cat <<'USAGE'
-Usage: tools/test.sh [--fast] [CTEST_ARGUMENT...]
-Sets up, with what only tests need, and runs all tests: first the fuzz tests under the address and
-undefined-behaviour sanitizers, then everything by ctest. Tests that need the real data look for it
-in LIO_DATA, else in ../shared/data, and are reported as skipped without it.
+Usage: tools/test.sh [--fast | --asan | --tsan] [CTEST_ARGUMENT...]
+Sets up, with what only tests need, and runs all tests by ctest; then the tests of core, io and app
+under the address and undefined-behaviour sanitizers, and those of app under the thread sanitizer.
+Tests that need the real data look for it in LIO_DATA, else in ../shared/data, and are reported as
+skipped without it.
   --fast  without the sanitizers
+  --asan  only those under the address and undefined-behaviour sanitizers (build-asan/)
+  --tsan  only those under the thread sanitizer (build-tsan/)
+The sanitizers build with clang++, a second compiler beside g++.
+Environment: LIO_JOBS      parallel compilers and tests (one a core)
+             GTEST_FILTER  which of the tests run under the sanitizers (all)
 USAGE
 }
 
-if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  usage
-  exit 0
-fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-with_sanitizers=yes
-if [[ ${1:-} == --fast ]]; then
-  with_sanitizers=no
-  shift
-fi
+part=all
+case ${1:-} in
+  -h | --help) usage && exit 0 ;;
+  --fast | --asan | --tsan) part=${1#--} && shift ;;
+esac
 jobs=${LIO_JOBS:-$(nproc)}
-tools/setup.sh --tests
-if [[ $with_sanitizers == yes ]]; then
-  echo "test: fuzz tests under ASan and UBSan"
-  [[ -f build-asan/CMakeCache.txt ]] || cmake --preset asan --log-level=NOTICE >/dev/null
-  cmake --build build-asan --target lio_fuzz_test --parallel "$jobs"
-  build-asan/bin/lio_fuzz_test --gtest_brief=1
+
+# run_shards PROGRAM: its tests in as many processes as there are jobs.
+run_shards() {
+  local shard pids=() failed=0 log
+  for ((shard = 0; shard < jobs; shard++)); do
+    log=$1.$shard.log
+    GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$shard GTEST_BRIEF=1 "$1" >"$log" 2>&1 &
+    pids+=($!)
+  done
+  for shard in "${!pids[@]}"; do
+    if wait "${pids[$shard]}"; then
+      tail -n 2 "$1.$shard.log"
+    else
+      cat "$1.$shard.log" && failed=1
+    fi
+  done
+  return $failed
+}
+
+# sanitized PRESET TEST_PROGRAM...: builds the programs by that preset and runs all their tests. The
+# scene that the daemon's tests play comes from the release build's simulator.
+sanitized() {
+  local build=build-$1 program failed=0 start=$SECONDS
+  [[ -f $build/build.ninja ]] || cmake --preset "$1" -DLIO_BUILD_TESTS=ON \
+    "-DLIO_SCENE_DIR=$PWD/build/test_data/scene" --log-level=NOTICE >/dev/null
+  echo "test: building with the sanitizers of the preset $1: ${*:2}"
+  cmake --build "$build" --target "${@:2}" --parallel "$jobs"
+  echo "test: built in $((SECONDS - start)) s"
+  ctest --test-dir build -R '^MakeScene$' --output-on-failure >/dev/null
+  for program in "${@:2}"; do
+    start=$SECONDS
+    run_shards "$build/bin/$program" || failed=1
+    echo "test: $program, preset $1: $((SECONDS - start)) s"
+  done
+  return $failed
+}
+
+run_asan() {
+  export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
+  sanitized asan lio_fuzz_test lio_core_test lio_io_test lio_app_test
+}
+
+run_tsan() {
+  export TSAN_OPTIONS=suppressions=$PWD/tools/tsan.supp:${TSAN_OPTIONS:-}
+  sanitized tsan lio_app_test
+}
+
+if [[ $part == all || $part == fast ]]; then
+  tools/setup.sh --tests
+  ctest --test-dir build --output-on-failure --parallel "$jobs" "$@"
+else
+  tools/setup.sh --test-packages
 fi
-ctest --test-dir build --output-on-failure --parallel "$jobs" "$@"
+if [[ $part == all || $part == asan ]]; then run_asan; fi
+if [[ $part == all || $part == tsan ]]; then run_tsan; fi

@@ -88,8 +88,8 @@ double ResidualRms(const PosePairs& pairs, const Pose& T_truth_estimate) {
 
 }  // namespace
 
-Alignment Align(const PosePairs& pairs, AlignMode mode) {
-  Alignment result;
+PathAlignment Align(const PosePairs& pairs, AlignMode mode) {
+  PathAlignment result;
   result.mode = mode;
   if (mode == AlignMode::kNone) return result;
   const Centred centred = Centre(pairs);

@@ -142,7 +142,8 @@ void NoteStraightPath(const Evaluation& result, std::vector<std::string>& notes)
       heading_deg));
 }
 
-void NoteFrames(const Evaluation& result, const Alignment& se3, std::vector<std::string>& notes) {
+void NoteFrames(const Evaluation& result, const PathAlignment& se3,
+                std::vector<std::string>& notes) {
   if (se3.used_attitude) NoteStraightPath(result, notes);
   const RotationOffset& offset = result.rotation_offset;
   if (offset.is_detected) {
@@ -169,7 +170,7 @@ Evaluation Evaluate(const Trajectory& truth, const Trajectory& estimate,
   Evaluation result;
   result.association = Associate(truth, estimate, options.max_gap_s);
   const PosePairs& pairs = result.association.pairs;
-  const Alignment se3 = Align(pairs, AlignMode::kSe3);
+  const PathAlignment se3 = Align(pairs, AlignMode::kSe3);
   result.alignment = Align(pairs, options.align);
   result.rotation_offset = FindRotationOffset(pairs, se3);
   const bool has_stamps = result.association.method != AssociationMethod::kByIndex;

@@ -40,7 +40,7 @@ Json AssociationJson(const Association& a) {
           {"estimate_period_s", is_by_index ? Json() : Json(a.estimate_period_s)}};
 }
 
-Json AlignmentJson(const Alignment& alignment) {
+Json AlignmentJson(const PathAlignment& alignment) {
   const Quaternion& q = alignment.T_truth_estimate.rotation;
   const char* const mode = alignment.mode == AlignMode::kSe3   ? "se3"
                            : alignment.mode == AlignMode::kYaw ? "yaw"

@@ -28,7 +28,7 @@ std::string PeriodText(double period_s) {
   return period_s > 0 ? fmt::format(", one every {:.4g} s", period_s) : "";
 }
 
-std::string AlignmentText(const Alignment& alignment) {
+std::string AlignmentText(const PathAlignment& alignment) {
   if (alignment.mode == AlignMode::kNone) return "none";
   return fmt::format("{}: estimate turned by {:.2f} deg and moved by {:.3f} m",
                      alignment.mode == AlignMode::kSe3 ? "se3" : "yaw",

@@ -70,7 +70,7 @@ void SetAngleAndAxis(RotationOffset& offset) {
 
 }  // namespace
 
-RotationOffset FindRotationOffset(const PosePairs& pairs, const Alignment& se3) {
+RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3) {
   RotationOffset offset;
   // Attitudes that were used for the alignment cannot be evidence of a rotation between the bodies.
   if (se3.used_attitude) return offset;

@@ -24,7 +24,7 @@ void ExpectNear(const Pose& a, const Pose& b, double tolerance) {
 TEST(Align, Se3RecoversAKnownMotion) {
   const Trajectory truth = test::Helix(300);
   const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove.Inverse() * p; });
-  const Alignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
+  const PathAlignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
   ExpectNear(alignment.T_truth_estimate, kMove, 1e-9);
   EXPECT_FALSE(alignment.used_attitude);
   EXPECT_NEAR(alignment.rotation_uncertainty_deg, 0, 1e-6);
@@ -34,7 +34,7 @@ TEST(Align, Se3NeverMirrors) {
   const Trajectory truth = test::Helix(300);
   Trajectory estimate = truth;
   for (StampedPose& row : estimate.poses) row.pose.translation.x() *= -1;
-  const Alignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
+  const PathAlignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
   EXPECT_NEAR(alignment.T_truth_estimate.rotation.toRotationMatrix().determinant(), 1, 1e-9);
 }
 
@@ -56,7 +56,7 @@ TEST(Align, NoneLeavesTheEstimateWhereItIs) {
 TEST(Align, AStraightPathTakesItsRollFromAttitudes) {
   const Trajectory truth = test::Straight(100, 0.5);
   const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove.Inverse() * p; });
-  const Alignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
+  const PathAlignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
   EXPECT_TRUE(alignment.used_attitude);
   ExpectNear(alignment.T_truth_estimate, kMove, 1e-9);
 }
@@ -65,7 +65,7 @@ TEST(Align, AParkedVehicleIsAlignedByAttitude) {
   const Trajectory truth = test::MakeTrajectory(50, [](int) { return Pose::Identity(); });
   const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kTurn.Inverse() * p; });
   for (const AlignMode mode : {AlignMode::kSe3, AlignMode::kYaw}) {
-    const Alignment alignment = Align(Pairs(truth, estimate), mode);
+    const PathAlignment alignment = Align(Pairs(truth, estimate), mode);
     EXPECT_TRUE(alignment.used_attitude);
     ExpectNear(alignment.T_truth_estimate, kTurn, 1e-9);
   }

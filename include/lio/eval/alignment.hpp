@@ -16,7 +16,7 @@ enum class AlignMode {
   kSe3,   // turn about any axis and shift
 };
 
-struct Alignment {
+struct PathAlignment {
   AlignMode mode = AlignMode::kNone;
   Pose T_truth_estimate;  // p_truth = T_truth_estimate * p_estimate
   bool used_attitude =
@@ -29,7 +29,7 @@ struct Alignment {
 // Minimizes the squared position errors without scale (Umeyama, TPAMI 13(4), 1991). When the path
 // does not determine the whole rotation (its spread across its main direction is below 5 cm; for
 // kYaw: in the plane), the open part is taken from the attitudes.
-Alignment Align(const PosePairs& pairs, AlignMode mode);
+PathAlignment Align(const PosePairs& pairs, AlignMode mode);
 
 // Holds the constant rotation between the body frames: R_truth = R_align R_estimate
 // Inverse(rotation), up to noise; `rotation` maps the estimate's body axes to the truth's.
@@ -46,7 +46,7 @@ struct RotationOffset {
 };
 
 // `se3` must be Align(pairs, kSe3): with another alignment a turned world looks like a turned body.
-RotationOffset FindRotationOffset(const PosePairs& pairs, const Alignment& se3);
+RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3);
 
 // Returns the rotation with the smallest sum of squared chordal distances (Markley et al.,
 // "Averaging quaternions", 2007). At least one rotation is required.

@@ -56,7 +56,7 @@ struct RpeRow {
 
 struct Evaluation {
   Association association;
-  Alignment alignment;
+  PathAlignment alignment;
   RotationOffset rotation_offset;
   double path_length_m = 0;
   double duration_s = 0;  // 0 when paired by index
