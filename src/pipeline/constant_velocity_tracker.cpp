@@ -7,29 +7,13 @@
 namespace lio {
 namespace {
 
-constexpr Duration kMaxUnseen{10'000'000'000};  // after more the clock was set, or all is new
-constexpr Duration kMaxSweep{500'000'000};
-constexpr Duration kStep{10'000'000};
-constexpr double kAccelDensity = 1.5;      // m/s^2/sqrt(Hz): 0.5 m/s in a sweep of 0.1 s
-constexpr double kTurnAccelDensity = 1.0;  // rad/s^2/sqrt(Hz): 0.3 rad/s in a sweep
-constexpr double kStartVelocityStd_mps = 15.0;
-constexpr double kStartTurnRateStd_radps = 1.0;
-constexpr double kVelocitySeedStd_mps = 1.5;
-constexpr double kKnownVelocityStd_mps = 2.0;
-constexpr double kKnownTurnRateStd_radps = 0.3;
-constexpr double kUnseen_s = 0.5;
-constexpr double kUnseenShift_m = 1.0;
-constexpr double kUnseenTurn_rad = 0.2;
-constexpr double kGyroDensity = 5.0e-3;  // rad/s/sqrt(Hz): also what scale and time errors do
-constexpr double kGyroBiasStd_radps = 0.02;
-
 HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   HistoryOptions history;
-  history.noise.accel_density = kAccelDensity;
+  history.noise.accel_density = kConstantVelocity.accel_density;
   if (options.first_rate_radps) {
-    history.noise.gyro_density = kGyroDensity;
+    history.noise.gyro_density = kConstantVelocity.gyro_density;
   } else {
-    history.noise.gyro_bias_walk_density = kTurnAccelDensity;
+    history.noise.gyro_bias_walk_density = kConstantVelocity.turn_accel_density;
   }
   history.g_world = Vector3::Zero();
   history.span_s = options.span_s;
@@ -43,12 +27,14 @@ Estimate Start(Timestamp start, const TrackerOptions& options) {
   Estimate estimate;
   estimate.stamp = start;
   const bool is_known = options.seed.motion.has_value();
-  double turn_rate_std_radps = is_known ? kKnownTurnRateStd_radps : kStartTurnRateStd_radps;
-  if (options.first_rate_radps) turn_rate_std_radps = kGyroBiasStd_radps;
-  double velocity_std_mps = is_known ? kKnownVelocityStd_mps : kStartVelocityStd_mps;
+  double turn_rate_std_radps = is_known ? kConstantVelocity.known_turn_rate_std_radps
+                                        : kConstantVelocity.start_turn_rate_std_radps;
+  if (options.first_rate_radps) turn_rate_std_radps = kConstantVelocity.gyro_bias_std_radps;
+  double velocity_std_mps = is_known ? kConstantVelocity.known_velocity_std_mps
+                                     : kConstantVelocity.start_velocity_std_mps;
   if (!is_known && options.seed.v_imu_mps) {
     estimate.state.v_world_imu = *options.seed.v_imu_mps;
-    velocity_std_mps = kVelocitySeedStd_mps;
+    velocity_std_mps = kConstantVelocity.velocity_seed_std_mps;
   }
   const auto set = [&](int at, double std) {
     estimate.cov.block<3, 3>(at, at) = std * std * Matrix3::Identity();
@@ -71,12 +57,14 @@ Estimate Start(Timestamp start, const TrackerOptions& options) {
 // For a while that nobody knows, about half a second.
 void AllowUnseenHalfSecond(Estimate& estimate) {
   const double shift_std_m =
-      std::max(kUnseenShift_m, kUnseen_s * estimate.state.v_world_imu.norm());
+      std::max(kConstantVelocity.unseen_shift_m,
+               kConstantVelocity.unseen_s * estimate.state.v_world_imu.norm());
   Vector6 motion_var;
   motion_var << Vector3::Constant(shift_std_m * shift_std_m),
-      Vector3::Constant(kUnseenTurn_rad * kUnseenTurn_rad);
+      Vector3::Constant(kConstantVelocity.unseen_turn_rad * kConstantVelocity.unseen_turn_rad);
   AllowUnseenMotion(estimate, motion_var,
-                    Vector3::Constant(kKnownVelocityStd_mps * kKnownVelocityStd_mps));
+                    Vector3::Constant(kConstantVelocity.known_velocity_std_mps *
+                                      kConstantVelocity.known_velocity_std_mps));
 }
 
 ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
@@ -101,10 +89,11 @@ void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
 }
 
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
-  if (stamp - history_.head().stamp > kMaxUnseen) SetClock(stamp - kMaxSweep);
+  if (stamp - history_.head().stamp > kConstantVelocity.max_unseen)
+    SetClock(stamp - kConstantVelocity.max_sweep);
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
-    at = std::min(at + kStep, stamp);
+    at = std::min(at + kConstantVelocity.step, stamp);
     history_.AddImu(Rate(at, last_rate_));
   }
 }

@@ -3,21 +3,14 @@
 #include "lio/pipeline/keyframe_policy.hpp"
 
 namespace lio {
-namespace {
-
-constexpr double kDistance_m = 0.2;
-constexpr double kAngle_rad = 0.03;
-constexpr int kMaxScansHere = 4;  // enough that cells have the points to count
-
-}  // namespace
-
 bool KeyframePolicy::HasMoved(const Pose& T_map_imu) const {
   const Pose motion = last_->Inverse() * T_map_imu;
-  return motion.translation.norm() > kDistance_m || LogSo3(motion.rotation).norm() > kAngle_rad;
+  return motion.translation.norm() > kKeyframe.distance_m ||
+         LogSo3(motion.rotation).norm() > kKeyframe.angle_rad;
 }
 
 bool KeyframePolicy::IsKeyframe(const Pose& T_map_imu) const {
-  return !last_ || num_here_ < kMaxScansHere || HasMoved(T_map_imu);
+  return !last_ || num_here_ < kKeyframe.max_scans_here || HasMoved(T_map_imu);
 }
 
 void KeyframePolicy::Accept(const Pose& T_map_imu) {

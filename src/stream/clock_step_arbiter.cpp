@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "lio/stream/stream_parameters.hpp"
+
 namespace lio {
 namespace {
-
-// The step is somewhere between two inertial samples, which need not come on time.
-constexpr Duration kUnsure{30'000'000};
-constexpr Duration kWild{5'000'000'000};  // a chunk that is so far off tells nothing
-constexpr Duration kSilence{1'000'000'000};
-constexpr std::size_t kNumChunks = 4;
-constexpr std::size_t kNumLags = 9;  // the lidar may step a message earlier: their median counts
 
 bool IsNearerAfter(const ClockStep& step, Timestamp stamp) {
   return Abs(stamp - step.after) < Abs(stamp - step.before);
@@ -23,16 +18,16 @@ bool IsNearerAfter(const ClockStep& step, Timestamp stamp) {
 
 void ClockStepArbiter::Note(Timestamp chunk, std::optional<Timestamp> newest_imu) {
   chunks_.push_back(chunk);
-  if (chunks_.size() > kNumChunks) chunks_.pop_front();
+  if (chunks_.size() > kClockStep.num_chunks) chunks_.pop_front();
   // While the inertial stream pauses nothing is learned of the lag.
   if (!newest_imu || newest_imu == newest_imu_) return;
   newest_imu_ = newest_imu;
   lags_.push_back(*newest_imu - chunk);
-  if (lags_.size() > kNumLags) lags_.pop_front();
+  if (lags_.size() > kClockStep.num_lags) lags_.pop_front();
 }
 
 bool ClockStepArbiter::SeesLidarAt(Timestamp imu) const {
-  return !chunks_.empty() && Abs(imu - (chunks_.back() + Lag())) < kSilence;
+  return !chunks_.empty() && Abs(imu - (chunks_.back() + Lag())) < kClockStep.silence;
 }
 
 Duration ClockStepArbiter::Lag() const {
@@ -56,11 +51,11 @@ StepVerdict ClockStepArbiter::Judge(const ClockStep& step, Timestamp chunk,
                                     Timestamp newest_imu) const {
   const Timestamp at_step = chunk + Lag() - (newest_imu - step.after);
   if (IsNearerAfter(step, at_step)) {
-    const bool is_wild = Abs(at_step - step.after) > kWild;
+    const bool is_wild = Abs(at_step - step.after) > kClockStep.wild;
     return {is_wild ? LidarClock::kUnclear : LidarClock::kStepped, at_step};
   }
-  const bool is_wild = Abs(at_step - step.before) > kWild;
-  const bool began_after = chunk > step.before + kUnsure;
+  const bool is_wild = Abs(at_step - step.before) > kClockStep.wild;
+  const bool began_after = chunk > step.before + kClockStep.step_uncertainty;
   return {began_after && !is_wild ? LidarClock::kSteady : LidarClock::kUnclear, at_step};
 }
 

@@ -8,23 +8,14 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/stream/stream_parameters.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kMaxForce_mps2 = 2000.0;  // beyond any accelerometer (200 g)
-constexpr Duration kJump{1'000'000'000};   // a longer step in stamps is one whatever follows
-constexpr Duration kJitter{80'000'000};    // a shorter step back is none
-constexpr double kHole = 1.5;              // in mean steps
-constexpr Duration kSameStretch{200'000'000};
-constexpr Duration kGap{200'000'000};
-constexpr std::size_t kConfirmations = 5;
-// A clock that was set right steps forward by what it had gone back, but for so much ...
-constexpr double kMaxSetRight_s = 0.1;
-constexpr double kSetRightShare = 0.25;  // ... and no more than this share of it.
-
 bool IsAsLong(double step_s, double as_s) {
-  return as_s > 0.0 && std::abs(step_s - as_s) < std::min(kMaxSetRight_s, kSetRightShare * as_s);
+  return as_s > 0.0 && std::abs(step_s - as_s) < std::min(kImuPreprocessor.max_set_right_error_s,
+                                                          kImuPreprocessor.set_right_share * as_s);
 }
 
 }  // namespace
@@ -34,7 +25,8 @@ bool ImuPreprocessor::IsSane(const ImuSample& sample) {
     ++counters_->num_imu_nonfinite;
     return false;
   }
-  if (sample.w_imu_radps.norm() > max_rate_ || sample.f_imu_mps2.norm() > kMaxForce_mps2) {
+  if (sample.w_imu_radps.norm() > max_rate_ ||
+      sample.f_imu_mps2.norm() > kImuPreprocessor.max_force_mps2) {
     ++counters_->num_imu_out_of_range;
     return false;
   }
@@ -42,7 +34,7 @@ bool ImuPreprocessor::IsSane(const ImuSample& sample) {
 }
 
 bool ImuPreprocessor::IsFar(Timestamp stamp) const {
-  return Abs(stamp - *newest_) > kJump;
+  return Abs(stamp - *newest_) > kImuPreprocessor.segment_gap;
 }
 
 double ImuPreprocessor::MeanStep_s() const {
@@ -56,7 +48,7 @@ double ImuPreprocessor::ClockStepTo_s(Timestamp stamp) const {
 }
 
 bool ImuPreprocessor::IsBehindHole(Timestamp stamp) const {
-  return stamp - *newest_ > kGap;
+  return stamp - *newest_ > kImuPreprocessor.confirmed_gap;
 }
 
 bool ImuPreprocessor::MayBeSetRight(Timestamp stamp) const {
@@ -71,13 +63,14 @@ bool ImuPreprocessor::Contradicts(const ImuSample& sample) const {
   if (next->stamp == sample.stamp) {
     return next->w_imu_radps != sample.w_imu_radps || next->f_imu_mps2 != sample.f_imu_mps2;
   }
-  return SecondsBetween(std::prev(next)->stamp, next->stamp) < kHole * MeanStep_s();
+  return SecondsBetween(std::prev(next)->stamp, next->stamp) <
+         kImuPreprocessor.hole_in_mean_steps * MeanStep_s();
 }
 
 bool ImuPreprocessor::IsSuspect(const ImuSample& sample) const {
   if (!newest_) return false;
   if (IsFar(sample.stamp) || IsBehindHole(sample.stamp) || MayBeSetRight(sample.stamp)) return true;
-  const Duration least = suspects_.empty() ? kJitter : Duration{};
+  const Duration least = suspects_.empty() ? kImuPreprocessor.jitter : Duration{};
   return *newest_ - sample.stamp > least && Contradicts(sample);
 }
 
@@ -144,14 +137,15 @@ void ImuPreprocessor::ShiftBy(Duration shift) {
 void ImuPreprocessor::Accept(const ImuSample& sample) {
   InsertByStamp(recent_, sample);
   if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
-  while (*newest_ - recent_.front().stamp > kJump) recent_.pop_front();
+  while (*newest_ - recent_.front().stamp > kImuPreprocessor.segment_gap) recent_.pop_front();
 }
 
 ImuPreprocessor::Result ImuPreprocessor::Add(const ImuSample& sample) {
   ++counters_->num_imu;
   if (!IsSane(sample)) return {};
   Result result;
-  if (!suspects_.empty() && Abs(sample.stamp - suspects_.back().stamp) > kSameStretch) {
+  if (!suspects_.empty() &&
+      Abs(sample.stamp - suspects_.back().stamp) > kImuPreprocessor.same_segment) {
     result.accepted = Release();
   }
   if (!IsSuspect(sample)) {
@@ -161,7 +155,7 @@ ImuPreprocessor::Result ImuPreprocessor::Add(const ImuSample& sample) {
     return result;
   }
   suspects_.push_back(sample);
-  if (suspects_.size() < kConfirmations) return result;
+  if (suspects_.size() < kImuPreprocessor.confirmations) return result;
   return Confirm();
 }
 

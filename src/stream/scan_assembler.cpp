@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/stream/stream_parameters.hpp"
+
 namespace lio {
 namespace {
-
-constexpr Duration kMaxOffset{500'000'000};  // no lidar turns slower than twice a second
-constexpr Duration kMaxSweepSpan{500'000'000};
-constexpr Duration kJitter{20'000'000};
-constexpr Duration kApart{1'000'000'000};  // sweeps that follow each other are nearer
-constexpr std::size_t kMaxOpenSweeps = 2;
-constexpr std::size_t kMaxClosedNames = 16;  // later stragglers are dropped as late sweeps
 
 Duration LastOffset(const ScanChunk& chunk) {
   std::uint32_t last = 0;
@@ -30,13 +25,14 @@ bool IsUsable(const ScanChunk& chunk) {
 // The same number far away in time is another sweep, after a restart of the sender.
 bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
   return scan_seq == chunk.scan_seq && sensor_id == chunk.sensor_id &&
-         chunk.stamp - first < kMaxSweepSpan && last - chunk.stamp < kMaxSweepSpan;
+         chunk.stamp - first < kScanAssembler.max_sweep_span &&
+         last - chunk.stamp < kScanAssembler.max_sweep_span;
 }
 
 // Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
 bool ScanAssembler::IsTornOff(const ScanChunk& chunk, Timestamp last) const {
   if (span_ == Duration{}) return false;
-  const Duration reach = span_ + kJitter;
+  const Duration reach = span_ + kScanAssembler.jitter;
   return std::any_of(open_.begin(), open_.end(), [&](const Partial& partial) {
     return partial.name.Names(chunk) &&
            (chunk.stamp - partial.name.last > reach || partial.name.first - last > reach);
@@ -51,7 +47,7 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   const bool is_late = std::any_of(closed_names_.begin(), closed_names_.end(),
                                    [&](const SweepName& name) { return name.Names(chunk); });
   if (is_late) return nullptr;
-  if (open_.size() == kMaxOpenSweeps) CloseOneFor(chunk.stamp);
+  if (open_.size() == kScanAssembler.max_open_sweeps) CloseOneFor(chunk.stamp);
   Partial partial;
   partial.name = {chunk.scan_seq, chunk.sensor_id, chunk.stamp, chunk.stamp};
   partial.chunks.resize(static_cast<std::size_t>(chunk.chunk_count));
@@ -65,7 +61,7 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
   const Duration last_offset = LastOffset(chunk);
   const Timestamp last = chunk.stamp + last_offset;
-  if (!IsUsable(chunk) || last_offset > kMaxOffset || IsTornOff(chunk, last)) {
+  if (!IsUsable(chunk) || last_offset > kScanAssembler.max_sweep_span || IsTornOff(chunk, last)) {
     ++counters_->num_chunks_bad;
     return;
   }
@@ -99,7 +95,7 @@ void ScanAssembler::CloseAll() {
   while (!open_.empty()) Close(0);
 }
 
-void ScanAssembler::CloseStretch(Timestamp end, Timestamp next_begin) {
+void ScanAssembler::CloseSegment(Timestamp end, Timestamp next_begin) {
   for (std::size_t i = open_.size(); i-- > 0;) {
     const Timestamp at = open_[i].name.first;
     if (Abs(at - end) < Abs(at - next_begin)) Close(i);
@@ -108,8 +104,8 @@ void ScanAssembler::CloseStretch(Timestamp end, Timestamp next_begin) {
 
 // The oldest, unless stamps have jumped: what was left of before the jump will never be whole.
 void ScanAssembler::CloseOneFor(Timestamp stamp) {
-  const bool newest_is_apart = Abs(stamp - open_.back().name.first) > kApart;
-  const bool oldest_is_apart = Abs(stamp - open_.front().name.first) > kApart;
+  const bool newest_is_apart = Abs(stamp - open_.back().name.first) > kScanAssembler.apart;
+  const bool oldest_is_apart = Abs(stamp - open_.front().name.first) > kScanAssembler.apart;
   Close(newest_is_apart && !oldest_is_apart ? open_.size() - 1 : 0);
 }
 
@@ -123,7 +119,8 @@ void ScanAssembler::Close(std::size_t at) {
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
   counters_->num_chunks_missing += sweep.num_missing_chunks;
-  if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kMaxSweepSpan);
+  if (sweep.num_missing_chunks == 0)
+    span_ = std::min(sweep.end - sweep.start, kScanAssembler.max_sweep_span);
   if (partial.chunks.size() == 1) {
     sweep.points = std::move(partial.chunks.front().points);
   } else {
@@ -139,7 +136,7 @@ void ScanAssembler::Close(std::size_t at) {
     }
   }
   closed_names_.push_back(partial.name);
-  if (closed_names_.size() > kMaxClosedNames) closed_names_.pop_front();
+  if (closed_names_.size() > kScanAssembler.max_closed_names) closed_names_.pop_front();
   closed_.push_back(std::move(sweep));
 }
 

@@ -4,31 +4,22 @@
 
 #include <utility>
 
+#include "lio/stream/stream_parameters.hpp"
+
 namespace lio {
-namespace {
-
-constexpr Duration kImuSilence{1'000'000'000};  // the lidar goes on without the IMU after this
-constexpr Duration kScanGap{250'000'000};
-constexpr double kMaxWait_s = 5.0;            // for inertial samples that come late
-constexpr Duration kFarAhead{2'000'000'000};  // a longer gap may be a wrong stamp
-constexpr Duration kBearsOut{500'000'000};    // of a wrong stamp no second one comes so near
-constexpr int kMaxLateInARow = 5;             // then the lidar's clock has moved back for good
-
-}  // namespace
-
 void ScanGate::Add(Sweep sweep) {
   ++counters_->num_scans;
   if (sweep.points.empty()) {
     ++counters_->num_scans_empty;
     return;
   }
-  if (HoldsBack(sweep)) return;
+  if (Quarantine(sweep)) return;
   if (last_end_ && sweep.end <= *last_end_ && DropLate()) return;
-  LetIn(std::move(sweep));
+  Accept(std::move(sweep));
 }
 
-void ScanGate::LetIn(Sweep sweep) {
-  if (last_end_ && sweep.start - *last_end_ > kScanGap) {
+void ScanGate::Accept(Sweep sweep) {
+  if (last_end_ && sweep.start - *last_end_ > kScanGate.scan_gap) {
     ++counters_->num_scan_gaps;
     // Stamps that step ahead of the inertial stream do not make that silent.
     if (imu_silent_at_) imu_silent_at_ = *imu_silent_at_ + (sweep.start - *last_end_);
@@ -36,7 +27,7 @@ void ScanGate::LetIn(Sweep sweep) {
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
   waiting_.push_back(std::make_shared<const Sweep>(std::move(sweep)));
-  while (waiting_span_s() > kMaxWait_s) {
+  while (waiting_span_s() > kScanGate.max_wait_s) {
     waiting_.pop_front();
     ++counters_->num_scans_without_imu;
   }
@@ -45,7 +36,7 @@ void ScanGate::LetIn(Sweep sweep) {
 // Counts a late sweep. False: so many come late that time itself has moved back.
 bool ScanGate::DropLate() {
   ++counters_->num_scans_late;
-  if (++num_late_in_a_row_ < kMaxLateInARow) return true;
+  if (++num_late_in_a_row_ < kScanGate.max_late_in_a_row) return true;
   ++counters_->num_clock_jumps;
   counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
   waiting_.clear();
@@ -54,27 +45,27 @@ bool ScanGate::DropLate() {
 }
 
 // Takes the sweep when it is far ahead; lets one in that was held before when this one follows it.
-bool ScanGate::HoldsBack(Sweep& sweep) {
+bool ScanGate::Quarantine(Sweep& sweep) {
   if (suspect_) {
     const Duration after = sweep.start - suspect_->end;
-    if (sweep.end > suspect_->end && Abs(after) < kBearsOut) {
-      LetIn(std::move(*suspect_));
+    if (sweep.end > suspect_->end && Abs(after) < kScanGate.bears_out) {
+      Accept(std::move(*suspect_));
     } else {
       ++counters_->num_scans_late;
     }
     suspect_.reset();
   }
-  if (!last_end_ || sweep.start - *last_end_ <= kFarAhead) return false;
+  if (!last_end_ || sweep.start - *last_end_ <= kScanGate.far_ahead) return false;
   suspect_ = std::move(sweep);
   return true;
 }
 
 void ScanGate::Flush() {
-  if (suspect_) LetIn(std::move(*suspect_));
+  if (suspect_) Accept(std::move(*suspect_));
   suspect_.reset();
 }
 
-void ScanGate::BeginNewStretch(Timestamp first) {
+void ScanGate::StartSegment(Timestamp first) {
   if (!last_end_ || *last_end_ <= first) return;
   counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
   waiting_.clear();
@@ -93,7 +84,7 @@ SweepPtr ScanGate::Open(std::optional<Timestamp> newest_imu) {
   if (waiting_.empty() || !newest_imu) return nullptr;
   if (*newest_imu >= waiting_.front()->end) return Force();
   if (!imu_silent_at_) imu_silent_at_ = waiting_.front()->start;
-  if (waiting_.back()->end - *imu_silent_at_ <= kImuSilence) return nullptr;
+  if (waiting_.back()->end - *imu_silent_at_ <= kScanGate.imu_silence) return nullptr;
   ++counters_->num_scans_without_imu;
   return Force();
 }

@@ -84,7 +84,7 @@ void SensorStream::EndStep() {
   state_ = State::kWaitingForIdle;
   const Timestamp first = step_.result.accepted.front().stamp;
   const Timestamp newest = *imu_.newest();
-  assembler_.CloseStretch(newest, first);
+  assembler_.CloseSegment(newest, first);
   TakeClosedSweeps();
   while (begin_ && !gate_.empty() && (first < newest || gate_.oldest().end < first)) {
     ++counters_->num_scans_without_imu;
@@ -95,7 +95,7 @@ void SensorStream::EndStep() {
 void SensorStream::StartSegment() {
   state_ = State::kFlowing;
   const ImuSample& first = step_.result.accepted.front();
-  gate_.BeginNewStretch(first.stamp);
+  gate_.StartSegment(first.stamp);
   if (!has_imu_) {
     has_imu_ = true;
     events_.emplace_back(ImuAppeared{first.stamp});

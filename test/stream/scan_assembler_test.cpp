@@ -278,7 +278,7 @@ TEST(ScanAssembler, StretchThatIsOverIsClosedAndNothingElse) {
   Assembly a;
   a.Add(MakeChunk(7, 0));
   a.Add(SetBack(MakeChunk(7, 1)));
-  a.assembler.CloseStretch(MakeChunk(7, 1).stamp, SetBack(MakeChunk(7, 1)).stamp);
+  a.assembler.CloseSegment(MakeChunk(7, 1).stamp, SetBack(MakeChunk(7, 1)).stamp);
   ASSERT_EQ(a.TakeAll().size(), 1u);
   a.assembler.CloseAll();
   const std::vector<Sweep> rest = a.TakeAll();

@@ -156,7 +156,7 @@ TEST(ScanGate, FlushLetsInTheSweepThatIsHeld) {
 TEST(ScanGate, NewStretchInThePastForgetsTheFuture) {
   Gate g;
   g.gate.Add(SweepEnding(100.0));
-  g.gate.BeginNewStretch(StampAt(0.0));
+  g.gate.StartSegment(StampAt(0.0));
   EXPECT_EQ(g.counters.num_scans_without_imu, 1);
   g.gate.Add(SweepEnding(0.2));
   EXPECT_EQ(g.gate.Open(StampAt(0.5))->end, StampAt(0.2));
@@ -166,7 +166,7 @@ TEST(ScanGate, NewStretchInThePastForgetsTheFuture) {
 TEST(ScanGate, NewStretchAheadKeepsWhatWaits) {
   Gate g;
   g.gate.Add(SweepEnding(100.0));
-  g.gate.BeginNewStretch(StampAt(100.0));
+  g.gate.StartSegment(StampAt(100.0));
   EXPECT_FALSE(g.gate.empty());
 }
 

@@ -13,7 +13,34 @@
 
 namespace lio {
 
-// What is known of the motion before anything is matched.
+struct ConstantVelocityParameters {
+  Duration max_unseen{10'000'000'000};  // after a longer time the clock was set, or all is new
+  Duration max_sweep{500'000'000};      // no lidar turns slower than twice a second
+  Duration step{10'000'000};            // of the propagation; a tenth of a sweep of 10 Hz
+  // Process noise: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, its turn rate by
+  // 0.3 rad/s, 1 sigma.
+  double accel_density = 1.5;       // m/s^2/sqrt(Hz)
+  double turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
+  // Nothing is known: a vehicle in a city, one that turns.
+  double start_velocity_std_mps = 15.0;
+  double start_turn_rate_std_radps = 1.0;
+  // A velocity seed is good to a metre per second or so (velocity_search.hpp).
+  double velocity_seed_std_mps = 1.5;
+  // The motion of an earlier tracker, some seconds old.
+  double known_velocity_std_mps = 2.0;
+  double known_turn_rate_std_radps = 0.3;
+  // A time of unknown length without sweeps is taken for half a second.
+  double unseen_s = 0.5;
+  double unseen_shift_m = 1.0;
+  double unseen_turn_rad = 0.2;
+  // With a gyro: also for errors of its scale and of its time stamps.
+  double gyro_density = 5.0e-3;       // rad/s/sqrt(Hz)
+  double gyro_bias_std_radps = 0.02;  // consumer units, 1 deg/s
+};
+
+inline constexpr ConstantVelocityParameters kConstantVelocity;
+
+// The motion as far as it is known before anything is matched.
 struct MotionSeed {
   // Velocity seed: by correlative alignment of bird's-eye views, in the imu's axes [m/s].
   std::optional<Vector3> v_imu_mps;

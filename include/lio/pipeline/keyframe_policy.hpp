@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which scans grow the map: those that show something new. From a standstill every scan repeats the
-// same rings, and a map of many such scans holds the vehicle back when it drives off.
+// Which scans are keyframes and grow the map? Those that show something new: at a standstill every
+// scan repeats the same rings, and a map of many such scans holds the vehicle back when it drives
+// off (docs/filter.md, "Ring lock").
 #pragma once
 
 #include <optional>
@@ -9,6 +10,16 @@
 #include "lio/base/pose.hpp"
 
 namespace lio {
+
+struct KeyframeParameters {
+  // A scan after this much motion shows other surfaces: a fifth of a cell of the map, and the same
+  // for what is 7 m away.
+  double distance_m = 0.2;
+  double angle_rad = 0.03;
+  int max_scans_here = 4;  // enough that cells have the points to count
+};
+
+inline constexpr KeyframeParameters kKeyframe;
 
 class KeyframePolicy {
  public:

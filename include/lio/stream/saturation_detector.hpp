@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Is a sensor of the inertial unit at the end of its range? Its axis then reads the very same value
-// again and again while the others go on changing; how much more there was nobody knows.
+// Is a sensor of the IMU saturated, at the end of its range? Its axis then reads the very same
+// value again and again while the others go on changing; the motion beyond the range is unknown.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace lio {
 
 class SaturationDetector {
  public:
-  // Samples in the order they come; sets what is clipped in the sample. The scales take its units
-  // to rad/s and m/s^2.
+  // Sets is_rate_saturated and is_force_saturated. Samples come in the order of their arrival; the
+  // scales take their units to rad/s and m/s^2.
   void Mark(ImuSample& sample, double rate_scale = 1.0, double force_scale = 1.0);
 
  private:
@@ -22,7 +22,7 @@ class SaturationDetector {
     Vector3 last = Vector3::Zero();
     std::array<int, 3> num_equal{};  // readings in a row that were the same, by axis
 
-    bool IsClipped(const Vector3& reading, double min_range);
+    bool IsSaturated(const Vector3& reading, double min_range);
   };
 
   Triad rates_;

@@ -26,7 +26,7 @@ class ScanAssembler {
   void CloseUpTo(Timestamp stamp);
   void CloseAll();
   // Stamps have jumped from `end` to `next_begin`: closes what is left of the time before.
-  void CloseStretch(Timestamp end, Timestamp next_begin);
+  void CloseSegment(Timestamp end, Timestamp next_begin);
 
   // Closed sweeps in order of time, oldest first.
   std::optional<Sweep> Take();

@@ -31,7 +31,7 @@ class ScanGate {
   // No more sweeps come: lets in the one that is held.
   void Flush();
   // The inertial stream begins anew at `first`: forgets sweeps that were let in as later than that.
-  void BeginNewStretch(Timestamp first);
+  void StartSegment(Timestamp first);
 
   bool empty() const { return waiting_.empty(); }
   const Sweep& oldest() const { return *waiting_.front(); }
@@ -39,9 +39,9 @@ class ScanGate {
   double waiting_span_s() const;
 
  private:
-  void LetIn(Sweep sweep);
+  void Accept(Sweep sweep);
   bool DropLate();
-  bool HoldsBack(Sweep& sweep);
+  bool Quarantine(Sweep& sweep);
 
   Counters* counters_;
   std::deque<SweepPtr> waiting_;

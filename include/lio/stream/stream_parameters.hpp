@@ -44,4 +44,64 @@ struct StreamParameters {
 
 inline constexpr StreamParameters kStream;
 
+// What is believed of an inertial sample before anything is integrated (imu_preprocessor.hpp).
+struct ImuPreprocessorParameters {
+  double max_force_mps2 = 2000.0;  // beyond any accelerometer (200 g)
+  // A longer step in stamps begins a new segment, whatever follows: the filter's own models of a
+  // gap end there.
+  Duration segment_gap{1'000'000'000};
+  Duration jitter{80'000'000};          // a shorter step back is none: drivers deliver in bursts
+  double hole_in_mean_steps = 1.5;      // a sample is missing from here on
+  Duration same_segment{200'000'000};   // suspects that are farther apart belong to no one segment
+  Duration confirmed_gap{200'000'000};  // a gap so long must be confirmed by the samples after it
+  std::size_t confirmations = 5;        // a stray stamp does not come five times in a row
+  // A clock that is set right steps forward by as much as it had gone back, but for so much, and no
+  // more than this share of it.
+  double max_set_right_error_s = 0.1;
+  double set_right_share = 0.25;
+};
+inline constexpr ImuPreprocessorParameters kImuPreprocessor;
+
+// An axis at the end of its range (saturation_detector.hpp).
+struct SaturationParameters {
+  int min_equal = 5;  // equal readings in a row; fewer may be chance where readings are coarse
+  // No sensor's range is smaller. An axis that never reads anything, or gravity without noise, is
+  // not saturated.
+  double min_rate_radps = 0.04;
+  double min_force_mps2 = 12.0;
+};
+inline constexpr SaturationParameters kSaturation;
+
+// Did the lidar's clock step as well? (clock_step_arbiter.hpp)
+struct ClockStepParameters {
+  // The step lies somewhere between two inertial samples, which need not come on time.
+  Duration step_uncertainty{30'000'000};
+  Duration wild{5'000'000'000};     // a chunk that is so far off tells nothing
+  Duration silence{1'000'000'000};  // a lidar without chunks for so long is not seen
+  std::size_t num_chunks = 4;       // that are remembered
+  std::size_t num_lags = 9;         // the lidar may step a message earlier, so their median counts
+};
+inline constexpr ClockStepParameters kClockStep;
+
+// Which chunks make a sweep (scan_assembler.hpp).
+struct ScanAssemblerParameters {
+  Duration max_sweep_span{500'000'000};  // no lidar turns slower than twice a second
+  Duration jitter{20'000'000};           // of a sweep's length
+  Duration apart{1'000'000'000};         // sweeps that follow each other are nearer
+  std::size_t max_open_sweeps = 2;
+  std::size_t max_closed_names = 16;  // later stragglers are dropped as late sweeps
+};
+inline constexpr ScanAssemblerParameters kScanAssembler;
+
+// When sweeps leave for matching (scan_gate.hpp).
+struct ScanGateParameters {
+  Duration imu_silence{1'000'000'000};  // the lidar goes on without the IMU after this
+  Duration scan_gap{250'000'000};       // two sweeps of a 10 Hz lidar are missing
+  double max_wait_s = 5.0;              // for inertial samples that come late
+  Duration far_ahead{2'000'000'000};    // a longer step forward may be a wrong stamp
+  Duration bears_out{500'000'000};      // no second wrong stamp comes so near to the first
+  int max_late_in_a_row = 5;            // then the lidar's clock has moved back for good
+};
+inline constexpr ScanGateParameters kScanGate;
+
 }  // namespace lio
