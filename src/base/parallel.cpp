@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/base/parallel.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -20,11 +19,8 @@ Block BlockAt(std::size_t number, std::size_t count) {
 }  // namespace
 
 struct Workers::Arena {
-  explicit Arena(int num_threads)
-      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(num_threads)),
-        arena(num_threads) {}
+  explicit Arena(int num_threads) : arena(num_threads) {}
 
-  tbb::global_control limit;  // without it there are never more than the machine has cores
   tbb::task_arena arena;
 };
 
