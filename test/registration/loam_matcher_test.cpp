@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What only LOAM's matching against maps does; what every matcher does:
+// Promises of LOAM's matching against maps alone; those of every matcher:
 // test/contract/matcher_contract_test.cpp.
 #include "lio/registration/loam_matcher.hpp"
 
@@ -57,7 +57,7 @@ TEST(LoamMatcher, FindsItsWayBackInARoom) {
 }
 
 // Posts alone do not hold the height.
-TEST(LoamMatcher, UprightEdgesAloneHoldAllButTheHeight) {
+TEST(LoamMatcher, VerticalEdgesAloneConstrainAllButTheHeight) {
   LoamMatcher matcher{LoamOptions{}};
   for (unsigned seed = 1; seed <= 5; ++seed) {
     matcher.Insert(Room(seed, false).View(), Pose::Identity());
@@ -90,7 +90,7 @@ TEST(LoamMatcher, PointsWithoutTagsAreACallersMistake) {
   matcher.Insert(room.View(), Pose::Identity());
   MatchInput input = room.From(Pose::Identity());
   input.tags = input.tags.subspan(1);
-  EXPECT_THROW(matcher.Match(input), std::invalid_argument);
+  EXPECT_THROW((void)matcher.Match(input), std::invalid_argument);
 }
 
 TEST(LoamMatcher, BothMapsCountInItsSizeAndAreCleared) {
