@@ -9,6 +9,7 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(TBB REQUIRED)
+find_package(Boost 1.74 REQUIRED) # headers alone: Boost.Math
 find_package(embree 3 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(BZip2 REQUIRED)

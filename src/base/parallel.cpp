@@ -17,14 +17,18 @@ Block BlockAt(std::size_t number, std::size_t count) {
   return {number, begin, std::min(begin + Workers::kBlockSize, count)};
 }
 
+// No more than the program allows: TBB prints a warning when an arena asks for more.
+int Allowed(int num_threads) {
+  const std::size_t limit =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(std::min(static_cast<std::size_t>(num_threads), limit));
+}
+
 }  // namespace
 
 struct Workers::Arena {
-  explicit Arena(int num_threads)
-      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(num_threads)),
-        arena(num_threads) {}
+  explicit Arena(int num_threads) : arena(Allowed(num_threads)) {}
 
-  tbb::global_control limit;  // without it there are never more than the machine has cores
   tbb::task_arena arena;
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "lio/base/so3.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "lio/filter/sample_lookup.hpp"
 
@@ -31,9 +32,8 @@ using Quat = std::array<T, 4>;  // w x y z, as Ceres has it
 
 template <class T>
 Quat<T> Exp(const T* rotation) {
-  Quat<T> q;
-  ceres::AngleAxisToQuaternion(rotation, q.data());
-  return q;
+  const Eigen::Quaternion<T> q = so3::Exp<T>(Eigen::Map<const so3::Vec3<T>>(rotation));
+  return {q.w(), q.x(), q.y(), q.z()};
 }
 
 template <class T>

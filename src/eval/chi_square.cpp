@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lio/eval/chi_square.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "lio/base/chi_square.hpp"
 
 namespace lio {
-
-double ChiSquareQuantile(double probability, double dof) {
-  return boost::math::quantile(boost::math::chi_squared(dof), probability);
-}
 
 Band MeanBandPerDof(int dof, int num_runs) {
   constexpr double kTail = 0.025;

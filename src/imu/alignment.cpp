@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
+#include "lio/base/so3.hpp"
+
 namespace lio {
 namespace {
 
@@ -20,34 +22,8 @@ template <class T>
 using ConstVec3 = Eigen::Map<const Vec3<T>>;
 template <class T>
 using ConstQuat = Eigen::Map<const Eigen::Quaternion<T>>;
-
-template <class T>
-Vec3<T> Log(const Eigen::Quaternion<T>& q) {
-  const T sign = q.w() < 0.0 ? T(-1.0) : T(1.0);
-  const Vec3<T> v = sign * q.vec();
-  const T w = sign * q.w();
-  const T sine_sq = v.squaredNorm();
-  if (sine_sq < 1e-8) return v * (T(2.0) / w * (T(1.0) - sine_sq / (T(3.0) * w * w)));
-  using std::atan2;
-  using std::sqrt;
-  const T sine = sqrt(sine_sq);
-  return v * (T(2.0) * atan2(sine, w) / sine);
-}
-
-template <class T>
-Eigen::Quaternion<T> Exp(const Vec3<T>& phi) {
-  const T angle_sq = phi.squaredNorm();
-  if (angle_sq < 1e-8) {
-    const Vec3<T> v = phi * (T(0.5) - angle_sq / T(48.0));
-    return Eigen::Quaternion<T>(T(1.0) - angle_sq / T(8.0), v.x(), v.y(), v.z());
-  }
-  using std::cos;
-  using std::sin;
-  using std::sqrt;
-  const T angle = sqrt(angle_sq);
-  const Vec3<T> v = phi * (sin(T(0.5) * angle) / angle);
-  return Eigen::Quaternion<T>(cos(T(0.5) * angle), v.x(), v.y(), v.z());
-}
+using so3::Exp;
+using so3::Log;
 
 // Rotations with errors on the right, as everywhere in this project.
 struct RightError {

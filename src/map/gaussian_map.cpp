@@ -9,27 +9,14 @@
 #include <stdexcept>
 
 #include "lio/map/grazing_incidence.hpp"
+#include "lio/map/map_parameters.hpp"
 
 namespace lio {
 namespace {
 
-// A patch is a plane when it is this much thinner than wide, wide enough in both directions (as a
-// share of the voxel) and its normal is known this well [rad]. From the ring-lock experiments.
-constexpr double kMaxThicknessRatio = 0.1;
-constexpr double kMinWidthPerVoxel = 0.12;
-constexpr double kMaxNormalStd_rad = 0.05;
-// Upright things: height and width are standard deviations; what is seen of a trunk depends on the
-// side it is seen from.
-constexpr double kMinHeightPerVoxel = 0.15;
-constexpr double kMaxUprightWidthPerVoxel = 0.2;
-constexpr double kMinUprightStd_m = 0.06;
-// Sums change little with each point once a cell is well filled: reshape it at this growth.
-constexpr double kReshapeGrowth = 1.1;
-constexpr std::size_t kFetchedAhead = 16;    // points whose memory is asked for before it is needed
-constexpr VoxelKey kNoVoxel = ~VoxelKey{0};  // of no point: keys leave the top bit free
-constexpr std::size_t kFarCellsWalk = 64;    // the walk for far cells takes this many scans
+using Parameters = GaussianMapParameters;
 
-// Can a voxel be there? False also for what is not a number.
+// Can the voxel be expressed? False for coordinates that are not numbers, too.
 bool IsInRange(const Vector3& scaled) {
   return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
 }
@@ -69,9 +56,9 @@ GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
 }
 
 void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const {
-  std::array<Place, kFetchedAhead> places;
-  for (std::size_t begin = 0; begin < points_map.size(); begin += kFetchedAhead) {
-    const std::size_t count = std::min(kFetchedAhead, points_map.size() - begin);
+  std::array<Place, Parameters::kPrefetchDistance> places;
+  for (std::size_t begin = 0; begin < points_map.size(); begin += Parameters::kPrefetchDistance) {
+    const std::size_t count = std::min(Parameters::kPrefetchDistance, points_map.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       places[i] = PlaceOf(points_map[begin + i]);
       index_.Prefetch(places[i].key);
@@ -100,13 +87,14 @@ void GaussianMap::Remove(std::int32_t cell) {
   patches_[ToIndex(cell)] = {};
 }
 
-// Welford's update. A full cell whose shape is still unknown forgets slowly instead of freezing, or
-// a cell filled by single rings while parked would stay a line for ever.
+// Welford's update. A full cell that shows neither a plane nor a vertical structure forgets slowly
+// instead of freezing; otherwise a cell filled by single rings while parked would stay a line for
+// ever.
 void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const {
   if (sums.num_points >= options_.max_cell_points) {
     const double keep = 1.0 - 1.0 / options_.max_cell_points;
     for (double* sum : {&sums.xx, &sums.xy, &sums.xz, &sums.yy, &sums.yz, &sums.zz}) *sum *= keep;
-    sums.shaped_at = 0;
+    sums.fitted_at = 0;
   } else {
     ++sums.num_points;
   }
@@ -128,28 +116,29 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   patch.mean = sums.mean.cast<float>();
   patch.num_points = static_cast<float>(sums.num_points);
   if (sums.num_points < options_.min_cell_points) return;
-  if (sums.num_points < kReshapeGrowth * sums.shaped_at) return;
-  sums.shaped_at = sums.num_points;
+  if (sums.num_points < Parameters::kRefitGrowth * sums.fitted_at) return;
+  sums.fitted_at = sums.num_points;
 
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
-  sums.has_shape = ShapePlane(cov, sums, patch) || ShapeUpright(cov, patch);
-  if (!sums.has_shape) patch.thickness_var = 0.f;
+  sums.is_known = FitPlane(cov, sums, patch) || FitVertical(cov, patch);
+  if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
-bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
+bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
   const double thickness =
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
-  const double min_width = kMinWidthPerVoxel * options_.voxel_m;
+  const double min_width = Parameters::kMinWidthPerVoxel * options_.voxel_m;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
-  const bool is_plane =
-      variance[1] > min_width * min_width && variance[0] < kMaxThicknessRatio * variance[1] &&
-      thickness < kMaxNormalStd_rad * kMaxNormalStd_rad * sums.num_points * variance[1] &&
-      !IsGrazing(normal, sums.view);
+  const bool is_plane = variance[1] > min_width * min_width &&
+                        variance[0] < Parameters::kMaxThicknessRatio * variance[1] &&
+                        thickness < Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad *
+                                        sums.num_points * variance[1] &&
+                        !IsGrazing(normal, sums.view);
   if (!is_plane) return false;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
@@ -159,10 +148,10 @@ bool GaussianMap::ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch&
   return true;
 }
 
-// What stands up is seen in the same place from everywhere, as rings on the ground are not. It must
-// be compact: what fills the cell is only cut out by the cell.
-bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
-  const double min_height = kMinHeightPerVoxel * options_.voxel_m;
+// A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
+// It must be narrow: one that fills the cell is cut off by the cell's sides.
+bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
+  const double min_height = Parameters::kMinHeightPerVoxel * options_.voxel_m;
   if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
   const Vector3 level1 = up_map_.unitOrthogonal();
   const Vector3 level2 = up_map_.cross(level1);
@@ -170,12 +159,12 @@ bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
   level << level1, level2;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
   eigen.computeDirect(level.transpose() * cov * level);
-  const double max_width = kMaxUprightWidthPerVoxel * options_.voxel_m;
+  const double max_width = Parameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
   if (eigen.eigenvalues()[1] > max_width * max_width) return false;
   const Eigen::Vector2d variance =
-      eigen.eigenvalues().cwiseMax(kMinUprightStd_m * kMinUprightStd_m);
+      eigen.eigenvalues().cwiseMax(Parameters::kMinVerticalStd_m * Parameters::kMinVerticalStd_m);
   const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
-  patch.kind = SurfacePatch::Kind::kUpright;
+  patch.kind = SurfacePatch::Kind::kVertical;
   patch.thickness_var = static_cast<float>(variance[0]);
   patch.normal = axes.col(0).cast<float>();
   patch.tangent1_per_std = (axes.col(1) / std::sqrt(variance[1])).cast<float>();
@@ -186,7 +175,8 @@ bool GaussianMap::ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const {
 void GaussianMap::FindCells() {
   cells_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (i + kFetchedAhead < places_.size()) index_.Prefetch(places_[i + kFetchedAhead].key);
+    if (i + Parameters::kPrefetchDistance < places_.size())
+      index_.Prefetch(places_[i + Parameters::kPrefetchDistance].key);
     const VoxelKey key = places_[i].key;
     cells_.push_back(key == kNoVoxel ? kNoCell : FindOrAdd(key));
   }
@@ -207,7 +197,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
   DropFarCells(sensor_map);
 }
 
-// What AddPoints() wants of a cell.
+// Fetches the sums that AddPoints() will change.
 void GaussianMap::Prefetch(std::int32_t cell) const {
   if (cell == kNoCell) return;
   const auto* sums = reinterpret_cast<const char*>(&sums_[ToIndex(cell)]);
@@ -219,11 +209,12 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
   ++scan_number_;
   touched_cells_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (i + kFetchedAhead < cells_.size()) Prefetch(cells_[i + kFetchedAhead]);
+    if (i + Parameters::kPrefetchDistance < cells_.size())
+      Prefetch(cells_[i + Parameters::kPrefetchDistance]);
     const std::int32_t cell = cells_[i];
     if (cell == kNoCell) continue;
     Sums& sums = sums_[ToIndex(cell)];
-    const bool is_frozen = sums.has_shape && sums.num_points >= options_.max_cell_points;
+    const bool is_frozen = sums.is_known && sums.num_points >= options_.max_cell_points;
     if (sums.touched != scan_number_) {
       sums.touched = scan_number_;
       index_.Touch(cell);
@@ -237,7 +228,7 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
 
 void GaussianMap::DropFarCells(const Vector3& sensor_map) {
   if (sums_.empty()) return;
-  const std::size_t num_to_visit = sums_.size() / kFarCellsWalk + 1;
+  const std::size_t num_to_visit = sums_.size() / Parameters::kFarCellsWalk_scans + 1;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::size_t i = 0; i < num_to_visit; ++i) {
     if (++sweep_position_ >= sums_.size()) sweep_position_ = 0;

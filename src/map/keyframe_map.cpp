@@ -8,21 +8,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lio/map/map_parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr double kHeightFactor = 3.0;
-constexpr int kMaxReach = 8;  // voxels: a search never goes farther
-constexpr std::int32_t kCoordinateLimit = kVoxelCoordinateLimit - 2 * kMaxReach;
-
-bool IsInRange(const std::array<std::int32_t, 3>& voxel) {
-  return std::all_of(voxel.begin(), voxel.end(),
-                     [](std::int32_t v) { return std::abs(v) < kCoordinateLimit; });
-}
-
-std::int32_t VoxelInBlock(const std::array<std::int32_t, 3>& voxel) {
-  return (voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3);
-}
+using Parameters = KeyframeMapParameters;
+constexpr int kMaxSearch_voxels = Parameters::kMaxSearch_voxels;
 
 std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
   if (free.empty()) return static_cast<std::int32_t>(next_new);
@@ -33,38 +25,29 @@ std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
 
 double DistanceSq(const Vector3& a, const Vector3& b) {
   const Vector3 d = a - b;
-  return d.head<2>().squaredNorm() + kHeightFactor * kHeightFactor * d.z() * d.z();
+  constexpr double kFactor = Parameters::kHeightFactor;
+  return d.head<2>().squaredNorm() + kFactor * kFactor * d.z() * d.z();
 }
 
 }  // namespace
 
 KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
-    : options_(options), inverse_voxel_(1.0 / options.voxel_m) {
+    : options_(options), blocks_(options.voxel_m, kMaxSearch_voxels) {
   if (!(options.voxel_m > 0) || options.max_points < 1 || !(options.max_distance_m > 0) ||
       options.num_near < 1 || options.num_hull < 0) {
     throw std::invalid_argument("KeyframeMap: an option is out of range");
   }
 }
 
-Vector3 KeyframeMap::CornerOf(const Block& block) const {
-  return kBlockEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
-}
-
-std::int32_t KeyframeMap::AddPoint(const PointWithNormal& shape_map, const Vector3& position_map,
+std::int32_t KeyframeMap::AddPoint(const PointWithNormal& point_map, const Vector3& position_map,
                                    std::int32_t keyframe) {
-  const VoxelCell cell = VoxelOf(inverse_voxel_ * position_map);
-  if (!IsInRange(cell)) return kNone;
-  const VoxelCell at = BlockOf(cell);
-  const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
-  if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
-  Block& block = blocks_[ToIndex(added.voxel)];
-  if (added.is_new) {
-    block.occupied = 0;
-    block.at = at;
-  }
-  const std::int32_t voxel = VoxelInBlock(cell);
+  const VoxelCell cell = blocks_.VoxelAt(position_map);
+  if (!blocks_.IsInRange(cell)) return kNone;
+  const VoxelIndex::Added added = blocks_.FindOrAdd(cell);
+  Blocks::Block& block = blocks_.block(added.voxel);
+  const std::int32_t voxel = Blocks::InBlock(cell);
   const std::uint64_t bit = std::uint64_t{1} << voxel;
-  std::int32_t& head = block.first_node[ToIndex(voxel)];
+  std::int32_t& head = block.voxels[ToIndex(voxel)];
   if (!(block.occupied & bit)) head = kNone;
   block.occupied |= bit;
   if (head == kNone || nodes_[ToIndex(head)].count == kNodeSize) {
@@ -76,9 +59,9 @@ std::int32_t KeyframeMap::AddPoint(const PointWithNormal& shape_map, const Vecto
   }
   const std::int32_t point = Take(free_points_, points_.size());
   if (ToIndex(point) == points_.size()) points_.emplace_back();
-  const Eigen::Vector3f local = (position_map - CornerOf(block)).cast<float>();
-  points_[ToIndex(point)] = {shape_map, added.voxel, voxel};
-  points_[ToIndex(point)].shape.position = local;
+  const Eigen::Vector3f local = (position_map - blocks_.CornerOf(block)).cast<float>();
+  points_[ToIndex(point)] = {point_map, added.voxel, voxel};
+  points_[ToIndex(point)].value.position = local;
   Node& node = nodes_[ToIndex(head)];
   const auto i = ToIndex(node.count++);
   node.x[i] = local.x();
@@ -93,8 +76,8 @@ std::int32_t KeyframeMap::AddPoint(const PointWithNormal& shape_map, const Vecto
 // The last point of the chain's first node fills the gap.
 void KeyframeMap::RemovePoint(std::int32_t point) {
   const Point& removed = points_[ToIndex(point)];
-  Block& block = blocks_[ToIndex(removed.block)];
-  std::int32_t& head = block.first_node[ToIndex(removed.voxel)];
+  Blocks::Block& block = blocks_.block(removed.block);
+  std::int32_t& head = block.voxels[ToIndex(removed.voxel)];
   Node& first = nodes_[ToIndex(head)];
   const auto last = ToIndex(first.count - 1);
   for (std::int32_t at = head; at != kNone; at = nodes_[ToIndex(at)].next) {
@@ -115,7 +98,7 @@ void KeyframeMap::RemovePoint(std::int32_t point) {
     head = first.next;
     free_nodes_.push_back(emptied);
     if (head == kNone) block.occupied &= ~(std::uint64_t{1} << removed.voxel);
-    if (block.occupied == 0) index_.Remove(removed.block);
+    if (block.occupied == 0) blocks_.Remove(removed.block);
   }
   free_points_.push_back(point);
   --num_points_;
@@ -140,9 +123,9 @@ void KeyframeMap::Add(std::span<const PointWithNormal> points_kf, const Pose& T_
   const Eigen::Matrix3f rotation = T_map_kf.rotation.toRotationMatrix().cast<float>();
   for (const PointWithNormal& point : points_kf) {
     if (!point.HasNormal()) continue;
-    PointWithNormal shape = point;
-    shape.normal = rotation * point.normal;
-    const std::int32_t added = AddPoint(shape, T_map_kf * point.position.cast<double>(), number);
+    PointWithNormal rotated = point;
+    rotated.normal = rotation * point.normal;
+    const std::int32_t added = AddPoint(rotated, T_map_kf * point.position.cast<double>(), number);
     if (added != kNone) frame.points.push_back(added);
   }
 
@@ -231,14 +214,14 @@ struct KeyframeMap::Search {
   Vector3 query;
   VoxelCell voxel;
   // Squared distance from the query to the voxels `offset` away along an axis [m^2].
-  std::array<std::array<float, 2 * kMaxReach + 1>, 3> gap_sq;
+  std::array<std::array<float, 2 * kMaxSearch_voxels + 1>, 3> gap_sq;
   float best_sq;
   Hit best;
 };
 
-void KeyframeMap::SearchVoxel(const Block& block, std::size_t voxel, const Eigen::Vector3f& query,
-                              Search& search) const {
-  for (std::int32_t at = block.first_node[voxel]; at != kNone; at = nodes_[ToIndex(at)].next) {
+void KeyframeMap::SearchVoxel(const Blocks::Block& block, std::size_t voxel,
+                              const Eigen::Vector3f& query, Search& search) const {
+  for (std::int32_t at = block.voxels[voxel]; at != kNone; at = nodes_[ToIndex(at)].next) {
     const Node& node = nodes_[ToIndex(at)];
     std::array<float, kNodeSize> distance_sq;
     for (std::size_t i = 0; i < kNodeSize; ++i) {  // all of them: this becomes vector code
@@ -259,48 +242,42 @@ void KeyframeMap::SearchVoxel(const Block& block, std::size_t voxel, const Eigen
 
 // All voxels within so many voxels of the query's own, block by block, each only when it can hold
 // something nearer.
-void KeyframeMap::SearchAround(Search& search, int reach_voxels) const {
+void KeyframeMap::SearchAround(Search& search, int radius_voxels) const {
   VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = search.voxel[i] - reach_voxels;
-    high[i] = search.voxel[i] + reach_voxels;
+    low[i] = search.voxel[i] - radius_voxels;
+    high[i] = search.voxel[i] + radius_voxels;
   }
   const auto gap_sq = [&](std::size_t axis, std::int32_t voxel) {
-    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] + kMaxReach)];
+    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] + kMaxSearch_voxels)];
   };
   const auto is_outside = [&](std::size_t axis, std::int32_t voxel) {
     return voxel < low[axis] || voxel > high[axis];
   };
-  const auto search_block = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::int32_t number = index_.Find(PackVoxel(x, y, z));
-    if (number == VoxelIndex::kNone) return;
-    const Block& block = blocks_[ToIndex(number)];
-    const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
+  blocks_.ForEachBlock(low, high, [&](std::int32_t, const Blocks::Block& block) {
+    const Eigen::Vector3f query = (search.query - blocks_.CornerOf(block)).cast<float>();
     for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
       const int i = std::countr_zero(bits);
-      const VoxelCell voxel{kBlockEdge * x + (i & 3), kBlockEdge * y + (i >> 2 & 3),
-                            kBlockEdge * z + (i >> 4)};
+      const VoxelCell voxel{kBlockEdge * block.at[0] + (i & 3),
+                            kBlockEdge * block.at[1] + (i >> 2 & 3),
+                            kBlockEdge * block.at[2] + (i >> 4)};
       if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) continue;
       if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
         SearchVoxel(block, ToIndex(i), query, search);
       }
     }
-  };
-  ForEachVoxel(BlockOf(low), BlockOf(high), search_block);
+  });
 }
 
 KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,
                                           std::int32_t near) const {
-  Search search{query_map,
-                VoxelOf(inverse_voxel_ * query_map),
-                {},
-                static_cast<float>(radius_m * radius_m),
-                {}};
-  if (!IsInRange(search.voxel)) return search.best;
+  Search search{
+      query_map, blocks_.VoxelAt(query_map), {}, static_cast<float>(radius_m * radius_m), {}};
+  if (!blocks_.IsInRange(search.voxel)) return search.best;
   if (near != kNone) {
     const Point& point = points_[ToIndex(near)];
-    const Vector3 local = query_map - CornerOf(blocks_[ToIndex(point.block)]);
-    const Eigen::Vector3f from_query = point.shape.position - local.cast<float>();
+    const Vector3 local = query_map - blocks_.CornerOf(blocks_.block(point.block));
+    const Eigen::Vector3f from_query = point.value.position - local.cast<float>();
     if (from_query.squaredNorm() < search.best_sq) {
       search.best_sq = from_query.squaredNorm();
       search.best = {near, from_query};
@@ -309,17 +286,18 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
   double nearest_side = 1.0;  // of the query's voxel, in voxels
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at =
-        inverse_voxel_ * query_map[static_cast<Eigen::Index>(axis)] - search.voxel[axis];
+        blocks_.Scaled(query_map[static_cast<Eigen::Index>(axis)]) - search.voxel[axis];
     nearest_side = std::min({nearest_side, at, 1.0 - at});
-    for (int offset = -kMaxReach; offset <= kMaxReach; ++offset) {
+    for (int offset = -kMaxSearch_voxels; offset <= kMaxSearch_voxels; ++offset) {
       const double gap = offset > 0 ? offset - at : (offset < 0 ? at - offset - 1.0 : 0.0);
-      search.gap_sq[axis][ToIndex(offset + kMaxReach)] =
+      search.gap_sq[axis][ToIndex(offset + kMaxSearch_voxels)] =
           static_cast<float>(gap * gap * options_.voxel_m * options_.voxel_m);
     }
   }
-  const int reach = std::min(static_cast<int>(std::ceil(radius_m * inverse_voxel_)), kMaxReach);
-  for (const int shells : {0, 1, reach}) {  // what is found near makes the rest of the search short
-    SearchAround(search, std::min(shells, reach));
+  const int radius_voxels =
+      std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))), kMaxSearch_voxels);
+  for (const int shells : {0, 1, radius_voxels}) {  // a near hit makes the rest of the search short
+    SearchAround(search, std::min(shells, radius_voxels));
     const double searched_m = options_.voxel_m * (shells + nearest_side);
     if (searched_m > 0.0 && search.best_sq <= searched_m * searched_m) break;
   }
@@ -327,16 +305,15 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
 }
 
 int KeyframeMap::CountAt(const Vector3& point_map) const {
-  const VoxelCell cell = VoxelOf(inverse_voxel_ * point_map);
-  if (!IsInRange(cell)) return 0;
-  const std::int32_t number = index_.Find(PackVoxel(cell[0] >> 2, cell[1] >> 2, cell[2] >> 2));
-  if (number == VoxelIndex::kNone) return 0;
-  const Block& block = blocks_[ToIndex(number)];
-  const std::int32_t voxel = VoxelInBlock(cell);
+  const VoxelCell cell = blocks_.VoxelAt(point_map);
+  if (!blocks_.IsInRange(cell)) return 0;
+  const std::int32_t number = blocks_.Find(cell);
+  if (number == Blocks::kNone) return 0;
+  const Blocks::Block& block = blocks_.block(number);
+  const std::int32_t voxel = Blocks::InBlock(cell);
   if (!(block.occupied >> voxel & 1)) return 0;
   int count = 0;
-  for (std::int32_t at = block.first_node[ToIndex(voxel)]; at != kNone;
-       at = nodes_[ToIndex(at)].next) {
+  for (std::int32_t at = block.voxels[ToIndex(voxel)]; at != kNone; at = nodes_[ToIndex(at)].next) {
     count += nodes_[ToIndex(at)].count;
   }
   return count;
@@ -357,8 +334,8 @@ KeyframeMap::Nearest KeyframeMap::NearestKeyframe(const Vector3& place_map) cons
 }
 
 std::size_t KeyframeMap::memory_bytes() const {
-  return index_.memory_bytes() + blocks_.capacity() * sizeof(Block) +
-         nodes_.capacity() * sizeof(Node) + points_.capacity() * (sizeof(Point) + 4);
+  return blocks_.memory_bytes() + nodes_.capacity() * sizeof(Node) +
+         points_.capacity() * (sizeof(Point) + 4);
 }
 
 }  // namespace lio

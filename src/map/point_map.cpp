@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lio/map/map_parameters.hpp"
+
 namespace lio {
 namespace {
 
@@ -32,7 +34,7 @@ struct AxisMasks {
 };
 constexpr AxisMasks kAxisMasks;
 
-constexpr int kMaxReach = 12;  // voxels: a search never goes farther
+constexpr int kMaxSearch_voxels = PointMapParameters::kMaxSearch_voxels;
 
 }  // namespace
 
@@ -61,127 +63,102 @@ struct PointMap::Search {
 };
 
 PointMap::PointMap(const PointMapOptions& options)
-    : options_(options), inverse_voxel_(1.0 / options.voxel_m) {
+    : options_(options), blocks_(options.voxel_m, kMaxSearch_voxels) {
   if (!(options.voxel_m > 0) || options.max_voxel_points < 1 || options.max_voxels < 1 ||
       !(options.max_distance_m > 0)) {
     throw std::invalid_argument("PointMap: an option is out of range");
   }
 }
 
-bool PointMap::IsInRange(const VoxelCell& voxel) {
-  return std::all_of(voxel.begin(), voxel.end(), [](std::int32_t v) {
-    return std::abs(v) < kVoxelCoordinateLimit - 2 * kMaxReach;
-  });
-}
-
-Vector3 PointMap::CornerOf(const Block& block) const {
-  return kBlockEdge * options_.voxel_m * Vector3(block.at[0], block.at[1], block.at[2]);
-}
-
 // All voxels within so many voxels of the query's own, block by block.
-void PointMap::SearchAround(Search& search, int reach_voxels) const {
+void PointMap::SearchAround(Search& search, int radius_voxels) const {
   search.found.count = 0;
   VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = search.voxel[i] - reach_voxels;
-    high[i] = search.voxel[i] + reach_voxels;
+    low[i] = search.voxel[i] - radius_voxels;
+    high[i] = search.voxel[i] + radius_voxels;
   }
   const auto mask_along = [&](std::size_t axis, std::int32_t block) {
     const std::int32_t corner = block * kBlockEdge;
     return kAxisMasks.of[axis][ToIndex(std::max(low[axis] - corner, 0))]
                         [ToIndex(std::min(high[axis] - corner, kBlockEdge - 1))];
   };
-  const auto search_block = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::int32_t number = index_.Find(PackVoxel(x, y, z));
-    if (number == VoxelIndex::kNone) return;
-    const Block& block = blocks_[ToIndex(number)];
-    const Eigen::Vector3f query = (search.query - CornerOf(block)).cast<float>();
-    const std::uint64_t mask = mask_along(0, x) & mask_along(1, y) & mask_along(2, z);
+  blocks_.ForEachBlock(low, high, [&](std::int32_t number, const Blocks::Block& block) {
+    const Eigen::Vector3f query = (search.query - blocks_.CornerOf(block)).cast<float>();
+    const std::uint64_t mask =
+        mask_along(0, block.at[0]) & mask_along(1, block.at[1]) & mask_along(2, block.at[2]);
     for (std::uint64_t bits = block.occupied & mask; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-      const Eigen::Vector3f from_query = block.mean[i].head<3>() - query;
-      search.Offer({from_query, from_query.squaredNorm(), block.mean[i].w(), number});
+      const Eigen::Vector3f from_query = block.voxels[i].head<3>() - query;
+      search.Offer({from_query, from_query.squaredNorm(), block.voxels[i].w(), number});
     }
-  };
-  ForEachVoxel(BlockOf(low), BlockOf(high), search_block);
+  });
 }
 
 PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,
                                            double radius_m) const {
   Search search{query_map,
-                VoxelOf(inverse_voxel_ * query_map),
+                blocks_.VoxelAt(query_map),
                 std::min(wanted, kMaxNeighbours),
                 static_cast<float>(radius_m * radius_m),
                 {}};
-  if (!IsInRange(search.voxel)) return search.found;
+  if (!blocks_.IsInRange(search.voxel)) return search.found;
   SearchAround(search, 1);
-  const int reach = std::min(static_cast<int>(std::ceil(radius_m * inverse_voxel_)), kMaxReach);
-  if (search.found.count < search.wanted && reach > 1) SearchAround(search, reach);
+  const int radius_voxels =
+      std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))), kMaxSearch_voxels);
+  if (search.found.count < search.wanted && radius_voxels > 1) SearchAround(search, radius_voxels);
   return search.found;
 }
 
 PointMap::Content PointMap::ContentAt(const Vector3& point_map) const {
-  const VoxelCell voxel = VoxelOf(inverse_voxel_ * point_map);
+  const VoxelCell voxel = blocks_.VoxelAt(point_map);
   Content content;
-  if (!IsInRange(voxel)) return content;
+  if (!blocks_.IsInRange(voxel)) return content;
   content.key = PackVoxel(voxel[0], voxel[1], voxel[2]);
-  const std::int32_t number = index_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
-  if (number == VoxelIndex::kNone) return content;
-  const Block& block = blocks_[ToIndex(number)];
-  const auto i = ToIndex((voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3));
+  const std::int32_t number = blocks_.Find(voxel);
+  if (number == Blocks::kNone) return content;
+  const Blocks::Block& block = blocks_.block(number);
+  const auto i = ToIndex(Blocks::InBlock(voxel));
   if (!(block.occupied >> i & 1)) return content;
-  content.num_points = static_cast<int>(block.mean[i].w());
+  content.num_points = static_cast<int>(block.voxels[i].w());
   content.is_frozen = content.num_points >= options_.max_voxel_points;
   return content;
 }
 
 void PointMap::AddPoint(const Vector3& point_map) {
-  const VoxelCell voxel = VoxelOf(inverse_voxel_ * point_map);
-  if (!IsInRange(voxel)) return;
-  const VoxelCell at = BlockOf(voxel);
-  const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
-  if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
-  Block& block = blocks_[ToIndex(added.voxel)];
-  if (added.is_new) {
-    block.occupied = 0;
-    block.at = at;
-  } else {
-    index_.Touch(added.voxel);
-  }
-  const auto i = ToIndex((voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3));
-  Eigen::Vector4f& mean = block.mean[i];
+  const VoxelCell voxel = blocks_.VoxelAt(point_map);
+  if (!blocks_.IsInRange(voxel)) return;
+  const VoxelIndex::Added added = blocks_.FindOrAdd(voxel);
+  if (!added.is_new) blocks_.Touch(added.voxel);
+  Blocks::Block& block = blocks_.block(added.voxel);
+  const auto i = ToIndex(Blocks::InBlock(voxel));
+  Mean& mean = block.voxels[i];
   if (!(block.occupied >> i & 1)) {
     block.occupied |= std::uint64_t{1} << i;
     mean.setZero();
     ++num_voxels_;
   }
   if (mean.w() >= static_cast<float>(options_.max_voxel_points)) return;
-  const Eigen::Vector3f local = (point_map - CornerOf(block)).cast<float>();
+  const Eigen::Vector3f local = (point_map - blocks_.CornerOf(block)).cast<float>();
   mean.w() += 1.f;
   mean.head<3>() += (local - mean.head<3>()) / mean.w();
 }
 
 void PointMap::Remove(std::int32_t block) {
-  num_voxels_ -= static_cast<std::size_t>(std::popcount(blocks_[ToIndex(block)].occupied));
-  blocks_[ToIndex(block)].occupied = 0;
-  index_.Remove(block);
+  num_voxels_ -= static_cast<std::size_t>(std::popcount(blocks_.block(block).occupied));
+  blocks_.Remove(block);
 }
 
 void PointMap::Insert(std::span<const Vector3> points_map, const Vector3& centre_map) {
   for (const Vector3& point : points_map) AddPoint(point);
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   const Vector3 to_centre = Vector3::Constant(0.5 * kBlockEdge * options_.voxel_m);
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(blocks_.size()); ++i) {
-    if (!index_.IsUsed(i)) continue;
-    if ((CornerOf(blocks_[ToIndex(i)]) + to_centre - centre_map).squaredNorm() > limit_sq) {
-      Remove(i);
-    }
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(blocks_.capacity()); ++i) {
+    if (!blocks_.IsUsed(i)) continue;
+    const Vector3 centre = blocks_.CornerOf(blocks_.block(i)) + to_centre;
+    if ((centre - centre_map).squaredNorm() > limit_sq) Remove(i);
   }
-  while (num_voxels_ > static_cast<std::size_t>(options_.max_voxels)) Remove(index_.oldest());
-}
-
-std::size_t PointMap::memory_bytes() const {
-  return blocks_.capacity() * sizeof(Block) + index_.memory_bytes();
+  while (num_voxels_ > static_cast<std::size_t>(options_.max_voxels)) Remove(blocks_.oldest());
 }
 
 }  // namespace lio

@@ -5,16 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
-namespace {
-
-// Held directions of streets have ratios of 40 and more, the axis of a corridor 0.05 to 1.6; 5 and
-// 10 give the same results (docs/filter.md).
-constexpr double kMinInformationRatio = 8.0;
-constexpr double kWeakStd_m = 100.0;
-
-}  // namespace
-
 DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information) {
   DirectionSplit split;
   const double rotation = information.bottomRightCorner<3, 3>().trace();
@@ -28,9 +21,10 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_
   split.directions = eigen.eigenvectors();
   for (int i = 0; i < 6; ++i) {
     const Vector6 v = split.directions.col(i);
-    const bool is_held =
-        split.eigenvalues[i] > 0 && split.eigenvalues[i] > kMinInformationRatio * v.dot(noise * v);
-    if (!is_held) split.degenerate_mask |= 1u << i;
+    const bool is_observable =
+        split.eigenvalues[i] > 0 &&
+        split.eigenvalues[i] > DegeneracyParameters::kMinInformationRatio * v.dot(noise * v);
+    if (!is_observable) split.degenerate_mask |= 1u << i;
   }
   return split;
 }
@@ -73,12 +67,13 @@ Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_c
 }
 
 Matrix6 DegenerateCovariance(const DirectionSplit& split) {
+  constexpr double kStd_m = DegeneracyParameters::kDegenerateStd_m;
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   Matrix6 cov = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {
     if (!(split.degenerate_mask & (1u << i))) continue;
     const Vector6 v = inverse_scale.cwiseProduct(split.directions.col(i));
-    cov += kWeakStd_m * kWeakStd_m * v * v.transpose();
+    cov += kStd_m * kStd_m * v * v.transpose();
   }
   return cov;
 }

@@ -8,32 +8,24 @@
 #include <numbers>
 
 #include "lio/registration/match_loop.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/well_constrained_translation.hpp"
 #include "registration/scan_normals.hpp"
 
 namespace lio {
 namespace {
 
-constexpr int kMinMatched = 50;
-// How far a surface is taken to reach, m^2: what counts against a pair whose surfaces are askew.
-constexpr float kTangentVar = 1.f;
-constexpr float kShapelessVar = 0.04f;  // m^2, of a point on no known surface: it may be an edge
-constexpr float kMinCosine = 0.7f;      // surfaces more askew are not the same one
-constexpr double kSearchSigmas = 3.0;
-constexpr double kMinSearch_m = 0.7;      // the map's own resolution: keyframes' points are so far
-constexpr double kSearchPerRange = 0.05;  // apart, two beams where these spread more
-constexpr double kIndexVoxel_m = 0.5;
-constexpr double kClusterVoxel_m = 1.0;  // points of one such voxel share the errors of its shapes
-constexpr int kFarOffIterationFactor = 3;
+using Parameters = GicpParameters;
+using Correspondence = CorrespondenceParameters;
+
+constexpr int kMinMatched = MatchParameters::kMinMatched;
+// A point's last neighbour where there is none: not sought yet, or none within the first search.
 constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
-constexpr double kStill_m = 5e-3;      // neighbours are kept while no point within ...
-constexpr double kLever_m = 20.0;      // ... this range has moved farther
-constexpr double kOpennessKeep = 0.9;  // share of the old value in each scan's smoothing
 
 KeyframeMapOptions MapOptions(const GicpOptions& options) {
-  return {kIndexVoxel_m, options.max_points, options.max_distance_m, options.num_near_keyframes,
-          options.num_hull_keyframes};
+  return {Parameters::kMapVoxel_m, options.max_points, options.max_distance_m,
+          options.num_near_keyframes, options.num_hull_keyframes};
 }
 
 }  // namespace
@@ -41,7 +33,7 @@ KeyframeMapOptions MapOptions(const GicpOptions& options) {
 GicpMatcher::GicpMatcher(const GicpOptions& options)
     : options_(options),
       map_(MapOptions(options)),
-      shapes_(std::make_unique<ScanNormals>(options)) {}
+      normals_(std::make_unique<ScanNormals>(options)) {}
 
 GicpMatcher::~GicpMatcher() = default;
 
@@ -62,8 +54,8 @@ void GicpMatcher::UpdateOpenness(std::span<const Eigen::Vector3f> points_imu) {
   const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
   std::nth_element(ranges.begin(), middle, ranges.end());
   const auto median = static_cast<double>(*middle);
-  openness_m_ =
-      openness_m_ == 0.0 ? median : kOpennessKeep * openness_m_ + (1.0 - kOpennessKeep) * median;
+  constexpr double kKeep = Parameters::kOpennessKeep;
+  openness_m_ = openness_m_ == 0.0 ? median : kKeep * openness_m_ + (1.0 - kKeep) * median;
 }
 
 bool GicpMatcher::IsKeyframe(const Pose& T_map_imu) const {
@@ -79,10 +71,10 @@ bool GicpMatcher::IsKeyframe(const Pose& T_map_imu) const {
 void GicpMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   if (openness_m_ == 0.0) UpdateOpenness(scan.points_imu);
   if (!IsKeyframe(T_map_imu)) return;
-  shapes_->SetScan(scan.points_imu);
+  normals_->SetScan(scan.points_imu);
   std::vector<PointWithNormal> points;
   points.reserve(scan.points_imu.size());
-  for (const Eigen::Vector3f& point : scan.points_imu) points.push_back(shapes_->At(point));
+  for (const Eigen::Vector3f& point : scan.points_imu) points.push_back(normals_->At(point));
   map_.Add(points, T_map_imu);
 }
 
@@ -98,7 +90,8 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
   const bool is_first = near_.empty();
   const Pose motion = sought_at_.Inverse() * T_map_imu;
   if (!is_first &&
-      motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() < kStill_m) {
+      motion.translation.norm() + Correspondence::kLever_m * LogSo3(motion.rotation).norm() <
+          Parameters::kKeepPairs_m) {
     MovePairs(T_map_imu);
     return;
   }
@@ -110,40 +103,40 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
     if (near_[i] == kNowhere) continue;
     const Vector3 point_imu = source_[i].position.cast<double>();
     const double range = point_imu.norm();
-    const double search =
-        kSearchSigmas * radius.StdAt(range) + std::max(kMinSearch_m, kSearchPerRange * range);
+    const double search = Correspondence::kSearchSigmas * radius.StdAt(range) +
+                          std::max(Parameters::kMinSearch_m, Parameters::kSearchPerRange * range);
     const KeyframeMap::Hit hit =
         map_.FindNearest(rotation * point_imu + T_map_imu.translation, search, near_[i]);
     near_[i] = hit.point;
     if (hit.point >= 0) pairs_.push_back({static_cast<std::int32_t>(i), hit.point, hit.from_query});
-    // The first search reaches as far as the guess may be off: where it finds nothing is nothing.
+    // The first search goes as far as the guess may be off: later ones would find nothing either.
     if (hit.point < 0 && is_first && !is_far_off_) near_[i] = kNowhere;
   }
 }
 
-// A neighbour that is far along the surface may lie where this has bent away from its plane.
+// A neighbour that is far along the surface may lie where the surface has bent away from its plane.
 // The pair's covariance C_q + R C_p R' has its least eigenvalue along the bisector of the normals.
 GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& rotation,
-                                      float reach_var) const {
+                                      float radius_var) const {
   const PointWithNormal& source = source_[static_cast<std::size_t>(pair.point)];
-  const PointWithNormal& target = map_.shape(pair.target);
+  const PointWithNormal& target = map_.point(pair.target);
   Term term;
-  if (!source.HasNormal() && !uses_shapeless_) return term;
-  float variance = reach_var;
+  if (!source.HasNormal() && !uses_rank_deficient_) return term;
+  float variance = radius_var;
   float bend_var = 0.f;
   if (source.HasNormal()) {
     const Eigen::Vector3f normal = rotation * source.normal;
     const float cosine = normal.dot(target.normal);
     const float aligned = std::abs(cosine);
-    if (aligned < kMinCosine) return term;
+    if (aligned < Parameters::kMinCosine) return term;
     term.direction = (target.normal + std::copysign(1.f, cosine) * normal).normalized();
     variance += 0.5f * (1.f + aligned) * (source.thickness_var + target.thickness_var) +
-                (1.f - aligned) * kTangentVar;
+                (1.f - aligned) * Parameters::kTangentVar_m2;
     term.tilt_var = 0.25f * (source.normal_var + target.normal_var);
     bend_var = 2.f * (source.bend_var + target.bend_var);  // the same way, at worst
   } else {
     term.direction = target.normal;
-    variance += target.thickness_var + kShapelessVar;
+    variance += target.thickness_var + Parameters::kNoNormalVar_m2;
     term.tilt_var = target.normal_var;
     bend_var = target.bend_var;
   }
@@ -159,12 +152,12 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
 
 MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radius,
                                  PoseScores* scores) {
-  uses_shapeless_ = false;
+  uses_rank_deficient_ = false;
   const MatchSums sums = SumTerms(T_map_imu, radius, scores);
-  const bool is_held =
+  const bool is_observable =
       sums.num_matched >= kMinMatched && SplitDirections(sums).degenerate_mask == 0;
-  if (is_held || !has_shapeless_) return sums;
-  uses_shapeless_ = true;
+  if (is_observable || !has_rank_deficient_) return sums;
+  uses_rank_deficient_ = true;
   return SumTerms(T_map_imu, radius, scores);
 }
 
@@ -176,8 +169,8 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
   if (scores != nullptr) scores->Reset(pairs_.size());
   for (const Pair& pair : pairs_) {
     const Eigen::Vector3f& point = source_[static_cast<std::size_t>(pair.point)].position;
-    const double reach = radius.StdAt(point.norm());
-    const Term term = TermOf(pair, rotation, static_cast<float>(reach * reach));
+    const double std = radius.StdAt(point.norm());
+    const Term term = TermOf(pair, rotation, static_cast<float>(std * std));
     if (term.weight == 0.f) continue;
     const Eigen::Vector3f normal = rotation.transpose() * term.direction;
     const Vector6f row = JacobianRow(point, normal);
@@ -189,7 +182,7 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
     }
     ++sums.num_matched;
     if (scores == nullptr) continue;
-    const Vector3 place = (T_map_imu * point.cast<double>()) / kClusterVoxel_m;
+    const Vector3 place = (T_map_imu * point.cast<double>()) / Parameters::kClusterVoxel_m;
     const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v)); };
     const VoxelKey key = PackVoxel(cell(place.x()), cell(place.y()), cell(place.z()));
     scores->Add(clusters.FindOrAdd(key).voxel, score);
@@ -249,12 +242,12 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
       input.scan_points_imu.empty() ? input.points_imu : input.scan_points_imu;
   UpdateOpenness(scan);
   if (map_.num_keyframes() == 0) return result;
-  shapes_->SetScan(scan);
-  has_shapeless_ = !IsTranslationWellConstrained(input);
+  normals_->SetScan(scan);
+  has_rank_deficient_ = !IsTranslationWellConstrained(input);
   source_.clear();
   for (const Eigen::Vector3f& point : input.points_imu) {
-    const PointWithNormal shaped = shapes_->At(point);
-    if (shaped.HasNormal() || has_shapeless_) source_.push_back(shaped);
+    const PointWithNormal with_normal = normals_->At(point);
+    if (with_normal.HasNormal() || has_rank_deficient_) source_.push_back(with_normal);
   }
   map_.ChooseSubmap(input.T_map_imu_guess.translation);
   near_.clear();
@@ -267,8 +260,9 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
-  const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
-                      options_.converged_step_m, options_.converged_step_rad};
+  const StopRule rule{
+      options_.max_iterations * (input.is_far_off ? Parameters::kFarOffIterationFactor : 1),
+      options_.converged_step_m, options_.converged_step_rad};
   if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_map_imu, result)) {
     Finish(input, T_map_imu, result);
   }

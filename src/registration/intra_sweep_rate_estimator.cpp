@@ -4,16 +4,10 @@
 
 #include <Eigen/Cholesky>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
-namespace {
-
-// What is known without the scan, one sigma: the pose is where matching left it, and no rate that
-// was deskewed by is off by more.
-constexpr double kPoseStd_m = 0.1;
-constexpr double kPoseStd_rad = 0.02;
-constexpr double kRateStd_radps = 0.5;
-
-}  // namespace
+using Parameters = IntraSweepRateParameters;
 
 void IntraSweepRateEstimator::Reset(std::size_t num_parts) {
   information_.setZero();
@@ -33,8 +27,8 @@ void IntraSweepRateEstimator::Add(std::int32_t part, const PoseScores::Score& ro
 
 TurnRate IntraSweepRateEstimator::Solve(double curvature_ratio) const {
   Eigen::Matrix<double, kDims, 1> prior_std;
-  prior_std << Vector3::Constant(kPoseStd_m), Vector3::Constant(kPoseStd_rad),
-      Vector3::Constant(kRateStd_radps);
+  prior_std << Vector3::Constant(Parameters::kPoseStd_m),
+      Vector3::Constant(Parameters::kPoseStd_rad), Vector3::Constant(Parameters::kRateStd_radps);
   const Eigen::Matrix<double, kDims, 1> prior = prior_std.cwiseAbs2().cwiseInverse();
   Eigen::Matrix<double, kDims, kDims> information = information_;
   information.diagonal() += prior;

@@ -70,6 +70,8 @@ Vector3 Move(const double* block, const Vector3& p, PointJacobian* jacobian) {
   return rotation * p + translation;
 }
 
+constexpr double kMinLineLength_m = LoamParameters::kMinLineLength_m;
+
 bool IsLine(const Vector3& a, const Vector3& b) {
   return (a - b).norm() >= kMinLineLength_m;
 }

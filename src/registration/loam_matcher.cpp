@@ -7,18 +7,16 @@
 #include <stdexcept>
 
 #include "lio/registration/match_loop.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "registration/loam_terms.hpp"
-#include "registration/neighbour_shape.hpp"
+#include "registration/neighbour_fit.hpp"
 
 namespace lio {
 namespace {
 
-constexpr std::size_t kMinMatched = 50;
-constexpr double kSearchSigmas = 3.0;
-constexpr double kLeavesPerSearch = 2.5;  // neighbours are this many leaves off at the most
-constexpr double kGate_m = 0.3;           // residuals beyond, and beyond the reach, do not count
-constexpr int kFarOffRoundFactor = 3;
-constexpr int kFullRounds = 4;  // later ones go halfway: two sets of neighbours may alternate
+using Parameters = LoamParameters;
+
+constexpr std::size_t kMinMatched = MatchParameters::kMinMatched;
 
 PointMapOptions MapOptions(const LoamOptions& options, double leaf_m) {
   return {leaf_m, options.max_leaf_points, options.max_leaves, options.max_distance_m};
@@ -66,20 +64,24 @@ void LoamMatcher::Associate(const MatchInput& input, const Pose& T_map_imu,
   for (std::size_t i = 0; i < input.points_imu.size(); ++i) {
     const Vector3 point_imu = input.points_imu[i].cast<double>();
     const Vector3 point = T_map_imu * point_imu;
-    const double reach = kSearchSigmas * radius.StdAt(point_imu.norm());
+    const double search_radius =
+        CorrespondenceParameters::kSearchSigmas * radius.StdAt(point_imu.norm());
     const auto number = static_cast<std::int32_t>(i);
     if (input.tags[i].IsEdge()) {
-      const double search = reach + kLeavesPerSearch * options_.edge_leaf_m;
+      const double search = search_radius + Parameters::kLeavesPerSearch * options_.edge_leaf_m;
       const PointMap::Neighbours near = edge_map_.FindNearest(point, wanted, search);
-      const std::optional<LineShape> line = FitLine(near, options_);
-      if (!line || line->direction.cross(line->centre).norm() > reach + kGate_m) continue;
+      const std::optional<LineFit> line = FitLine(near, options_);
+      if (!line || line->direction.cross(line->centre).norm() > search_radius + Parameters::kGate_m)
+        continue;
       terms_->Add(EdgeTerm{number, first_edge_block + near.list[0].block, point + line->centre,
                            line->direction, line->direction_var});
     } else {
-      const double search = reach + kLeavesPerSearch * options_.surface_leaf_m;
+      const double search = search_radius + Parameters::kLeavesPerSearch * options_.surface_leaf_m;
       const PointMap::Neighbours near = surface_map_.FindNearest(point, wanted, search);
-      const std::optional<PlaneShape> plane = FitPlane(near, options_);
-      if (!plane || std::abs(plane->normal.dot(plane->centre)) > reach + kGate_m) continue;
+      const std::optional<PlaneFit> plane = FitPlane(near, options_);
+      if (!plane ||
+          std::abs(plane->normal.dot(plane->centre)) > search_radius + Parameters::kGate_m)
+        continue;
       terms_->Add(PlaneTerm{number, near.list[0].block, point + plane->centre, plane->axes,
                             plane->normal_var});
     }
@@ -129,14 +131,14 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     throw std::invalid_argument("LoamMatcher: every point needs a tag");
   }
   Pose T_map_imu = input.T_map_imu_guess;
-  const int factor = input.is_far_off ? kFarOffRoundFactor : 1;
+  const int factor = input.is_far_off ? Parameters::kFarOffRoundFactor : 1;
   const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
     Associate(input, pose, radius);
     if (terms_->size() < kMinMatched) return std::nullopt;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
     const DirectionSplit split = SplitDirections(sums);
     const Pose solved = terms_->Solve(input.points_imu, {}, pose);
-    const double share = result.iterations > factor * kFullRounds ? 0.5 : 1.0;
+    const double share = result.iterations > factor * Parameters::kFullRounds ? 0.5 : 1.0;
     return share * KeepObservableDirections(split, LogSe3(pose.Inverse() * solved));
   };
   const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,

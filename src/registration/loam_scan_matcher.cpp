@@ -7,20 +7,15 @@
 #include <stdexcept>
 
 #include "lio/registration/match_loop.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "registration/loam_terms.hpp"
 #include "registration/ring_grid.hpp"
 
 namespace lio {
 namespace {
 
-constexpr std::size_t kMinMatched = 30;
-constexpr double kSearchSigmas = 3.0;
-constexpr double kMinSearch_m = 1.0;      // neighbours on a scan are so far apart, ...
-constexpr double kSearchPerRange = 0.06;  // ... two beams where these spread more
-constexpr double kMaxSearch_m = 5.0;      // A-LOAM's limit
-constexpr float kMinAcross_m = 0.5f;      // of a line or a plane across rings
-constexpr float kMinBaseline_m = 1.f;     // of a plane along its ring: noise tilts shorter ones
-constexpr double kMinTriangle = 0.1;      // sine of the angle at which three points make a plane
+using Parameters = LoamScanParameters;
+constexpr std::size_t kMinMatched = Parameters::kMinMatched;
 
 Pose PartOf(const Pose& motion, double ratio) {
   return ratio == 1.0 ? motion : Interpolate(Pose::Identity(), motion, ratio);
@@ -59,25 +54,26 @@ void LoamScanMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
 }
 
 void LoamScanMatcher::AddEdge(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
-  const RingGrid::Found found = edges_->Search(place, search_m, {0.f, kMinAcross_m});
+  const RingGrid::Found found = edges_->Search(place, search_m, {0.f, Parameters::kMinAcross_m});
   if (found.nearest < 0 || found.other_ring < 0) return;
   const Vector3 a = edges_->point(found.nearest).cast<double>();
   const Vector3 b = edges_->point(found.other_ring).cast<double>();
   const double length = (b - a).norm();
-  if (length < kMinLineLength_m) return;
+  if (length < LoamParameters::kMinLineLength_m) return;
   const double end_std = options_.edge_std_m / length;
   terms_->Add(EdgeTerm{number, static_cast<std::int32_t>(surfaces_->num_parts()) + found.part, a,
                        (b - a) / length, 2.0 * end_std * end_std});
 }
 
 void LoamScanMatcher::AddPlane(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
-  const RingGrid::Found found = surfaces_->Search(place, search_m, {kMinBaseline_m, kMinAcross_m});
+  const RingGrid::Found found =
+      surfaces_->Search(place, search_m, {Parameters::kMinBaseline_m, Parameters::kMinAcross_m});
   if (found.nearest < 0 || found.same_ring < 0 || found.other_ring < 0) return;
   const Vector3 a = surfaces_->point(found.nearest).cast<double>();
   const Vector3 along = surfaces_->point(found.same_ring).cast<double>() - a;
   const Vector3 up = surfaces_->point(found.other_ring).cast<double>() - a;
   const Vector3 area = along.cross(up);
-  if (area.norm() < kMinTriangle * along.norm() * up.norm()) return;
+  if (area.norm() < Parameters::kMinTriangle * along.norm() * up.norm()) return;
   PlaneTerm term;
   term.point = number;
   term.part = found.part;
@@ -102,9 +98,10 @@ void LoamScanMatcher::Associate(const MatchInput& input, std::span<const float> 
     const Vector3 point_imu = input.points_imu[i].cast<double>();
     const Vector3 place = PartOf(T_last_imu, ratio) * point_imu;
     const double range = point_imu.norm();
-    const double search = std::min(
-        kSearchSigmas * radius.StdAt(range) + std::max(kMinSearch_m, kSearchPerRange * range),
-        kMaxSearch_m);
+    const double search =
+        std::min(CorrespondenceParameters::kSearchSigmas * radius.StdAt(range) +
+                     std::max(Parameters::kMinSearch_m, Parameters::kSearchPerRange * range),
+                 Parameters::kMaxSearch_m);
     const auto add =
         kind == FeatureKind::kSharp ? &LoamScanMatcher::AddEdge : &LoamScanMatcher::AddPlane;
     (this->*add)(static_cast<std::int32_t>(i), place.cast<float>(), static_cast<float>(search));

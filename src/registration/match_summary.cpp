@@ -6,12 +6,6 @@
 #include <cmath>
 
 namespace lio {
-namespace {
-
-constexpr double kMinCurvature = 0.3;  // of the information; lower is a scene of outliers
-
-}  // namespace
-
 Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
                            const RobustKernel& kernel) {
   const Vector6f row_gradient = (weight * residual_m) * row;
@@ -36,7 +30,7 @@ void MatchSums::operator+=(const MatchSums& other) {
 }
 
 double MatchSums::curvature_ratio() const {
-  return std::clamp(curvature_sum / information_sum, kMinCurvature, 1.0);
+  return std::clamp(curvature_sum / information_sum, MatchParameters::kMinCurvatureRatio, 1.0);
 }
 
 DirectionSplit SplitDirections(const MatchSums& sums) {
@@ -46,7 +40,7 @@ DirectionSplit SplitDirections(const MatchSums& sums) {
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
   const DirectionSplit split = SplitDirections(sums);
-  // The sandwich wants the robust cost's own curvature, which is less than the information.
+  // The sandwich is made with the robust cost's own curvature, which is less than the information.
   const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
   result.degenerate_mask = split.degenerate_mask;
@@ -60,8 +54,8 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
 }
 
 void TakeLastStep(const Vector6& step, MatchResult& result) {
-  constexpr double kMaxLastStep = 5e-3;  // m, rad
-  if (step.norm() < kMaxLastStep) result.T_map_imu = result.T_map_imu * ExpSe3(step);
+  if (step.norm() < MatchParameters::kMaxLastStep)
+    result.T_map_imu = result.T_map_imu * ExpSe3(step);
 }
 
 }  // namespace lio

@@ -7,49 +7,49 @@
 #include <cmath>
 
 #include "lio/registration/match_loop.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/well_constrained_translation.hpp"
 #include "registration/ndt_term.hpp"
 
 namespace lio {
 namespace {
 
-constexpr int kMinMatched = 50;
-// What is seen of an upright thing depends on the side it is seen from: its cell is off by this.
-constexpr double kSideStd_m = 0.15;
-constexpr double kReachShrink = 0.3;  // of the reach's standard deviation, each iteration
-constexpr double kMinReach_m = 0.01;  // a smaller reach is none
-constexpr double kMaxReach_m = 2.0;
-constexpr int kFarOffIterationFactor = 5;
-constexpr double kReachLever_m = 20.0;  // range at which a rotation error of the guess is felt
-constexpr double kCountsHold_m = 0.05;  // while no point within that range has moved farther
+using Parameters = NdtParameters;
+using Correspondence = CorrespondenceParameters;
+
+constexpr int kMinMatched = MatchParameters::kMinMatched;
+constexpr double kLever_m = Correspondence::kLever_m;
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
 const Pose& GridFromMap() {
-  static const Pose kRotation{ExpSo3(Vector3(0.31, -0.23, 0.41)), Vector3(0.37, 0.41, 0.29)};
-  return kRotation;
+  static const Pose kPose{ExpSo3(Vector3(Parameters::kGridRotation_rad.data())),
+                          Vector3(Parameters::kGridTranslation_m.data())};
+  return kPose;
 }
 
 bool HasMoved(const Pose& from, const Pose& to) {
   const Pose motion = from.Inverse() * to;
-  return motion.translation.norm() + kReachLever_m * LogSo3(motion.rotation).norm() > kCountsHold_m;
+  return motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() >
+         Parameters::kCountsHold_m;
 }
 
-// How far off the guess may be, one sigma, at a range of kReachLever_m.
-class Reach {
+// The correspondence radius of all points alike: how far off the guess may be, one standard
+// deviation, at a range of kLever_m.
+class CommonRadius {
  public:
-  explicit Reach(const Matrix6& guess_cov) {
+  explicit CommonRadius(const Matrix6& guess_cov) {
     const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
     const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
     Set(std::min(std::sqrt(std::max(0.0, translation_var) +
-                           std::max(0.0, rotation_var) * kReachLever_m * kReachLever_m),
-                 kMaxReach_m));
+                           std::max(0.0, rotation_var) * kLever_m * kLever_m),
+                 Correspondence::kMaxStd_m));
   }
-  float variance() const { return static_cast<float>(std_m_ * std_m_); }
-  void Shrink() { Set(kReachShrink * std_m_); }
-  bool IsExhausted() const { return std_m_ == 0.0; }
+  [[nodiscard]] float variance() const { return static_cast<float>(std_m_ * std_m_); }
+  void Shrink() { Set(Correspondence::kShrink * std_m_); }
+  [[nodiscard]] bool IsExhausted() const { return std_m_ == 0.0; }
 
  private:
-  void Set(double std_m) { std_m_ = std_m < kMinReach_m ? 0.0 : std_m; }
+  void Set(double std_m) { std_m_ = std_m < Correspondence::kSmallestStd_m ? 0.0 : std_m; }
 
   double std_m_ = 0.0;
 };
@@ -80,7 +80,7 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
 }
 
 void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                           bool with_upright) {
+                           bool with_vertical) {
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
@@ -93,7 +93,7 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
     }
     map_.FindAll({points_grid.data(), count}, hits);
     for (std::size_t i = 0; i < count; ++i) {
-      pairs_[block.begin + i] = PairOf(hits[i], with_upright);
+      pairs_[block.begin + i] = PairOf(hits[i], with_vertical);
     }
   });
   if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
@@ -111,17 +111,17 @@ void NdtMatcher::CountByCell() {
   }
 }
 
-NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_upright) const {
+NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_vertical) const {
   if (hit.cell == GaussianMap::kNoCell) return {};
   const SurfacePatch& patch = map_.patch(hit.cell);
   if (patch.thickness_var <= 0.f) return {};
-  if (patch.kind == SurfacePatch::Kind::kUpright && !with_upright) return {};
+  if (patch.kind == SurfacePatch::Kind::kVertical && !with_vertical) return {};
   return {hit.cell, hit.local - patch.mean};
 }
 
-NdtTerm NdtMatcher::TermOf(const Pair& pair, float reach_var) const {
+NdtTerm NdtMatcher::TermOf(const Pair& pair, float radius_var) const {
   const auto num_here = static_cast<float>(CountOf(pair.cell));
-  return MakeNdtTerm(map_.patch(pair.cell), pair.from_mean, num_here, reach_var);
+  return MakeNdtTerm(map_.patch(pair.cell), pair.from_mean, num_here, radius_var);
 }
 
 double NdtMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const {
@@ -143,14 +143,14 @@ double NdtMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose& 
 }
 
 MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                                float reach_var, std::span<PointScore> scores) const {
+                                float radius_var, std::span<PointScore> scores) const {
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
   return workers_.SumOverBlocks<MatchSums>(points.size(), [&](const Block& block) {
     MatchSums sums;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       if (!scores.empty()) scores[i].num_rows = 0;
       if (pairs_[i].cell == GaussianMap::kNoCell) continue;
-      const NdtTerm term = TermOf(pairs_[i], reach_var);
+      const NdtTerm term = TermOf(pairs_[i], radius_var);
       if (term.IsOutlier()) continue;
       AddTerm(term, map_.patch(pairs_[i].cell), points[i], to_imu, sums,
               scores.empty() ? nullptr : &scores[i]);
@@ -215,8 +215,9 @@ Matrix6 NdtMatcher::ScoreCovariance() {
       if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, row.weight * row.jacobian);
     }
   }
+  constexpr double kSharedStd_m = Parameters::kSharedVerticalStd_m;
   const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
-  return gradients_.Covariance() + kSideStd_m * kSideStd_m * sides;
+  return gradients_.Covariance() + kSharedStd_m * kSharedStd_m * sides;
 }
 
 TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
@@ -259,15 +260,16 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   if (map_.num_cells() == 0) return result;
   counted_at_.reset();
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
-  const auto step_at = [&](const Pose& pose, const Reach& reach) -> std::optional<Vector6> {
+  const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
     Associate(input.points_imu, pose, !IsTranslationWellConstrained(input));
-    const MatchSums sums = Linearize(input.points_imu, pose, reach.variance(), {});
+    const MatchSums sums = Linearize(input.points_imu, pose, radius.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
-  const StopRule rule{options_.max_iterations * (input.is_far_off ? kFarOffIterationFactor : 1),
-                      options_.converged_step_m, options_.converged_step_rad};
-  if (StepUntilStill(rule, Reach(input.guess_cov), step_at, T_grid_imu, result)) {
+  const StopRule rule{
+      options_.max_iterations * (input.is_far_off ? Parameters::kFarOffIterationFactor : 1),
+      options_.converged_step_m, options_.converged_step_rad};
+  if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
     Finish(input, T_grid_imu, result);
   }
   return result;

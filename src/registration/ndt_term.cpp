@@ -4,18 +4,19 @@
 
 #include <algorithm>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr float kMaxLever = 4.f;  // cap of a^2/l, where a patch is extrapolated
-
 NdtTerm PlaneTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                  float reach_var) {
+                  float radius_var) {
   const float a1 = patch.tangent1_per_std.dot(from_mean);
   const float a2 = patch.tangent2_per_std.dot(from_mean);
-  const float lever = 1.f + std::min(a1 * a1, kMaxLever) + std::min(a2 * a2, kMaxLever);
+  constexpr float kMaxLeverSq = NdtParameters::kMaxLeverSq;
+  const float lever = 1.f + std::min(a1 * a1, kMaxLeverSq) + std::min(a2 * a2, kMaxLeverSq);
   const float variance =
-      patch.thickness_var * (1.f + num_here / patch.num_points * lever) + reach_var;
+      patch.thickness_var * (1.f + num_here / patch.num_points * lever) + radius_var;
   NdtTerm term;
   NdtRow& row = term.rows[0];
   row.direction = patch.normal;
@@ -26,16 +27,16 @@ NdtTerm PlaneTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, f
   return term;
 }
 
-NdtTerm UprightTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                    float reach_var) {
+NdtTerm VerticalTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                     float radius_var) {
   const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
   const float across_std = 1.f / patch.tangent1_per_std.norm();
   NdtTerm term;
   term.num_rows = 2;
   term.rows[0].direction = patch.normal;
   term.rows[1].direction = across_std * patch.tangent1_per_std;
-  const std::array<float, 2> variance{patch.thickness_var * shared + reach_var,
-                                      across_std * across_std * shared + reach_var};
+  const std::array<float, 2> variance{patch.thickness_var * shared + radius_var,
+                                      across_std * across_std * shared + radius_var};
   for (std::size_t i = 0; i < 2; ++i) {
     NdtRow& row = term.rows[i];
     row.distance = row.direction.dot(from_mean);
@@ -49,10 +50,10 @@ NdtTerm UprightTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean,
 }  // namespace
 
 NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                    float reach_var) {
+                    float radius_var) {
   return patch.kind == SurfacePatch::Kind::kPlane
-             ? PlaneTerm(patch, from_mean, num_here, reach_var)
-             : UprightTerm(patch, from_mean, num_here, reach_var);
+             ? PlaneTerm(patch, from_mean, num_here, radius_var)
+             : VerticalTerm(patch, from_mean, num_here, radius_var);
 }
 
 }  // namespace lio

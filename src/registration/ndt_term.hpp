@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What one point adds to NDT's cost, held against the surface patch of its cell (ndt_matcher.hpp
-// has the formula).
+// The term that one point adds to NDT's cost, matched to the surface patch of its cell
+// (ndt_matcher.hpp has the formula).
 #pragma once
 
 #include <array>
@@ -17,18 +17,19 @@ struct NdtRow {
   float weight = 0.f;                                   // 1 / m^2
 };
 
-// One row for a plane, two for what stands up.
+// One row for a plane, two for a vertical structure.
 struct NdtTerm {
   std::array<NdtRow, 2> rows;
   int num_rows = 1;
-  float distance_sq = 0.f;  // in its variance
+  float distance_sq = 0.f;  // over its variance
   RobustKernel kernel;
 
-  bool IsOutlier() const { return RobustKernel::IsOutlier(distance_sq); }
+  [[nodiscard]] bool IsOutlier() const { return RobustKernel::IsOutlier(distance_sq); }
 };
 
-// `num_here`: this scan's points in the cell; `reach_var`: of what the guess may be off [m^2].
-NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                    float reach_var);
+// `num_here`: this scan's points in the cell; `radius_var`: the correspondence radius, squared
+// [m^2].
+[[nodiscard]] NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean,
+                                  float num_here, float radius_var);
 
 }  // namespace lio

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr int kMaxRingGap = 3;
+constexpr int kMaxRingGap = LoamScanParameters::kMaxRingGap;
 
 std::int32_t Cell(float coordinate) {
   return FloorToInt(coordinate);  // voxels of one metre

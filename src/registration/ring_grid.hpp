@@ -10,6 +10,7 @@
 
 #include "lio/base/rotation.hpp"
 #include "lio/base/voxel_index.hpp"
+#include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
 
@@ -23,7 +24,7 @@ class RingGrid {
     std::int32_t nearest = -1;
     std::int32_t same_ring = -1;   // the nearest one on its ring that is far enough from it
     std::int32_t other_ring = -1;  // the nearest one at most three rings off it, likewise
-    std::int32_t part = -1;        // where `nearest` lies
+    std::int32_t part = -1;        // the voxel of `nearest`
   };
   // How far the second and third point must be from the nearest one, for a line or a plane through
   // them to be known: noise tilts shorter ones.
@@ -32,7 +33,8 @@ class RingGrid {
     float other_ring_m = 0.f;
     float On(int ring_gap) const { return ring_gap == 0 ? same_ring_m : other_ring_m; }
   };
-  Found Search(const Eigen::Vector3f& query, float radius_m, const Apart& apart) const;
+  [[nodiscard]] Found Search(const Eigen::Vector3f& query, float radius_m,
+                             const Apart& apart) const;
   const Eigen::Vector3f& point(std::int32_t i) const {
     return points_[static_cast<std::size_t>(i)].position;
   }
@@ -40,7 +42,7 @@ class RingGrid {
   std::size_t num_parts() const { return first_.size(); }
 
  private:
-  static constexpr float kVoxel_m = 1.f;
+  static constexpr float kVoxel_m = LoamScanParameters::kGridVoxel_m;
   struct Point {
     Eigen::Vector3f position;
     std::int32_t next = -1;  // of the same voxel

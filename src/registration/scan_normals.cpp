@@ -11,16 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr double kMinPoints = 6.0;
-// A surface is this much thinner than wide, wide enough in both directions (as a share of the
-// voxel) and its normal known this well.
-constexpr double kMaxThicknessRatio = 0.1;
-constexpr double kMinWidthPerVoxel = 0.3;
-constexpr double kMaxNormalStd_rad = 0.1;
-// A surface z = k x^2 / 2 seen over [-a, a] is a^2 / 3 wide and k^2 a^4 / 45 thick, both variances;
-// a distance o away it has bent by k o^2 / 2, whose square is this much thickness / width^2 o^4.
-constexpr double kBend = 1.25;
-constexpr float kOverlapVoxels = 2.f;  // points so near to the next level's range count there too
+using Parameters = ScanNormalParameters;
 
 VoxelCell CellAt(const Eigen::Vector3f& point, float inverse_voxel) {
   return {FloorToInt(point.x() * inverse_voxel), FloorToInt(point.y() * inverse_voxel),
@@ -66,7 +57,7 @@ void ScanNormals::SetScan(std::span<const Eigen::Vector3f> points) {
     const float range = point.norm();
     const std::size_t at = LevelOf(range);
     AddTo(levels_[at], point);
-    const float overlap = kOverlapVoxels * levels_[at].voxel_m;
+    const float overlap = Parameters::kOverlap_voxels * levels_[at].voxel_m;
     if (at + 1 < kNumLevels && range + overlap > levels_[at].max_range_m) {
       AddTo(levels_[at + 1], point);
     }
@@ -75,8 +66,8 @@ void ScanNormals::SetScan(std::span<const Eigen::Vector3f> points) {
 }
 
 PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
-  PointWithNormal shaped;
-  shaped.position = point;
+  PointWithNormal result;
+  result.position = point;
   const Level& level = levels_[LevelOf(point.norm())];
   Moments sum;
   const VoxelCell centre = CellAt(point, 1.f / level.voxel_m);
@@ -97,7 +88,7 @@ PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
   };
   ForEachVoxel({centre[0] - 1, centre[1] - 1, centre[2] - 1},
                {centre[0] + 1, centre[1] + 1, centre[2] + 1}, add);
-  if (sum.count < kMinPoints) return shaped;
+  if (sum.count < Parameters::kMinPoints) return result;
   const Vector3 mean = Vector3(sum.x, sum.y, sum.z) / sum.count;
   Matrix3 cov;
   cov << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
@@ -105,20 +96,21 @@ PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
-  const double min_width = kMinWidthPerVoxel * level.voxel_m;
-  if (variance[1] < min_width * min_width) return shaped;
-  if (variance[0] > kMaxThicknessRatio * variance[1]) return shaped;
+  const double min_width = Parameters::kMinWidthPerVoxel * level.voxel_m;
+  if (variance[1] < min_width * min_width) return result;
+  if (variance[0] > Parameters::kMaxThicknessRatio * variance[1]) return result;
   const double thickness_var =
       std::max(variance[0], options_.surface_std_m * options_.surface_std_m);
   const double normal_var = thickness_var / (sum.count * variance[1]);
-  if (normal_var > kMaxNormalStd_rad * kMaxNormalStd_rad) return shaped;
+  if (normal_var > Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad) return result;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
-  if (IsGrazing(normal, point)) return shaped;
-  shaped.normal = normal;
-  shaped.thickness_var = static_cast<float>(thickness_var);
-  shaped.normal_var = static_cast<float>(normal_var);
-  shaped.bend_var = static_cast<float>(kBend * thickness_var / (variance[1] * variance[1]));
-  return shaped;
+  if (IsGrazing(normal, point)) return result;
+  result.normal = normal;
+  result.thickness_var = static_cast<float>(thickness_var);
+  result.normal_var = static_cast<float>(normal_var);
+  result.bend_var =
+      static_cast<float>(Parameters::kBend * thickness_var / (variance[1] * variance[1]));
+  return result;
 }
 
 }  // namespace lio

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The surface around each point of a scan, from the moments of the 27 voxels around it: one pass to
-// sum them up, no search. Voxels grow with range as beams spread: each range has its level, twice
-// as coarse as the one before.
+// The normal at each point of a scan, from the moments of the 27 voxels around it: one pass sums
+// them up, and there is no neighbour search. Voxels grow with range as beams spread: each range has
+// its level, twice as coarse as the one before.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "lio/base/voxel_index.hpp"
 #include "lio/map/point_with_normal.hpp"
 #include "lio/registration/gicp_options.hpp"
+#include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
 
@@ -21,12 +22,13 @@ class ScanNormals {
 
   // Sums up a scan; forgets the one before.
   void SetScan(std::span<const Eigen::Vector3f> points);
-  // Shape of the surface at a point of the scan; none where too few points are around, where they
-  // lie along a line, as those of a single ring do, or where they make no surface.
-  PointWithNormal At(const Eigen::Vector3f& point) const;
+  // A point of the scan with its normal; without one where the surroundings are rank-deficient: too
+  // few points, points along a line, as those of a single ring are, or no surface.
+  [[nodiscard]] PointWithNormal At(const Eigen::Vector3f& point) const;
 
  private:
-  struct Moments {  // of points from the scan's origin, double: 100 m squared leaves 1e-12 m^2
+  // Sums over points, from the scan's origin, in double: 100 m squared leaves 1e-12 m^2.
+  struct Moments {
     double count = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   };
   struct Level {
@@ -35,7 +37,7 @@ class ScanNormals {
     VoxelIndex index;
     std::vector<Moments> moments;
   };
-  static constexpr std::size_t kNumLevels = 6;
+  static constexpr std::size_t kNumLevels = ScanNormalParameters::kNumLevels;
 
   std::size_t LevelOf(float range_m) const;
   static void AddTo(Level& level, const Eigen::Vector3f& point);

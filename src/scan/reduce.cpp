@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kInitialSlots = 1u << 14;
+constexpr std::size_t kInitialSlots = 1u << 14;  // room for 8000 kept points
 constexpr std::uint32_t kBitsPerWord = 64;
 
 struct Voxel {
@@ -42,7 +42,7 @@ ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
     : options_(options),
       filter_(rig),
       voxel_m_(static_cast<float>(options.voxel_m)),
-      slots_(kInitialSlots) {}
+      choices_(kInitialSlots) {}
 
 // Whether a point is looked at cannot be foreseen, so nothing branches on it.
 void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
@@ -62,48 +62,40 @@ void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
   candidates_.resize(num_candidates);
 }
 
-std::size_t ScanReducer::FillSlots(const Sweep& sweep) {
-  std::fill(slots_.begin(), slots_.end(), Slot{});
+void ScanReducer::ChoosePoints(const Sweep& sweep) {
+  choices_.Clear();
   const float inverse_voxel = 1.0f / voxel_m_;
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t num_kept = 0;
   for (const std::uint32_t i : candidates_) {
     const LidarPoint& point = sweep.points[i];
     if (filter_.IsOwnVehicle(point)) continue;
     const Voxel voxel = VoxelOf(point, inverse_voxel);
     const std::uint64_t distance = std::bit_cast<std::uint32_t>(voxel.distance_sq);
     const std::uint64_t choice = distance << 32 | i;
-    std::size_t at = HashVoxel(voxel.key) & mask;
-    while (slots_[at].key != voxel.key && slots_[at].key != kFreeSlot) at = (at + 1) & mask;
-    Slot& slot = slots_[at];
-    if (slot.key == kFreeSlot) {
-      slot = {voxel.key, choice};
-      if (++num_kept * 2 > slots_.size()) return kTableFull;
-    } else if (slot.choice >> 32 == distance) [[unlikely]] {
-      if (Precedes(point, sweep.points[IndexOf(slot.choice)])) slot.choice = choice;
+    const auto [chosen, is_new] = choices_.FindOrAdd(voxel.key);
+    if (is_new) {
+      chosen = choice;
+    } else if (chosen >> 32 == distance) [[unlikely]] {
+      if (Precedes(point, sweep.points[IndexOf(chosen)])) chosen = choice;
     } else {
-      slot.choice = std::min(slot.choice, choice);
+      chosen = std::min(chosen, choice);
     }
   }
-  return num_kept;
 }
 
 // Sweeps mostly come in order, so the chosen ones are listed in the sweep's order first.
 void ScanReducer::MarkChosen() {
   is_chosen_.assign((candidates_.empty() ? 0 : candidates_.back() / kBitsPerWord) + 1, 0);
-  for (const Slot& slot : slots_) {
-    if (slot.key == kFreeSlot) continue;
-    const std::uint32_t index = IndexOf(slot.choice);
+  choices_.ForEachInAnyOrder([&](std::uint64_t choice) {
+    const std::uint32_t index = IndexOf(choice);
     is_chosen_[index / kBitsPerWord] |= std::uint64_t{1} << (index % kBitsPerWord);
-  }
+  });
 }
 
 // By time, then ring: a key beside the index keeps the sort from chasing points all over the sweep.
-std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep,
-                                                           std::size_t num_kept) {
+std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep) {
   MarkChosen();
   std::vector<Chosen> chosen;
-  chosen.reserve(num_kept);
+  chosen.reserve(choices_.size());
   for (std::uint32_t word = 0; word < is_chosen_.size(); ++word) {
     for (std::uint64_t bits = is_chosen_[word]; bits != 0; bits &= bits - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -126,18 +118,14 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   result.num_raw = static_cast<int>(sweep.points.size());
   result.voxel_m = voxel_m_;
   FindCandidates(sweep, result.num_nonfinite);
-  std::size_t num_kept = FillSlots(sweep);
-  while (num_kept == kTableFull) {
-    slots_.resize(slots_.size() * 4);
-    num_kept = FillSlots(sweep);
-  }
-  result.points.reserve(num_kept);
-  for (const Chosen& chosen : SortedChoice(sweep, num_kept)) {
+  ChoosePoints(sweep);
+  result.points.reserve(choices_.size());
+  for (const Chosen& chosen : SortedChoice(sweep)) {
     const LidarPoint& point = sweep.points[chosen.index];
     result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
   }
   result.to_match = SpreadIndices(result.points.size(), options_.match_points);
-  voxel_m_ = AdaptedVoxel(options_, voxel_m_, num_kept);
+  voxel_m_ = AdaptedVoxel(options_, voxel_m_, choices_.size());
   return result;
 }
 

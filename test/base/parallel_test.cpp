@@ -3,10 +3,13 @@
 #include "lio/base/parallel.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 namespace lio {
 namespace {
@@ -56,6 +59,30 @@ TEST(Parallel, WhatTheWorkThrowsComesOut) {
     EXPECT_THROW(workers.ForEachBlock(1000, [](const Block&) { throw std::runtime_error("no"); }),
                  std::runtime_error);
   }
+}
+
+TEST(Parallel, TheProgramAroundItKeepsItsOwnThreads) {
+  constexpr auto kLimit = tbb::global_control::max_allowed_parallelism;
+  const std::size_t before = tbb::global_control::active_value(kLimit);
+  const int arena_before = tbb::this_task_arena::max_concurrency();
+  for (const int num_threads : {1, 2, 64}) {
+    const Workers workers(num_threads);
+    std::atomic<std::size_t> sum = 0;
+    workers.ForEachBlock(1000, [&](const Block& block) { sum += block.end - block.begin; });
+    EXPECT_EQ(sum, 1000u);
+    EXPECT_EQ(tbb::global_control::active_value(kLimit), before) << num_threads;
+    EXPECT_EQ(tbb::this_task_arena::max_concurrency(), arena_before) << num_threads;
+  }
+}
+
+TEST(Parallel, ALimitOfTheProgramAroundItHolds) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  const auto caller = std::this_thread::get_id();
+  std::atomic<int> num_elsewhere = 0;
+  Workers(8).ForEachBlock(10'000, [&](const Block&) {
+    if (std::this_thread::get_id() != caller) ++num_elsewhere;
+  });
+  EXPECT_EQ(num_elsewhere, 0);
 }
 
 TEST(Parallel, NoThreadsAreRefused) {

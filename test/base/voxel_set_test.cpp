@@ -18,7 +18,6 @@ TEST(VoxelSet, TakesAKeyOnce) {
   EXPECT_EQ(set.size(), 2u);
 }
 
-// Free slots hold zero.
 TEST(VoxelSet, ZeroIsAKeyLikeAnother) {
   VoxelSet set;
   EXPECT_TRUE(set.Insert(0));

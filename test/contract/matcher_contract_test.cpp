@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tests what every registration method must do, whatever its kind.
+// The promises of every registration method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -248,7 +248,7 @@ TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   const MatchResult result = bench.matcher().Match(input);
   ExpectConverged(result);
   const auto cost = [&](const Vector6& d) {
-    return bench.matcher().FixedCorrespondenceCost(input, result.T_map_imu * ExpSe3(d));
+    return bench.diagnostics().FixedCorrespondenceCost(input, result.T_map_imu * ExpSe3(d));
   };
   Vector6 step;
   step << Vector3::Constant(1e-3), Vector3::Constant(1e-4);

@@ -85,8 +85,8 @@ class RealPair : public testing::TestWithParam<MatchMethod> {
         test::MethodBench::InputFor(scan, Pose::Identity(), test::GuessCov(0.3, 0.02));
     const MatchResult result = bench.matcher().Match(input);
     EXPECT_TRUE(result.IsUsable()) << static_cast<int>(result.status);
-    return {result.T_map_imu, bench.matcher().FixedCorrespondenceCost(input, result.T_map_imu),
-            bench.matcher().FixedCorrespondenceCost(input, given)};
+    return {result.T_map_imu, bench.diagnostics().FixedCorrespondenceCost(input, result.T_map_imu),
+            bench.diagnostics().FixedCorrespondenceCost(input, given)};
   }
 };
 

@@ -67,11 +67,11 @@ TEST(KeyframeMap, NormalsAreTurnedIntoTheMap) {
   map.ChooseSubmap({5, 0, 0});
   const KeyframeMap::Hit hit = map.FindNearest({5, 1.1, 0}, 0.5);
   ASSERT_GE(hit.point, 0);
-  EXPECT_NEAR((map.shape(hit.point).normal - Eigen::Vector3f::UnitY()).norm(), 0.f, 1e-6f);
+  EXPECT_NEAR((map.point(hit.point).normal - Eigen::Vector3f::UnitY()).norm(), 0.f, 1e-6f);
   EXPECT_NEAR(hit.from_query.y(), -0.1f, 1e-5f);
 }
 
-TEST(KeyframeMap, PointsWithoutShapeAreLeftOut) {
+TEST(KeyframeMap, PointsWithoutANormalAreLeftOut) {
   KeyframeMap map(KeyframeMapOptions{});
   PointWithNormal shapeless;
   shapeless.position = {1, 0, 0};

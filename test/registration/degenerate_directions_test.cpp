@@ -31,7 +31,7 @@ Matrix6 Without(const Matrix6& information, const Vector6& direction) {
   return information - lost * lost.transpose() / direction.dot(lost);
 }
 
-TEST(DegenerateDirections, HeldSceneHasNone) {
+TEST(DegenerateDirections, FullInformationHasNone) {
   std::mt19937_64 random(1);
   const DirectionSplit split = SplitDirections(FullInformation(random), SmallNoise());
   EXPECT_EQ(split.degenerate_mask, 0u);
@@ -40,7 +40,7 @@ TEST(DegenerateDirections, HeldSceneHasNone) {
   EXPECT_TRUE((split.eigenvalues.tail<5>().array() >= split.eigenvalues.head<5>().array()).all());
 }
 
-TEST(DegenerateDirections, StepIsGaussNewtonsWhereAllIsHeld) {
+TEST(DegenerateDirections, StepIsGaussNewtonsWhereAllIsObservable) {
   std::mt19937_64 random(2);
   const Matrix6 H = FullInformation(random);
   const Vector6 g = test::RandomVector<6>(random);
@@ -49,7 +49,7 @@ TEST(DegenerateDirections, StepIsGaussNewtonsWhereAllIsHeld) {
   EXPECT_LT((step - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(DegenerateDirections, CovarianceIsTheSandwichWhereAllIsHeld) {
+TEST(DegenerateDirections, CovarianceIsTheSandwichWhereAllIsObservable) {
   std::mt19937_64 random(3);
   const Matrix6 H = FullInformation(random);
   const Matrix6 scores = FullInformation(random);
@@ -58,7 +58,7 @@ TEST(DegenerateDirections, CovarianceIsTheSandwichWhereAllIsHeld) {
   EXPECT_LT((cov - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(DegenerateDirections, DirectionWithoutInformationIsWeakAndNotStepped) {
+TEST(DegenerateDirections, DirectionWithoutInformationIsDegenerateAndNotStepped) {
   std::mt19937_64 random(4);
   Vector6 along = Vector6::Zero();
   along.head<3>() = Vector3(1, 2, -1).normalized();
@@ -74,7 +74,7 @@ TEST(DegenerateDirections, DirectionWithoutInformationIsWeakAndNotStepped) {
   EXPECT_NEAR(scaled_step.dot(split.directions.col(0)), 0.0, 1e-9);
 }
 
-TEST(DegenerateDirections, WeakDirectionHasALargeVariance) {
+TEST(DegenerateDirections, DegenerateDirectionHasALargeVariance) {
   std::mt19937_64 random(5);
   const Vector6 along = Vector6::Unit(0);
   const Matrix6 H = Without(FullInformation(random), along);
@@ -87,9 +87,8 @@ TEST(DegenerateDirections, WeakDirectionHasALargeVariance) {
   EXPECT_LT(std::abs(v.dot(held * v)), 1e-9);
 }
 
-// The criterion is the information relative to what the normals' own noise would contribute, not
-// its size.
-TEST(DegenerateDirections, InformationBelowTheNoisesIsWeak) {
+// The information is compared with the noise-induced one; its size alone does not matter.
+TEST(DegenerateDirections, InformationBelowTheNoisesIsDegenerate) {
   const Matrix6 H = 1e4 * Matrix6::Identity();
   Matrix6 noise_information = Matrix6::Identity();
   EXPECT_EQ(SplitDirections(H, noise_information).num_degenerate(), 0);
@@ -101,7 +100,7 @@ TEST(DegenerateDirections, InformationBelowTheNoisesIsWeak) {
   EXPECT_NEAR(DegenerateCovariance(split)(0, 0), 0.0, 1e-9);
 }
 
-TEST(DegenerateDirections, NoInformationAtAllIsAllWeak) {
+TEST(DegenerateDirections, NoInformationAtAllIsAllDegenerate) {
   const DirectionSplit split = SplitDirections(Matrix6::Zero(), Matrix6::Zero());
   EXPECT_EQ(split.num_degenerate(), 6);
   EXPECT_TRUE(StepInObservableDirections(split, Vector6::Ones()).isZero());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tests what is particular to matching against keyframes; test/contract/matcher_contract_test.cpp
-// tests what every matcher does.
+// Promises of matching against keyframes alone; those of every matcher:
+// test/contract/matcher_contract_test.cpp.
 #include "lio/registration/gicp_matcher.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(GicpMatcher, OpennessIsTheMedianRangeSmoothed) {
   EXPECT_LT(first, 4.0 * 1.35);
   MatchInput input;
   input.points_imu = far;
-  matcher.Match(input);
+  (void)matcher.Match(input);
   const double ten_times = 10.0 * first;  // the same box, ten times as large
   EXPECT_NEAR(matcher.openness_m(), 0.9 * first + 0.1 * ten_times, 0.02);
 }

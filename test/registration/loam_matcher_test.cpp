@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tests what is particular to LOAM's matching against maps; test/contract/matcher_contract_test.cpp
-// tests what every matcher does.
+// Promises of LOAM's matching against maps alone; those of every matcher:
+// test/contract/matcher_contract_test.cpp.
 #include "lio/registration/loam_matcher.hpp"
 
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ TEST(LoamMatcher, FindsItsWayBackInARoom) {
   EXPECT_LT(LogSe3(result.T_map_imu).tail<3>().norm(), 0.002);
 }
 
-// Posts alone do not make the height observable.
-TEST(LoamMatcher, UprightEdgesAloneHoldAllButTheHeight) {
+// Posts alone do not hold the height.
+TEST(LoamMatcher, VerticalEdgesAloneConstrainAllButTheHeight) {
   LoamMatcher matcher{LoamOptions{}};
   for (unsigned seed = 1; seed <= 5; ++seed) {
     matcher.Insert(Room(seed, false).View(), Pose::Identity());
@@ -91,7 +91,7 @@ TEST(LoamMatcher, PointsWithoutTagsAreACallersMistake) {
   matcher.Insert(room.View(), Pose::Identity());
   MatchInput input = room.From(Pose::Identity());
   input.tags = input.tags.subspan(1);
-  EXPECT_THROW(matcher.Match(input), std::invalid_argument);
+  EXPECT_THROW((void)matcher.Match(input), std::invalid_argument);
 }
 
 TEST(LoamMatcher, BothMapsCountInItsSizeAndAreCleared) {

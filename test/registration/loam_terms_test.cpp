@@ -64,7 +64,7 @@ class LoamTermsTest : public ::testing::Test {
   PoseScores scores_;
 };
 
-// The expected values are central differences of the cost with constant weights.
+// The gradient by central differences of the cost with constant weights.
 TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
   const Pose at = kTruth * ExpSe3(0.01 * Vector6::Ones());
   const MatchSums sums = LinearizeAt(at);

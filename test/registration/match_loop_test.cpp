@@ -26,7 +26,7 @@ Vector6 Forward(double metres) {
   return metres * Vector6::Unit(0);
 }
 
-TEST(MatchLoop, EndsWithASmallStepOnceTheReachIsUsedUp) {
+TEST(MatchLoop, EndsWithASmallStepOnceTheRadiusIsZero) {
   Pose pose;
   MatchResult result;
   const auto step_at = [](const Pose&, const CountedReach&) -> std::optional<Vector6> {

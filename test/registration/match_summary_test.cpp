@@ -80,7 +80,7 @@ TEST(MatchSums, ARowGoesIntoEverySum) {
 
 // --- the summary
 
-// Three walls with 50 terms each are seen from 5 m: every direction is observable.
+// Three walls, 50 terms each, seen from 5 m: every direction is observable.
 MatchSums HeldSums(int num_axes, float residual_m) {
   MatchSums sums;
   std::mt19937_64 random(4);
@@ -98,7 +98,7 @@ MatchSums HeldSums(int num_axes, float residual_m) {
   return sums;
 }
 
-TEST(Summarise, CovarianceIsTheSandwichWhereAllIsHeld) {
+TEST(Summarise, CovarianceIsTheSandwichWhereAllIsObservable) {
   const MatchSums sums = HeldSums(3, 0.02f);
   MatchResult result;
   result.status = MatchStatus::kConverged;
@@ -130,8 +130,8 @@ TEST(Summarise, WhatTheKernelTakesOfTheCurvatureWidensTheCovariance) {
   EXPECT_NEAR(variance_at(1.5) / variance_at(1.0), 1.0, 1e-9);
 }
 
-// There are two walls: the z direction is not observable.
-TEST(Summarise, ADirectionThatNothingHoldsIsWeak) {
+// Two walls: nothing holds along z.
+TEST(Summarise, ADirectionThatNothingConstrainsIsDegenerate) {
   const MatchSums sums = HeldSums(2, 0.02f);
   MatchResult result;
   result.status = MatchStatus::kConverged;

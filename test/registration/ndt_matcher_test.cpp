@@ -46,7 +46,7 @@ class NdtMatcherIn {
     return matcher_.Match(input);
   }
 
-  // Position uncertainty given to the next matches; vertical objects are left out when it is small.
+  // For the next matches; vertical structures are left out where it is small.
   double shift_std_m = 1.0;
 
   NdtMatcher& matcher() { return matcher_; }
@@ -63,7 +63,7 @@ Vector6 ErrorOf(const MatchResult& result, const Pose& truth) {
   return LogSe3(truth.Inverse() * result.T_map_imu);
 }
 
-// Draws a guess error of the given sigma: translation, and a twentieth of it as rotation [rad].
+// Standard deviations: the given one in translation, a twentieth of it in rotation [rad].
 Vector6 DrawGuessError(std::mt19937_64& random, double std) {
   Vector6 error = std * test::RandomVector<6>(random);
   error.tail<3>() *= 0.05;
@@ -112,8 +112,8 @@ TEST(NdtMatcher, CovarianceTellsTheErrorItMakes) {
   EXPECT_LT(nees, 2.0);
 }
 
-// Posts in this scene look the same from all sides, which the covariance does not assume.
-TEST(NdtMatcher, UprightThingsAreNotTrustedMoreThanTheyTell) {
+// Posts in this scene look the same from all sides, which the covariance does not count on.
+TEST(NdtMatcher, VerticalStructuresAreNotTrustedMoreThanTheyTell) {
   const double nees = StreetNees(1.0);
   EXPECT_GT(nees, 0.2);
   EXPECT_LT(nees, 1.5);
@@ -134,7 +134,7 @@ TEST(NdtMatcher, PostsHoldAlongAnOpenRoadWhereTheShiftIsUnknown) {
   EXPECT_NE(result_with(0.0).degenerate_mask, 0u);
 }
 
-TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
+TEST(NdtMatcher, CorridorHasOneDegenerateDirectionAlongItsAxis) {
   NdtMatcherIn corridor(test::Corridor());
   for (double x = 0.0; x <= 10.0; x += 1.0) corridor.InsertFrom({ExpSo3({0, 0, 0.3}), {x, 0, 0}});
   const Pose truth{ExpSo3({0, 0, 0.3}), {5.4, 0.3, 0.0}};
@@ -147,12 +147,12 @@ TEST(NdtMatcher, CorridorHasOneWeakDirectionAlongItsAxis) {
   const Matrix3 R = truth.rotation.toRotationMatrix();
   const Matrix3 cov_world = R * result.cov.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_GT(cov_world(0, 0), 50.0 * 50.0);
-  const Matrix3 known = cov_world.inverse();  // given the two others: the weak one leans a little
+  const Matrix3 known = cov_world.inverse();  // given the two others: the degenerate one leans
   EXPECT_GT(known(1, 1), 1 / (0.02 * 0.02));
   EXPECT_GT(known(2, 2), 1 / (0.02 * 0.02));
   const Matrix3 held_world = R * result.observable_cov.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_LT(held_world(0, 0), 0.02 * 0.02);
-  // Observable directions are found; the degenerate one stays at the guess.
+  // Observable directions are corrected, the degenerate one stays where the guess was.
   const Vector3 error = result.T_map_imu.translation - truth.translation;
   EXPECT_NEAR(error.x(), 0.2, 0.02);
   EXPECT_NEAR(error.y(), 0.0, 0.01);
@@ -226,7 +226,7 @@ TEST(NdtMatcher, MatchingTwiceInARowGivesTheSameBits) {
   street.InsertRoad(0.0, 8.0);
   const Points points = street.See(OnRoad(5.5));
   const MatchResult a = street.Match(points, OnRoad(5.4), 0.1);
-  street.Match(street.See(OnRoad(2.0)), OnRoad(2.1), 0.1);  // scratch memory is left behind
+  (void)street.Match(street.See(OnRoad(2.0)), OnRoad(2.1), 0.1);  // scratch memory is left behind
   const MatchResult b = street.Match(points, OnRoad(5.4), 0.1);
   EXPECT_EQ(a.T_map_imu.translation, b.T_map_imu.translation);
   EXPECT_EQ(a.cov, b.cov);
@@ -236,7 +236,7 @@ TEST(NdtMatcher, IterationsStayWithinTheLimit) {
   NdtMatcherIn street(test::Street());
   street.InsertRoad(0.0, 8.0);
   NdtOptions options;
-  options.max_iterations = 2;  // too few for the reach to shrink
+  options.max_iterations = 2;  // too few for the radius to shrink
   NdtMatcher hurried(options);
   for (double x = 0.0; x <= 8.0; x += 1.0) hurried.Insert({street.See(OnRoad(x))}, OnRoad(x));
   const Points points = street.See(OnRoad(5.5));
@@ -260,8 +260,8 @@ TEST(NdtMatcher, NewContentShareFallsAsTheMapFills) {
   EXPECT_LT(last_share, 0.2);
 }
 
-// A floor on a voxel face is split between two cells by its noise; the turned grid has no such face
-// for level floors and vertical walls.
+// A floor on a voxel face is split between two cells by its noise; the turned grid has no such
+// face for horizontal floors and vertical walls.
 TEST(NdtMatcher, GroundOnAVoxelFaceIsMatchedAsWell) {
   for (const double ground_z_m : {-1.0, -1.5}) {
     std::vector<test::Box> boxes;

@@ -24,13 +24,13 @@ SurfacePatch Floor() {
 // The post stands along z and has a spread of 2 cm along x and 5 cm along y.
 SurfacePatch Post() {
   SurfacePatch patch = Floor();
-  patch.kind = SurfacePatch::Kind::kUpright;
+  patch.kind = SurfacePatch::Kind::kVertical;
   patch.normal = {1, 0, 0};
   patch.tangent1_per_std = {0, 20, 0};
   return patch;
 }
 
-TEST(NdtTerm, APlaneIsHeldAlongItsNormal) {
+TEST(NdtTerm, APlaneConstrainsAlongItsNormal) {
   const NdtTerm term = MakeNdtTerm(Floor(), {0, 0, 0.03f}, 0.f, 0.f);
   ASSERT_EQ(term.num_rows, 1);
   EXPECT_EQ(term.rows[0].direction, Eigen::Vector3f(0, 0, 1));
@@ -61,8 +61,8 @@ TEST(NdtTerm, BeyondFiveSigmaItIsAnOutlier) {
   EXPECT_TRUE(MakeNdtTerm(Floor(), {0, 0, -0.101f}, 0.f, 0.f).IsOutlier());
 }
 
-// Along x it is 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
-TEST(NdtTerm, WhatStandsUpIsHeldInTwoLevelDirections) {
+// Along x 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
+TEST(NdtTerm, AVerticalStructureConstrainsTwoHorizontalDirections) {
   const NdtTerm term = MakeNdtTerm(Post(), {0.02f, 0.1f, 3.f}, 0.f, 0.f);
   ASSERT_EQ(term.num_rows, 2);
   EXPECT_EQ(term.rows[0].direction, Eigen::Vector3f(1, 0, 0));

@@ -32,25 +32,25 @@ TEST(ScanNormals, PlaneHasItsNormalAtEveryRange) {
     const float size = 0.05f * range + 0.5f;
     const Eigen::Vector3f a(0, size, 0);
     const Eigen::Vector3f b(0.2f * size, 0, size);
-    ScanNormals shapes(GicpOptions{});
+    ScanNormals normals(GicpOptions{});
     const auto points = Patch({range, 0.1f, 0.2f}, a, b, 10, 0.01f);
-    shapes.SetScan(points);
-    const PointWithNormal shape = shapes.At({range, 0.1f, 0.2f});
-    ASSERT_TRUE(shape.HasNormal()) << range;
-    EXPECT_GT(std::abs(shape.normal.dot(a.cross(b).normalized())), 0.998f) << range;
-    EXPECT_NEAR(shape.normal.norm(), 1.f, 1e-5f);
-    EXPECT_FLOAT_EQ(shape.thickness_var, 0.03f * 0.03f);  // the floor
-    EXPECT_LT(shape.normal_var, 0.01f);
+    normals.SetScan(points);
+    const PointWithNormal point = normals.At({range, 0.1f, 0.2f});
+    ASSERT_TRUE(point.HasNormal()) << range;
+    EXPECT_GT(std::abs(point.normal.dot(a.cross(b).normalized())), 0.998f) << range;
+    EXPECT_NEAR(point.normal.norm(), 1.f, 1e-5f);
+    EXPECT_FLOAT_EQ(point.thickness_var, 0.03f * 0.03f);  // the floor
+    EXPECT_LT(point.normal_var, 0.01f);
   }
 }
 
 TEST(ScanNormals, ThicknessIsTheScatterAlongTheNormal) {
-  ScanNormals shapes(GicpOptions{});
+  ScanNormals normals(GicpOptions{});
   const Eigen::Vector3f centre(5, 0, 0);
-  shapes.SetScan(Patch(centre, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.06f));
-  const PointWithNormal shape = shapes.At(centre);
-  ASSERT_TRUE(shape.HasNormal());
-  EXPECT_NEAR(std::sqrt(shape.thickness_var), 0.06, 0.015);
+  normals.SetScan(Patch(centre, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.06f));
+  const PointWithNormal point = normals.At(centre);
+  ASSERT_TRUE(point.HasNormal());
+  EXPECT_NEAR(std::sqrt(point.thickness_var), 0.06, 0.015);
 }
 
 TEST(ScanNormals, BendIsThatOfTheVaultItSees) {
@@ -58,39 +58,39 @@ TEST(ScanNormals, BendIsThatOfTheVaultItSees) {
   const Eigen::Vector3f centre(5, 0, 0);
   auto vault = Patch(centre, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.f);
   for (Eigen::Vector3f& point : vault) point.x() -= point.y() * point.y() / (2.f * kRadius_m);
-  ScanNormals shapes(GicpOptions{});
-  shapes.SetScan(vault);
-  const PointWithNormal shape = shapes.At(centre);
-  ASSERT_TRUE(shape.HasNormal());
-  // A point at a distance o is o^2 / (2 R) away from its plane.
-  EXPECT_NEAR(std::sqrt(shape.bend_var), 1.f / (2.f * kRadius_m), 0.05f);
+  ScanNormals normals(GicpOptions{});
+  normals.SetScan(vault);
+  const PointWithNormal point = normals.At(centre);
+  ASSERT_TRUE(point.HasNormal());
+  // At a distance o it is o^2 / (2 R) away from its plane.
+  EXPECT_NEAR(std::sqrt(point.bend_var), 1.f / (2.f * kRadius_m), 0.05f);
 }
 
 TEST(ScanNormals, OneRingIsNoSurface) {
-  ScanNormals shapes(GicpOptions{});
-  shapes.SetScan(Patch({6, 0, -1.5f}, {0, 1.f, 0}, {0, 0, 0.005f}, 15, 0.01f));
-  EXPECT_FALSE(shapes.At({6, 0, -1.5f}).HasNormal());
+  ScanNormals normals(GicpOptions{});
+  normals.SetScan(Patch({6, 0, -1.5f}, {0, 1.f, 0}, {0, 0, 0.005f}, 15, 0.01f));
+  EXPECT_FALSE(normals.At({6, 0, -1.5f}).HasNormal());
 }
 
 TEST(ScanNormals, FewPointsOrAClusterAreNoSurface) {
-  ScanNormals shapes(GicpOptions{});
-  shapes.SetScan(std::vector<Eigen::Vector3f>{{6, 0, 0}, {6, 0.1f, 0}, {6, 0, 0.1f}});
-  EXPECT_FALSE(shapes.At({6, 0, 0}).HasNormal());
-  EXPECT_FALSE(shapes.At({20, 3, 0}).HasNormal());  // nothing there
+  ScanNormals normals(GicpOptions{});
+  normals.SetScan(std::vector<Eigen::Vector3f>{{6, 0, 0}, {6, 0.1f, 0}, {6, 0, 0.1f}});
+  EXPECT_FALSE(normals.At({6, 0, 0}).HasNormal());
+  EXPECT_FALSE(normals.At({20, 3, 0}).HasNormal());  // nothing there
   std::mt19937 random(2);
   std::normal_distribution<float> noise(0.f, 0.2f);
   std::vector<Eigen::Vector3f> bush;
   bush.reserve(300);
   for (int i = 0; i < 300; ++i) bush.push_back({6 + noise(random), noise(random), noise(random)});
-  shapes.SetScan(bush);
-  EXPECT_FALSE(shapes.At({6, 0, 0}).HasNormal());
+  normals.SetScan(bush);
+  EXPECT_FALSE(normals.At({6, 0, 0}).HasNormal());
 }
 
 TEST(ScanNormals, TheScanBeforeIsForgotten) {
-  ScanNormals shapes(GicpOptions{});
-  shapes.SetScan(Patch({5, 0, 0}, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.f));
-  shapes.SetScan(std::vector<Eigen::Vector3f>{});
-  EXPECT_FALSE(shapes.At({5, 0, 0}).HasNormal());
+  ScanNormals normals(GicpOptions{});
+  normals.SetScan(Patch({5, 0, 0}, {0, 0.6f, 0}, {0, 0, 0.6f}, 12, 0.f));
+  normals.SetScan(std::vector<Eigen::Vector3f>{});
+  EXPECT_FALSE(normals.At({5, 0, 0}).HasNormal());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lio/pipeline/match_method.hpp"
+#include "lio/registration/match_diagnostics.hpp"
 #include "support/street_scene.hpp"
 
 namespace lio::test {
@@ -58,6 +59,9 @@ class MethodBench {
     return matcher_->Match(InputFor(scan, guess, cov));
   }
   ScanMatcher& matcher() { return *matcher_; }
+  const MatchDiagnostics& diagnostics() const {
+    return dynamic_cast<const MatchDiagnostics&>(*matcher_);
+  }
 
  private:
   std::unique_ptr<SweepReducer> reducer_;

@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The chi-square distribution with six degrees of freedom, that of a pose's innovation, and a
-// quantile of that with three.
+// Quantiles of the chi-square distribution, by Boost.Math: gates on a squared, normalized
+// innovation compare it with one (Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to
+// Tracking and Navigation", 2001, section 5.4).
 #pragma once
 
 namespace lio {
 
-// P(X <= x), closed form for even degrees of freedom.
-double ChiSquareCdf6(double x);
+// The x with P(chi2(dof) <= x) = probability. Throws std::invalid_argument unless
+// 0 <= probability < 1 and dof > 0.
+[[nodiscard]] double ChiSquareQuantile(double probability, double dof);
 
-// The x with ChiSquareCdf6(x) = probability, for 0 <= probability < 1.
-double ChiSquareQuantile6(double probability);
+// Six degrees of freedom are those of a pose's innovation.
+[[nodiscard]] inline double ChiSquareQuantile6(double probability) {
+  return ChiSquareQuantile(probability, 6.0);
+}
 
-inline constexpr double kChiSquare3At999 = 16.27;  // 99.9 % of it are below
+inline constexpr double kChiSquare3At999 =
+    16.27;  // ChiSquareQuantile(0.999, 3), as tables print it
 
 }  // namespace lio

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A count of everything that was lost, refused or odd: zero on a clean log. And of standstills.
+// Counts of everything that was lost, refused or odd, which are zero on a clean log, and of what
+// was taken in: samples, chunks, scans and standstills.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Loops on several threads that give the same bits on any number of them: work is cut into blocks
-// of a fixed size, and sums over blocks are added in the blocks' order, whoever made them.
+// of a fixed size, and sums over blocks are added in the blocks' order, whichever thread made them.
+// The threads are TBB's, in an arena of their own: the program around the estimator keeps its own
+// parallelism, and a limit that it sets on TBB's threads holds here, too.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +23,18 @@ class Workers {
  public:
   static constexpr std::size_t kBlockSize = 128;
 
-  // At most so many threads at once, the caller's among them; one starts none.
-  // Throws std::invalid_argument below one.
+  // At most `num_threads` run at once, the caller's among them, and never more than TBB has (one a
+  // core). One starts none. Throws std::invalid_argument below one.
   explicit Workers(int num_threads);
   ~Workers();
 
-  // work(block) for all blocks of 0 .. count - 1, in any order and at the same time; with one
-  // thread in order. What it throws comes out here.
+  // Calls work(block) for all blocks of 0 .. count - 1, in any order and at the same time; with one
+  // thread in order. An exception that it throws comes out here.
   void ForEachBlock(std::size_t count, const std::function<void(const Block&)>& work) const;
 
   // The sum of block_sum(block) over the blocks, in their order.
   template <class Sum, class BlockSum>
-  Sum SumOverBlocks(std::size_t count, const BlockSum& block_sum) const {
+  [[nodiscard]] Sum SumOverBlocks(std::size_t count, const BlockSum& block_sum) const {
     std::vector<Sum> sums((count + kBlockSize - 1) / kBlockSize);
     ForEachBlock(count, [&](const Block& block) { sums[block.number] = block_sum(block); });
     Sum total{};

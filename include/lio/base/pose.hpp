@@ -22,11 +22,11 @@ struct Pose {
 
   static Pose Identity() { return {}; }
 
-  Pose Inverse() const {
+  [[nodiscard]] Pose Inverse() const {
     const Quaternion inverse = rotation.conjugate();
     return {inverse, -(inverse * translation)};
   }
-  // Renormalises, so that long chains stay rotations.
+  // The product is renormalized, so that long chains stay rotations.
   friend Pose operator*(const Pose& a, const Pose& b) {
     return {(a.rotation * b.rotation).normalized(), a.rotation * b.translation + a.translation};
   }
@@ -35,20 +35,20 @@ struct Pose {
   }
 };
 
-Pose ExpSe3(const Vector6& tangent);
-Vector6 LogSe3(const Pose& pose);
+[[nodiscard]] Pose ExpSe3(const Vector6& tangent);
+[[nodiscard]] Vector6 LogSe3(const Pose& pose);
 
 // T ExpSe3(d) = ExpSe3(Adjoint(T) d) T.
-Matrix6 AdjointSe3(const Pose& pose);
+[[nodiscard]] Matrix6 AdjointSe3(const Pose& pose);
 
 // ExpSe3(x + d) = ExpSe3(LeftJacobian(x) d) ExpSe3(x) to first order; right likewise.
-Matrix6 LeftJacobianSe3(const Vector6& tangent);
-Matrix6 LeftJacobianInverseSe3(const Vector6& tangent);
-inline Matrix6 RightJacobianInverseSe3(const Vector6& t) {
+[[nodiscard]] Matrix6 LeftJacobianSe3(const Vector6& tangent);
+[[nodiscard]] Matrix6 LeftJacobianInverseSe3(const Vector6& tangent);
+[[nodiscard]] inline Matrix6 RightJacobianInverseSe3(const Vector6& t) {
   return LeftJacobianInverseSe3(-t);
 }
 
 // The pose at `fraction` (0..1) of the way from a to b: geodesic rotation, linear translation.
-Pose Interpolate(const Pose& a, const Pose& b, double fraction);
+[[nodiscard]] Pose Interpolate(const Pose& a, const Pose& b, double fraction);
 
 }  // namespace lio

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // SO(3): exponential, logarithm and their Jacobians. Rotation vectors in radians, right
 // perturbation everywhere in this project: R(phi + d) = R(phi) Exp(RightJacobian(phi) d). Formulas:
-// Sola, Deray, Atchuthan, "A micro Lie theory", arXiv 1812.01537, eqs. (132)-(146).
+// Sola, Deray, Atchuthan, "A micro Lie theory", arXiv 1812.01537, eqs. (132)-(146). The same on any
+// scalar, as cost functions of Ceres need it, is base/so3.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,25 +16,24 @@ using Matrix3 = Eigen::Matrix3d;
 using Quaternion = Eigen::Quaterniond;
 
 // Skew-symmetric matrix with Hat(a) b = a x b.
-Matrix3 Hat(const Vector3& a);
+[[nodiscard]] Matrix3 Hat(const Vector3& a);
 
 // Rotation by |phi| about phi. Exact to rounding for every |phi|, the smallest included.
-Quaternion ExpSo3(const Vector3& phi);
+[[nodiscard]] Quaternion ExpSo3(const Vector3& phi);
 
 // Inverse of ExpSo3 with |result| <= pi; the sign of q does not matter. q must have unit norm.
-Vector3 LogSo3(const Quaternion& q);
+[[nodiscard]] Vector3 LogSo3(const Quaternion& q);
 
-// About z, of where the turned x axis points, within -pi to pi; 0 where that is straight up or
-// down.
-double YawOf(const Quaternion& rotation);
+// The angle about z of the rotated x axis, within -pi to pi [rad]; 0 where that axis is vertical.
+[[nodiscard]] double YawOf(const Quaternion& rotation);
 
 // Exp(phi + d) = Exp(LeftJacobian(phi) d) Exp(phi) to first order; right likewise from the right.
-Matrix3 LeftJacobianSo3(const Vector3& phi);
-Matrix3 LeftJacobianInverseSo3(const Vector3& phi);
-inline Matrix3 RightJacobianSo3(const Vector3& phi) {
+[[nodiscard]] Matrix3 LeftJacobianSo3(const Vector3& phi);
+[[nodiscard]] Matrix3 LeftJacobianInverseSo3(const Vector3& phi);
+[[nodiscard]] inline Matrix3 RightJacobianSo3(const Vector3& phi) {
   return LeftJacobianSo3(-phi);
 }
-inline Matrix3 RightJacobianInverseSo3(const Vector3& phi) {
+[[nodiscard]] inline Matrix3 RightJacobianInverseSo3(const Vector3& phi) {
   return LeftJacobianInverseSo3(-phi);
 }
 

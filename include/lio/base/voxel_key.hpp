@@ -17,16 +17,16 @@ inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| 
 
 // floor() without the library call: exact for |x| < 2^31.
 template <class Float>
-std::int32_t FloorToInt(Float x) {
+[[nodiscard]] std::int32_t FloorToInt(Float x) {
   const auto truncated = static_cast<std::int32_t>(x);
   return truncated - (x < static_cast<Float>(truncated) ? 1 : 0);
 }
 
-// Coordinates of a voxel.
+// A voxel's coordinates along x, y, z.
 using VoxelCell = std::array<std::int32_t, 3>;
 
-// The voxel of a point given in voxels' edges; a far one is held at the limit.
-inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
+// The voxel around a point whose coordinates are given in voxel edges, clamped to the limit.
+[[nodiscard]] inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   const auto coordinate = [](double x) {
     constexpr double kLimit = kVoxelCoordinateLimit;
     return FloorToInt(std::clamp(x, -kLimit, kLimit));
@@ -34,13 +34,13 @@ inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
 
-// Of blocks of so many voxels along each edge.
+// Maps keep voxels in blocks of this many along each edge.
 inline constexpr int kBlockEdge = 4;
-inline VoxelCell BlockOf(const VoxelCell& voxel) {
+[[nodiscard]] inline VoxelCell BlockOf(const VoxelCell& voxel) {
   return {voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
 }
 
-inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
+[[nodiscard]] inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
   constexpr std::uint64_t kMask = (1u << 21) - 1;
   return ((static_cast<std::uint64_t>(x + kVoxelCoordinateLimit) & kMask) << 42) |
          ((static_cast<std::uint64_t>(y + kVoxelCoordinateLimit) & kMask) << 21) |
@@ -49,7 +49,7 @@ inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
 
 // Fibonacci hashing. The product's high bits depend on all three coordinates, so they are brought
 // to the low end, which tables take.
-inline std::uint64_t HashVoxel(VoxelKey key) {
+[[nodiscard]] inline std::uint64_t HashVoxel(VoxelKey key) {
   return __builtin_bswap64(key * 0x9E3779B97F4A7C15ull);
 }
 

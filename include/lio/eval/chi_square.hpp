@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Computes the chi-square distribution exactly (Boost.Math), and the bands that follow from it:
-// Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001,
-// section 5.4.
+// The bands in which means of chi-square values lie: Bar-Shalom, Li, Kirubarajan, "Estimation with
+// Applications to Tracking and Navigation", 2001, section 5.4.
 #pragma once
 
 namespace lio {
-
-// Returns the x with P(chi2(dof) <= x) = probability; dof > 0, probability in (0, 1).
-double ChiSquareQuantile(double probability, double dof);
 
 struct Band {
   double low = 0;

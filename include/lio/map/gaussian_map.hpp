@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of surface patches: hashed voxels, each with the running mean and covariance of the
-// points that fell into it, and from them, where its shape is known, a plane or something that
-// stands up: a pole, a trunk, a bush.
+// A bounded map of surface patches, the normal-distributions transform of the scans: hashed voxels,
+// each with the running mean and covariance of the points that fell into it, and from them, where
+// they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
 //
-// A cell counts only when its shape is known: cells filled from a standing vehicle hold single scan
-// rings, which look like lines and hold the vehicle back by metres when it drives off
-// (docs/filter.md, "ring lock"). A ring that cuts through a tree's crown even looks like a plane:
-// it is the beam's own cone, which is seen edge-on, as no surface is. Sums are kept relative to the
-// voxel's centre, so that precision does not depend on the distance from the origin. Not safe for
-// concurrent use while inserting.
+// A cell whose points show neither is rank-deficient and does not count: cells filled from a
+// standing vehicle hold single scan rings, which look like lines and hold the vehicle back by
+// metres when it drives off. A ring that cuts through a tree's crown even looks like a plane, which
+// is seen at grazing incidence (grazing_incidence.hpp). Sums are kept relative to the voxel's
+// centre, so that precision does not depend on the distance from the origin. Not safe for
+// concurrent use while inserting. Sources: Biber, Strasser, "The Normal Distributions Transform",
+// IROS 2003; Magnusson, "The Three-Dimensional Normal-Distributions Transform", dissertation,
+// Orebro 2009, chapter 6. Differences: cells are planes or vertical structures and not any
+// Gaussian, and they are hashed and grow with each scan (map_parameters.hpp has the limits).
 #pragma once
 
 #include <cstdint>
@@ -23,12 +26,13 @@
 
 namespace lio {
 
-// What matching reads of a cell: one cache line. Vectors in the map's frame, `mean` from the
-// voxel's centre.
+// The part of a cell that matching reads: one cache line. Vectors are in the map's frame, `mean`
+// from the voxel's centre.
 struct alignas(64) SurfacePatch {
-  // kUpright holds in two level directions: along `normal`, and along tangent1_per_std, which is
-  // its direction over its standard deviation.
-  enum class Kind : std::int32_t { kPlane, kUpright } kind = Kind::kPlane;
+  // A plane constrains the pose along `normal`. A vertical structure constrains it in two
+  // horizontal directions: along `normal`, and along tangent1_per_std, which is a direction over
+  // its standard deviation.
+  enum class Kind : std::int32_t { kPlane, kVertical } kind = Kind::kPlane;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   float thickness_var = 0.f;  // variance along the normal, floored; 0: the cell does not count
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
@@ -48,20 +52,21 @@ class GaussianMap {
     std::int32_t cell = kNoCell;  // index for patch(); kNoCell where the map is empty
     Eigen::Vector3f local = Eigen::Vector3f::Zero();  // the point from the voxel's centre
   };
-  Hit Find(const Vector3& point_map) const;
+  [[nodiscard]] Hit Find(const Vector3& point_map) const;
   // hits[i] = Find(points_map[i]) for all of them, several times faster: memory is fetched ahead.
   void FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const;
   const SurfacePatch& patch(std::int32_t cell) const { return patches_[ToIndex(cell)]; }
-  bool IsFrozen(std::int32_t cell) const {
+  [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
     const SurfacePatch& patch = patches_[ToIndex(cell)];
     return patch.thickness_var > 0.f &&
            patch.num_points >= static_cast<float>(options_.max_cell_points);
   }
 
+  // The vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
-  // Adds a scan taken from `sensor_map`; then drops what is too far from there and, beyond the cap,
-  // the cells that were not added to for longest.
+  // Adds a scan taken from `sensor_map`; then drops cells that are too far from there and, beyond
+  // max_cells, those without new points for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
 
@@ -72,7 +77,7 @@ class GaussianMap {
 
  private:
   struct Place {
-    VoxelKey key = 0;       // kNoVoxel: out of range, or not a number
+    VoxelKey key = 0;       // kNoVoxel: out of range, or no number
     Eigen::Vector3f local;  // the point from the voxel's centre
   };
   struct Sums {
@@ -80,9 +85,9 @@ class GaussianMap {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
-    std::int32_t shaped_at = 0;  // num_points when the patch was last computed
+    std::int32_t fitted_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
-    bool has_shape = false;      // the patch's thickness is known
+    bool is_known = false;       // the points show a plane or a vertical structure
   };
 
   static std::size_t ToIndex(std::int32_t cell) { return static_cast<std::size_t>(cell); }
@@ -94,8 +99,8 @@ class GaussianMap {
   void Prefetch(std::int32_t cell) const;
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
-  bool ShapePlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
-  bool ShapeUpright(const Matrix3& cov, SurfacePatch& patch) const;
+  bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;

@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A surface that is seen edge-on cannot be one: points of a single ring through a crown or a hedge
-// make such a plane, which is the beam's own cone (docs/filter.md, "ring lock").
+// The grazing-incidence test: no surface is seen along itself. Points of a single ring through a
+// tree's crown or a hedge make such a plane, which is the beam's own cone
+// (docs/experiments/grazing_incidence.md).
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 
+#include "lio/map/map_parameters.hpp"
+
 namespace lio {
 
-// `normal`: unit. `view`: along the beams that saw it, of any length; none at all counts as
-// edge-on.
-inline bool IsGrazing(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) {
-  constexpr float kMinSine = 0.06f;  // between surface and beam: 3.4 deg
-  return !(std::abs(normal.dot(view)) > kMinSine * view.norm());
+// `normal`: unit. `view`: along the beams that saw the surface, of any length; a view of zero or of
+// no numbers counts as grazing.
+[[nodiscard]] inline bool IsGrazing(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) {
+  return !(std::abs(normal.dot(view)) > GrazingIncidenceParameters::kMinSine * view.norm());
 }
 
 }  // namespace lio

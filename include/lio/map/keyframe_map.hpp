@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of keyframes: the points of chosen scans, each with its shape, in one voxel index.
-// A submap is a choice of keyframes: searching it passes over the points of all others, so that
-// choosing anew costs nothing. Voxels lie in blocks of 4 x 4 x 4, so that a search passes over
-// empty space 64 voxels at a time; positions are kept relative to their block. Not safe for
-// concurrent use while changing.
+// A bounded map of keyframes: the points of chosen scans, each with its normal, in one hashed voxel
+// map. A submap is a choice of keyframes: a search passes over the points of all others, so that
+// choosing anew costs nothing. Not safe for concurrent use while changing.
+// Source: Chen, Lopez, Agha-mohammadi, Mehta, "Direct LiDAR Odometry", RA-L 2022, for the submap of
+// nearest and hull keyframes.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
-#include "lio/base/voxel_index.hpp"
 #include "lio/map/point_with_normal.hpp"
+#include "lio/map/voxel_blocks.hpp"
 
 namespace lio {
 
 struct KeyframeMapOptions {
-  double voxel_m = 0.5;  // of the index: about the distance of points that are sought
-  int max_points = 1000000;
-  double max_distance_m = 150.0;
-  int num_near = 20;
-  int num_hull = 10;
+  double voxel_m = 0.5;           // edge; best about as long as the distance of a nearest point
+  int max_points = 1000000;       // memory bound
+  double max_distance_m = 150.0;  // keyframes farther from the newest one are dropped
+  int num_near = 20;              // keyframes of a submap that are nearest, ...
+  int num_hull = 10;              // ... and that are nearest on the convex hull
 };
 
 class KeyframeMap {
@@ -31,34 +31,37 @@ class KeyframeMap {
   // Throws std::invalid_argument when an option is out of its range.
   explicit KeyframeMap(const KeyframeMapOptions& options);
 
-  // Adds a keyframe of the points that have a shape, given in the keyframe's own frame; then drops
-  // keyframes farther than max_distance_m from it and, beyond the bound on points, those longest
-  // not part of a submap, never the new one.
+  // Adds a keyframe of the points that have a normal, given in the keyframe's own frame; then drops
+  // keyframes farther than max_distance_m from it and, beyond max_points, those that were in no
+  // submap for longest, never the new one.
   void Add(std::span<const PointWithNormal> points_kf, const Pose& T_map_kf);
 
-  // The keyframes nearest to a place, and those nearest to it on the convex hull of all (seen from
-  // above). Height differences count three times: storeys above are no neighbours.
+  // Makes the keyframes nearest to a place the submap, and those nearest to it on the convex hull
+  // of all, seen from above. Height differences count three times: storeys above are no neighbours.
   void ChooseSubmap(const Vector3& place_map);
 
   struct Hit {
-    std::int32_t point = -1;  // for shape(); -1: none within the radius
+    std::int32_t point = -1;  // for point(); -1: none within the radius
     Eigen::Vector3f from_query = Eigen::Vector3f::Zero();  // map axes
   };
   // `near`: a point of the submap that may be the nearest, as it was a moment ago; -1: none known.
   // The better it is the shorter the search; the result is the same but for ties.
-  Hit FindNearest(const Vector3& query_map, double radius_m, std::int32_t near = -1) const;
-  // Shape in the map's frame; its position is from the corner of its block.
-  const PointWithNormal& shape(std::int32_t point) const { return points_[ToIndex(point)].shape; }
+  [[nodiscard]] Hit FindNearest(const Vector3& query_map, double radius_m,
+                                std::int32_t near = -1) const;
+  // Normal in the map's frame; the position is from the corner of the point's block.
+  [[nodiscard]] const PointWithNormal& point(std::int32_t point) const {
+    return points_[ToIndex(point)].value;
+  }
 
-  // Points of the submap's and other keyframes in the voxel around it.
-  int CountAt(const Vector3& point_map) const;
+  // How many points of all keyframes lie in the voxel around a point.
+  [[nodiscard]] int CountAt(const Vector3& point_map) const;
 
-  // The keyframe nearest to a place and how far it is; none: -1.
+  // The keyframe nearest to a place; none: -1.
   struct Nearest {
     std::int32_t keyframe = -1;
     Pose T_map_kf;
   };
-  Nearest NearestKeyframe(const Vector3& place_map) const;
+  [[nodiscard]] Nearest NearestKeyframe(const Vector3& place_map) const;
 
   std::size_t num_keyframes() const { return num_keyframes_; }
   std::size_t num_points() const { return num_points_; }
@@ -68,7 +71,7 @@ class KeyframeMap {
  private:
   static constexpr int kNodeSize = 8;
   static constexpr std::int32_t kNone = -1;
-  static constexpr int kVoxels = kBlockEdge * kBlockEdge * kBlockEdge;
+  using Blocks = VoxelBlocks<std::int32_t>;  // the first node of each voxel's chain
 
   // Some points of one voxel, in a chain.
   struct Node {
@@ -78,15 +81,10 @@ class KeyframeMap {
     std::int32_t count = 0;
     std::int32_t next = kNone;
   };
-  struct Block {
-    std::uint64_t occupied = 0;  // a bit a voxel: x + 4 y + 16 z
-    VoxelCell at{};              // in blocks
-    std::array<std::int32_t, kVoxels> first_node;
-  };
   struct Point {
-    PointWithNormal shape;
+    PointWithNormal value;
     std::int32_t block = kNone;
-    std::int32_t voxel = 0;  // of the block
+    std::int32_t voxel = 0;  // in the block
   };
   struct Keyframe {
     Pose T_map_kf;
@@ -99,20 +97,17 @@ class KeyframeMap {
   struct Search;
 
   static std::size_t ToIndex(std::int32_t i) { return static_cast<std::size_t>(i); }
-  Vector3 CornerOf(const Block& block) const;
-  std::int32_t AddPoint(const PointWithNormal& shape_map, const Vector3& position_map,
+  std::int32_t AddPoint(const PointWithNormal& point_map, const Vector3& position_map,
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
-  void SearchAround(Search& search, int reach_voxels) const;
-  void SearchVoxel(const Block& block, std::size_t voxel, const Eigen::Vector3f& query,
+  void SearchAround(Search& search, int radius_voxels) const;
+  void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;
   std::vector<std::int32_t> HullKeyframes() const;
 
   KeyframeMapOptions options_;
-  double inverse_voxel_;
-  VoxelIndex index_;  // of blocks
-  std::vector<Block> blocks_;
+  Blocks blocks_;
   std::vector<Node> nodes_;
   std::vector<std::int32_t> free_nodes_;
   std::vector<Point> points_;

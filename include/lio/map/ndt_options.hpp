@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The normal-distributions map and its matcher.
+// Configuration of the normal-distributions map and of its matcher.
 #pragma once
 
 namespace lio {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A point with the surface around it.
+// A point with the plane that was fitted to its surroundings.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +9,15 @@ namespace lio {
 
 struct PointWithNormal {
   Eigen::Vector3f position;                          // m
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, either side; zero: shape unknown
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, either side; zero: rank-deficient
   float thickness_var = 0.f;                         // along the normal [m^2]
   float normal_var = 0.f;                            // of the normal's tilt [rad^2]
-  float bend_var = 0.f;  // of how far the surface bends away from its plane, at a metre [m^2]; at
-                         // another distance times its fourth power
+  // Variance of the surface's distance from its plane at one metre [m^2]; at another distance it
+  // goes with the distance's fourth power.
+  float bend_var = 0.f;
 
-  bool HasNormal() const { return thickness_var > 0.f; }
+  // False where the surroundings are rank-deficient: too few points, or on a line.
+  [[nodiscard]] bool HasNormal() const { return thickness_var > 0.f; }
 };
 
 }  // namespace lio

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Scores (gradients) summed per part of the map, whose terms share its errors: what the clustered
-// sandwich covariance is made of (docs/filter.md).
+// Scores (gradients of a term's cost) summed per part of the map. Terms of one part share its
+// errors, so that the covariance of the whole gradient is estimated from the sums of parts: the
+// middle of the clustered sandwich covariance H^-1 (sum_c g_c g_c') H^-1.
+// Source: Liang, Zeger, "Longitudinal data analysis using generalized linear models", Biometrika
+// 73(1), 1986, with the usual correction G / (G - dims) for G clusters.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +14,14 @@
 
 namespace lio {
 
-// Of a problem with so many estimated dimensions.
+// `kDims`: the number of unknowns.
 template <int kDims>
 class ClusterScores {
  public:
   using Score = Eigen::Matrix<float, kDims, 1>;
   using Square = Eigen::Matrix<double, kDims, kDims>;
 
-  // `num_parts`: upper bound of the parts' numbers.
+  // Forgets all scores. `num_parts`: upper bound of the parts' numbers.
   void Reset(std::size_t num_parts) {
     for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
     parts_.clear();
@@ -38,8 +41,8 @@ class ClusterScores {
     by_part_[i] += score;
   }
 
-  // Sum over parts of score score^T, ...
-  Square SumOfSquares() const {
+  // Sum over parts of score score^T.
+  [[nodiscard]] Square SumOfSquares() const {
     Square sum = Square::Zero();
     for (const std::int32_t part : parts_) {
       const auto score = by_part_[static_cast<std::size_t>(part)].template cast<double>().eval();
@@ -48,8 +51,8 @@ class ClusterScores {
     return sum;
   }
 
-  // ... and corrected for the estimated dimensions.
-  Square Covariance() const {
+  // The same, corrected for the estimated dimensions: of the gradient of the whole cost.
+  [[nodiscard]] Square Covariance() const {
     const auto num_parts = static_cast<double>(parts_.size());
     return num_parts / std::max(1.0, num_parts - kDims) * SumOfSquares();
   }

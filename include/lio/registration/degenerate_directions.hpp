@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which directions of a pose does a scene hold? The noise of a map's normals alone feigns
-// information along every direction, so a direction counts as held only when its information is
-// well above what that noise would give (docs/filter.md). No tuned eigenvalue threshold.
+// Which directions of a pose does a match observe? The noise of a map's normals alone induces
+// information along every direction, so a direction counts as observable only when its information
+// is well above that noise-induced information; the others are degenerate. Steps and covariances
+// are then restricted to the observable directions. Source: Zhang, Kaess, Singh, "On Degeneracy of
+// Optimization-based State Estimation Problems", ICRA 2016, for the eigenvectors of the information
+// and the projected step (solution remapping). Differences: rotations are scaled to metres first,
+// and the threshold is the noise-induced information of each direction and no tuned eigenvalue.
 #pragma once
 
 #include "lio/base/pose.hpp"
@@ -10,10 +14,10 @@
 namespace lio {
 
 struct DirectionSplit {
-  double metres_per_rad = 1.0;            // lever that makes rotations comparable to translations
-  Vector6 eigenvalues = Vector6::Zero();  // of the scaled information, ascending
+  double metres_per_rad = 1.0;               // scales rotations to the size of translations
+  Vector6 eigenvalues = Vector6::Zero();     // of the scaled information, ascending
   Matrix6 directions = Matrix6::Identity();  // columns, scaled coordinates
-  unsigned degenerate_mask = 0;              // bit i: direction i is weak
+  unsigned degenerate_mask = 0;              // bit i: direction i is degenerate
 
   int num_degenerate() const { return __builtin_popcount(degenerate_mask); }
   // Scales [translation; rotation] to metres.
@@ -24,19 +28,23 @@ struct DirectionSplit {
   }
 };
 
-// `noise_information`: information that normals of no accuracy better than their own would show.
-DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information);
+// `information`: the Hessian of the cost, right error. `noise_information`: the part of it that the
+// noise of the map's normals induces by itself.
+[[nodiscard]] DirectionSplit SplitDirections(const Matrix6& information,
+                                             const Matrix6& noise_information);
 
-// The Gauss-Newton step -H^-1 g within the held directions, [translation; rotation].
-Vector6 StepInObservableDirections(const DirectionSplit& split, const Vector6& gradient);
+// The Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
+[[nodiscard]] Vector6 StepInObservableDirections(const DirectionSplit& split,
+                                                 const Vector6& gradient);
 
-// A step without its part along the weak directions, [translation; rotation].
-Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step);
+// A step without its part along the degenerate directions, [translation; rotation].
+[[nodiscard]] Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step);
 
-// H^-1 S H^-1 within the held directions, zero along the weak ones.
-Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
+// The sandwich H^-1 S H^-1 within the observable directions, zero along the degenerate ones. S:
+// covariance of the gradient.
+[[nodiscard]] Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
 
-// A variance of (100 m)^2 along the weak directions, zero along the held ones.
-Matrix6 DegenerateCovariance(const DirectionSplit& split);
+// A variance of (100 m)^2 along the degenerate directions, zero along the observable ones.
+[[nodiscard]] Matrix6 DegenerateCovariance(const DirectionSplit& split);
 
 }  // namespace lio

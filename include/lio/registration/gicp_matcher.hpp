@@ -1,26 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Direct matching of a scan against a submap of keyframes, plane to plane (generalised ICP): every
-// point against its nearest neighbour e = q - T p, along the direction b that both surfaces' shapes
-// hold best,
-//   cost = sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + k a^4 + reach^2,
-// C a surface's thickness along its normal and 1 m^2 across, rho Geman-McClure's, a the length of e
-// across b, k how much the surfaces may bend, from their thickness and width: in a vault neighbours
-// half a metre apart differ by centimetres, always to the same side. b bisects the two normals: the
-// least eigenvector of C_q + R C_p R'. `reach` is what the guess may be off and shrinks to nothing.
-// Shapes are computed once, when a scan comes, and kept with its points in the keyframes. Points of
-// no known surface (single rings, edges, bushes) are held to the surface of their neighbour, which
-// shows a motion that is not there by centimetres: they count only where surfaces leave a direction
-// open and the shift is not known better.
+// Direct matching of a scan against a submap of keyframes, plane to plane (generalized ICP). Each
+// point p is paired with its nearest neighbour q; e = q - T p is their offset, b the direction
+// along which both surfaces constrain it best, and the cost is
+//   sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + k a^4 + radius^2.
+// C is a surface's covariance: its thickness along the normal and 1 m^2 across; b is the least
+// eigenvector of C_q + R C_p R' and bisects the two normals. rho is Geman-McClure's kernel. a is
+// the length of e across b, and k the bend of both surfaces, from their thickness and width: on a
+// vault neighbours half a metre apart differ by centimetres, always to the same side. `radius` is
+// the correspondence radius (search_radius.hpp), which shrinks to zero.
 //
-// Which scans become keyframes depends on how far the vehicle has moved against how open the place
-// is. Insert() decides; what Match() says about new content takes it into account.
+// Normals are computed once, when a scan comes, and kept with its points in the keyframes. Points
+// whose surroundings are rank-deficient (single rings, edges, bushes) have none; they take the
+// normal of their neighbour, which biases the motion by centimetres, so they count only where
+// points with normals leave a direction degenerate and the translation is not known better.
+//
+// A scan becomes a keyframe when the vehicle has moved far enough against how open the place is.
+// Insert() decides; new_content_share of Match() takes it into account.
 // Sources: Segal, Haehnel, Thrun, "Generalized-ICP", RSS 2009; Chen et al., "Direct LiDAR
 // Odometry", RA-L 2022, for keyframes and submap.
-// Differences: what the other two eigenvectors hold is left out, for it holds a point to its
-// neighbour's place on the surface, which is by chance; the nearest neighbours come from one voxel
-// index of all keyframes, in which a submap is a choice, where DLO builds a k-d tree for each
-// submap; single scan rings count as no surface; keyframes are bounded in number.
+// Differences: the other two eigenvectors of the pair's covariance have no rows in the cost, since
+// they would pull a point to its neighbour's place on the surface, which is by chance; nearest
+// neighbours come from one voxel map of all keyframes, in which a submap is a choice, where DLO
+// builds a k-d tree for each submap; single scan rings have no normal; keyframes are bounded in
+// number.
 #pragma once
 
 #include <memory>
@@ -28,6 +31,7 @@
 
 #include "lio/map/keyframe_map.hpp"
 #include "lio/registration/gicp_options.hpp"
+#include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/registration/search_radius.hpp"
@@ -36,7 +40,7 @@ namespace lio {
 
 class ScanNormals;
 
-class GicpMatcher final : public ScanMatcher {
+class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
   explicit GicpMatcher(const GicpOptions& options);
   ~GicpMatcher() override;
@@ -51,26 +55,27 @@ class GicpMatcher final : public ScanMatcher {
   double openness_m() const { return openness_m_; }
 
  private:
-  // A point and its neighbour; map axes.
+  // A point of the scan and its neighbour on the map.
   struct Pair {
     std::int32_t point = 0;
     std::int32_t target = 0;
-    Eigen::Vector3f offset;  // e at the pose of pairing
+    Eigen::Vector3f offset;  // e at the pose of pairing [m], map axes
   };
   struct Term {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // b
-    float distance = 0.f;                                 // along it [m]
-    float distance_sq = 0.f;                              // in its variance
+    float distance = 0.f;                                 // b . e [m]
+    float distance_sq = 0.f;                              // (b . e)^2 / s
     RobustKernel kernel;
-    float weight = 0.f;    // 1 / m^2; 0: no pair
-    float tilt_var = 0.f;  // of b toward either side [rad^2]
+    float weight = 0.f;    // 1 / m^2; 0: the pair does not count
+    float tilt_var = 0.f;  // variance of b's angle toward either tangent [rad^2]
   };
 
-  // Pairs every point anew, or moves the pairs along where the pose has hardly changed.
+  // Finds a neighbour for every point, or keeps the pairs where the pose has hardly changed.
   void Associate(const Pose& T_map_imu, const SearchRadius& radius);
   void MovePairs(const Pose& T_map_imu);
-  Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float reach_var) const;
-  // Of surfaces, and of all else where these do not hold the pose and the guess does not either.
+  Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float radius_var) const;
+  // Sums the terms of points with normals, and those of all points where the former leave a
+  // direction degenerate and rank-deficient points were taken in.
   MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores);
   MatchSums SumTerms(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores) const;
   bool IsKeyframe(const Pose& T_map_imu) const;
@@ -80,15 +85,15 @@ class GicpMatcher final : public ScanMatcher {
 
   GicpOptions options_;
   KeyframeMap map_;
-  std::unique_ptr<ScanNormals> shapes_;
+  std::unique_ptr<ScanNormals> normals_;
   std::vector<PointWithNormal> source_;  // the scan's points that are matched
   std::vector<std::int32_t> near_;       // each one's last neighbour; kUnknown, kNowhere
   std::vector<Pair> pairs_;              // of the current iteration, in the points' order
-  Pose paired_at_;                       // where the pairs' offsets hold
-  Pose sought_at_;                       // where their neighbours were sought
-  bool is_far_off_ = false;              // the guess may be
-  bool has_shapeless_ = false;           // source_ has points of no known shape, ...
-  bool uses_shapeless_ = false;          // ... which count
+  Pose paired_at_;                       // the pairs' offsets are for this pose
+  Pose sought_at_;                       // the neighbours were sought at this pose
+  bool is_far_off_ = false;              // MatchInput::is_far_off
+  bool has_rank_deficient_ = false;      // source_ includes points without a normal
+  bool uses_rank_deficient_ = false;     // they count in the present sums
   PoseScores scores_;
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };

@@ -19,21 +19,22 @@
 #include <memory>
 
 #include "lio/base/pose.hpp"
+#include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
 
 using CostPtr = std::unique_ptr<ceres::CostFunction>;
 
-inline constexpr double kMinLineLength_m = 0.01;
-
-CostPtr MakeAutoEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s = 1.0);
-CostPtr MakeAutoPlaneByPoints(const Vector3& point, const Vector3& a, const Vector3& b,
-                              const Vector3& c, double s = 1.0);
+[[nodiscard]] CostPtr MakeAutoEdge(const Vector3& point, const Vector3& a, const Vector3& b,
+                                   double s = 1.0);
+[[nodiscard]] CostPtr MakeAutoPlaneByPoints(const Vector3& point, const Vector3& a,
+                                            const Vector3& b, const Vector3& c, double s = 1.0);
 // The plane n . p + offset = 0, |n| = 1.
-CostPtr MakeAutoPlane(const Vector3& point, const Vector3& normal, double offset, double s = 1.0);
-CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s = 1.0);
+[[nodiscard]] CostPtr MakeAutoPlane(const Vector3& point, const Vector3& normal, double offset,
+                                    double s = 1.0);
+[[nodiscard]] CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s = 1.0);
 
-// |b - a| must be at least kMinLineLength_m; MakeEdge refuses where it is not.
+// |b - a| must be at least LoamParameters::kMinLineLength_m; MakeEdge refuses where it is not.
 class EdgeFactor final : public ceres::SizedCostFunction<3, 7> {
  public:
   EdgeFactor(const Vector3& point, const Vector3& a, const Vector3& b)
@@ -57,7 +58,7 @@ class PlaneFactor final : public ceres::SizedCostFunction<1, 7> {
   double offset_;
 };
 
-CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b);
-CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset);
+[[nodiscard]] CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b);
+[[nodiscard]] CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset);
 
 }  // namespace lio

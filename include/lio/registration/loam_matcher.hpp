@@ -4,11 +4,11 @@
 // surface points against planes through theirs on a surface map, by Ceres with Huber's loss, in
 // rounds of new correspondences until the pose stands still.
 //
-// Needs points with tags (scan/feature_tag.hpp). Correspondences are sought as far as the guess may
-// be off and the maps are coarse. Cost in units of the surface points' variance.
+// It needs points with tags (scan/feature_tag.hpp). Correspondences are sought as far as the guess
+// may be off and the maps are coarse. The cost is in units of the surface points' variance.
 // Differences from A-LOAM: maps are running means in hashed voxels and not re-filtered clouds with
 // k-d trees built anew; planes whose points spread along one ring only do not count; an edge point
-// weighs as much as it is accurate; directions that the scene does not hold get no step.
+// weighs as much as it is accurate; degenerate directions get no step.
 // Source: Zhang and Singh, "LOAM", RSS 2014, sections V-B and VI.
 #pragma once
 
@@ -16,6 +16,7 @@
 
 #include "lio/map/point_map.hpp"
 #include "lio/registration/loam_options.hpp"
+#include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/registration/search_radius.hpp"
@@ -24,7 +25,7 @@ namespace lio {
 
 class LoamTerms;
 
-class LoamMatcher final : public ScanMatcher {
+class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
   explicit LoamMatcher(const LoamOptions& options);
   ~LoamMatcher() override;

@@ -19,8 +19,8 @@ struct LoamOptions {
   double min_line_ratio = 3.0;     // of the largest to the second eigenvalue of a line's points
   double max_plane_error_m = 0.2;  // a plane fits none of its points worse
   double huber_m = 0.1;            // residuals above count linearly
-  double edge_std_m = 0.1;         // how well an edge point tells where the edge is: the beams' gap
-  double surface_std_m = 0.03;     // the same of a surface point: range noise and roughness
+  double edge_std_m = 0.1;         // of an edge point's distance from its edge: the beams' gap
+  double surface_std_m = 0.03;     // of a surface point's distance: range noise and roughness
   int max_iterations = 4;          // of Ceres in one round
   int max_rounds = 8;              // correspondences are sought anew in each (A-LOAM always 2)
   double converged_step_m = 1e-3;  // a round's step smaller than both ends the match

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // LOAM's scan-to-scan matching: sharp edge points against lines through two edge points of the scan
 // before, on neighbouring rings; flat ones against planes through three of its surface points, two
-// of a ring and one of another. What was inserted last is all the map there is, so poses drift as
+// of a ring and one of another. The map is the scan that was inserted last, so poses drift as
 // odometry does.
 //
 // A scan that is not deskewed can be given with each point's sweep ratio, its share 0..1 of the
@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "lio/registration/loam_options.hpp"
+#include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/registration/search_radius.hpp"
@@ -23,13 +24,13 @@ namespace lio {
 class LoamTerms;
 class RingGrid;
 
-class LoamScanMatcher final : public ScanMatcher {
+class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
   explicit LoamScanMatcher(const LoamOptions& options);
   ~LoamScanMatcher() override;
 
   MatchResult Match(const MatchInput& input) override;
-  // `sweep_ratios`: of each point of the input.
+  // Matches a scan that is not deskewed. `sweep_ratios`: one for each point of the input.
   MatchResult MatchSkewed(const MatchInput& input, std::span<const float> sweep_ratios);
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   void Clear() override;
@@ -45,7 +46,7 @@ class LoamScanMatcher final : public ScanMatcher {
               MatchResult& result);
 
   LoamOptions options_;
-  Pose T_map_last_;  // where the last scan was inserted
+  Pose T_map_last_;  // the pose of the last scan
   std::unique_ptr<RingGrid> edges_;
   std::unique_ptr<RingGrid> surfaces_;
   std::unique_ptr<LoamTerms> terms_;  // of the current round

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The loop that every matcher runs: step by step from the guess, with a reach that shrinks, until
-// the reach is used up and a step is small.
+// The loop that every matcher runs: step by step from the guess, with a correspondence radius that
+// shrinks, until the radius is zero and a step is small.
 #pragma once
 
 #include <optional>
@@ -15,32 +15,33 @@ struct StopRule {
   double small_step_m = 0.0;  // a step smaller than both of these ends the loop
   double small_step_rad = 0.0;
 
-  bool IsSmall(const Vector6& step) const {
+  [[nodiscard]] bool IsSmall(const Vector6& step) const {
     return step.head<3>().norm() < small_step_m && step.tail<3>().norm() < small_step_rad;
   }
 };
 
-// Moves `pose` by `step_at(pose, reach)`, a right increment, or nothing where too little of the
-// scan is matched, which ends the loop. `reach` has IsExhausted() and Shrink(). Fills the result's
-// iterations and status; false where a step was no number: then the result is complete.
-template <class Reach, class StepAt>
-bool StepUntilStill(const StopRule& rule, Reach reach, const StepAt& step_at, Pose& pose,
-                    MatchResult& result) {
+// Moves `pose` by `step_at(pose, radius)`, a right increment; step_at returns nothing where too
+// little of the scan is matched, which ends the loop. `radius` has IsExhausted() and Shrink().
+// Fills the result's iterations and status. Returns false where a step was no number: the result is
+// complete then.
+template <class Radius, class StepAt>
+[[nodiscard]] bool StepUntilStill(const StopRule& rule, Radius radius, const StepAt& step_at,
+                                  Pose& pose, MatchResult& result) {
   result.status = MatchStatus::kMaxIterations;
   while (result.iterations < rule.max_steps) {
     ++result.iterations;
-    const std::optional<Vector6> step = step_at(pose, reach);
+    const std::optional<Vector6> step = step_at(pose, radius);
     if (!step) break;
     if (!step->allFinite()) {
       result.status = MatchStatus::kDiverged;
       return false;
     }
     pose = pose * ExpSe3(*step);
-    if (reach.IsExhausted() && rule.IsSmall(*step)) {
+    if (radius.IsExhausted() && rule.IsSmall(*step)) {
       result.status = MatchStatus::kConverged;
       break;
     }
-    reach.Shrink();
+    radius.Shrink();
   }
   return true;
 }

@@ -13,7 +13,7 @@ enum class MatchStatus : std::int8_t {
   kTooFewPoints = 2,
   kEmptyMap = 3,  // nothing to match against yet: the scan starts the map
   kDiverged = 4,
-  kDegenerate = 5,  // converged, with weak directions
+  kDegenerate = 5,  // converged, with degenerate directions
 };
 
 }  // namespace lio

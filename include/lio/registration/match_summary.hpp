@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the terms of a least-squares match at its solution to what is reported: information,
-// covariance, weak directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the map, n
-// a unit direction of the map and w a robust weight held constant.
+// From the terms of a least-squares match at its solution to its report: information, covariance,
+// degenerate directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the map, n a
+// unit direction of the map and w a robust weight that the derivative takes as constant.
 #pragma once
 
 #include "lio/registration/cluster_scores.hpp"
 #include "lio/registration/degenerate_directions.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/scan_matcher.hpp"
 
 namespace lio {
@@ -21,28 +22,34 @@ inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) 
   return row;
 }
 
-// Geman-McClure's kernel at a residual of so many sigmas, squared: w = 1 / (1 + d^2/8)^2.
+// Geman-McClure's kernel, w = 1 / (1 + d^2/8)^2, at a residual of d standard deviations; functions
+// take d^2. Source: Geman, McClure, Bull. Int. Stat. Inst. 52, 1987; Barron, "A General and
+// Adaptive Robust Loss Function", CVPR 2019, for its place among others.
 class RobustKernel {
  public:
   RobustKernel() = default;
-  explicit RobustKernel(float distance_sq) : root_(1.f / (1.f + distance_sq / kWidthSq)) {
-    // d(w d)/dd over w: less than one, for the kernel gives way.
-    curvature_ = 1.f - 4.f * root_ * distance_sq / kWidthSq;
+  explicit RobustKernel(float distance_sq)
+      : root_(1.f / (1.f + distance_sq / Parameters::kWidthSq)) {
+    // d(w d)/dd over w: less than one, since the weight falls as the residual grows.
+    curvature_ = 1.f - 4.f * root_ * distance_sq / Parameters::kWidthSq;
   }
-  float weight() const { return root_ * root_; }  // 1 for an inlier
-  float curvature() const { return curvature_; }
+  [[nodiscard]] float weight() const { return root_ * root_; }  // 1 for an inlier
+  // The robust cost's second derivative over the weight.
+  [[nodiscard]] float curvature() const { return curvature_; }
 
-  // Beyond five sigma a residual does not count at all.
-  static bool IsOutlier(float distance_sq) { return distance_sq > 25.f; }
+  // Beyond five standard deviations a residual does not count at all.
+  [[nodiscard]] static bool IsOutlier(float distance_sq) {
+    return distance_sq > Parameters::kMaxDistanceSq;
+  }
 
  private:
-  static constexpr float kWidthSq = 8.f;
+  using Parameters = RobustKernelParameters;
 
   float root_ = 0.f;
   float curvature_ = 0.f;
 };
 
-// The lower triangle alone is added to; symmetric when read.
+// A sum of weight row row^T. The lower triangle alone is summed; Full() is symmetric.
 class TermSum {
  public:
   void Add(const Vector6f& row, float weight) {
@@ -52,7 +59,7 @@ class TermSum {
     }
   }
   void operator+=(const TermSum& other) { sum_ += other.sum_; }
-  Matrix6 Full() const { return sum_.selfadjointView<Eigen::Lower>(); }
+  [[nodiscard]] Matrix6 Full() const { return sum_.selfadjointView<Eigen::Lower>(); }
 
  private:
   Matrix6 sum_ = Matrix6::Zero();
@@ -60,31 +67,34 @@ class TermSum {
 
 // Sums over terms, in the order they are added.
 struct MatchSums {
-  // One row of the problem, of this weight [1/m^2], the kernel's part included. Gives its gradient.
+  // Adds one row of the problem. `weight` [1/m^2] includes the kernel's. Returns the row's
+  // gradient.
   Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
   void operator+=(const MatchSums& other);
-  // The robust cost's own curvature over that of the one with weights held: below one.
-  double curvature_ratio() const;
+  // The robust cost's own curvature over that of the cost with constant weights: below one.
+  [[nodiscard]] double curvature_ratio() const;
 
   TermSum information;
-  TermSum noise_information;  // information that the noise of the map's directions alone would show
+  TermSum noise_information;  // the part that the noise of the map's normals induces by itself
   Vector6 gradient = Vector6::Zero();
   double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
   double residual_sq_sum = 0.0;  // weighted so [m^2]
-  double curvature_sum = 0.0;    // of the robust cost, and ...
-  double information_sum = 0.0;  // ... of the one with weights held
+  double curvature_sum = 0.0;    // of the robust cost
+  double information_sum = 0.0;  // of the cost with constant weights
   int num_matched = 0;
 };
 
-DirectionSplit SplitDirections(const MatchSums& sums);
+[[nodiscard]] DirectionSplit SplitDirections(const MatchSums& sums);
 
-// `score_cov`: of the whole gradient. Fills information, covariances, eigenvalues, weak directions
-// and residual; turns kConverged into kDegenerate where a direction is weak. Gives the step that is
-// left, within the held directions.
-Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result);
+// Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
+// turns kConverged into kDegenerate where a direction is degenerate. `score_cov`: covariance of the
+// whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at the
+// solution, within the observable directions.
+[[nodiscard]] Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov,
+                                MatchResult& result);
 
-// The step that Summarise() gave costs nothing, and iterations stop at a finite one: moves the
-// result by it unless it is no small one.
+// Moves the result's pose by the step that Summarise() returned, unless it is longer than 5 mm or
+// mrad: iterations stop at a step of finite length, and this one costs nothing.
 void TakeLastStep(const Vector6& step, MatchResult& result);
 
 }  // namespace lio

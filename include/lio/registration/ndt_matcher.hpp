@@ -1,18 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Normal-distributions matching: every point against the surface patch of the voxel it falls into.
+// Normal-distributions matching: every point against the surface patch of the voxel that it falls
+// into (gaussian_map.hpp).
 //
-// Cost: sum over points of rho(d^2 / s), d the distance from the patch's plane, s its variance
-// there, grown by what this scan and the patch's own few points leave open:
-//   s = l0 (1 + m/n (1 + a1^2/l1 + a2^2/l2)) + reach^2
+// The cost is the sum over points of rho(d^2 / s), d the distance from the patch's plane and s its
+// variance there, grown by the errors of this scan and of the patch's own few points:
+//   s = l0 (1 + m/n (1 + a1^2/l1 + a2^2/l2)) + radius^2
 // with l0 the thickness, n the patch's points, m this scan's points in the cell, a the offsets
-// along the tangents of variances l; rho is Geman-McClure's. `reach` begins at what the guess may
-// be off and shrinks to nothing, so the same code catches from decimetres and ends exact.
-// Covariance: the sandwich H^-1 (sum_c g_c g_c') H^-1 with scores summed per cell, since points of
-// one cell share its errors (docs/filter.md).
+// along the tangents of variances l; rho is Geman-McClure's kernel. `radius` is the correspondence
+// radius: it begins at the guess's standard deviation and shrinks to zero, so that the same code
+// converges from decimetres and ends exact.
+// The covariance is the sandwich H^-1 (sum_c g_c g_c') H^-1 with scores summed per cell, since
+// points of one cell share its errors (cluster_scores.hpp,
+// docs/experiments/covariance_of_a_match.md).
 //
-// The map's voxel grid is turned against the map's frame by a fixed odd rotation: a floor or a wall
-// that lay on a voxel face would be split between two cells by its noise.
+// The map's voxel grid is rotated against the map's frame by a fixed odd rotation: a floor or a
+// wall that lay on a voxel face would be split between two cells by its noise. Sources: Biber,
+// Strasser, "The Normal Distributions Transform", IROS 2003; Magnusson, "The Three-Dimensional
+// Normal-Distributions Transform", dissertation, Orebro 2009, chapter 6 (point to distribution).
+// Differences: the distance is along the plane's normal alone and not Mahalanobis's, the kernel is
+// not their mixture with a uniform distribution, and steps are Gauss-Newton's.
 #pragma once
 
 #include <array>
@@ -22,6 +29,7 @@
 #include "lio/map/gaussian_map.hpp"
 #include "lio/map/ndt_options.hpp"
 #include "lio/registration/intra_sweep_rate_estimator.hpp"
+#include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
 #include "lio/registration/scan_matcher.hpp"
 
@@ -29,7 +37,7 @@ namespace lio {
 
 struct NdtTerm;
 
-class NdtMatcher final : public ScanMatcher {
+class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
   // The same results to the last bit on any number of threads.
   explicit NdtMatcher(const NdtOptions& options, int num_threads = 1);
@@ -42,12 +50,12 @@ class NdtMatcher final : public ScanMatcher {
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
-  // The patch a point is held against.
+  // The patch that a point is matched to.
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
     Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
   };
-  // What a point adds to the problem at the solution, row by row.
+  // The rows that a point adds to the problem at the solution.
   struct PointScore {
     struct OfRow {
       Vector6f gradient;
@@ -65,18 +73,19 @@ class NdtMatcher final : public ScanMatcher {
   };
 
   void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                 bool with_upright);
-  // Serial, and counts only set weights: they are kept while the pose hardly moves.
+                 bool with_vertical);
+  // Counts each cell's points, in one thread. The counts set weights alone, and are kept while the
+  // pose hardly moves.
   void CountByCell();
-  // At least the point that asks: it may have come to the cell since they were counted.
+  // One at least, the point itself: it may have moved into the cell since points were counted.
   std::int32_t CountOf(std::int32_t cell) const {
     const CellCount& count = cell_counts_[static_cast<std::size_t>(cell)];
     return count.count_number == count_number_ ? count.num_points : 1;
   }
-  Pair PairOf(const GaussianMap::Hit& hit, bool with_upright) const;
-  NdtTerm TermOf(const Pair& pair, float reach_var) const;
+  Pair PairOf(const GaussianMap::Hit& hit, bool with_vertical) const;
+  NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                      float reach_var, std::span<PointScore> scores) const;
+                      float radius_var, std::span<PointScore> scores) const;
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
@@ -92,7 +101,7 @@ class NdtMatcher final : public ScanMatcher {
   std::optional<Pose> counted_at_;       // T_grid_imu of the counts by cell
   std::vector<PointScore> scores_;       // of the last match, one a point
   PoseScores gradients_;                 // by cell
-  std::array<PoseScores, 2> per_metre_;  // by upright cell, a metre along its two directions
+  std::array<PoseScores, 2> per_metre_;  // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // of the last count; older counts are void

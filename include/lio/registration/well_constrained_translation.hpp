@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Trunks, bushes and edges look different from each side, by some centimetres: they tell where the
-// vehicle is only while that is known no better.
+// The test for a well-constrained translation. Trunks, bushes and edges look different from each
+// side, by some centimetres: they help only while the vehicle's translation is known no better.
 #pragma once
 
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/scan_matcher.hpp"
 
 namespace lio {
 
-// Is the shift since the last scan known better than such things can tell?
-inline bool IsTranslationWellConstrained(const MatchInput& input) {
-  constexpr double kMaxShiftStd_m = 0.02;
-  return input.shift_std_m <= kMaxShiftStd_m;
+// Is the translation since the last scan known better than such things can tell?
+[[nodiscard]] inline bool IsTranslationWellConstrained(const MatchInput& input) {
+  return input.shift_std_m <= WellConstrainedTranslationParameters::kMaxStd_m;
 }
 
 }  // namespace lio

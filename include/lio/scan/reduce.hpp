@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lio/base/voxel_key.hpp"
+#include "lio/base/voxel_table.hpp"
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"
@@ -24,30 +24,24 @@ class ScanReducer final : public SweepReducer {
   ReducedScan Reduce(const Sweep& sweep) override;
 
  private:
-  struct Slot {
-    VoxelKey key = kFreeSlot;
-    // Of the chosen point: its distance from the voxel's centre, squared and in voxels, as a
-    // float's bits, which order as it does; below them its index in the sweep.
-    std::uint64_t choice = 0;
-  };
+  // The point chosen for a voxel: its distance from the voxel's centre, squared and in voxels, as a
+  // float's bits, which order as it does; below them its index in the sweep.
+  using Choice = std::uint64_t;
   struct Chosen {
     std::uint64_t key = 0;  // time, then ring
     std::uint32_t index = 0;
   };
-  static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
-  static constexpr VoxelKey kFreeSlot = ~VoxelKey{0};  // no voxel's: keys leave the top bit free
 
   void FindCandidates(const Sweep& sweep, int& num_nonfinite);
-  // Gives the number of voxels hit, or kTableFull.
-  std::size_t FillSlots(const Sweep& sweep);
+  void ChoosePoints(const Sweep& sweep);
   void MarkChosen();
-  std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept);
+  std::vector<Chosen> SortedChoice(const Sweep& sweep);
 
   ReduceOptions options_;
   PointFilter filter_;
   float voxel_m_;
   std::vector<std::uint32_t> candidates_;  // indices of the points that are looked at
-  std::vector<Slot> slots_;                // open addressing, a power of two
+  VoxelTable<Choice> choices_;             // by voxel
   std::vector<std::uint64_t> is_chosen_;   // a bit a point of the sweep
 };
 

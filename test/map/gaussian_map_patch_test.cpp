@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tests which cells of a GaussianMap have a shape, and which shape.
+// Which cells of a GaussianMap count, as a plane or as a vertical structure.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -28,8 +28,7 @@ std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double l
   return points;
 }
 
-// Returns the points that a beam of this elevation, turning about the origin, leaves in a crown
-// around `centre`.
+// The points of a beam of this elevation, turning about the origin, in a crown around `centre`.
 std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_rad) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> depth(-0.4, 0.4);
@@ -45,7 +44,7 @@ std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_ra
   return points;
 }
 
-TEST(GaussianMapShape, ARingThroughACrownIsNoPlane) {
+TEST(GaussianMapPatch, ARingThroughACrownIsNoPlane) {
   const Vector3 centre = CentreOf(24, 17, 2);
   const double elevation_rad = std::asin(centre.z() / centre.norm());
   const std::vector<Vector3> ring = RingThroughCrown(centre, elevation_rad);
@@ -60,20 +59,20 @@ TEST(GaussianMapShape, ARingThroughACrownIsNoPlane) {
   EXPECT_GT(PatchAt(from_above, centre).thickness_var, 0.f);
 }
 
-TEST(GaussianMapShape, PostsAreUprightAndHoldInTwoLevelDirections) {
+TEST(GaussianMapPatch, PostsAreVerticalAndConstrainTwoHorizontalDirections) {
   GaussianMap map(TestOptions());
   const Vector3 centre = CentreOf(3, 4, 1);
   map.Insert(PostPoints(centre, 0.15, 0.1), Vector3::Zero());
   const SurfacePatch& patch = PatchAt(map, centre);
   ASSERT_GT(patch.thickness_var, 0.f);
-  EXPECT_EQ(patch.kind, SurfacePatch::Kind::kUpright);
+  EXPECT_EQ(patch.kind, SurfacePatch::Kind::kVertical);
   EXPECT_NEAR(patch.normal.z(), 0.f, 1e-5f);
   EXPECT_NEAR(patch.tangent1_per_std.z(), 0.f, 1e-5f);
   EXPECT_NEAR(patch.normal.dot(patch.tangent1_per_std), 0.f, 1e-4f);
   EXPECT_NEAR(std::sqrt(patch.thickness_var), 0.1, 0.03);
 }
 
-TEST(GaussianMapShape, UprightGoesByTheGivenUp) {
+TEST(GaussianMapPatch, VerticalGoesByTheGivenDirection) {
   GaussianMap map(TestOptions());
   map.SetUp(Vector3::UnitX());
   const Vector3 centre = CentreOf(0, 0, 0);
@@ -81,15 +80,15 @@ TEST(GaussianMapShape, UprightGoesByTheGivenUp) {
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f) << "lies on its side";
 }
 
-// Points that fill the cell do not determine a position.
-TEST(GaussianMapShape, BushesWiderThanTheCellDoNotCount) {
+// Points that fill the cell tell nothing of a place in it.
+TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   GaussianMap map(TestOptions());
   const Vector3 centre = CentreOf(0, 0, 0);
   map.Insert(PostPoints(centre, 0.4, 0.0), Vector3::Zero());
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
 }
 
-TEST(GaussianMapShape, PatchHasTheMeanNormalAndThicknessOfItsPoints) {
+TEST(GaussianMapPatch, PatchHasTheMeanNormalAndThicknessOfItsPoints) {
   GaussianMap map(TestOptions());
   const Vector3 normal = Vector3(0.2, -0.3, 1.0).normalized();
   const std::vector<Vector3> points = PlanePoints(CentreOf(3, 4, 5), normal, 60);
@@ -110,7 +109,7 @@ TEST(GaussianMapShape, PatchHasTheMeanNormalAndThicknessOfItsPoints) {
   EXPECT_NEAR(patch.tangent1_per_std.dot(patch.normal), 0.f, 1e-4f);
 }
 
-TEST(GaussianMapShape, ManyScansAndOneGiveTheSamePatch) {
+TEST(GaussianMapPatch, ManyScansAndOneGiveTheSamePatch) {
   const std::vector<Vector3> points = PlanePoints(CentreOf(0, 0, 0), Vector3::UnitX(), 80);
   GaussianMap at_once(TestOptions());
   at_once.Insert(points, Vector3::Zero());
@@ -125,7 +124,7 @@ TEST(GaussianMapShape, ManyScansAndOneGiveTheSamePatch) {
   EXPECT_EQ(a.thickness_var, b.thickness_var);
 }
 
-TEST(GaussianMapShape, PrecisionDoesNotDependOnTheDistanceFromTheOrigin) {
+TEST(GaussianMapPatch, PrecisionDoesNotDependOnTheDistanceFromTheOrigin) {
   const Vector3 far(50000.0, -30000.0, 100.0);
   NdtOptions options = TestOptions();
   GaussianMap near_map(options);
@@ -140,13 +139,13 @@ TEST(GaussianMapShape, PrecisionDoesNotDependOnTheDistanceFromTheOrigin) {
   EXPECT_LT((a.normal - b.normal).norm(), 1e-5f);
 }
 
-TEST(GaussianMapShape, FewPointsDoNotCount) {
+TEST(GaussianMapPatch, FewPointsDoNotCount) {
   GaussianMap map(TestOptions());
   map.Insert(PlanePoints(CentreOf(0, 0, 0), Vector3::UnitZ(), 5), Vector3::Zero());
   EXPECT_EQ(PatchAt(map, CentreOf(0, 0, 0)).thickness_var, 0.f);
 }
 
-TEST(GaussianMapShape, RingsOfAStandingVehicleDoNotCount) {
+TEST(GaussianMapPatch, RingsOfAStandingVehicleDoNotCount) {
   GaussianMap map(TestOptions());
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, 0.02);
@@ -159,8 +158,8 @@ TEST(GaussianMapShape, RingsOfAStandingVehicleDoNotCount) {
   EXPECT_FALSE(map.IsFrozen(map.Find(CentreOf(0, 0, 0)).cell));
 }
 
-// When the vehicle drives off, the rings move over the ground: the cell must become a plane then.
-TEST(GaussianMapShape, CellOfRingsBecomesAPlaneWhenTheVehicleDrivesOff) {
+// Driving off, the rings move over the ground: the cell must become a plane then.
+TEST(GaussianMapPatch, CellOfRingsBecomesAPlaneWhenTheVehicleDrivesOff) {
   GaussianMap map(TestOptions());
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, 0.02);

@@ -1,25 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "registration/neighbour_shape.hpp"
+#include "registration/neighbour_fit.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
 namespace {
 
-// A plane's points must spread in both directions, or they are a piece of one scan ring; as a share
-// of the map's leaf. Its normal must be known this well.
-constexpr double kMinWidthPerLeaf = 0.3;
-constexpr double kMaxNormalStd_rad = 0.1;
+using Parameters = LoamParameters;
 
 struct Moments {
   Vector3 mean = Vector3::Zero();
   Vector3 variance;  // ascending
   Matrix3 axes;      // columns
   double count = 0.0;
-  double points_each = 0.0;  // that each of them is the mean of
+  double points_each = 0.0;  // each neighbour is the mean of so many
 };
 
 Moments MomentsOf(const PointMap::Neighbours& neighbours) {
@@ -43,38 +42,38 @@ Moments MomentsOf(const PointMap::Neighbours& neighbours) {
   return moments;
 }
 
-// What range noise alone leaves in a mean.
+// The variance that range noise alone leaves in a mean.
 double NoiseVar(const Moments& moments, const LoamOptions& options) {
   return options.surface_std_m * options.surface_std_m / moments.points_each;
 }
 
 }  // namespace
 
-std::optional<LineShape> FitLine(const PointMap::Neighbours& neighbours,
-                                 const LoamOptions& options) {
+std::optional<LineFit> FitLine(const PointMap::Neighbours& neighbours, const LoamOptions& options) {
   if (neighbours.count < options.num_neighbours) return std::nullopt;
   const Moments moments = MomentsOf(neighbours);
   if (moments.variance[2] < options.min_line_ratio * moments.variance[1]) return std::nullopt;
-  const double min_length = kMinWidthPerLeaf * options.edge_leaf_m;
+  const double min_length = Parameters::kMinWidthPerLeaf * options.edge_leaf_m;
   if (moments.variance[2] < min_length * min_length) return std::nullopt;
   const double across_var = std::max(moments.variance[1], NoiseVar(moments, options));
-  return LineShape{moments.mean, moments.axes.col(2),
-                   across_var / (moments.count * moments.variance[2])};
+  return LineFit{moments.mean, moments.axes.col(2),
+                 across_var / (moments.count * moments.variance[2])};
 }
 
-std::optional<PlaneShape> FitPlane(const PointMap::Neighbours& neighbours,
-                                   const LoamOptions& options) {
+std::optional<PlaneFit> FitPlane(const PointMap::Neighbours& neighbours,
+                                 const LoamOptions& options) {
   if (neighbours.count < options.num_neighbours) return std::nullopt;
   const Moments moments = MomentsOf(neighbours);
-  const double min_width = kMinWidthPerLeaf * options.surface_leaf_m;
+  const double min_width = Parameters::kMinWidthPerLeaf * options.surface_leaf_m;
   if (moments.variance[1] < min_width * min_width) return std::nullopt;
   const double thickness_var = std::max(moments.variance[0], NoiseVar(moments, options));
-  PlaneShape plane{moments.mean,
-                   moments.axes.col(0),
-                   moments.axes,
-                   {thickness_var / (moments.count * moments.variance[1]),
-                    thickness_var / (moments.count * moments.variance[2])}};
-  if (plane.normal_var[0] > kMaxNormalStd_rad * kMaxNormalStd_rad) return std::nullopt;
+  PlaneFit plane{moments.mean,
+                 moments.axes.col(0),
+                 moments.axes,
+                 {thickness_var / (moments.count * moments.variance[1]),
+                  thickness_var / (moments.count * moments.variance[2])}};
+  constexpr double kMaxStd_rad = Parameters::kMaxNormalStd_rad;
+  if (plane.normal_var[0] > kMaxStd_rad * kMaxStd_rad) return std::nullopt;
   for (std::size_t i = 0; i < static_cast<std::size_t>(neighbours.count); ++i) {
     const Vector3 d = neighbours.list[i].from_query.cast<double>() - moments.mean;
     if (std::abs(plane.normal.dot(d)) > options.max_plane_error_m) return std::nullopt;

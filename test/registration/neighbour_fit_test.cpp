@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "registration/neighbour_shape.hpp"
+#include "registration/neighbour_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The maps' constants that are no configuration keys: units, meaning and where each value comes
+// from. They are compile-time constants, so that inner loops cost nothing for them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lio {
+
+// A cell of GaussianMap counts as a plane or as a thin vertical structure only when its points
+// show one. The plane's limits come from the drives of docs/experiments/grazing_incidence.md, those
+// of vertical structures from docs/experiments/vertical_structures.md.
+struct GaussianMapParameters {
+  // A plane's variance along its normal over that of its narrower tangent, at most.
+  static constexpr double kMaxThicknessRatio = 0.1;
+  // A plane's standard deviation along its narrower tangent over the voxel's edge, at least; a cell
+  // that is evenly filled has 0.29.
+  static constexpr double kMinWidthPerVoxel = 0.12;
+  // Standard deviation of a plane's normal [rad], at most.
+  static constexpr double kMaxNormalStd_rad = 0.05;
+  // A vertical structure's standard deviation along the vertical over the voxel's edge, at least.
+  static constexpr double kMinHeightPerVoxel = 0.15;
+  // A vertical structure's larger horizontal standard deviation over the voxel's edge, at most: a
+  // wider one is cut off by the cell's sides.
+  static constexpr double kMaxVerticalWidthPerVoxel = 0.2;
+  // Floor of a vertical structure's horizontal standard deviation [m]: the side from which a trunk
+  // is seen moves its mean by about that much.
+  static constexpr double kMinVerticalStd_m = 0.06;
+  // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
+  // filled cell changes little with each point. Chosen.
+  static constexpr double kRefitGrowth = 1.1;
+  // So many points ahead, memory is asked for before it is needed. Chosen; no effect on results.
+  static constexpr std::size_t kPrefetchDistance = 16;
+  // The search for cells beyond the map's range passes over all cells in this many scans. Chosen:
+  // it spreads the cost, and cells stay a few seconds longer than they must.
+  static constexpr std::size_t kFarCellsWalk_scans = 64;
+};
+
+// Between a surface and the beams that saw it: docs/experiments/grazing_incidence.md.
+struct GrazingIncidenceParameters {
+  // Sine of the least angle, 3.4 deg; values from 0.045 to 0.09 give the same results.
+  static constexpr float kMinSine = 0.06f;
+};
+
+struct KeyframeMapParameters {
+  // Factor on height differences where keyframes are ranked by distance, so that the storeys above
+  // and below do not take places in the submap. Chosen.
+  static constexpr double kHeightFactor = 3.0;
+  // Bound of a search [voxels]: 4 m with the voxel of 0.5 m, twice the largest standard
+  // deviation that a search allows for (CorrespondenceParameters::kMaxStd_m).
+  static constexpr int kMaxSearch_voxels = 8;
+};
+
+struct PointMapParameters {
+  // Bound of a search [voxels]: 4.8 m with the leaf of 0.4 m, more than twice the largest standard
+  // deviation that a search allows for (CorrespondenceParameters::kMaxStd_m).
+  static constexpr int kMaxSearch_voxels = 12;
+};
+
+}  // namespace lio

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The constants of registration that are no configuration keys: units, meaning and where each value
+// comes from ("chosen" where no experiment tells). They are compile-time constants, so that inner
+// loops cost nothing for them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace lio {
+
+// How far from its predicted place a point may have its counterpart on the map, from the covariance
+// of the guess.
+struct CorrespondenceParameters {
+  // Range at which rotations and translations are compared [m]: a rotation error moves a point by
+  // its range times the angle. Chosen, between a room's ranges and a street's.
+  static constexpr double kLever_m = 20.0;
+  // Factor on the correspondence radius after each step of a match: after three steps 3 % are left.
+  // Chosen.
+  static constexpr double kShrink = 0.3;
+  // Upper bound of the standard deviation [m]: beyond it most nearest neighbours are of
+  // other surfaces. Chosen.
+  static constexpr double kMaxStd_m = 2.0;
+  // A radius below this is taken as zero [m]: a third of the floor of a surface's thickness
+  // (NdtOptions::min_surface_std_m). Chosen.
+  static constexpr double kSmallestStd_m = 0.01;
+  // Searches go this many standard deviations far: 99.7 % of a normal distribution.
+  static constexpr double kSearchSigmas = 3.0;
+};
+
+// Which directions of a pose a match observes: docs/experiments/covariance_of_a_match.md.
+struct DegeneracyParameters {
+  // A direction is observable when its information is this many times what the noise of the map's
+  // normals alone induces. Observable directions of streets have 40 times and more, the axis of a
+  // corridor 0.05 to 1.6; 5 and 10 give the same results.
+  static constexpr double kMinInformationRatio = 8.0;
+  // Standard deviation that is reported along degenerate directions [m, at the scale of
+  // DirectionSplit]: far above every prior of the filter.
+  static constexpr double kDegenerateStd_m = 100.0;
+};
+
+// Geman-McClure's kernel, w = 1 / (1 + d^2 / width)^2, d in standard deviations.
+struct RobustKernelParameters {
+  // Width, squared: at d = 1.63 the kernel's influence w d is largest. Chosen.
+  static constexpr float kWidthSq = 8.f;
+  // A residual beyond five standard deviations, squared here, has no weight at all.
+  static constexpr float kMaxDistanceSq = 25.f;
+};
+
+// Limits that every matcher has for its report.
+struct MatchParameters {
+  // Fewer matched points than these end a match: six unknowns, with outliers among the
+  // points. Chosen.
+  static constexpr int kMinMatched = 50;
+  // Lower bound of the robust cost's curvature over its information; below it most terms are
+  // outliers. Chosen.
+  static constexpr double kMinCurvatureRatio = 0.3;
+  // The step that is left at the solution is taken when it is shorter than this [m and rad as one
+  // norm]: some times as long as a step that ends the iterations. Chosen.
+  static constexpr double kMaxLastStep = 5e-3;
+};
+
+// Trunks, bushes and edges look different from each side.
+struct WellConstrainedTranslationParameters {
+  // They are left out where the translation since the last scan is known to this standard deviation
+  // [m]; docs/experiments/vertical_structures.md.
+  static constexpr double kMaxStd_m = 0.02;
+};
+
+struct NdtParameters {
+  // Standard deviation of the error that all points of a vertical structure share [m], since the
+  // visible part of a trunk depends on the side: docs/experiments/vertical_structures.md.
+  static constexpr double kSharedVerticalStd_m = 0.15;
+  // Cap of a^2 / l, a point's squared distance from a patch's mean over the patch's variance: two
+  // standard deviations off its middle a patch is extrapolated. Chosen.
+  static constexpr float kMaxLeverSq = 4.f;
+  // Factor on the number of iterations where the guess may be far off. Chosen.
+  static constexpr int kFarOffIterationFactor = 5;
+  // The counts of points by cell hold while no point within CorrespondenceParameters::kLever_m has
+  // moved farther [m]: 5 % of a cell's edge. They set weights alone. Chosen.
+  static constexpr double kCountsHold_m = 0.05;
+  // The fixed rotation [rad, rotation vector] and translation [m] between the map's axes and the
+  // voxel grid's: odd, so that no floor or wall lies on a voxel face, where noise would split it.
+  static constexpr std::array<double, 3> kGridRotation_rad{0.31, -0.23, 0.41};
+  static constexpr std::array<double, 3> kGridTranslation_m{0.37, 0.41, 0.29};
+};
+
+struct GicpParameters {
+  // Variance of a surface across its normal [m^2]: how far a surface is taken to extend. It counts
+  // against a pair whose normals differ. Segal et al. take 1 here, too, and 0.001 along the
+  // normal, in place of which we have the thickness.
+  static constexpr float kTangentVar_m2 = 1.f;
+  // Variance added for a point without a normal [m^2]: it may lie on an edge. Chosen.
+  static constexpr float kNoNormalVar_m2 = 0.04f;
+  // Least cosine between two normals of one surface, 45 deg. Chosen.
+  static constexpr float kMinCosine = 0.7f;
+  // Neighbours are sought this far [m] beyond where the guess may be off, or this share of the
+  // range where that is more: the keyframes' points are so far apart, two beams at long range.
+  static constexpr double kMinSearch_m = 0.7;
+  static constexpr double kSearchPerRange = 0.05;
+  // Edge of the voxels of the keyframe map [m]: about the distance of nearest points.
+  static constexpr double kMapVoxel_m = 0.5;
+  // Points of one voxel of this edge share the errors of the normals [m]: the voxel over which
+  // normals are fitted is 0.7 m.
+  static constexpr double kClusterVoxel_m = 1.0;
+  // Factor on the number of iterations where the guess may be far off. Chosen.
+  static constexpr int kFarOffIterationFactor = 3;
+  // Neighbours are kept while no point within CorrespondenceParameters::kLever_m has moved farther
+  // [m]: a hundredth of the map's voxel.
+  static constexpr double kKeepPairs_m = 5e-3;
+  // Share of the old value when a scan's median range is smoothed. Chosen.
+  static constexpr double kOpennessKeep = 0.9;
+};
+
+// The plane that is fitted around a scan's point, from the moments of 3 x 3 x 3 voxels.
+struct ScanNormalParameters {
+  static constexpr double kMinPoints = 6.0;  // of the 27 voxels together. Chosen
+  // Variance along the normal over that of the narrower tangent, at most: as for the cells of NDT.
+  static constexpr double kMaxThicknessRatio = 0.1;
+  // Standard deviation along the narrower tangent over the voxel's edge, at least: a single ring is
+  // narrower. Chosen.
+  static constexpr double kMinWidthPerVoxel = 0.3;
+  static constexpr double kMaxNormalStd_rad = 0.1;  // standard deviation of the normal
+  // A surface z = k x^2 / 2 seen over [-a, a] is a^2 / 3 wide and k^2 a^4 / 45 thick, both
+  // variances; a distance o away it has bent by k o^2 / 2, whose square is this times thickness /
+  // width^2 o^4.
+  static constexpr double kBend = 1.25;
+  // Points that are this many voxels from the next level's range count there, too: the neighbours
+  // of a point on the border.
+  static constexpr float kOverlap_voxels = 2.f;
+  // Levels of voxels, each twice as coarse as the one before: with 0.7 m and 0.03 rad up to 750 m.
+  static constexpr std::size_t kNumLevels = 6;
+};
+
+struct LoamParameters {
+  // A line between two points that are nearer to each other than this has no direction [m].
+  static constexpr double kMinLineLength_m = 0.01;
+  // Scan to map. Neighbours are at most this many leaves off. Chosen: leaves are one apart.
+  static constexpr double kLeavesPerSearch = 2.5;
+  // Residuals beyond this [m] and what the guess may be off do not count. Chosen: three times
+  // LoamOptions::huber_m.
+  static constexpr double kGate_m = 0.3;
+  // Factor on the number of rounds where the guess may be far off. Chosen.
+  static constexpr int kFarOffRoundFactor = 3;
+  // Later rounds go half their step: two sets of neighbours may alternate. Chosen.
+  static constexpr int kFullRounds = 4;
+  // Points of a line or a plane spread at least this much over the map's leaf, as a standard
+  // deviation: less is a piece of one scan ring.
+  static constexpr double kMinWidthPerLeaf = 0.3;
+  // Standard deviation of a plane's normal [rad], at most: as for ScanNormalParameters.
+  static constexpr double kMaxNormalStd_rad = 0.1;
+};
+
+// Scan to scan: A-LOAM's neighbours, and bounds that keep noise from tilting lines and planes.
+struct LoamScanParameters {
+  static constexpr std::size_t kMinMatched = 30;  // fewer features than surface points. Chosen
+  // Neighbours on a scan are this far apart [m], or this share of the range where beams spread
+  // more: two beams.
+  static constexpr double kMinSearch_m = 1.0;
+  static constexpr double kSearchPerRange = 0.06;
+  static constexpr double kMaxSearch_m = 5.0;  // A-LOAM: DISTANCE_SQ_THRESHOLD of 25 m^2
+  // Least distance of the second point of a line or the third of a plane, on another ring, and of a
+  // plane's second point, on the same ring [m]: noise tilts shorter ones.
+  static constexpr float kMinAcross_m = 0.5f;
+  static constexpr float kMinBaseline_m = 1.f;
+  // Least sine of the angle at the first of a plane's three points. Chosen.
+  static constexpr double kMinTriangle = 0.1;
+  static constexpr int kMaxRingGap = 3;  // A-LOAM: NEARBY_SCAN of 2.5
+  // Voxels of the search grid [m]: as long as the least search.
+  static constexpr float kGridVoxel_m = 1.f;
+};
+
+// Prior standard deviations for the rate within a sweep: the pose is where matching left it, and no
+// rate that a scan was deskewed by is off by more (docs/experiments/intra_sweep_rate.md).
+struct IntraSweepRateParameters {
+  static constexpr double kPoseStd_m = 0.1;
+  static constexpr double kPoseStd_rad = 0.02;
+  static constexpr double kRateStd_radps = 0.5;
+};
+
+}  // namespace lio
