@@ -138,7 +138,7 @@ bool Odometry::Impl::Keep(const ImuSample& sent) {
   const std::optional<ImuSample> sample = Read(sent);
   if (!sample) return true;
   InsertByStamp(imu_, *sample);
-  if (history_) history_->AddImu(*sample);
+  if (history_) (void)history_->AddImu(*sample);
   return true;
 }
 

@@ -187,7 +187,7 @@ void Odometry::Impl::FinishRunning(MatchOutcome& outcome, InsertTask& insert) {
   const bool leaves_map = use_imu_ && sees_enough &&
                           (outcome.match.status == MatchStatus::kTooFewPoints ||
                            num_unmatched_in_a_row_ > kMaxUnmatchedInARow);
-  if (starts_map || leaves_map) history().AddRebase(middle);
+  if (starts_map || leaves_map) (void)history().AddRebase(middle);
   const Estimate estimate = history().At(middle);
   const bool grows_map = starts_map || leaves_map || (report.fused && is_keyframe);
   if (grows_map) {

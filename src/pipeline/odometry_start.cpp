@@ -317,7 +317,7 @@ void Odometry::Impl::StartFrom(StartState start, std::size_t first_sweep) {
   history_.emplace(MakeHistoryOptions(), start.estimate, SampleAt(imu_, start.estimate.stamp));
   history_->KeepFrom(start.estimate.stamp - ClockMargin());
   for (const ImuSample& sample : imu_) {
-    if (sample.stamp > start.estimate.stamp) history_->AddImu(sample);
+    if (sample.stamp > start.estimate.stamp) (void)history_->AddImu(sample);
   }
   phase_ = Phase::kRunning;
   is_first_scan_ = true;

@@ -166,8 +166,8 @@ void Odometry::Impl::BeginNewStretch(const ImuSample& first, ImuPreprocessor::St
   end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
   HistoryOptions history = MakeHistoryOptions();
   ProcessNoise noise = history.noise;
-  noise.accel_density = history.gap_accel_std_mps2 * std::sqrt(unknown_s);
-  noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
+  noise.accel_density = history.imu_outage.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.gyro_density = history.imu_outage.gap_gyro_std_radps * std::sqrt(unknown_s);
   const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
   step_in_doubt_.reset();
