@@ -280,7 +280,7 @@ TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   for (const int at : {kPos, kRot, kVel, kMapPose, kMapPose + 3}) {
     const double start = StartEstimate().cov(at, at);
     const double grown = split.head().cov(at, at) - start;
-    // What an interval is unsure of lasts for that interval, so two halves add up to half of it.
+    // An interval's error lasts for that interval, so two halves add up to half of its variance.
     EXPECT_GT(grown, 0.45 * (plain.head().cov(at, at) - start)) << at;
   }
 }

@@ -33,7 +33,7 @@ Vector9 Difference(const Preintegration& a, const Preintegration& b) {
   return d;
 }
 
-// The true relative motion of a stretch.
+// The true relative motion over an interval.
 Preintegration Truth(const SmoothMotion& motion, double from_s, double to_s) {
   const MotionPoint a = motion.At(from_s);
   const MotionPoint b = motion.At(to_s);
@@ -65,7 +65,7 @@ TEST(Preintegration, ErrorFallsByFourWhenTheRateDoubles) {
 
 TEST(Preintegration, NeighbouringStretchesComposeToTheWhole) {
   const SmoothMotion motion = WalkMotion();
-  // On a sample's stamp both halves see the same readings as the whole.
+  // On a sample's stamp both halves use the same samples as the whole.
   const Preintegration whole = Exact(motion, 0.1, 1.1, 100);
   const Preintegration a = Exact(motion, 0.1, 0.5, 100);
   const Preintegration b = Exact(motion, 0.5, 1.1, 100);

@@ -31,7 +31,8 @@ struct UpdateResult {
 };
 
 // Fuses a pose unless its NIS exceeds `nis_limit` (infinity: always fuses).
-UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, double nis_limit);
+[[nodiscard]] UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement,
+                                    double nis_limit);
 
 // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2, unless the NIS
 // exceeds `nis_limit`. Only the result's fused and nis are set; nis has 3 degrees of freedom.

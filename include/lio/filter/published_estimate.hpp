@@ -21,7 +21,7 @@ struct WorldEstimate {
 
 // The filter's own world pose and covariance.
 WorldEstimate InWorld(const Estimate& estimate);
-// The map's pose as if the map's frame were world. `cov` is the mean square error of that reading:
+// The map's pose as if the map's frame were world. `cov` is the mean square error of that use:
 // the filter's covariance plus the square of the known difference between the two poses.
 WorldEstimate WithMapAsWorld(const Estimate& estimate);
 
