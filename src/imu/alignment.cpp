@@ -10,9 +10,7 @@
 namespace lio {
 namespace {
 
-// Beyond this many sigmas a pose's pull no longer grows: 99 % of six dimensions are within 4.1.
-constexpr double kHuberSigmas = 4.0;
-constexpr int kMaxIterations = 60;
+constexpr AlignmentParameters kParameters = kInitializationParameters.alignment;
 
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;
@@ -69,7 +67,7 @@ Eigen::Matrix<double, kSize, kSize> Whitener(const Eigen::Matrix<double, kSize, 
   return cov.llt().matrixL().solve(Eigen::Matrix<double, kSize, kSize>::Identity());
 }
 
-// A matched pose: position error in imu, rotation error on the right.
+// The term of a matched pose: position error in imu, rotation error on the right.
 struct PoseTerm {
   explicit PoseTerm(const MatchedPose& pose)
       : T_any_imu(pose.T_any_imu), whiten(Whitener<6>(pose.cov)) {}
@@ -89,7 +87,7 @@ struct PoseTerm {
   Matrix6 whiten;
 };
 
-// Inertial samples between two states.
+// The term of the preintegrated samples between two states (Forster et al., TRO 2017, section VI).
 struct MotionTerm {
   MotionTerm(const Preintegration& motion_in, double gravity_mps2)
       : motion(motion_in), gravity(gravity_mps2), whiten(Whitener<9>(motion_in.cov)) {}
@@ -130,6 +128,7 @@ struct MotionTerm {
   Eigen::Matrix<double, 9, 9> whiten;
 };
 
+// The prior of the biases: zero mean, the rig's turn-on spread.
 struct BiasTerm {
   template <class T>
   bool operator()(const T* biases, T* residual) const {
@@ -152,7 +151,7 @@ class Unknowns {
   double* BiasBlock() { return biases_.data(); }
   double* Up() { return at_.up_any.data(); }
 
-  // Those whose covariance is wanted come first.
+  // All blocks; those of the wanted covariance come first.
   std::vector<double*> InOrder(bool has_up) {
     std::vector<double*> blocks = {Rotation(0), Velocity(0), BiasBlock()};
     if (has_up) blocks.push_back(Up());
@@ -191,7 +190,7 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
                        nullptr, x.Rotation(i), x.Position(i), x.Velocity(i), x.Rotation(i + 1),
                        x.Position(i + 1), x.Velocity(i + 1), x.BiasBlock(), x.Up());
     problem.pose_terms.push_back(c.AddResidualBlock(new PoseCost(new PoseTerm(terms.poses[i])),
-                                                    new ceres::HuberLoss(kHuberSigmas),
+                                                    new ceres::HuberLoss(kParameters.huber_sigmas),
                                                     x.Rotation(i + 1), x.Position(i + 1)));
   }
   c.AddResidualBlock(
@@ -204,7 +203,7 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
   }
 }
 
-// Inverse Hessian, of the unknowns that come first.
+// The covariance of the first state, biases and vertical: their part of the inverse Hessian.
 AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = x.InOrder(has_up);
@@ -240,8 +239,8 @@ AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess) {
   AddTerms(terms, x, problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = kMaxIterations;
-  options.function_tolerance = 1e-5;  // of a cost of about half a term each: far below one sigma
+  options.max_num_iterations = kParameters.max_iterations;
+  options.function_tolerance = kParameters.function_tolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -254,7 +253,7 @@ AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess) {
   for (const ceres::ResidualBlockId term : problem.pose_terms) {
     double cost = 0.0;
     problem.ceres.EvaluateResidualBlock(term, false, &cost, nullptr, nullptr);
-    result.pose_misfit_sq.push_back(2.0 * cost);
+    result.pose_residual_sq.push_back(2.0 * cost);
   }
   result.solution = x.Take();
   return result;

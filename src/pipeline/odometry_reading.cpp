@@ -83,14 +83,14 @@ bool Odometry::Impl::JudgeWhileScouting(Timestamp stamp) {
   }
   is_reading_settled_ = verdict.finding == ImuVerdict::Finding::kAsExpected;
   if (verdict.finding != ImuVerdict::Finding::kOtherwise) return false;
-  Adopt(verdict.reading, verdict.evidence, stamp);
+  Adopt(verdict.convention, verdict.evidence, stamp);
   return true;
 }
 
 // Judged by poses that were scouted with it.
 bool Odometry::Impl::IsGyroMisleading(const ImuVerdict& verdict) const {
   if (verdict.finding == ImuVerdict::Finding::kOtherwise) {
-    return !HasSameRates(verdict.reading, reading_);
+    return !HasSameRates(verdict.convention, reading_);
   }
   const auto num_matched = std::count_if(scouted_.begin(), scouted_.end(),
                                          [](const Scouted& s) { return s.is_matched; });
