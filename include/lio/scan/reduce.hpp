@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Thins a sweep: drops what is not finite, too near, too far or the vehicle itself, and keeps one
-// point a voxel, the one nearest the voxel's centre, whatever order the points come in.
+// Thins a sweep: drops points that are not finite, too near, too far or the vehicle itself, and
+// keeps one point per voxel, the nearest to the voxel's centre. The order of the points does not
+// matter. Lidar frame, metres. Nothing throws.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,15 @@ class ScanReducer final : public SweepReducer {
  public:
   ScanReducer(const ReduceOptions& options, const LidarRig& rig);
 
-  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; no allocation
-  // once warm but the result.
+  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; after the
+  // first calls only the result is allocated.
   ReducedScan Reduce(const Sweep& sweep) override;
 
  private:
   struct Slot {
     VoxelKey key = kFreeSlot;
-    // Of the chosen point: its distance from the voxel's centre, squared and in voxels, as a
-    // float's bits, which order as it does; below them its index in the sweep.
+    // The chosen point. Upper half: its squared distance from the voxel's centre in voxels, as the
+    // bits of a float, whose order is the same. Lower half: its index in the sweep.
     std::uint64_t choice = 0;
   };
   struct Chosen {
@@ -35,10 +36,11 @@ class ScanReducer final : public SweepReducer {
     std::uint32_t index = 0;
   };
   static constexpr std::size_t kTableFull = static_cast<std::size_t>(-1);
-  static constexpr VoxelKey kFreeSlot = ~VoxelKey{0};  // no voxel's: keys leave the top bit free
+  static constexpr VoxelKey kFreeSlot =
+      ~VoxelKey{0};  // not a voxel's key, which leaves the top bit free
 
   void FindCandidates(const Sweep& sweep, int& num_nonfinite);
-  // Gives the number of voxels hit, or kTableFull.
+  // Returns the number of occupied voxels, or kTableFull.
   std::size_t FillSlots(const Sweep& sweep);
   void MarkChosen();
   std::vector<Chosen> SortedChoice(const Sweep& sweep, std::size_t num_kept);
@@ -46,9 +48,9 @@ class ScanReducer final : public SweepReducer {
   ReduceOptions options_;
   PointFilter filter_;
   float voxel_m_;
-  std::vector<std::uint32_t> candidates_;  // indices of the points that are looked at
+  std::vector<std::uint32_t> candidates_;  // indices of the finite, sampled points in range
   std::vector<Slot> slots_;                // open addressing, a power of two
-  std::vector<std::uint64_t> is_chosen_;   // a bit a point of the sweep
+  std::vector<std::uint64_t> is_chosen_;   // one bit per point of the sweep
 };
 
 }  // namespace lio
