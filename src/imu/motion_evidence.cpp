@@ -110,14 +110,16 @@ std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) con
   };
   std::size_t first = k;
   while (first > 0 && is_joined(first - 1) &&
-         before_s(first) < kParameters.second_difference_span_s)
+         before_s(first) < kParameters.second_difference_span_s) {
     --first;
+  }
   std::size_t last = k;
   while (is_joined(last + 1) && after_s(last) < kParameters.second_difference_span_s) ++last;
   const double rise_s = before_s(first);
   const double fall_s = after_s(last);
-  if (std::min(rise_s, fall_s) < kParameters.min_span_share * kParameters.second_difference_span_s)
+  if (std::min(rise_s, fall_s) < kParameters.min_span_share * kParameters.second_difference_span_s) {
     return std::nullopt;
+  }
 
   Bend bend;
   bend.map = steps_[k].map;
