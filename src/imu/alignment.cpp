@@ -5,7 +5,6 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 
 namespace lio {
 namespace {
@@ -151,16 +150,6 @@ class Unknowns {
   double* BiasBlock() { return biases_.data(); }
   double* Up() { return at_.up_any.data(); }
 
-  // All blocks; those of the wanted covariance come first.
-  std::vector<double*> InOrder(bool has_up) {
-    std::vector<double*> blocks = {Rotation(0), Velocity(0), BiasBlock()};
-    if (has_up) blocks.push_back(Up());
-    blocks.push_back(Position(0));
-    for (std::size_t i = 1; i < at_.states.size(); ++i) {
-      blocks.insert(blocks.end(), {Rotation(i), Position(i), Velocity(i)});
-    }
-    return blocks;
-  }
   Alignment Take() {
     at_.biases = {biases_.head<3>(), biases_.tail<3>()};
     return at_;
@@ -203,23 +192,22 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
   }
 }
 
-// The covariance of the first state, biases and vertical: their part of the inverse Hessian.
+// The covariance of the first state, biases and vertical, by Ceres: their part of the inverse
+// Hessian.
 AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
-  ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks = x.InOrder(has_up);
-  ceres::CRSMatrix crs;
-  problem.ceres.Evaluate(options, nullptr, nullptr, nullptr, &crs);
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> J(crs.num_rows, crs.num_cols,
-                                 static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
-                                 crs.cols.data(), crs.values.data());
-  const Eigen::SparseMatrix<double> hessian = J.transpose() * J;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
+  std::vector<const double*> blocks = {x.Rotation(0), x.Velocity(0), x.BiasBlock()};
+  if (has_up) blocks.push_back(x.Up());
+  ceres::Covariance::Options options;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
   const int num_tangent = kAlignedUp + (has_up ? 2 : 0);
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(crs.num_cols, num_tangent);
-  const Eigen::MatrixXd inverse = factor.solve(unit).topRows(num_tangent);
-  if (factor.info() != Eigen::Success) return AlignedCov::Constant(NAN);
-
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cov(num_tangent,
+                                                                             num_tangent);
+  if (!covariance.Compute(blocks, &problem.ceres) ||
+      !covariance.GetCovarianceMatrixInTangentSpace(blocks, cov.data())) {
+    return AlignedCov::Constant(NAN);
+  }
   Eigen::Matrix<double, 15, Eigen::Dynamic> from_tangent =
       Eigen::Matrix<double, 15, Eigen::Dynamic>::Zero(15, num_tangent);
   from_tangent.topLeftCorner<kAlignedUp, kAlignedUp>().setIdentity();
@@ -228,7 +216,7 @@ AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
     ceres::SphereManifold<3>().PlusJacobian(x.Up(), up_by_tangent.data());
     from_tangent.bottomRightCorner<3, 2>() = up_by_tangent;
   }
-  return from_tangent * inverse * from_tangent.transpose();
+  return from_tangent * cov * from_tangent.transpose();
 }
 
 }  // namespace
