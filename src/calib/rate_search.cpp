@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/calib/calibration_parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr double kGridStep_s = 0.01;
-constexpr double kFineStep_s = 0.001;
-constexpr double kMaxSampleGap_s = 0.05;
-constexpr int kMinTurns = 20;
+constexpr double kGridStep_s = kCalibrationParameters.search.grid_step_s;
+constexpr double kFineStep_s = kCalibrationParameters.search.fine_step_s;
+constexpr double kMaxSampleGap_s = kCalibrationParameters.turns.max_sample_gap_s;
+constexpr int kMinTurns = kCalibrationParameters.search.min_turns;
 
 }  // namespace
 
@@ -45,24 +47,31 @@ bool RateSearch::SumAt(double t_s, Sum& sum) const {
   return true;
 }
 
-RateMatch RateSearch::At(double offset_s) const {
-  RateMatch match;
-  match.offset_s = offset_s;
-  std::vector<Vector3> gyro, lidar;
-  Vector3 gyro_mean = Vector3::Zero();
-  Vector3 lidar_mean = Vector3::Zero();
+RateSearch::Rates RateSearch::RatesAt(double offset_s) const {
+  Rates rates;
   for (const LidarTurn& turn : turns_) {
     const double from_s = SecondsBetween(begin_, turn.from) + offset_s;
     Sum from, to;
     if (!SumAt(from_s, from) || !SumAt(from_s + turn.span_s(), to)) continue;
     if (to.num_gaps != from.num_gaps) continue;
-    gyro.emplace_back((to.angle - from.angle) / turn.span_s());
-    lidar.emplace_back(turn.rotation_lidar / turn.span_s());
-    gyro_mean += gyro.back();
-    lidar_mean += lidar.back();
+    rates.gyro.emplace_back((to.angle - from.angle) / turn.span_s());
+    rates.lidar.emplace_back(turn.rotation_lidar / turn.span_s());
   }
+  return rates;
+}
+
+RateMatch RateSearch::At(double offset_s) const {
+  RateMatch match;
+  match.offset_s = offset_s;
+  const auto [gyro, lidar] = RatesAt(offset_s);
   match.num_turns = static_cast<int>(gyro.size());
   if (match.num_turns < kMinTurns) return match;
+  Vector3 gyro_mean = Vector3::Zero();
+  Vector3 lidar_mean = Vector3::Zero();
+  for (std::size_t i = 0; i < gyro.size(); ++i) {
+    gyro_mean += gyro[i];
+    lidar_mean += lidar[i];
+  }
   gyro_mean /= match.num_turns;
   lidar_mean /= match.num_turns;
   Matrix3 cross = Matrix3::Zero();
@@ -99,7 +108,7 @@ RateMatch RateSearch::Run(double max_offset_s) const {
   try_around(0.0, kGridStep_s, static_cast<int>(std::ceil(max_offset_s / kGridStep_s)));
   if (best.correlation <= 0.0) return best;
   try_around(best.offset_s, kFineStep_s, static_cast<int>(kGridStep_s / kFineStep_s));
-  // The top of the parabola through three points.
+  // The vertex of the parabola through three points.
   const double before = At(best.offset_s - kFineStep_s).correlation;
   const double after = At(best.offset_s + kFineStep_s).correlation;
   const double bend = before - 2.0 * best.correlation + after;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The first guess of a calibration: the clock offset at which turn rates of lidar and gyro agree
-// best, with the rotation between them and the gyro's bias in closed form.
+// The first guess of a calibration: the clock offset at which the turn rates of lidar and gyro
+// correlate best, with the rotation between them (Kabsch, Acta Cryst. 1976) and the gyro's bias in
+// closed form. docs/calibration.md has the formulas. Nothing throws.
 #pragma once
 
 #include <span>
@@ -11,9 +12,9 @@
 
 namespace lio {
 
-// From one sweep to the next.
+// The turn from one sweep to the next.
 struct LidarTurn {
-  Timestamp from, to;      // of the lidar's clock
+  Timestamp from, to;      // by the lidar's clock
   Vector3 rotation_lidar;  // rotation vector, rad, in the lidar's axes at `from`
   double span_s() const { return SecondsBetween(from, to); }
 };
@@ -23,8 +24,8 @@ struct RateMatch {
   Matrix3 R_imu_lidar = Matrix3::Identity();
   Vector3 gyro_bias_radps = Vector3::Zero();
   double correlation = 0.0;          // 0..1
-  double second_axis_ratio = 0.0;    // how much turning there is about other axes than the first
-  double gyro_rate_rms_radps = 0.0;  // about its mean
+  double second_axis_ratio = 0.0;    // second to first singular value of the turn rates
+  double gyro_rate_rms_radps = 0.0;  // after subtraction of the mean
   int num_turns = 0;
 };
 
@@ -32,17 +33,25 @@ class RateSearch {
  public:
   RateSearch(std::span<const ImuSample> samples, std::span<const LidarTurn> turns);
 
-  // The best of a grid over +-max_offset_s, refined between its points.
+  // The best offset of a grid over +-max_offset_s, refined between its points. The correlation is 0
+  // when there are too few turns.
   RateMatch Run(double max_offset_s) const;
+  // The agreement at one offset.
   RateMatch At(double offset_s) const;
 
  private:
-  // Integral of the rates from the first sample on, and whether samples were missing up to there.
+  // Integral of the rates from the first sample (rad, imu), and the number of holes up to there.
   struct Sum {
     Vector3 angle;
     int num_gaps;
   };
-  bool SumAt(double t_s, Sum& sum) const;  // false outside the samples and in their holes
+  // The mean rates of one turn after another, by gyro and lidar.
+  struct Rates {
+    std::vector<Vector3> gyro, lidar;
+  };
+  Rates RatesAt(double offset_s) const;
+  // False outside the samples and in their holes.
+  [[nodiscard]] bool SumAt(double t_s, Sum& sum) const;
 
   std::span<const LidarTurn> turns_;
   Timestamp begin_;

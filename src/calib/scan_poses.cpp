@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/calib/calibration_parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr Duration kWait{300'000'000};  // a sweep still open so long after its end is closed
-// How far a known path may be off.
-constexpr double kPathStd_m = 0.05;
-constexpr double kPathStd_rad = 0.005;
+constexpr ScanPosesParameters kParameters = kCalibrationParameters.scan_poses;
+constexpr Duration kWait = Duration::FromSeconds(kParameters.wait_s);
 
 Options LidarAsBody(Options options) {
   options.rig.T_imu_lidar = Pose::Identity();
@@ -44,9 +44,9 @@ void ScanPoses::MatchClosed() {
 }
 
 MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
-  if (!scout_) scout_.emplace(sweep->start, TrackerOptions{});
-  scout_->AdvanceTo(sweep->end);
-  const FilterHistory& history = scout_->history();
+  if (!tracker_) tracker_.emplace(sweep->start, TrackerOptions{});
+  tracker_->AdvanceTo(sweep->end);
+  const FilterHistory& history = tracker_->history();
   const Estimate predicted = history.At(sweep->middle());
   MatchJob job;
   job.T_any_imu = history.Trajectory(sweep->start, sweep->end);
@@ -54,7 +54,8 @@ MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
   job.prior.cov = predicted.cov.bottomRightCorner<6, 6>();
   job.refines_deskew = true;
   if (last_found_) {
-    job.prior.since_last_fix_s = std::max(0.01, SecondsBetween(*last_found_, sweep->middle()));
+    job.prior.since_last_fix_s =
+        std::max(kParameters.min_since_last_s, SecondsBetween(*last_found_, sweep->middle()));
   }
   job.sweep = std::move(sweep);
   return job;
@@ -64,16 +65,16 @@ MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
   MatchJob job;
   job.T_any_imu = path_->Between(sweep->start, sweep->end);
   job.prior.T_map_imu = path_->At(sweep->middle());
-  job.prior.cov.diagonal() << Vector3::Constant(kPathStd_m * kPathStd_m),
-      Vector3::Constant(kPathStd_rad * kPathStd_rad);
+  job.prior.cov.diagonal() << Vector3::Constant(kParameters.path_std_m * kParameters.path_std_m),
+      Vector3::Constant(kParameters.path_std_rad * kParameters.path_std_rad);
   job.sweep = std::move(sweep);
   return job;
 }
 
-// The pose to grow the map at: in the mean of what was matched and what was expected.
-Pose ScanPoses::TellTracker(Timestamp middle, const MatchResult& match) {
-  scout_->AddMatch(middle, match);
-  return scout_->history().At(middle).state.T_map_imu;
+// Updates the tracker; returns its pose, the mean of match and prediction, for insertion.
+Pose ScanPoses::UpdateTracker(Timestamp middle, const MatchResult& match) {
+  tracker_->AddMatch(middle, match);
+  return tracker_->history().At(middle).state.T_map_imu;
 }
 
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
@@ -87,7 +88,7 @@ void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
     return;
   }
   const Pose T_map_lidar =
-      path_ != nullptr ? outcome.match.T_map_imu : TellTracker(middle, outcome.match);
+      path_ != nullptr ? outcome.match.T_map_imu : UpdateTracker(middle, outcome.match);
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
     keyframes_.Accept(T_map_lidar);
     matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});

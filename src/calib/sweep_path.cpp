@@ -11,8 +11,8 @@
 namespace lio {
 namespace {
 
-// Velocities that make the cubic pieces meet with the same acceleration, none at both ends
-// (the natural spline): a tridiagonal system, solved by elimination.
+// Velocities at the poses of the natural cubic spline: equal accelerations where pieces meet, none
+// at both ends. A tridiagonal system, solved by elimination (Thomas algorithm).
 std::vector<Vector3> SplineVelocities(const StampedPoses& poses) {
   const std::size_t n = poses.size();
   std::vector<double> diagonal(n), above(n);

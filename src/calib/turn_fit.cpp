@@ -11,20 +11,17 @@
 #include <map>
 
 #include "lio/base/so3.hpp"
+#include "lio/calib/calibration_parameters.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "lio/filter/sample_lookup.hpp"
 
 namespace lio {
 namespace {
 
-constexpr int kMaxRounds = 8;
-constexpr double kConverged_s = 1e-7;
-constexpr double kConverged_rad = 1e-7;
-constexpr double kHuberSigmas = 3.0;
-constexpr double kLeastStd_rad = 1e-5;
+constexpr TurnFitParameters kParameters = kCalibrationParameters.fit;
 
-// Common unknowns of all turns, as changes of the state of the round: offset [s], rotation [rad,
-// right], gyro bias [rad/s].
+// The common unknowns of all turns, as changes of the state of the round: offset [s], rotation
+// [rad, right], gyro bias [rad/s].
 constexpr int kNumCommon = 7;
 
 template <class T>
@@ -53,11 +50,11 @@ Quat<T> Inverse(const Quat<T>& q) {
   return {q[0], -q[1], -q[2], -q[3]};
 }
 
-// A turn by gyro at the offset of the round, and how it changes.
+// A turn by gyro at the offset of the round, with its derivatives.
 struct GyroTurn {
   Quaternion turn;
-  Matrix3 by_bias;             // right
-  Vector3 rate_from, rate_to;  // rad/s, bias-corrected: what an offset adds at both ends
+  Matrix3 by_bias;             // of the right error
+  Vector3 rate_from, rate_to;  // rad/s, bias-corrected: derivatives by the offset
 };
 
 GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
@@ -72,7 +69,7 @@ GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
           SampleAt(samples, to).w_imu_radps - state.gyro_bias_radps};
 }
 
-// What the lidar's turn has beyond the gyro's, given the two sweeps' own errors.
+// The term of a turn: the lidar's against the gyro's, given the two sweeps' own errors.
 struct TurnError {
   TurnError(const SweepTurn& turn, const GyroTurn& gyro_in, const RotationCalibration& state)
       : R_from_to(turn.R_from_to),
@@ -109,6 +106,7 @@ struct TurnError {
   double std_rad;
 };
 
+// The prior of a sweep's own rotation error.
 struct OwnError {
   template <class T>
   bool operator()(const T* own, T* residual) const {
@@ -132,8 +130,9 @@ std::vector<Vector3> Residuals(std::span<const ImuSample> samples, std::span<con
   return residuals;
 }
 
-// A sweep's own error shows with opposite signs in the turns before and after it: the product of
-// neighbouring residuals has the mean -sweep_std^2, their square 2 sweep_std^2 + turn_std^2.
+// Estimates sweep_std and turn_std. A sweep's own error has opposite signs in the turns before and
+// after it: the product of neighbouring residuals has the mean -sweep_std^2, the square of one has
+// 2 sweep_std^2 + turn_std^2. Residuals far beyond the median are outliers and do not count.
 void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>& residuals,
                    RotationCalibration& state) {
   std::vector<double> sizes;
@@ -141,7 +140,7 @@ void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>&
   for (const Vector3& residual : residuals) sizes.push_back(residual.norm());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  const double limit = 4.0 * *middle;  // what is wild does not count
+  const double limit = kParameters.max_residual_ratio * *middle;
   double square = 0.0, product = 0.0;
   int num = 0, num_pairs = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
@@ -156,11 +155,13 @@ void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>&
   square /= std::max(1, num);
   const double sweep_var =
       num_pairs > 0 ? std::clamp(-product / num_pairs, 0.0, 0.5 * square) : 0.0;
-  state.sweep_std_rad = std::max(kLeastStd_rad, std::sqrt(sweep_var));
-  state.turn_std_rad = std::max({kLeastStd_rad, std::sqrt(std::max(0.0, square - 2.0 * sweep_var)),
-                                 0.05 * state.sweep_std_rad});
+  state.sweep_std_rad = std::max(kParameters.min_std_rad, std::sqrt(sweep_var));
+  state.turn_std_rad =
+      std::max({kParameters.min_std_rad, std::sqrt(std::max(0.0, square - 2.0 * sweep_var)),
+                kParameters.min_turn_share * state.sweep_std_rad});
 }
 
+// One least squares problem, linearized at the state of the round.
 class Round {
  public:
   Round(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
@@ -168,15 +169,15 @@ class Round {
     for (const SweepTurn& turn : turns) {
       auto* cost = new ceres::AutoDiffCostFunction<TurnError, 3, kNumCommon, 3, 3>(
           new TurnError(turn, TurnByGyro(samples, turn, state), state));
-      problem_.AddResidualBlock(cost, new ceres::HuberLoss(kHuberSigmas), common_.data(),
-                                Own(turn.first, state), Own(turn.first + 1, state));
+      problem_.AddResidualBlock(cost, new ceres::HuberLoss(kParameters.huber_sigmas),
+                                common_.data(), Own(turn.first, state), Own(turn.first + 1, state));
     }
   }
 
-  bool Solve() {
+  [[nodiscard]] bool Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 20;
+    options.max_num_iterations = kParameters.max_iterations;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
@@ -185,24 +186,26 @@ class Round {
     return summary.IsSolutionUsable();
   }
 
-  // Moves the state by what was found; true when that was next to nothing.
-  bool Apply(RotationCalibration& state) const {
+  // Adds the solution to the state; true when it has converged.
+  [[nodiscard]] bool Apply(RotationCalibration& state) const {
     const Vector3 turn(common_[1], common_[2], common_[3]);
     state.offset_s += common_[0];
     state.R_imu_lidar = (state.R_imu_lidar * ExpSo3(turn)).normalized();
     state.gyro_bias_radps += Vector3(common_[4], common_[5], common_[6]);
     const auto own = static_cast<double>(own_.size());
-    state.misfit = std::sqrt(2.0 * cost_ / std::max(1.0, num_residuals_ - 3.0 * own - kNumCommon));
-    return std::abs(common_[0]) < kConverged_s && turn.norm() < kConverged_rad;
+    state.residual_ratio =
+        std::sqrt(2.0 * cost_ / std::max(1.0, num_residuals_ - 3.0 * own - kNumCommon));
+    return std::abs(common_[0]) < kParameters.converged_s &&
+           turn.norm() < kParameters.converged_rad;
   }
 
-  bool FillCovariance(RotationCalibration& state) {
+  [[nodiscard]] bool FillCovariance(RotationCalibration& state) {
     ceres::Covariance covariance(ceres::Covariance::Options{});
     const std::vector<const double*> blocks = {common_.data()};
     if (!covariance.Compute(blocks, &problem_)) return false;
     Eigen::Matrix<double, kNumCommon, kNumCommon, Eigen::RowMajor> cov;
     if (!covariance.GetCovarianceMatrix(blocks, cov.data())) return false;
-    cov *= std::max(1.0, state.misfit * state.misfit);
+    cov *= std::max(1.0, state.residual_ratio * state.residual_ratio);
     state.offset_std_s = std::sqrt(cov(0, 0));
     state.rotation_cov = cov.block<3, 3>(1, 1);
     state.gyro_bias_std_radps = cov.diagonal().tail<3>().cwiseSqrt();
@@ -223,7 +226,8 @@ class Round {
 
   ceres::Problem problem_;
   std::array<double, kNumCommon> common_{};
-  std::map<std::size_t, std::array<double, 3>> own_;  // by sweep; addresses stay
+  std::map<std::size_t, std::array<double, 3>>
+      own_;  // by sweep; a map, because Ceres keeps the addresses
   double cost_ = 0.0;
   double num_residuals_ = 0.0;
 };
@@ -233,12 +237,11 @@ class Round {
 bool FitTurns(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
               RotationCalibration& state) {
   state.num_turns = static_cast<int>(turns.size());
-  for (int i = 0; i < kMaxRounds; ++i) {
-    // The guess's own errors are in the first residuals: noise is settled in the second round.
-    if (i < 3) EstimateNoise(turns, Residuals(samples, turns, state), state);
+  for (int i = 0; i < kParameters.max_rounds; ++i) {
+    if (i < kParameters.noise_rounds) EstimateNoise(turns, Residuals(samples, turns, state), state);
     Round round(samples, turns, state);
     if (!round.Solve()) return false;
-    if (round.Apply(state) && i >= 2) return round.FillCovariance(state);
+    if (round.Apply(state) && i + 1 >= kParameters.noise_rounds) return round.FillCovariance(state);
   }
   return false;
 }

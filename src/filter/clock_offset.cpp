@@ -13,21 +13,16 @@
 namespace lio {
 namespace {
 
-constexpr double kMaxTurn_s = 0.35;            // longer ones, across lost scans, are left out
-constexpr double kMinRateChange_radps = 0.05;  // less tells nothing, ...
-constexpr double kTurnStd_rad = 1e-3;          // besides what registration and gyro claim
-constexpr double kMinRateChangeInNoise = 6.0;  // ... nor does less than this of the gyro's noise
-constexpr double kWalk_s_per_sqrt_s = 2e-5;    // oscillators drift by 10 us a second
-constexpr double kMaxStd_s = 0.02;             // nobody's clocks are known worse
-constexpr double kKnownStd_s = 2e-3;           // from then on stamps are moved ...
-constexpr double kMaxStep_s = 2e-3;            // ... by so much more or less a scan
+constexpr ClockOffsetParameters kParameters = kFilterParameters.clock_offset;
 
-// What a change of the rate must exceed to be more than the gyro's noise and a car's trembling.
+// The change of rate between two scans that must be exceeded, rad/s: below it the change may be
+// the gyro's noise or the vehicle's vibration.
 double MinRateChange(std::span<const ImuSample> samples, const ImuRig& imu) {
   const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
   const double noise_radps =
       imu.gyro_noise_density * std::sqrt(static_cast<double>(samples.size()) / span_s);
-  return std::max(kMinRateChange_radps, kMinRateChangeInNoise * noise_radps);
+  return std::max(kParameters.min_rate_change_radps,
+                  kParameters.min_rate_change_in_noise * noise_radps);
 }
 
 }  // namespace
@@ -48,15 +43,16 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
   if (last_ && scan.stamp > last_->stamp) Update(scan);
   Follow();
   last_ = scan;
-  const Timestamp begin = scan.stamp - Duration::FromSeconds(kMaxTurn_s);
+  const Timestamp begin = scan.stamp - Duration::FromSeconds(kParameters.max_turn_s);
   while (!samples_.empty() && samples_.front().stamp < begin) samples_.pop_front();
 }
 
 void ClockOffset::Update(const Scan& scan) {
   const double span_s = SecondsBetween(last_->stamp, scan.stamp);
   var_s2_ =
-      std::min(var_s2_ + kWalk_s_per_sqrt_s * kWalk_s_per_sqrt_s * span_s, kMaxStd_s * kMaxStd_s);
-  if (span_s > kMaxTurn_s || samples_.size() < 3) return;
+      std::min(var_s2_ + kParameters.walk_s_per_sqrt_s * kParameters.walk_s_per_sqrt_s * span_s,
+               kParameters.max_std_s * kParameters.max_std_s);
+  if (span_s > kParameters.max_turn_s || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
   ProcessNoise noise;
   noise.gyro_density = imu_.gyro_noise_density;
@@ -72,7 +68,8 @@ void ClockOffset::Update(const Scan& scan) {
 
   const Vector3 innovation =
       residual + w * scan.moved_by_s - w_last * last_->moved_by_s - h * offset_s_;
-  const double turn_var = scan.rotation_var + last_->rotation_var + kTurnStd_rad * kTurnStd_rad +
+  const double turn_var = scan.rotation_var + last_->rotation_var +
+                          kParameters.turn_std_rad * kParameters.turn_std_rad +
                           imu_.gyro_noise_density * imu_.gyro_noise_density * span_s;
   const Matrix3 S = var_s2_ * h * h.transpose() + turn_var * Matrix3::Identity();
   const Vector3 weighted = S.inverse() * innovation;
@@ -82,8 +79,8 @@ void ClockOffset::Update(const Scan& scan) {
 }
 
 void ClockOffset::Follow() {
-  if (std_s() > kKnownStd_s) return;
-  move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kMaxStep_s, kMaxStep_s);
+  if (std_s() > kParameters.known_std_s) return;
+  move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kParameters.max_step_s, kParameters.max_step_s);
 }
 
 }  // namespace lio

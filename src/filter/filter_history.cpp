@@ -9,55 +9,58 @@
 namespace lio {
 namespace {
 
-// How many times larger than claimed the covariance of poses is, by translation and rotation, as
-// the innovations of about the last second tell; never smaller. An error that lasts (the sensors'
-// clocks, a loose mount, a wrong extrinsic) widens it instead of being refused every other time.
-Misfit NextMisfit(const Misfit& misfit, const UpdateResult& update, const Misfit& max) {
-  static constexpr double kRate = 0.1;  // per pose
-  static constexpr double kMaxNis = 100.0;
+// The factors after an update: an exponential mean of NIS / 3, the ratio of the innovations'
+// variance to its expected value, for translation and rotation; from 1 to `max`. The NIS was
+// computed with the inflated covariance, so it is multiplied by the factor `now`.
+CovarianceInflation NextInflation(const CovarianceInflation& inflation, const UpdateResult& update,
+                                  const CovarianceInflation& max) {
+  static constexpr InflationParameters kParameters = kFilterParameters.inflation;
   const auto next = [](double now, double nis, double max_factor) {
-    return std::clamp(now + kRate * (now * std::min(nis, kMaxNis) / 3.0 - now), 1.0, max_factor);
+    return std::clamp(
+        now + kParameters.rate_per_pose * (now * std::min(nis, kParameters.max_nis) / 3.0 - now),
+        1.0, max_factor);
   };
-  return {next(misfit.translation, update.nis_translation, max.translation),
-          next(misfit.rotation, update.nis_rotation, max.rotation)};
+  return {next(inflation.translation, update.nis_translation, max.translation),
+          next(inflation.rotation, update.nis_rotation, max.rotation)};
 }
 
-Matrix6 Widened(const Matrix6& cov, const Misfit& misfit) {
+Matrix6 Inflated(const Matrix6& cov, const CovarianceInflation& inflation) {
   Vector6 scale;
-  scale << Vector3::Constant(std::sqrt(misfit.translation)),
-      Vector3::Constant(std::sqrt(misfit.rotation));
+  scale << Vector3::Constant(std::sqrt(inflation.translation)),
+      Vector3::Constant(std::sqrt(inflation.rotation));
   return scale.asDiagonal() * cov * scale.asDiagonal();
 }
 
-// What registration may be wrong by without being lost: beyond the gate by less, its claim was too
-// good; by more, the body has moved unseen.
-bool IsSmall(const Vector6& residual) {
-  constexpr double kSmall_m = 0.15;
-  constexpr double kSmall_rad = 0.03;
-  return residual.head<3>().norm() < kSmall_m && residual.tail<3>().norm() < kSmall_rad;
+// True when a residual beyond the gate can be an error of registration, whose covariance was then
+// too small. A larger residual means that the body moved without the samples showing it.
+bool IsRegistrationError(const Vector6& residual) {
+  constexpr ForcedUpdateParameters kParameters = kFilterParameters.forced_update;
+  return residual.head<3>().norm() < kParameters.max_registration_error_m &&
+         residual.tail<3>().norm() < kParameters.max_registration_error_rad;
 }
 
 Vector6 ResidualOf(const PoseMeasurement& measurement, const Estimate& estimate) {
   return LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
 }
 
-// No time has passed for the body to move as far as it was thought to.
+// The clock was set, so no time has passed for the predicted motion: the poses become uncertain by
+// the residual, the velocity does not.
 void TakeBackMotion(const Vector6& residual, Estimate& estimate) {
   AllowUnseenMotion(estimate, residual.cwiseAbs2(), Vector3::Zero());
 }
 
-// The body has moved by about the residual, and may have kept the speed of it or not: the next
-// scans tell.
+// The body has moved by about the residual. Its velocity may have changed by as much or not: it
+// becomes uncertain, and the next scans determine it.
 void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
-  constexpr double kDuration_s = 0.2;  // a scan or two
+  constexpr double kDuration_s = kFilterParameters.forced_update.unseen_motion_s;
   const Vector6 motion_var = residual.cwiseAbs2();
   AllowUnseenMotion(estimate, motion_var, motion_var.head<3>() / (kDuration_s * kDuration_s));
 }
 
-// Fuses a pose from beyond the gate. `nis`: how far beyond.
+// Fuses a pose beyond the gate; `nis` is the value that the gate refused.
 bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
   const Vector6 residual = ResidualOf(measurement, estimate);
-  if (IsSmall(residual)) {
+  if (IsRegistrationError(residual)) {
     measurement.cov *= nis / nis_limit;
   } else {
     AllowMotionBy(residual, estimate);
@@ -92,7 +95,7 @@ std::size_t FilterHistory::FirstAfter(Timestamp stamp) const {
 
 std::optional<EventOutcome> FilterHistory::Refuse(Timestamp stamp, Kind kind) const {
   if (stamp < start_stamp_) return EventOutcome::kBeforeStart;
-  const Node& front = nodes_.front();  // may be a pose whose sample is forgotten already
+  const Node& front = nodes_.front();  // may be a pose whose sample has left the window
   if (stamp < front.stamp || (stamp == front.stamp && kind < front.kind)) {
     return EventOutcome::kTooOld;
   }
@@ -117,7 +120,7 @@ bool FilterHistory::IsInGap(Timestamp stamp, std::size_t at) const {
   const auto next =
       std::find_if(nodes_.begin() + static_cast<std::ptrdiff_t>(at), nodes_.end(), is_measured);
   const Timestamp until = next == nodes_.end() ? stamp : next->stamp;
-  return SecondsBetween(nodes_[at - 1].imu_stamp, until) > options_.gap_s;
+  return SecondsBetween(nodes_[at - 1].imu_stamp, until) > options_.imu_outage.gap_s;
 }
 
 void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to,
@@ -125,19 +128,20 @@ void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuS
   const double dt = SecondsBetween(from.stamp, to.stamp);
   if (dt <= 0) return;
   ProcessNoise noise = options_.noise;
-  // An error that lasts: the longer it does, the higher is its density.
+  // An error of `std` that is constant for lasts_s has the variance of white noise of this density.
   const auto add = [](double& density, double std, double lasts_s) {
     density = std::hypot(density, std * std::sqrt(lasts_s));
   };
+  const ImuOutageParameters& outage = options_.imu_outage;
   if (is_in_gap) {
-    add(noise.accel_density, options_.gap_accel_std_mps2, dt);
-    add(noise.gyro_density, options_.gap_gyro_std_radps, dt);
+    add(noise.accel_density, outage.gap_accel_std_mps2, dt);
+    add(noise.gyro_density, outage.gap_gyro_std_radps, dt);
   }
   if (from.is_force_saturated || to.is_force_saturated) {
-    add(noise.accel_density, options_.clipped_accel_std_mps2, options_.clipped_s);
+    add(noise.accel_density, outage.saturated_accel_std_mps2, outage.saturated_s);
   }
   if (from.is_rate_saturated || to.is_rate_saturated) {
-    add(noise.gyro_density, options_.clipped_gyro_std_radps, options_.clipped_s);
+    add(noise.gyro_density, outage.saturated_gyro_std_radps, outage.saturated_s);
   }
   Propagate(estimate, from, to, noise, options_.g_world);
 }
@@ -148,7 +152,7 @@ void FilterHistory::Step(std::size_t at) {
   if (!is_measured) node.sample = SampleAt(node.stamp, at);
   node.imu_stamp = is_measured ? node.stamp : nodes_[at - 1].imu_stamp;
   node.posterior = nodes_[at - 1].posterior;
-  node.misfit = nodes_[at - 1].misfit;
+  node.inflation = nodes_[at - 1].inflation;
   StepTo(node.posterior, nodes_[at - 1].sample, node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
   switch (node.kind) {
@@ -157,9 +161,9 @@ void FilterHistory::Step(std::size_t at) {
     case Kind::kPose:
       Fuse(node);
       break;
-    case Kind::kStandstill:
-      node.update =
-          FuseStandstill(node.posterior, node.standstill_var, options_.standstill_nis_limit);
+    case Kind::kZeroVelocity:
+      node.update = FuseZeroVelocity(node.posterior, node.zero_velocity_var,
+                                     options_.zero_velocity_nis_limit);
       break;
     case Kind::kRebase:
       RebaseMapPose(node.posterior);
@@ -169,12 +173,12 @@ void FilterHistory::Step(std::size_t at) {
 
 void FilterHistory::Fuse(Node& node) const {
   PoseMeasurement measurement = node.pose.measurement;
-  measurement.cov = Widened(measurement.cov, node.misfit);
+  measurement.cov = Inflated(measurement.cov, node.inflation);
   if (node.pose.is_clock_set) {
     TakeBackMotion(ResidualOf(measurement, node.posterior), node.posterior);
   }
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
-  node.misfit = NextMisfit(node.misfit, node.update, options_.max_misfit);
+  node.inflation = NextInflation(node.inflation, node.update, options_.max_inflation);
   if (!node.update.fused && node.pose.force) {
     node.update.fused =
         FuseByForce(node.posterior, measurement, node.update.nis, options_.nis_limit);
@@ -189,7 +193,7 @@ void FilterHistory::Replay(std::size_t from) {
 std::size_t FilterHistory::Insert(Node node) {
   std::size_t at = FirstAfter(node.stamp);
   while (at > 1 && nodes_[at - 1].stamp == node.stamp && nodes_[at - 1].kind > node.kind) --at;
-  // Poses just before a new sample took theirs by holding; now they can interpolate.
+  // Events just before a new sample used the sample before them, held; now they can interpolate.
   std::size_t from = at;
   if (node.kind == Kind::kImu) {
     while (from > 1 && nodes_[from - 1].kind != Kind::kImu) --from;
@@ -221,11 +225,11 @@ EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, Upd
 }
 
 EventOutcome FilterHistory::AddZeroVelocity(Timestamp stamp, double variance) {
-  if (const auto refused = Refuse(stamp, Kind::kStandstill)) return *refused;
+  if (const auto refused = Refuse(stamp, Kind::kZeroVelocity)) return *refused;
   Node node;
   node.stamp = stamp;
-  node.kind = Kind::kStandstill;
-  node.standstill_var = variance;
+  node.kind = Kind::kZeroVelocity;
+  node.zero_velocity_var = variance;
   const bool is_fused = nodes_[Insert(std::move(node))].update.fused;
   return is_fused ? EventOutcome::kApplied : EventOutcome::kGated;
 }

@@ -57,7 +57,7 @@ UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, do
   return result;
 }
 
-UpdateResult FuseStandstill(Estimate& estimate, double variance, double nis_limit) {
+UpdateResult FuseZeroVelocity(Estimate& estimate, double variance, double nis_limit) {
   Eigen::Matrix<double, 3, kStateDim> H = Eigen::Matrix<double, 3, kStateDim>::Zero();
   H.middleCols<3>(kVel).setIdentity();
   const Matrix3 R = variance * Matrix3::Identity();

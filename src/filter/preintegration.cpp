@@ -16,7 +16,7 @@ constexpr int kV = 6;
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-// Errors before to errors after the step, and what its biases add.
+// Maps the errors before the step (A) and of the biases (B) to the errors after it.
 struct Transition {
   Matrix9 A = Matrix9::Identity();
   Eigen::Matrix<double, 9, 6> B = Eigen::Matrix<double, 9, 6>::Zero();
@@ -62,8 +62,8 @@ void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& nois
   sum.rotation = (sum.rotation * step.turn).normalized();
 }
 
-// The reading at `stamp`, between the sample before `after` and that.
-ImuSample ReadingAt(std::span<const ImuSample> samples, std::size_t after, Timestamp stamp) {
+// The sample at `stamp`, between the sample before index `after` and the one there.
+ImuSample SampleAt(std::span<const ImuSample> samples, std::size_t after, Timestamp stamp) {
   const std::size_t last = samples.size() - 1;
   const ImuSample& b = samples[std::min(after, last)];
   const ImuSample& a = samples[after == 0 ? 0 : std::min(after - 1, last)];
@@ -84,12 +84,12 @@ Preintegration Preintegrate(std::span<const ImuSample> samples, Timestamp from, 
   const auto is_not_after = [](Timestamp t, const ImuSample& sample) { return t < sample.stamp; };
   auto next = static_cast<std::size_t>(
       std::upper_bound(samples.begin(), samples.end(), from, is_not_after) - samples.begin());
-  ImuSample last = ReadingAt(samples, next, from);
+  ImuSample last = SampleAt(samples, next, from);
   for (; next < samples.size() && samples[next].stamp < to; ++next) {
     Append(last, samples[next], noise, sum);
     last = samples[next];
   }
-  Append(last, ReadingAt(samples, next, to), noise, sum);
+  Append(last, SampleAt(samples, next, to), noise, sum);
   return sum;
 }
 

@@ -9,8 +9,8 @@
 namespace lio {
 namespace {
 
-// One step as the errors see it. With e the error before, and D = (dR, d) the step's motion seen
-// from the imu frame at its start:
+// The transition of the errors over one step. With e the error before, and D = (dR, d) the step's
+// motion seen from the imu frame at its start:
 //   u = -position x e_rot + position_by_gyro e_gyro + position_by_accel e_accel
 //   w = -velocity x e_rot + velocity_by_gyro e_gyro + velocity_by_accel e_accel
 // and after the step
@@ -40,8 +40,7 @@ Step MakeStep(const NavState& before, const NavState& after, const ImuSample& fr
 }
 
 // Columns of X F^T, three at a time, for the rows from kFrom on: each is the error after the step
-// above, with the columns of X for e and all factors transposed. Columns are contiguous, so this is
-// fast without tricks; the compiler leaves out what is not asked for.
+// above, with the columns of X for e and all factors transposed. Columns are contiguous in memory.
 template <int kFrom>
 class Columns {
  public:
@@ -102,7 +101,7 @@ ErrorMatrix TimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
   return out;
 }
 
-// The lower triangle of X F^T, whose result is known to be symmetric. Above it: anything.
+// The lower triangle of X F^T, which is symmetric here; elements above the diagonal are undefined.
 ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
   ErrorMatrix out;
   out.middleCols<3>(kPos) = Columns<kPos>(step, X).Position();
@@ -116,7 +115,7 @@ ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& 
   return out;
 }
 
-// Onto the lower triangle.
+// Adds the noise of one step to the lower triangle of P.
 void AddNoise(const Step& s, const ProcessNoise& noise, ErrorMatrix& P) {
   const double dt = s.increment.dt_s;
   const double gyro = noise.gyro_density * noise.gyro_density * dt;

@@ -5,16 +5,13 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 
 #include "lio/base/so3.hpp"
 
 namespace lio {
 namespace {
 
-// Beyond this many sigmas a pose's pull no longer grows: 99 % of six dimensions are within 4.1.
-constexpr double kHuberSigmas = 4.0;
-constexpr int kMaxIterations = 60;
+constexpr AlignmentParameters kParameters = kInitializationParameters.alignment;
 
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;
@@ -45,7 +42,7 @@ Eigen::Matrix<double, kSize, kSize> Whitener(const Eigen::Matrix<double, kSize, 
   return cov.llt().matrixL().solve(Eigen::Matrix<double, kSize, kSize>::Identity());
 }
 
-// A matched pose: position error in imu, rotation error on the right.
+// The term of a matched pose: position error in imu, rotation error on the right.
 struct PoseTerm {
   explicit PoseTerm(const MatchedPose& pose)
       : T_any_imu(pose.T_any_imu), whiten(Whitener<6>(pose.cov)) {}
@@ -65,7 +62,7 @@ struct PoseTerm {
   Matrix6 whiten;
 };
 
-// Inertial samples between two states.
+// The term of the preintegrated samples between two states (Forster et al., TRO 2017, section VI).
 struct MotionTerm {
   MotionTerm(const Preintegration& motion_in, double gravity_mps2)
       : motion(motion_in), gravity(gravity_mps2), whiten(Whitener<9>(motion_in.cov)) {}
@@ -106,6 +103,7 @@ struct MotionTerm {
   Eigen::Matrix<double, 9, 9> whiten;
 };
 
+// The prior of the biases: zero mean, the rig's turn-on spread.
 struct BiasTerm {
   template <class T>
   bool operator()(const T* biases, T* residual) const {
@@ -128,16 +126,6 @@ class Unknowns {
   double* BiasBlock() { return biases_.data(); }
   double* Up() { return at_.up_any.data(); }
 
-  // Those whose covariance is wanted come first.
-  std::vector<double*> InOrder(bool has_up) {
-    std::vector<double*> blocks = {Rotation(0), Velocity(0), BiasBlock()};
-    if (has_up) blocks.push_back(Up());
-    blocks.push_back(Position(0));
-    for (std::size_t i = 1; i < at_.states.size(); ++i) {
-      blocks.insert(blocks.end(), {Rotation(i), Position(i), Velocity(i)});
-    }
-    return blocks;
-  }
   Alignment Take() {
     at_.biases = {biases_.head<3>(), biases_.tail<3>()};
     return at_;
@@ -167,7 +155,7 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
                        nullptr, x.Rotation(i), x.Position(i), x.Velocity(i), x.Rotation(i + 1),
                        x.Position(i + 1), x.Velocity(i + 1), x.BiasBlock(), x.Up());
     problem.pose_terms.push_back(c.AddResidualBlock(new PoseCost(new PoseTerm(terms.poses[i])),
-                                                    new ceres::HuberLoss(kHuberSigmas),
+                                                    new ceres::HuberLoss(kParameters.huber_sigmas),
                                                     x.Rotation(i + 1), x.Position(i + 1)));
   }
   c.AddResidualBlock(
@@ -180,23 +168,22 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
   }
 }
 
-// Inverse Hessian, of the unknowns that come first.
+// The covariance of the first state, biases and vertical, by Ceres: their part of the inverse
+// Hessian.
 AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
-  ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks = x.InOrder(has_up);
-  ceres::CRSMatrix crs;
-  problem.ceres.Evaluate(options, nullptr, nullptr, nullptr, &crs);
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> J(crs.num_rows, crs.num_cols,
-                                 static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
-                                 crs.cols.data(), crs.values.data());
-  const Eigen::SparseMatrix<double> hessian = J.transpose() * J;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(hessian);
+  std::vector<const double*> blocks = {x.Rotation(0), x.Velocity(0), x.BiasBlock()};
+  if (has_up) blocks.push_back(x.Up());
+  ceres::Covariance::Options options;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
   const int num_tangent = kAlignedUp + (has_up ? 2 : 0);
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(crs.num_cols, num_tangent);
-  const Eigen::MatrixXd inverse = factor.solve(unit).topRows(num_tangent);
-  if (factor.info() != Eigen::Success) return AlignedCov::Constant(NAN);
-
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> cov(num_tangent,
+                                                                             num_tangent);
+  if (!covariance.Compute(blocks, &problem.ceres) ||
+      !covariance.GetCovarianceMatrixInTangentSpace(blocks, cov.data())) {
+    return AlignedCov::Constant(NAN);
+  }
   Eigen::Matrix<double, 15, Eigen::Dynamic> from_tangent =
       Eigen::Matrix<double, 15, Eigen::Dynamic>::Zero(15, num_tangent);
   from_tangent.topLeftCorner<kAlignedUp, kAlignedUp>().setIdentity();
@@ -205,7 +192,7 @@ AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
     ceres::SphereManifold<3>().PlusJacobian(x.Up(), up_by_tangent.data());
     from_tangent.bottomRightCorner<3, 2>() = up_by_tangent;
   }
-  return from_tangent * inverse * from_tangent.transpose();
+  return from_tangent * cov * from_tangent.transpose();
 }
 
 }  // namespace
@@ -216,8 +203,8 @@ AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess) {
   AddTerms(terms, x, problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = kMaxIterations;
-  options.function_tolerance = 1e-5;  // of a cost of about half a term each: far below one sigma
+  options.max_num_iterations = kParameters.max_iterations;
+  options.function_tolerance = kParameters.function_tolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -230,7 +217,7 @@ AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess) {
   for (const ceres::ResidualBlockId term : problem.pose_terms) {
     double cost = 0.0;
     problem.ceres.EvaluateResidualBlock(term, false, &cost, nullptr, nullptr);
-    result.pose_misfit_sq.push_back(2.0 * cost);
+    result.pose_residual_sq.push_back(2.0 * cost);
   }
   result.solution = x.Take();
   return result;

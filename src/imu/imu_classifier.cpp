@@ -2,32 +2,23 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/imu_classifier.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace lio {
 namespace {
 
-constexpr std::size_t kMinSteps = 8;
-// Of scores, in chi-square of a fit that is right: a reading worse than the best by the first no
-// longer counts, and the expected one is given up only when worse by the second.
-constexpr double kRefuted = 30.0;
-constexpr double kGivenUp = 60.0;
-constexpr double kFavoured = 1.0;     // the expected one is worse than the best
-constexpr double kLeaning = 20.0;     // for a quarter turn of the vertical that no rig speaks of
-constexpr double kMaxMisfitSq = 9.0;  // of the best reading; beyond that nothing can be said
-// Half of the last ten steps' turns read as more than this and this much more than seen: absurd.
-constexpr double kAbsurdTurn_rad = 0.03;
-constexpr double kAbsurdRatio = 5.0;
-constexpr double kMaxShift = 2.0;  // of clocks, in steps
+constexpr ImuClassifierParameters kParameters = kImuConventionParameters.classifier;
 
-// With gravity in the forces or without, whichever contradicts less.
-double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuConvention& reading,
+// The score of the forces with gravity or without, whichever is smaller.
+double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuConvention& convention,
                        double gravity_mps2) {
   const auto score = [&](double g_mps2) {
-    return MotionEvidence::ForceScore(bends, reading.R_imu_sent, reading.force_scale(), g_mps2);
+    return MotionEvidence::ForceScore(bends, convention.R_imu_sent, convention.force_scale(),
+                                      g_mps2);
   };
   return std::min(score(0.0), score(gravity_mps2));
 }
@@ -39,16 +30,17 @@ ImuClassifier::ImuClassifier(const ImuConvention& expected, const Rig& rig)
       gravity_mps2_(rig.gravity_mps2),
       lidar_axis_imu_(rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ()) {}
 
-// Lidars stand upright rather than hang or lie: 0 for upright, 2 for hanging.
-double ImuClassifier::Lean(const ImuConvention& reading) const {
+// How far the lidar's z axis is from up under a convention: 0 for upright, 1 for level, 2 for
+// hanging. Lidars mostly stand upright.
+double ImuClassifier::Lean(const ImuConvention& convention) const {
   Vector3 force_sum = Vector3::Zero();
   for (const MotionEvidence::Step& step : evidence_.steps()) force_sum += step.f_sent;
   if (force_sum.isZero()) return 0.0;
-  return 1.0 - lidar_axis_imu_.dot(reading.R_imu_sent * force_sum.normalized());
+  return 1.0 - lidar_axis_imu_.dot(convention.R_imu_sent * force_sum.normalized());
 }
 
-// Every way to read the messages, with its score: those of rates and forces add up. Another unit of
-// rates counts only where it is heard.
+// Every convention with its score, the sum of those of rates and forces. Another unit of rates is
+// considered only when the rates show the turns at all.
 std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
   std::vector<Scored> all;
   for (const Matrix3& R : QuarterTurns()) {
@@ -63,55 +55,59 @@ std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
 void ImuClassifier::ScoreForces(const ImuConvention& rates, Bends bends,
                                 std::vector<Scored>& all) const {
   const double rate_score = evidence_.RateScore(rates.R_imu_sent, rates.rate_scale());
-  const double leaning = kLeaning * std::max(0.0, Lean(rates) - Lean(expected_));
+  const double leaning = kParameters.lean_score * std::max(0.0, Lean(rates) - Lean(expected_));
   for (const bool is_in_g : {false, true}) {
     if (keeps_force_unit_ && is_in_g != expected_.is_in_g) continue;
-    const ImuConvention reading{is_in_g, rates.is_in_deg, rates.R_imu_sent};
+    const ImuConvention convention{is_in_g, rates.is_in_deg, rates.R_imu_sent};
     for (const double gravity_mps2 : {0.0, gravity_mps2_}) {
       const bool has_gravity = gravity_mps2 > 0.0;
-      const double force_score = MotionEvidence::ForceScore(bends, reading.R_imu_sent,
-                                                            reading.force_scale(), gravity_mps2);
+      const double force_score = MotionEvidence::ForceScore(bends, convention.R_imu_sent,
+                                                            convention.force_scale(), gravity_mps2);
       all.push_back(
-          {reading, has_gravity, rate_score + force_score + (has_gravity ? leaning : 0.0)});
+          {convention, has_gravity, rate_score + force_score + (has_gravity ? leaning : 0.0)});
     }
   }
 }
 
-// The reading among `likely` that differs least from the expected one; absent when several do.
+// The convention among `likely` with the fewest changes against the expected one; absent when
+// several have as few.
 std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
   std::optional<ImuConvention> least;
   int least_changes = std::numeric_limits<int>::max();
   bool is_only = false;
   for (const Scored& scored : likely) {
-    const ImuConvention& reading = scored.reading;
-    if (reading == least) continue;
-    const int changes = static_cast<int>(reading.is_in_g != expected_.is_in_g) +
-                        static_cast<int>(reading.is_in_deg != expected_.is_in_deg) +
-                        static_cast<int>(reading.R_imu_sent != expected_.R_imu_sent);
+    const ImuConvention& convention = scored.convention;
+    if (convention == least) continue;
+    const int changes = static_cast<int>(convention.is_in_g != expected_.is_in_g) +
+                        static_cast<int>(convention.is_in_deg != expected_.is_in_deg) +
+                        static_cast<int>(convention.R_imu_sent != expected_.R_imu_sent);
     if (changes > least_changes) continue;
     is_only = changes < least_changes;
     least_changes = changes;
-    least = reading;
+    least = convention;
   }
   return is_only ? least : std::nullopt;
 }
 
-// Do the gyro's rates say anything of the turns? Noise and vibration of a vehicle at rest do not,
-// however small another unit makes them.
-bool ImuClassifier::IsGyroHeard(const ImuConvention& reading) const {
-  return evidence_.RateScore(reading.R_imu_sent, 0.0) >
-         evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()) + kRefuted;
+// True when the gyro's rates explain the turns better than no rates at all. Noise and vibration of
+// a vehicle at rest do not, however small another unit makes them.
+bool ImuClassifier::IsGyroHeard(const ImuConvention& convention) const {
+  return evidence_.RateScore(convention.R_imu_sent, 0.0) >
+         evidence_.RateScore(convention.R_imu_sent, convention.rate_scale()) +
+             kParameters.refuted_score;
 }
 
-// With clocks as far off as they may be, the expected reading may be right all the same.
+// The least score of the expected convention over the clock offsets that are possible.
 double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   double least = std::numeric_limits<double>::infinity();
-  for (double num_steps = -kMaxShift; num_steps <= kMaxShift; num_steps += 0.5) {
+  for (double num_steps = -kParameters.max_clock_shift_steps;
+       num_steps <= kParameters.max_clock_shift_steps;
+       num_steps += kParameters.clock_shift_grid_steps) {
     const MotionEvidence shifted = evidence_.Shifted(num_steps);
     if (shifted.steps().empty()) continue;
     const std::vector<MotionEvidence::Bend> bends = shifted.FindBends();
     const double rate_score = shifted.RateScore(expected_.R_imu_sent, expected_.rate_scale());
-    // Fewer steps are left to contradict it.
+    // A shift leaves fewer steps, hence a smaller score.
     const double share =
         static_cast<double>(shifted.steps().size()) / static_cast<double>(evidence_.steps().size());
     const double force_score = LeastForceScore(bends, expected_, gravity_mps2_);
@@ -125,7 +121,7 @@ ImuClassifier::Ranking ImuClassifier::Rank(Bends bends) const {
   ranking.all = ScoreAll(bends);
   for (const Scored& scored : ranking.all) {
     ranking.best = std::min(ranking.best, scored.score);
-    if (scored.reading == expected_) ranking.expected = std::min(ranking.expected, scored.score);
+    if (scored.convention == expected_) ranking.expected = std::min(ranking.expected, scored.score);
   }
   double num_terms = 3.0 * static_cast<double>(evidence_.steps().size());
   for (const MotionEvidence::Bend& bend : bends) num_terms += 3.0 * bend.weight;
@@ -134,22 +130,23 @@ ImuClassifier::Ranking ImuClassifier::Rank(Bends bends) const {
 }
 
 bool ImuClassifier::FavoursAnother() const {
-  if (evidence_.steps().size() < kMinSteps) return false;
+  if (evidence_.steps().size() < kParameters.min_steps) return false;
   const Ranking ranking = Rank(evidence_.FindBends());
-  return ranking.expected > ranking.best + kFavoured * ranking.scale;
+  return ranking.expected > ranking.best + kParameters.favoured_score * ranking.scale;
 }
 
 ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   using Finding = ImuVerdict::Finding;
   ImuVerdict verdict;
-  verdict.reading = expected_;
-  if (evidence_.steps().size() < kMinSteps) return verdict;
+  verdict.convention = expected_;
+  if (evidence_.steps().size() < kParameters.min_steps) return verdict;
   const std::vector<MotionEvidence::Bend> bends = evidence_.FindBends();
   Ranking ranking = Rank(bends);
-  if (ranking.scale > kMaxMisfitSq) return verdict;
+  if (ranking.scale > kParameters.max_residual_ratio_sq) return verdict;
   const auto within = [&](double margin) { return ranking.best + ranking.scale * margin; };
   std::vector<Scored>& likely = ranking.all;
-  std::erase_if(likely, [&](const Scored& s) { return s.score > within(kRefuted); });
+  std::erase_if(likely,
+                [&](const Scored& s) { return s.score > within(kParameters.refuted_score); });
 
   const bool has_gravity = likely.front().has_gravity;
   const auto all_agree = [&likely](const auto& is_so) {
@@ -158,15 +155,16 @@ ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   if (all_agree([&](const Scored& s) { return s.has_gravity == has_gravity; })) {
     verdict.has_gravity = has_gravity;
   }
-  if (all_agree([&](const Scored& s) { return s.reading == expected_; })) {
+  if (all_agree([&](const Scored& s) { return s.convention == expected_; })) {
     verdict.finding = Finding::kAsExpected;
-  } else if (const double limit = within(in_doubt ? kRefuted : kGivenUp);
+  } else if (const double limit =
+                 within(in_doubt ? kParameters.refuted_score : kParameters.given_up_score);
              ranking.expected > limit && ExpectedScoreOfOtherClocks() > limit) {
     verdict.finding = Finding::kNotExpected;
     const std::optional<ImuConvention> found = LeastChange(likely);
     if (found && verdict.has_gravity) {
       verdict.finding = Finding::kOtherwise;
-      verdict.reading = *found;
+      verdict.convention = *found;
       verdict.evidence = Describe(*found, bends);
     }
   }
@@ -179,34 +177,33 @@ bool ImuClassifier::IsGyroAbsurd() const {
   const auto num_absurd =
       std::count_if(steps.end() - MotionEvidence::kRecentSteps, steps.end(), [&](const auto& step) {
         const double read_rad = expected_.rate_scale() * step.span_s() * step.w_sent.norm();
-        return read_rad > kAbsurdTurn_rad && read_rad > kAbsurdRatio * step.turn_rad.norm();
+        return read_rad > kParameters.absurd_turn_rad &&
+               read_rad > kParameters.absurd_ratio * step.turn_rad.norm();
       });
   return 2 * num_absurd >= MotionEvidence::kRecentSteps;
 }
 
 std::string ImuClassifier::Describe(const ImuConvention& found, Bends bends) const {
-  const auto rate_error = [&](const ImuConvention& reading) {
-    return evidence_.RateError_radps(evidence_.RateScore(reading.R_imu_sent, reading.rate_scale()));
+  const auto rate_error = [&](const ImuConvention& convention) {
+    return evidence_.RateError_radps(
+        evidence_.RateScore(convention.R_imu_sent, convention.rate_scale()));
   };
-  const auto force_error = [&](const ImuConvention& reading) {
-    return MotionEvidence::ForceError_mps2(bends, LeastForceScore(bends, reading, gravity_mps2_));
+  const auto force_error = [&](const ImuConvention& convention) {
+    return MotionEvidence::ForceError_mps2(bends,
+                                           LeastForceScore(bends, convention, gravity_mps2_));
   };
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "against scan matching rates are off by %.3f rad/s and forces by %.2f m/s^2, "
-                "otherwise by %.3f and %.2f",
-                rate_error(found), force_error(found), rate_error(expected_),
-                force_error(expected_));
-  return text;
+  return fmt::format(
+      "against scan matching rates are off by {:.3f} rad/s and forces by {:.2f} m/s^2, "
+      "otherwise by {:.3f} and {:.2f}",
+      rate_error(found), force_error(found), rate_error(expected_), force_error(expected_));
 }
 
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2) {
-  constexpr double kTolerance = 0.25;  // the bias and scale of poor units, vibration
   const double in_metric = mean_f_sent.norm() / gravity_mps2;
   const double in_g = ImuConvention{true, false}.force_scale() * in_metric;
-  if (std::abs(in_metric - 1.0) < kTolerance) return ForceAtRest::kMetric;
-  if (std::abs(in_g - 1.0) < kTolerance) return ForceAtRest::kInG;
-  if (in_g < 0.5) return ForceAtRest::kWithoutGravity;
+  if (std::abs(in_metric - 1.0) < kParameters.force_tolerance) return ForceAtRest::kMetric;
+  if (std::abs(in_g - 1.0) < kParameters.force_tolerance) return ForceAtRest::kInG;
+  if (in_g < kParameters.max_force_without_gravity) return ForceAtRest::kWithoutGravity;
   return ForceAtRest::kUnclear;
 }
 
@@ -223,14 +220,13 @@ double RateNoise(std::span<const ImuSample> samples) {
 }
 
 bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu) {
-  constexpr double kMinNoise_radps = 0.1;  // more than engines and hands shake at rest
-  constexpr double kMinShare = 0.4;        // of what the rig says, in deg/s
   const double noise_radps = RateNoise(samples);
-  if (noise_radps < kMinNoise_radps) return false;
+  if (noise_radps < kParameters.min_noise_radps) return false;
   const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
   const double rate_hz = static_cast<double>(samples.size() - 1) / span_s;
   const double noise_if_deg_radps = ImuConvention{false, true}.rate_scale() * noise_radps;
-  return noise_if_deg_radps > kMinShare * imu.gyro_noise_density * std::sqrt(rate_hz);
+  return noise_if_deg_radps >
+         kParameters.min_noise_share * imu.gyro_noise_density * std::sqrt(rate_hz);
 }
 
 }  // namespace lio

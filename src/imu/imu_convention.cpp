@@ -7,10 +7,10 @@
 namespace lio {
 namespace {
 
-constexpr double kStandardGravity_mps2 = 9.80665;  // what data sheets mean by 1 g
+constexpr double kStandardGravity_mps2 = 9.80665;  // 1 g by definition (CGPM 1901)
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-// "x -y -z": what the messages call the axes of imu, in its order.
+// "x -y -z": the axes of the messages along imu's x, y and z.
 std::string AxisNames(const Matrix3& R_imu_sent) {
   std::string names;
   for (const auto& row : R_imu_sent.rowwise()) {
@@ -46,36 +46,38 @@ std::array<Matrix3, kNumQuarterTurns> QuarterTurns() {
   return turns;
 }
 
-ImuSample ToSi(const ImuConvention& reading, ImuSample sent) {
-  sent.w_imu_radps = reading.rate_scale() * (reading.R_imu_sent * sent.w_imu_radps);
-  sent.f_imu_mps2 = reading.force_scale() * (reading.R_imu_sent * sent.f_imu_mps2);
+ImuSample ToSi(const ImuConvention& convention, ImuSample sent) {
+  sent.w_imu_radps = convention.rate_scale() * (convention.R_imu_sent * sent.w_imu_radps);
+  sent.f_imu_mps2 = convention.force_scale() * (convention.R_imu_sent * sent.f_imu_mps2);
   return sent;
 }
 
-ImuSample FromSi(const ImuConvention& reading, ImuSample sample) {
-  sample.w_imu_radps = reading.R_imu_sent.transpose() * sample.w_imu_radps / reading.rate_scale();
-  sample.f_imu_mps2 = reading.R_imu_sent.transpose() * sample.f_imu_mps2 / reading.force_scale();
+ImuSample FromSi(const ImuConvention& convention, ImuSample sample) {
+  sample.w_imu_radps =
+      convention.R_imu_sent.transpose() * sample.w_imu_radps / convention.rate_scale();
+  sample.f_imu_mps2 =
+      convention.R_imu_sent.transpose() * sample.f_imu_mps2 / convention.force_scale();
   return sample;
 }
 
 ImuConvention ConventionOf(ImuUnits units) {
-  ImuConvention reading;
-  reading.is_in_g = units == ImuUnits::kG || units == ImuUnits::kGAndDeg;
-  reading.is_in_deg = units == ImuUnits::kDeg || units == ImuUnits::kGAndDeg;
-  return reading;
+  ImuConvention convention;
+  convention.is_in_g = units == ImuUnits::kG || units == ImuUnits::kGAndDeg;
+  convention.is_in_deg = units == ImuUnits::kDeg || units == ImuUnits::kGAndDeg;
+  return convention;
 }
 
-ImuUnits UnitsOf(const ImuConvention& reading) {
-  if (reading.is_in_g) return reading.is_in_deg ? ImuUnits::kGAndDeg : ImuUnits::kG;
-  return reading.is_in_deg ? ImuUnits::kDeg : ImuUnits::kSi;
+ImuUnits UnitsOf(const ImuConvention& convention) {
+  if (convention.is_in_g) return convention.is_in_deg ? ImuUnits::kGAndDeg : ImuUnits::kG;
+  return convention.is_in_deg ? ImuUnits::kDeg : ImuUnits::kSi;
 }
 
-std::string Describe(const ImuConvention& reading) {
-  std::string text = reading.is_in_g ? "accelerometer in g" : "accelerometer in m/s^2";
-  text += reading.is_in_deg ? ", gyro in deg/s" : ", gyro in rad/s";
-  if (reading.R_imu_sent == Matrix3::Identity()) return text;
-  text += ", its " + AxisNames(reading.R_imu_sent) + " are the rig's x y z";
-  if (reading.R_imu_sent(2, 2) < -0.5) text += " (z down)";
+std::string Describe(const ImuConvention& convention) {
+  std::string text = convention.is_in_g ? "accelerometer in g" : "accelerometer in m/s^2";
+  text += convention.is_in_deg ? ", gyro in deg/s" : ", gyro in rad/s";
+  if (convention.R_imu_sent == Matrix3::Identity()) return text;
+  text += ", its " + AxisNames(convention.R_imu_sent) + " are the rig's x y z";
+  if (convention.R_imu_sent(2, 2) < -0.5) text += " (z down)";
   return text;
 }
 

@@ -9,28 +9,20 @@
 namespace lio {
 namespace {
 
-constexpr double kMaxStep_s = 0.45;     // a longer one skipped too many sweeps
-constexpr std::size_t kMaxSteps = 100;  // 10 s at 10 Hz
-constexpr double kMoved_m = 0.3;
-constexpr double kMoved_rad = 0.1;
-constexpr double kTurnStd_rad = 0.003;       // of a step, by young maps and skewed scans
-constexpr double kGyroBiasStd_radps = 0.05;  // of the worst units
-constexpr double kBendBaseline_s = 0.5;      // between the positions of a second difference
-constexpr double kBendStd_mps2 = 0.15;       // 1 cm a position
-constexpr double kGravityStd_mps2 = 0.15;    // of a map's mean, by the sensor's bias
-constexpr double kSpikeRatio = 3.0;          // of a rate to the median of a step's
+constexpr MotionEvidenceParameters kParameters = kImuConventionParameters.evidence;
 
 double Square(double x) {
   return x * x;
 }
 
-// Without what is beyond any gyro in one unit and not its neighbours' kind in another: spikes.
+// The mean sample without spikes. A rate is a spike when it is beyond any gyro and, since the unit
+// is not known, also far above the median.
 ImuSample MeanWithoutSpikes(std::span<const ImuSample> sent) {
   std::vector<double> rates;
   for (const ImuSample& sample : sent) rates.push_back(sample.w_imu_radps.norm());
   const auto middle = rates.begin() + std::ssize(rates) / 2;
   std::nth_element(rates.begin(), middle, rates.end());
-  const double limit = std::max(kMaxGyroRate_radps, kSpikeRatio * *middle);
+  const double limit = std::max(kMaxGyroRate_radps, kParameters.spike_ratio * *middle);
   ImuSample mean;
   double num = 0.0;
   for (const ImuSample& sample : sent) {
@@ -70,8 +62,8 @@ void MotionEvidence::AddPose(const StampedPose& T_map_imu, std::span<const ImuSa
   step.map = map_;
   step.from = *last;
   step.to = T_map_imu;
-  if (step.span_s() > kMaxStep_s || step.span_s() <= 0.0) {
-    ++map_;  // nothing joins what was before
+  if (step.span_s() > kParameters.max_step_s || step.span_s() <= 0.0) {
+    ++map_;  // the poses before and after are not joined
     return;
   }
   const Quaternion& R_from = step.from.pose.rotation;
@@ -81,7 +73,7 @@ void MotionEvidence::AddPose(const StampedPose& T_map_imu, std::span<const ImuSa
   step.w_sent = mean.w_imu_radps;
   step.f_sent = mean.f_imu_mps2;
   step.R_map_imu = R_from.slerp(0.5, R_to).toRotationMatrix();
-  if (steps_.size() >= kMaxSteps) steps_.erase(steps_.begin());
+  if (steps_.size() >= kParameters.max_steps) steps_.erase(steps_.begin());
   steps_.push_back(step);
 }
 
@@ -103,7 +95,8 @@ MotionEvidence MotionEvidence::Shifted(double num_steps) const {
   return shifted;
 }
 
-// The bend of the path at the end of step k, over about half a second to either side.
+// The bend at the end of step k, over about half a second to either side; absent when the evidence
+// does not reach so far.
 std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) const {
   const StampedPose& middle = steps_[k].to;
   const auto is_joined = [&](std::size_t i) {
@@ -116,12 +109,18 @@ std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) con
     return SecondsBetween(middle.stamp, steps_[i].to.stamp);
   };
   std::size_t first = k;
-  while (first > 0 && is_joined(first - 1) && before_s(first) < kBendBaseline_s) --first;
+  while (first > 0 && is_joined(first - 1) &&
+         before_s(first) < kParameters.second_difference_span_s) {
+    --first;
+  }
   std::size_t last = k;
-  while (is_joined(last + 1) && after_s(last) < kBendBaseline_s) ++last;
+  while (is_joined(last + 1) && after_s(last) < kParameters.second_difference_span_s) ++last;
   const double rise_s = before_s(first);
   const double fall_s = after_s(last);
-  if (std::min(rise_s, fall_s) < 0.8 * kBendBaseline_s) return std::nullopt;
+  if (std::min(rise_s, fall_s) <
+      kParameters.min_span_share * kParameters.second_difference_span_s) {
+    return std::nullopt;
+  }
 
   Bend bend;
   bend.map = steps_[k].map;
@@ -131,7 +130,8 @@ std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) con
   const Vector3 v_after = (steps_[last].to.pose.translation - p) / fall_s;
   bend.a_map_mps2 = 2.0 * (v_after - v_before) / (rise_s + fall_s);
   for (std::size_t i = first; i <= last; ++i) {
-    const double off_s = 0.5 * steps_[i].span_s() - before_s(i);  // of the step's middle
+    const double off_s =
+        0.5 * steps_[i].span_s() - before_s(i);  // from the pose to the step's middle
     const double height = 1.0 - std::abs(off_s) / (off_s < 0.0 ? rise_s : fall_s);
     const double share = 2.0 * height * steps_[i].span_s() / (rise_s + fall_s);
     for (int r = 0; r < 3; ++r) {
@@ -153,10 +153,11 @@ bool MotionEvidence::HasMoved() const {
   if (std::ssize(steps_) < kRecentSteps) return false;
   const Step& first = *(steps_.end() - kRecentSteps);
   const Pose motion = first.from.pose.Inverse() * steps_.back().to.pose;
-  return motion.translation.norm() > kMoved_m || LogSo3(motion.rotation).norm() > kMoved_rad;
+  return motion.translation.norm() > kParameters.min_motion_m ||
+         LogSo3(motion.rotation).norm() > kParameters.min_motion_rad;
 }
 
-// Least over all biases, whose prior has zero mean.
+// Minimum over the gyro bias, whose prior has zero mean.
 double MotionEvidence::RateScore(const Matrix3& R_imu_sent, double rate_scale) const {
   double sum_sq = 0.0;
   double times_sq = 0.0;
@@ -167,8 +168,8 @@ double MotionEvidence::RateScore(const Matrix3& R_imu_sent, double rate_scale) c
     by_time += step.span_s() * off;
     times_sq += Square(step.span_s());
   }
-  const double prior = Square(kTurnStd_rad / kGyroBiasStd_radps);
-  return (sum_sq - by_time.squaredNorm() / (times_sq + prior)) / Square(kTurnStd_rad);
+  const double prior = Square(kParameters.turn_std_rad / kParameters.gyro_bias_std_radps);
+  return (sum_sq - by_time.squaredNorm() / (times_sq + prior)) / Square(kParameters.turn_std_rad);
 }
 
 double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_imu_sent,
@@ -186,9 +187,11 @@ double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_
       sum_sq += bends[i].weight * g_map.squaredNorm();
     }
     const Vector3 mean = sum / weights;
-    score += (sum_sq - weights * mean.squaredNorm()) / Square(kBendStd_mps2);
+    score +=
+        (sum_sq - weights * mean.squaredNorm()) / Square(kParameters.second_difference_std_mps2);
     score += Square(mean.norm() - gravity_mps2) /
-             (Square(kGravityStd_mps2) + Square(kBendStd_mps2) / weights);
+             (Square(kParameters.gravity_std_mps2) +
+              Square(kParameters.second_difference_std_mps2) / weights);
   }
   return score;
 }
@@ -196,13 +199,13 @@ double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_
 double MotionEvidence::RateError_radps(double score) const {
   double times_sq = 0.0;
   for (const Step& step : steps_) times_sq += Square(step.span_s());
-  return kTurnStd_rad * std::sqrt(score / times_sq);
+  return kParameters.turn_std_rad * std::sqrt(score / times_sq);
 }
 
 double MotionEvidence::ForceError_mps2(std::span<const Bend> bends, double score) {
   double weights = 0.0;
   for (const Bend& bend : bends) weights += bend.weight;
-  return kBendStd_mps2 * std::sqrt(score / std::max(1.0, weights));
+  return kParameters.second_difference_std_mps2 * std::sqrt(score / std::max(1.0, weights));
 }
 
 }  // namespace lio

@@ -2,41 +2,29 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/moving_start.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "imu/alignment.hpp"
 
 namespace lio {
 namespace {
 
-constexpr std::size_t kMinPoses = 8;
-constexpr double kMinSpan_s = 1.0;
-constexpr double kMaxImuGap_s = 0.1;
-// What scan matching by a constant-velocity guess errs beyond its own covariance: skewed scans, a
-// map that has only just begun.
-constexpr double kPoseStd_m = 0.02;
-constexpr double kPoseStd_rad = 0.003;
-constexpr double kMaxMisfit = 4.0;           // 8 cm or 0.7 deg of scatter
-constexpr double kMaxTiltStd_rad = 0.05;     // 3 deg
-constexpr double kMaxBiasSigmas = 6.0;       // a bias farther out than this is no bias
-constexpr double kMedianChiSquare6 = 5.348;  // of six normal squares
-
-template <class... Args>
-std::string Text(const char* format, Args... args) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
+constexpr MovingStartParameters kParameters = kInitializationParameters.in_motion;
+constexpr double kMedianChiSquare6 = 5.348;  // median of chi-square with 6 degrees of freedom
 
 std::string DataProblem(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from) {
-  if (poses.size() < kMinPoses) {
-    return Text("only %zu scans were matched, %zu are needed", poses.size(), kMinPoses);
+  if (poses.size() < kParameters.min_poses) {
+    return fmt::format("only {} scans were matched, {} are needed", poses.size(),
+                       kParameters.min_poses);
   }
   const double span_s = SecondsBetween(from, poses.back().stamp);
-  if (span_s < kMinSpan_s) return Text("%.2f s of motion, %.2f needed", span_s, kMinSpan_s);
+  if (span_s < kParameters.min_span_s) {
+    return fmt::format("{:.2f} s of motion, {:.2f} needed", span_s, kParameters.min_span_s);
+  }
   Timestamp last = from;
   double gap_s = 0.0;
   for (const ImuSample& sample : samples) {
@@ -45,20 +33,24 @@ std::string DataProblem(std::span<const ImuSample> samples, std::span<const Matc
     last = sample.stamp;
   }
   gap_s = std::max(gap_s, SecondsBetween(last, poses.back().stamp));
-  if (gap_s > kMaxImuGap_s) return Text("inertial samples are missing for %.2f s", gap_s);
+  if (gap_s > kParameters.max_imu_gap_s) {
+    return fmt::format("inertial samples are missing for {:.2f} s", gap_s);
+  }
   return {};
 }
 
+// The poses with the error of scan matching that their covariances do not contain.
 std::vector<MatchedPose> Widened(std::span<const MatchedPose> poses) {
   Vector6 floor;
-  floor << Vector3::Constant(kPoseStd_m * kPoseStd_m),
-      Vector3::Constant(kPoseStd_rad * kPoseStd_rad);
+  floor << Vector3::Constant(kParameters.pose_std_m * kParameters.pose_std_m),
+      Vector3::Constant(kParameters.pose_std_rad * kParameters.pose_std_rad);
   std::vector<MatchedPose> widened(poses.begin(), poses.end());
   for (MatchedPose& pose : widened) pose.cov.diagonal() += floor;
   return widened;
 }
 
-// The window's start takes its state from the first two poses, run back by constant velocity.
+// The guess of poses and velocities from the matched poses; the window's first state is the first
+// pose taken back by constant velocity.
 Alignment Guess(const AlignmentTerms& terms, Timestamp from) {
   const std::span<const MatchedPose> poses = terms.poses;
   const auto velocity_at = [&](std::size_t i) {
@@ -77,7 +69,7 @@ Alignment Guess(const AlignmentTerms& terms, Timestamp from) {
     guess.states.push_back(
         {poses[i].T_any_imu.rotation, poses[i].T_any_imu.translation, velocity_at(i)});
   }
-  // The vehicle's own acceleration mostly averages out.
+  // The mean force points up, because the vehicle's own acceleration mostly averages out.
   Vector3 force_sum = Vector3::Zero();
   for (std::size_t i = 0; i < terms.motions.size(); ++i) {
     force_sum += guess.states[i].R_any_imu * terms.motions[i].velocity;
@@ -104,13 +96,15 @@ AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const Mat
   return terms;
 }
 
-double Misfit(std::vector<double> squares) {
+// Root of the median of the squared residuals over that of chi-square: robust to wrong matches.
+double ResidualRatio(std::vector<double> squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return std::sqrt(*middle / kMedianChiSquare6);
 }
 
-// From the frame of the poses to world: level, with position and yaw of the first state zero.
+// Transforms the first state and its covariance from the frame of the poses to world, which is
+// level and in which position and yaw of that state are zero.
 //
 // With u the vertical in imu, u = R_any_imu^T up_any, the levelled rotation's error d obeys
 // u x d = du and u . d = 0 (no yaw), so d = -u x du, where du = u x theta + R_any_imu^T d(up_any)
@@ -130,7 +124,7 @@ void FillEstimate(const AlignmentResult& aligned, bool has_gravity, double scale
     level.middleCols<3>(kAlignedRot) = -Hat(u) * Hat(u);
     level.middleCols<3>(kAlignedUp) = -Hat(u) * R_imu_any;
   }
-  Rows turn = level;  // of world-from-imu against any-from-imu
+  Rows turn = level;  // error of R_world_imu minus that of R_any_imu
   turn.middleCols<3>(kAlignedRot) -= Matrix3::Identity();
   Rows velocity = -R * Hat(v_imu) * turn;
   velocity.middleCols<3>(kAlignedVel) += R * R_imu_any;
@@ -148,30 +142,31 @@ void FillEstimate(const AlignmentResult& aligned, bool has_gravity, double scale
   estimate.state.T_map_imu = estimate.state.T_world_imu;
 }
 
-std::string MisfitProblem(const AlignmentResult& aligned, double misfit) {
-  const std::string how = aligned.converged ? Text("%.1f times what is normal", misfit)
-                                            : std::string("no motion suits both");
+std::string DisagreementProblem(const AlignmentResult& aligned, double residual_ratio) {
+  const std::string how = aligned.converged
+                              ? fmt::format("{:.1f} times what is normal", residual_ratio)
+                              : std::string("no motion suits both");
   return "scan matching and inertial unit disagree (" + how +
          "): check rig.T_imu_lidar, the IMU's units and axes, and the sensors' clocks";
 }
 
 std::string EstimateProblem(const Estimate& estimate, const Rig& rig) {
   const double tilt_std = std::sqrt(estimate.cov.block<3, 3>(kRot, kRot).diagonal().maxCoeff());
-  if (!(tilt_std < kMaxTiltStd_rad)) {
-    return Text("roll and pitch stay unsure by %.1f deg", tilt_std * 180.0 / M_PI);
+  if (!(tilt_std < kParameters.max_tilt_std_rad)) {
+    return fmt::format("roll and pitch stay unsure by {:.1f} deg", tilt_std * 180.0 / M_PI);
   }
   const double gyro = estimate.state.gyro_bias.cwiseAbs().maxCoeff();
-  if (gyro > kMaxBiasSigmas * rig.imu.gyro_bias_std_radps) {
-    return Text(
-        "a gyro bias of %.3f rad/s is far beyond rig.imu.gyro_bias_std_radps (%.3f): are "
+  if (gyro > kParameters.max_bias_sigmas * rig.imu.gyro_bias_std_radps) {
+    return fmt::format(
+        "a gyro bias of {:.3f} rad/s is far beyond rig.imu.gyro_bias_std_radps ({:.3f}): are "
         "its rates in rad/s, its axes those of rig.T_imu_lidar?",
         gyro, rig.imu.gyro_bias_std_radps);
   }
   const double accel = estimate.state.accel_bias.cwiseAbs().maxCoeff();
-  if (accel > kMaxBiasSigmas * rig.imu.accel_bias_std_mps2) {
-    return Text(
-        "an accelerometer bias of %.2f m/s^2 is far beyond rig.imu.accel_bias_std_mps2 "
-        "(%.2f): is gravity in its reading, and in m/s^2?",
+  if (accel > kParameters.max_bias_sigmas * rig.imu.accel_bias_std_mps2) {
+    return fmt::format(
+        "an accelerometer bias of {:.2f} m/s^2 is far beyond rig.imu.accel_bias_std_mps2 "
+        "({:.2f}): is gravity in its reading, and in m/s^2?",
         accel, rig.imu.accel_bias_std_mps2);
   }
   return {};
@@ -188,14 +183,14 @@ MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const Matc
   const AlignmentTerms terms =
       MakeTerms(samples, widened, from, rig, has_gravity ? rig.gravity_mps2 : 0.0);
   const AlignmentResult aligned = Align(terms, Guess(terms, from));
-  result.misfit = Misfit(aligned.pose_misfit_sq);
-  if (!aligned.converged || !(result.misfit < kMaxMisfit)) {
-    result.why_not = MisfitProblem(aligned, result.misfit);
+  result.residual_ratio = ResidualRatio(aligned.pose_residual_sq);
+  if (!aligned.converged || !(result.residual_ratio < kParameters.max_residual_ratio)) {
+    result.why_not = DisagreementProblem(aligned, result.residual_ratio);
     return result;
   }
   StartState start;
   start.estimate.stamp = from;
-  const double scale = std::max(1.0, result.misfit);
+  const double scale = std::max(1.0, result.residual_ratio);
   FillEstimate(aligned, has_gravity, scale * scale, start.estimate);
   result.why_not = EstimateProblem(start.estimate, rig);
   if (!result.why_not.empty()) return result;

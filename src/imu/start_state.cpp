@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/start_state.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "lio/filter/pose_update.hpp"
@@ -13,12 +14,7 @@
 namespace lio {
 namespace {
 
-constexpr double kRestVelocityStd_mps = 0.01;
-constexpr double kSpreadFactor = 1.5;  // of a spread that is only noise
-constexpr double kUnknownTiltStd_rad = 1.0;
-constexpr double kMaxCoast_s = 30.0;  // longer than that nothing goes on straight
-// Local gravity differs from the configured value by up to 0.03 m/s^2 between equator and poles.
-constexpr double kGravityStd_mps2 = 0.02;
+constexpr RestStartParameters kParameters = kInitializationParameters.at_rest;
 
 Estimate PriorEstimate(Timestamp stamp, const Rig& rig, double velocity_std_mps) {
   Estimate estimate;
@@ -32,15 +28,16 @@ Estimate PriorEstimate(Timestamp stamp, const Rig& rig, double velocity_std_mps)
   return estimate;
 }
 
-// Tilt is free (about the world's horizontal axes), yaw is zero by definition.
+// Makes the tilt unknown: variance about the world's horizontal axes, none about the vertical.
 void FreeTilt(Estimate& estimate, double std_rad) {
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
   const Vector3 horizontal(std_rad * std_rad, std_rad * std_rad, 0.0);
   estimate.cov.block<3, 3>(kRot, kRot) = R.transpose() * horizontal.asDiagonal() * R;
 }
 
-// Mean specific force at rest: f = -R^T g + accel bias, known to the noise of the mean and, along
-// the vertical, to how well gravity's strength is known. Ties tilt to the accelerometer's bias.
+// Fuses the mean specific force at rest, f = -R^T g + accel bias. Its error is the noise of the
+// mean and, along the vertical, the uncertainty of gravity. Correlates tilt and the accelerometer's
+// bias.
 void FuseMeanForce(Estimate& estimate, const Vector3& mean_f, double noise_var,
                    const Vector3& g_world) {
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
@@ -49,8 +46,9 @@ void FuseMeanForce(Estimate& estimate, const Vector3& mean_f, double noise_var,
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
   H.middleCols<3>(kRot) = Hat(predicted);
   H.middleCols<3>(kAccelBias) = Matrix3::Identity();
-  const Matrix3 noise = noise_var * Matrix3::Identity() +
-                        kGravityStd_mps2 * kGravityStd_mps2 * up_imu * up_imu.transpose();
+  const Matrix3 noise = noise_var * Matrix3::Identity() + kParameters.gravity_std_mps2 *
+                                                              kParameters.gravity_std_mps2 *
+                                                              up_imu * up_imu.transpose();
   FuseLinear(estimate, H, mean_f - predicted - estimate.state.accel_bias, noise);
 }
 
@@ -60,14 +58,16 @@ void FuseMeanRate(Estimate& estimate, const Vector3& mean_w, double noise_var) {
   FuseLinear(estimate, H, mean_w - estimate.state.gyro_bias, noise_var * Matrix3::Identity());
 }
 
-// Variance of a mean over span_s: by the density, or by the spread seen when that is larger.
+// Variance of a mean over the span: from the noise density, or from the measured spread when that
+// is larger.
 double MeanVariance(double density, double seen_std, const ImuStatistics& statistics) {
   const double by_density = density * density / std::max(statistics.span_s, 1e-3);
   const double by_spread = seen_std * seen_std / std::max(1, statistics.num_samples);
   return std::max(by_density, by_spread);
 }
 
-// Of position, by `coasting_std_m` besides, and of yaw, which turns the velocity along.
+// Adds the uncertainty of the continued position, which includes `coasting_std_m`, and yaw. An
+// error of yaw turns the velocity along.
 void AddPlacingError(const LastFix& earlier, double coasting_std_m, Estimate& estimate) {
   const NavState& state = estimate.state;
   const Matrix3 R_then = earlier.T_world_imu.rotation.toRotationMatrix();
@@ -95,7 +95,7 @@ Quaternion LevelledRotation(const Vector3& up_imu) {
 }
 
 double CoastedSince_s(const LastFix& earlier, Timestamp now) {
-  return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kMaxCoast_s);
+  return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kParameters.max_coast_s);
 }
 
 void Level(const Quaternion& R_level_imu, LastFix& point) {
@@ -129,11 +129,9 @@ void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate) 
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity) {
   const Vector3 up = estimate.state.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
   const double tilt_deg = std::acos(std::clamp(up.z(), -1.0, 1.0)) * 180.0 / M_PI;
-  char text[160];
-  std::snprintf(text, sizeof text, "started %s: imu tilted by %.2f deg, speed %.2f m/s%s", how,
-                tilt_deg, estimate.state.v_world_imu.norm(),
-                has_gravity ? "" : ", accelerometer without gravity: roll and pitch unknown");
-  return text;
+  return fmt::format("started {}: imu tilted by {:.2f} deg, speed {:.2f} m/s{}", how, tilt_deg,
+                     estimate.state.v_world_imu.norm(),
+                     has_gravity ? "" : ", accelerometer without gravity: roll and pitch unknown");
 }
 
 ImuStatistics Summarise(std::span<const ImuSample> samples) {
@@ -159,8 +157,8 @@ ImuStatistics Summarise(std::span<const ImuSample> samples) {
 
 bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const VibrationLevel& vibration) {
   const double root_step = std::sqrt(statistics.span_s / std::max(1, statistics.num_samples - 1));
-  const auto limit = [&](double density, double unrest_std) {
-    return kSpreadFactor * std::hypot(density / root_step, unrest_std);
+  const auto limit = [&](double density, double vibration_std) {
+    return kParameters.max_spread_ratio * std::hypot(density / root_step, vibration_std);
   };
   return statistics.gyro_std_radps < limit(imu.gyro_noise_density, vibration.gyro_std_radps) &&
          statistics.accel_std_mps2 < limit(imu.accel_noise_density, vibration.accel_std_mps2);
@@ -170,7 +168,7 @@ bool GravityPresent(const ImuStatistics& statistics, const Rig& rig) {
   if (rig.imu.gravity != GravityInput::kAutomatic) {
     return rig.imu.gravity == GravityInput::kPresent;
   }
-  return statistics.mean_f_mps2.norm() > 0.5 * rig.gravity_mps2;
+  return statistics.mean_f_mps2.norm() > kParameters.min_gravity_share * rig.gravity_mps2;
 }
 
 StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig) {
@@ -178,7 +176,7 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   const ImuStatistics statistics = Summarise(samples);
   const bool has_gravity = GravityPresent(statistics, rig);
   StartState start;
-  start.estimate = PriorEstimate(stamp, rig, kRestVelocityStd_mps);
+  start.estimate = PriorEstimate(stamp, rig, kParameters.velocity_std_mps);
   FuseMeanRate(start.estimate, statistics.mean_w_radps,
                MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics));
   const double force_var =
@@ -186,7 +184,7 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   if (has_gravity) {
     start.g_world = Vector3(0, 0, -rig.gravity_mps2);
     start.estimate.state.T_world_imu.rotation = LevelledRotation(statistics.mean_f_mps2);
-    FreeTilt(start.estimate, kUnknownTiltStd_rad);
+    FreeTilt(start.estimate, kParameters.unknown_tilt_std_rad);
   }
   FuseMeanForce(start.estimate, statistics.mean_f_mps2, force_var, start.g_world);
   AnchorMap(start.estimate);

@@ -18,8 +18,8 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   history.g_world = Vector3::Zero();
   history.span_s = options.span_s;
   history.nis_limit = options.nis_limit;
-  history.max_misfit.translation = 1.0;  // the alignment judges that
-  history.gap_s = 1e9;                   // its samples never have a gap
+  history.max_inflation.translation = 1.0;  // the alignment judges that
+  history.imu_outage.gap_s = 1e9;           // its samples never have a gap
   return history;
 }
 
@@ -85,7 +85,7 @@ ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerO
 void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
   if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
   last_rate_ = sample.w_imu_radps;
-  history_.AddImu(Rate(sample.stamp, last_rate_));
+  (void)history_.AddImu(Rate(sample.stamp, last_rate_));
 }
 
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
@@ -94,7 +94,7 @@ void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
     at = std::min(at + kConstantVelocity.step, stamp);
-    history_.AddImu(Rate(at, last_rate_));
+    (void)history_.AddImu(Rate(at, last_rate_));
   }
 }
 
@@ -104,9 +104,9 @@ void ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
     event.measurement.T_map_imu = match.T_map_imu;
     event.measurement.cov = match.cov;
     event.force = true;
-    history_.AddPose(middle, event);
+    (void)history_.AddPose(middle, event);
   } else if (match.status == MatchStatus::kEmptyMap) {
-    history_.AddRebase(middle);
+    (void)history_.AddRebase(middle);
   }
 }
 

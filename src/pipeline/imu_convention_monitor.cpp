@@ -46,14 +46,14 @@ ImuConventionMonitor::Finding ImuConventionMonitor::JudgeInitializing(const Trac
   }
   is_settled_ = verdict.finding == ImuVerdict::Finding::kAsExpected;
   if (verdict.finding != ImuVerdict::Finding::kOtherwise) return {};
-  return {Finding::Kind::kOtherwise, verdict.reading, verdict.evidence};
+  return {Finding::Kind::kOtherwise, verdict.convention, verdict.evidence};
 }
 
 // Judged by poses that were tracked with its rates.
 bool ImuConventionMonitor::IsGyroMisleading(const ImuVerdict& verdict,
                                             const TrackFacts& facts) const {
   if (verdict.finding == ImuVerdict::Finding::kOtherwise) {
-    return !HasSameRates(verdict.reading, imu_->convention());
+    return !HasSameRates(verdict.convention, imu_->convention());
   }
   const bool few_are_matched =
       facts.num_scans >= kImuConvention.min_scans && 2 * facts.num_matched < facts.num_scans;

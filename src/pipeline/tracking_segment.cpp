@@ -33,8 +33,8 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
   const HistoryOptions history = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_);
   ProcessNoise noise = history.noise;
-  noise.accel_density = history.gap_accel_std_mps2 * std::sqrt(unknown_s);
-  noise.gyro_density = history.gap_gyro_std_radps * std::sqrt(unknown_s);
+  noise.accel_density = history.imu_outage.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.gyro_density = history.imu_outage.gap_gyro_std_radps * std::sqrt(unknown_s);
   const NavState before = estimate.state;
   if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
   handover_.clock_step.reset();

@@ -6,15 +6,17 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lio/scan/scan_parameters.hpp"
+
 namespace lio {
 namespace {
 
-constexpr double kGridStep_s = 1e-3;
+constexpr double kGridStep_s = kScanParameters.deskew.grid_step_s;
 
 using Transform = Eigen::Matrix<float, 3, 4>;
 
-// The pose at `stamp`, held constant beyond both ends. `from` is where the search starts and is
-// left at the segment found, so that a sorted sequence of calls is linear in all.
+// The pose at `stamp`, constant beyond both ends. The search starts at `from`, which becomes the
+// segment found, so that ascending calls are linear in total.
 Pose PoseAt(const StampedPoses& poses, Timestamp stamp, std::size_t& from) {
   while (from + 1 < poses.size() && poses[from + 1].stamp < stamp) ++from;
   if (from + 1 == poses.size() || stamp <= poses[from].stamp) return poses[from].pose;

@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// The first point along the ring stands for its voxel.
+// Keeps the first point along the ring in each voxel.
 class RingThinner {
  public:
   explicit RingThinner(double leaf_m) : inverse_leaf_(static_cast<float>(1.0 / leaf_m)) {}

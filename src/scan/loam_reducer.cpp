@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lio/scan/point_filter.hpp"
+#include "lio/scan/scan_parameters.hpp"
 
 namespace lio {
 namespace {
@@ -29,7 +30,7 @@ LoamReducer::LoamReducer(const LoamFeatureOptions& features, const ReduceOptions
       voxel_m_(static_cast<float>(reduce.voxel_m)) {}
 
 void LoamReducer::AddEdges(const Sweep& sweep, const LoamFeatures& features, ReducedScan& result) {
-  // Both lists are in the same order, the sharp ones among the others.
+  // Both lists have the same order; less_sharp includes the sharp points.
   std::size_t next_sharp = 0;
   for (const std::uint32_t i : features.less_sharp) {
     const bool is_sharp = next_sharp < features.sharp.size() && features.sharp[next_sharp] == i;
@@ -65,8 +66,8 @@ ReducedScan LoamReducer::Reduce(const Sweep& sweep) {
   AddEdges(sweep, *features, result);
   const std::size_t num_edges = result.points.size();
   AddSurfaces(sweep, *features, result);
-  // Edges are few and hold what surfaces do not: up to half of what is matched.
-  const int num_matched_edges = std::min(static_cast<int>(num_edges), options_.match_points / 2);
+  const int max_edges = options_.match_points / kScanParameters.loam.edge_divisor;
+  const int num_matched_edges = std::min(static_cast<int>(num_edges), max_edges);
   result.to_match = SpreadIndices(num_edges, std::max(num_matched_edges, 1));
   for (const std::uint32_t i :
        SpreadIndices(result.points.size() - num_edges, options_.match_points - num_matched_edges)) {

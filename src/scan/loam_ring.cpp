@@ -9,11 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kShadowPoints =
-    6;  // of the far side, at the border of a shadow (LOAM's code)
-constexpr std::size_t kSlopeHalfWindow = 2;  // steps each side from which a slope is judged
-// A slope is one only when no single step makes most of it: that would be a jump.
-constexpr float kMaxStepShare = 0.6f;
+constexpr LoamParameters kParameters = kScanParameters.loam;
 
 float Radians(double degrees) {
   return static_cast<float>(degrees * std::numbers::pi / 180.0);
@@ -57,10 +53,11 @@ void LoamRing::Process(std::span<const LidarPoint> points, std::span<const std::
   }
 }
 
-// The angle between beam and surface, seen along the ring: range * turned angle against the change
-// of range, over four steps.
+// Marks grazing incidence. The angle between beam and surface, along the ring, comes from range
+// times turned angle against the change of range, over four steps. A change of range that is mostly
+// one step is a jump, not a slope.
 void LoamRing::MarkGrazed() {
-  constexpr std::size_t k = kSlopeHalfWindow;
+  constexpr std::size_t k = kParameters.slope_half_window;
   for (std::size_t i = k; i + k < size(); ++i) {
     const float rise = std::abs(range_m_[i + k] - range_m_[i - k]);
     const float chord = Chord(i - k, i + k);
@@ -69,13 +66,14 @@ void LoamRing::MarkGrazed() {
     for (std::size_t j = i - k; j < i + k; ++j) {
       max_step = std::max(max_step, std::abs(range_m_[j + 1] - range_m_[j]));
     }
-    if (max_step > kMaxStepShare * rise) continue;
+    if (max_step > kParameters.max_step_share * rise) continue;
     label_[i] = Label::kGrazed;
     is_taken_[i] = 1;
   }
 }
 
-// A jump of range between neighbouring beams that is more than the slope around it.
+// Marks the far side of a jump of range between neighbouring beams that exceeds the slope around
+// it.
 void LoamRing::MarkOccluded() {
   const auto min_jump = static_cast<float>(options_.min_occlusion_m);
   for (std::size_t i = 1; i + 2 < size(); ++i) {
@@ -85,9 +83,9 @@ void LoamRing::MarkOccluded() {
                                  sign * (range_m_[i + 2] - range_m_[i + 1]));
     if (std::abs(step) - std::max(slope, 0.f) < min_jump) continue;
     if (Chord(i, i + 1) > max_chord_) continue;
-    const bool far_is_behind = step < 0.f;  // the point before the jump is the far one
+    const bool far_is_behind = step < 0.f;  // the far point is before the jump
     const float min_far_range = std::min(range_m_[i], range_m_[i + 1]) + min_jump;
-    for (std::size_t k = 0; k < kShadowPoints; ++k) {
+    for (std::size_t k = 0; k < kParameters.shadow_points; ++k) {
       if (far_is_behind ? k > i : i + 1 + k >= size()) break;
       const std::size_t j = far_is_behind ? i - k : i + 1 + k;
       if (range_m_[j] < min_far_range) break;
@@ -100,7 +98,7 @@ void LoamRing::MarkOccluded() {
 void LoamRing::ComputeCurvature() {
   curvature_m2_.assign(size(), 0.f);
   for (std::size_t i = kHalfWindow; i + kHalfWindow < size(); ++i) {
-    // Summed anew for each point: a running sum would gather rounding along the ring.
+    // Each point has its own sum, because a running sum would accumulate rounding along the ring.
     Eigen::Vector3f window = Eigen::Vector3f::Zero();
     for (std::size_t j = i - kHalfWindow; j <= i + kHalfWindow; ++j) {
       window += position_[j] - position_[i];
@@ -122,7 +120,7 @@ void LoamRing::SuppressNeighbours(std::size_t i) {
   }
 }
 
-// Sharpest first; equal ones by place, so that the result does not depend on the heap.
+// Picks the sharpest first, equal ones by index, so that the result does not depend on the heap.
 void LoamRing::PickEdges(std::size_t begin, std::size_t end) {
   const auto threshold = static_cast<float>(options_.curvature_m2);
   const auto is_duller = [&](std::uint32_t a, std::uint32_t b) {

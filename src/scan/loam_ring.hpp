@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One ring of a sweep on its way to features: curvature, reliability and picking, as scratch that
-// is used again for ring after ring.
+// Finds the features of one ring: curvature, reliability and picking (Zhang and Singh, RSS 2014,
+// section V-A). Its buffers are used again for ring after ring. Lidar frame, metres.
 #pragma once
 
 #include <array>
@@ -11,17 +11,18 @@
 
 #include "lio/base/rotation.hpp"
 #include "lio/scan/loam_feature_options.hpp"
+#include "lio/scan/scan_parameters.hpp"
 #include "lio/sensor/scan_chunk.hpp"
 
 namespace lio {
 
 class LoamRing {
  public:
-  static constexpr int kHalfWindow = 5;  // neighbours each side
+  static constexpr int kHalfWindow = kScanParameters.loam.half_window;  // neighbours each side
 
   explicit LoamRing(const LoamFeatureOptions& options);
 
-  // What became of a point.
+  // The result for a point.
   enum class Label : std::uint8_t { kPlain, kSharp, kLessSharp, kFlat, kOccluded, kGrazed };
 
   // `ring`: indices into `points`, in the order they were measured.
@@ -29,7 +30,7 @@ class LoamRing {
 
   std::size_t size() const { return position_.size(); }
   Label label(std::size_t i) const { return label_[i]; }
-  // The parts of the ring that have features: all but five points at each end.
+  // True for points with a full window of neighbours: all but five at each end.
   bool IsInside(std::size_t i) const { return i >= kHalfWindow && i + kHalfWindow < size(); }
 
  private:
@@ -43,7 +44,7 @@ class LoamRing {
   float Chord(std::size_t i, std::size_t j) const { return (direction_[i] - direction_[j]).norm(); }
 
   LoamFeatureOptions options_;
-  float max_chord_;  // of neighbouring beams that may shadow each other
+  float max_chord_;  // largest distance of unit directions of beams that may occlude each other
   float tan_min_incidence_;
   std::vector<Eigen::Vector3f> position_;   // lidar frame, m
   std::vector<Eigen::Vector3f> direction_;  // unit

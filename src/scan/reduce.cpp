@@ -11,8 +11,9 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kInitialSlots = 1u << 14;  // room for 8000 kept points
+constexpr std::size_t kInitialSlots = 1u << 14;  // grows as needed
 constexpr std::uint32_t kBitsPerWord = 64;
+constexpr ThinningParameters kParameters = kScanParameters.thinning;
 
 struct Voxel {
   VoxelKey key;
@@ -44,7 +45,7 @@ ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
       voxel_m_(static_cast<float>(options.voxel_m)),
       choices_(kInitialSlots) {}
 
-// Whether a point is looked at cannot be foreseen, so nothing branches on it.
+// Nothing branches on whether a point is used, because branch prediction would fail.
 void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
   const std::uint32_t share = SampleShare(sweep.points.size());
   candidates_.resize(sweep.points.size());
@@ -82,7 +83,7 @@ void ScanReducer::ChoosePoints(const Sweep& sweep) {
   }
 }
 
-// Sweeps mostly come in order, so the chosen ones are listed in the sweep's order first.
+// Marks the chosen points in the sweep's order, which mostly is the order that SortedChoice needs.
 void ScanReducer::MarkChosen() {
   is_chosen_.assign((candidates_.empty() ? 0 : candidates_.back() / kBitsPerWord) + 1, 0);
   choices_.ForEachInAnyOrder([&](std::uint64_t choice) {
@@ -91,7 +92,8 @@ void ScanReducer::MarkChosen() {
   });
 }
 
-// By time, then ring: a key beside the index keeps the sort from chasing points all over the sweep.
+// The chosen points by time, then ring. A key beside the index saves the sort from reading the
+// points.
 std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep) {
   MarkChosen();
   std::vector<Chosen> chosen;
@@ -141,9 +143,10 @@ std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted) {
 
 float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept) {
   if (num_kept == 0) return voxel_m;
-  // Points lie on surfaces, so their number goes with the inverse square of the edge.
+  // Points lie on surfaces, so their number is proportional to the inverse square of the edge.
   const double ratio = std::sqrt(static_cast<double>(num_kept) / options.target_points);
-  const double wanted = voxel_m * std::clamp(ratio, 0.8, 1.25);
+  const double wanted =
+      voxel_m * std::clamp(ratio, kParameters.min_edge_ratio, kParameters.max_edge_ratio);
   return static_cast<float>(std::clamp(wanted, options.min_voxel_m, options.max_voxel_m));
 }
 

@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// Sorts one ring's indices unless they are in order already, as most sources have them.
+// Sorts one ring's indices unless they are in order, as they are from most sources.
 template <class Less>
 void SortIfNeeded(std::span<std::uint32_t> ring, const Less& less) {
   if (!std::is_sorted(ring.begin(), ring.end(), less)) std::sort(ring.begin(), ring.end(), less);
@@ -34,7 +34,7 @@ bool LacksTimes(std::span<const LidarPoint> points) {
 std::vector<std::uint16_t> RingsFromElevation(std::span<const LidarPoint> points,
                                               std::span<const double> beam_elevations_rad) {
   if (beam_elevations_rad.empty()) throw std::invalid_argument("RingsFromElevation: no beams");
-  // Elevations' tangents grow with them, so the middles between beams may be compared as tangents.
+  // The tangent is monotonic in elevation, so the middles between beams are compared as tangents.
   std::vector<float> upper_tangent;
   for (std::size_t i = 0; i + 1 < beam_elevations_rad.size(); ++i) {
     const double middle = 0.5 * (beam_elevations_rad[i] + beam_elevations_rad[i + 1]);
@@ -73,7 +73,7 @@ RingOrder OrderByRing(std::span<const LidarPoint> points, std::span<const std::u
   std::size_t num_rings = 0;
   for (std::size_t i = 0; i < points.size(); ++i) num_rings = std::max(num_rings, ring_of(i) + 1);
 
-  RingOrder order;  // by counting
+  RingOrder order;  // counting sort
   order.begin.assign(num_rings + 1, 0);
   for (std::size_t i = 0; i < points.size(); ++i) order.begin[ring_of(i) + 1] += is_wanted[i];
   for (std::size_t r = 0; r < num_rings; ++r) order.begin[r + 1] += order.begin[r];

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which points of a large sweep are looked at: a share of them that does not depend on the order
-// they come in.
+// Samples a share of the points of a large sweep. The choice does not depend on their order.
 #pragma once
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "lio/scan/scan_parameters.hpp"
 #include "lio/scan/sweep.hpp"
 
 namespace lio {
 
-// A total order on points, so that a tie does not depend on the order of arrival.
+// A total order on points, so that ties do not depend on the order of arrival.
 inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
   if (a.t_offset_ns != b.t_offset_ns) return a.t_offset_ns < b.t_offset_ns;
   if (a.ring != b.ring) return a.ring < b.ring;
@@ -21,12 +21,10 @@ inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
   return a.z_m < b.z_m;
 }
 
-// Sweeps with more returns are sampled down to about this many, which leaves several to choose from
-// in each voxel of the thinning grid.
-inline constexpr std::size_t kMaxSampled = 32000;
+inline constexpr std::size_t kMaxSampled = kScanParameters.thinning.max_sampled;
 
-// A number in 0..65535 that depends on nothing but when and by which beam the point was measured;
-// where a cloud does not tell when, on its place, too: else whole rings would be drawn.
+// A hash in 0..65535 of the point's time and ring; of its position, too, in clouds without times,
+// because otherwise whole rings would be drawn.
 inline std::uint32_t Sample(const LidarPoint& point) {
   std::uint32_t name = point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u);
   if (point.t_offset_ns == 0) {

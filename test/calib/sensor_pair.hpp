@@ -28,7 +28,7 @@ inline Pose Stand(double) {
   return {};
 }
 
-// Returns the samples of the IMU up to `to_s`, at 200 Hz.
+// The samples of the IMU up to `to_s` at 200 Hz.
 inline std::vector<ImuSample> BiasedSamples(const Motion& motion, double to_s) {
   std::vector<ImuSample> samples = ExactSamples(motion, 0.0, to_s, 0.005);
   for (ImuSample& sample : samples) sample.w_imu_radps += kGyroBias;

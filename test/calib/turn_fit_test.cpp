@@ -79,12 +79,12 @@ TEST(TurnFit, SweepsOwnErrorsAndTurnsAreToldApart) {
   EXPECT_LT(of_turns.sweep_std_rad, 0.5 * kLarge_rad);
 }
 
-TEST(TurnFit, NoiseIsInTheCovarianceAndTheMisfitIsOne) {
+TEST(TurnFit, NoiseIsInTheCovarianceAndTheResidualRatioIsOne) {
   RotationCalibration quiet = Guess(), noisy = Guess();
   ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, 0.0, 5e-4), quiet));
   ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, 0.0, 5e-3), noisy));
   for (const RotationCalibration* state : {&quiet, &noisy}) {
-    EXPECT_NEAR(state->misfit, 1.0, 0.25);
+    EXPECT_NEAR(state->residual_ratio, 1.0, 0.25);
     EXPECT_LT(std::abs(state->offset_s - kOffset_s), 4 * state->offset_std_s);
     EXPECT_LT(RotationError(*state), 4 * std::sqrt(state->rotation_cov.trace()));
   }

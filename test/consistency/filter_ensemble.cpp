@@ -135,7 +135,7 @@ class Run {
     const Vector6 residual = LogSe3(filter_.state.T_map_imu.Inverse() * measurement.T_map_imu);
     const Matrix6 S = filter_.cov.bottomRightCorner<6, 6>() + measurement.cov;
     const Vector6 whitened = S.llt().matrixL().solve(residual);
-    FusePose(filter_, measurement, kNoGate);
+    (void)FusePose(filter_, measurement, kNoGate);
     if (is_coupled) CoupleMap();
     if (is_coupled && options_.belief == Belief::kMapPose) BelieveCoupling(measurement);
     return whitened;

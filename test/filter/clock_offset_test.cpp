@@ -78,6 +78,15 @@ TEST(ClockOffset, StaysWithinItsBounds) {
   Drive{test::WalkMotion(), 0.08}.Run(clock, 0, 300);
   EXPECT_LE(clock.offset_s(), ClockOffset::kMax_s);
   EXPECT_LE(clock.move_by_s(), ClockOffset::kMax_s);
+  // The bound is what holds it: an estimator that learns nothing would be at zero.
+  EXPECT_GT(clock.offset_s(), 0.9 * ClockOffset::kMax_s);
+  EXPECT_GT(clock.move_by_s(), 0.9 * ClockOffset::kMax_s);
+
+  ClockOffset negative(Rig());
+  Drive{test::WalkMotion(), -0.08}.Run(negative, 0, 300);
+  EXPECT_GE(negative.offset_s(), -ClockOffset::kMax_s);
+  EXPECT_LT(negative.offset_s(), -0.9 * ClockOffset::kMax_s);
+  EXPECT_LT(negative.move_by_s(), -0.9 * ClockOffset::kMax_s);
 }
 
 TEST(ClockOffset, WrongMatchesDoNotMoveIt) {

@@ -27,7 +27,8 @@ using test::TestOptions;
 TEST(FilterHistory, LateMeasurementEqualsInOrder) {
   FilterHistory in_order = StartedHistory();
   AddImuUpTo(in_order, 0.5);
-  in_order.AddPose(StampAt(0.5), PoseAt(0.5, Vector6::Constant(0.01)));
+  EXPECT_EQ(in_order.AddPose(StampAt(0.5), PoseAt(0.5, Vector6::Constant(0.01))),
+            EventOutcome::kApplied);
   AddImuUpTo(in_order, 1.0);
   FilterHistory late = StartedHistory();
   AddImuUpTo(late, 1.0);
@@ -107,7 +108,8 @@ TEST(FilterHistory, ForcedPoseIsFusedWithTheCovarianceInflated) {
 TEST(FilterHistory, ASetClockTakesTheWayBackAndLeavesTheSpeed) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 0.5);
-  history.AddImu(SampleAt(2.0));  // place and speed of the gap are correlated
+  EXPECT_EQ(history.AddImu(SampleAt(2.0)),
+            EventOutcome::kApplied);  // place and speed of the gap are correlated
   const Estimate before = history.head();
   PoseEvent event;
   event.measurement.T_map_imu = before.state.T_map_imu * ExpSe3(-16.0 * Vector6::Unit(0));
@@ -147,7 +149,7 @@ TEST(FilterHistory, StandstillBringsTheVelocityToZeroAsFarAsItIsSure) {
 TEST(FilterHistory, SamplesBetweenAreTheMeasuredOnes) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 0.2);
-  history.AddPose(StampAt(0.11), PoseAt(0.11));
+  EXPECT_EQ(history.AddPose(StampAt(0.11), PoseAt(0.11)), EventOutcome::kApplied);
   const std::vector<ImuSample> samples = history.SamplesBetween(StampAt(0.1), StampAt(0.16));
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples.front().stamp, StampAt(0.12));
@@ -162,7 +164,8 @@ TEST(FilterHistory, TrimmingDoesNotChangeTheHead) {
   for (FilterHistory* history : {&trimmed, &whole}) {
     for (int i = 1; i <= 20; ++i) {
       AddImuUpTo(*history, 0.1 * i);
-      history->AddPose(StampAt(0.1 * i - 0.05), PoseAt(0.1 * i - 0.05));
+      EXPECT_EQ(history->AddPose(StampAt(0.1 * i - 0.05), PoseAt(0.1 * i - 0.05)),
+                EventOutcome::kApplied);
     }
   }
   EXPECT_EQ(Difference(trimmed.head(), whole.head()), 0.0);
@@ -175,8 +178,8 @@ TEST(FilterHistory, NothingIsInsertedBeforeTheFirstEventOfTheWindow) {
   options.span_s = 0.5;
   FilterHistory history = StartedHistory(options);
   AddImuUpTo(history, 1.0);
-  history.AddPose(StampAt(0.6), PoseAt(0.6));
-  history.AddRebase(StampAt(0.6));
+  EXPECT_EQ(history.AddPose(StampAt(0.6), PoseAt(0.6)), EventOutcome::kApplied);
+  EXPECT_EQ(history.AddRebase(StampAt(0.6)), EventOutcome::kApplied);
   AddImuUpTo(history, 1.1);  // the window begins with the rebase at 0.6 s
   const Estimate before = history.head();
   EXPECT_EQ(history.AddPose(StampAt(0.6), PoseAt(0.6)), EventOutcome::kTooOld);
@@ -210,8 +213,9 @@ TEST(FilterHistory, EstimateBeforeTheWindowIsTheOldestOne) {
 TEST(FilterHistory, TrajectoryHasItsEndsAndEveryEventBetween) {
   FilterHistory history = StartedHistory();
   AddImuUpTo(history, 1.0);
-  history.AddPose(StampAt(0.51), PoseAt(0.51));
-  history.AddPose(StampAt(0.54), PoseAt(0.54));  // at a sample's stamp: one entry
+  EXPECT_EQ(history.AddPose(StampAt(0.51), PoseAt(0.51)), EventOutcome::kApplied);
+  EXPECT_EQ(history.AddPose(StampAt(0.54), PoseAt(0.54)),
+            EventOutcome::kApplied);  // at a sample's stamp: one entry
   const StampedPoses poses = history.Trajectory(StampAt(0.5), StampAt(0.595));
   std::vector<double> stamps_s;
   for (const StampedPose& pose : poses) stamps_s.push_back(test::SecondsOf(pose.stamp));
@@ -234,19 +238,19 @@ TEST(FilterHistory, GapInTheSamplesWidensTheCovariance) {
   FilterHistory with_gap = StartedHistory();
   FilterHistory without = StartedHistory();
   AddImuUpTo(without, 0.6);
-  with_gap.AddImu(SampleAt(0.6));
+  EXPECT_EQ(with_gap.AddImu(SampleAt(0.6)), EventOutcome::kApplied);
   EXPECT_GT(with_gap.head().cov(kVel, kVel), 10 * without.head().cov(kVel, kVel));
   EXPECT_GT(with_gap.head().cov(kRot, kRot), 10 * without.head().cov(kRot, kRot));
 }
 
-TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
+TEST(FilterHistory, SaturationWidensTheCovarianceOfItsSensorOnly) {
   const auto after = [](bool rate, bool force) {
     FilterHistory history = StartedHistory();
     for (int k = 1; k <= 10; ++k) {
       ImuSample sample = SampleAt(0.01 * k);
       sample.is_rate_saturated = rate;
       sample.is_force_saturated = force;
-      history.AddImu(sample);
+      EXPECT_EQ(history.AddImu(sample), EventOutcome::kApplied);
     }
     return history.head().cov;
   };
@@ -254,9 +258,10 @@ TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
   const ErrorMatrix clean = after(false, false);
   const ErrorMatrix no_rate = after(true, false);
   const ErrorMatrix no_force = after(false, true);
-  // The error counts as if it lasted for clipped_s.
-  const double turn_std_rad = options.clipped_s * options.clipped_gyro_std_radps;
-  const double speed_std_mps = options.clipped_s * options.clipped_accel_std_mps2;
+  // The noise of a saturated interval is that of a constant error over saturated_s.
+  const ImuOutageParameters& outage = options.imu_outage;
+  const double turn_std_rad = outage.saturated_s * outage.saturated_gyro_std_radps;
+  const double speed_std_mps = outage.saturated_s * outage.saturated_accel_std_mps2;
   EXPECT_NEAR(std::sqrt(no_rate(kRot, kRot) - clean(kRot, kRot)), turn_std_rad,
               0.01 * turn_std_rad);
   EXPECT_NEAR(std::sqrt(no_force(kVel, kVel) - clean(kVel, kVel)), speed_std_mps,
@@ -268,14 +273,14 @@ TEST(FilterHistory, WhatIsBeyondARangeWidensWhatThatSensorTells) {
 TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   FilterHistory plain = StartedHistory();
   FilterHistory split = StartedHistory();
-  plain.AddImu(SampleAt(0.04));
-  split.AddImu(SampleAt(0.04));
+  EXPECT_EQ(plain.AddImu(SampleAt(0.04)), EventOutcome::kApplied);
+  EXPECT_EQ(split.AddImu(SampleAt(0.04)), EventOutcome::kApplied);
   const PoseEvent worthless = PoseAt(0.02, Vector6::Zero(), 1e6);
   EXPECT_EQ(split.AddPose(StampAt(0.02), worthless), EventOutcome::kApplied);
   for (const int at : {kPos, kRot, kVel, kMapPose, kMapPose + 3}) {
     const double start = StartEstimate().cov(at, at);
     const double grown = split.head().cov(at, at) - start;
-    // An interval's uncertainty lasts for that interval, so two halves add up to half of it.
+    // An interval's error lasts for that interval, so two halves add up to half of its variance.
     EXPECT_GT(grown, 0.45 * (plain.head().cov(at, at) - start)) << at;
   }
 }
@@ -288,7 +293,7 @@ TEST(FilterHistory, CovarianceStaysPositiveOverALongRun) {
     PoseEvent event = PoseAt(0.1 * i, 0.02 * test::RandomVector<6>(random));
     event.measurement.new_content_share = 0.1;
     event.measurement.blend_cov = 1e-4 * Matrix6::Identity();
-    history.AddPose(StampAt(0.1 * i), event);
+    EXPECT_EQ(history.AddPose(StampAt(0.1 * i), event), EventOutcome::kApplied);
     const ErrorMatrix& cov = history.head().cov;
     ASSERT_EQ((cov - cov.transpose()).cwiseAbs().maxCoeff(), 0.0);
     ASSERT_GT(Eigen::SelfAdjointEigenSolver<ErrorMatrix>(cov).eigenvalues().minCoeff(), 0.0) << i;

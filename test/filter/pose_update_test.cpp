@@ -56,7 +56,7 @@ Matrix6 JacobianInUse(const NavState& state, const Vector6& residual) {
       measurement.T_map_imu = state.T_map_imu * ExpSe3(residual);
       const Matrix6 whiten = LeftJacobianSe3(-residual);  // the right Jacobian
       measurement.cov = whiten * variance.asDiagonal() * whiten.transpose();
-      FusePose(estimate, measurement, kNoGate);
+      (void)FusePose(estimate, measurement, kNoGate);
       const double moved = estimate.state.v_world_imu.x() - state.v_world_imu.x();
       H(j, i) = moved / (kCorrelation * residual[j]);
     }
@@ -118,7 +118,7 @@ TEST(PoseUpdate, WorldPoseFollowsByItsCorrelation) {
   for (const int at : {kPos, kMapPose}) {
     for (const int to : {kPos, kMapPose}) estimate.cov.block<3, 3>(at, to) = Matrix3::Identity();
   }
-  FusePose(estimate, Measure(Pose{Quaternion::Identity(), Vector3(0.5, 0, 0)}, 1.0), kNoGate);
+  (void)FusePose(estimate, Measure(Pose{Quaternion::Identity(), Vector3(0.5, 0, 0)}, 1.0), kNoGate);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 0.25, 1e-12);
   EXPECT_NEAR(estimate.state.T_world_imu.translation.x(), 5.25, 1e-12);
 }
@@ -127,7 +127,7 @@ TEST(PoseUpdate, UpdateNeverWidensTheCovariance) {
   std::mt19937_64 random(5);
   Estimate estimate = RandomEstimate(random, 0.05);
   const ErrorMatrix before = estimate.cov;
-  FusePose(estimate, Measure(estimate.state.T_map_imu, 0.05), kNoGate);
+  (void)FusePose(estimate, Measure(estimate.state.T_map_imu, 0.05), kNoGate);
   const Eigen::SelfAdjointEigenSolver<ErrorMatrix> lost(ErrorMatrix(before - estimate.cov));
   EXPECT_GT(lost.eigenvalues().minCoeff(), -1e-15);
   EXPECT_GT(lost.eigenvalues().maxCoeff(), 1e-5);
@@ -138,7 +138,7 @@ TEST(PoseUpdate, JosephFormKeepsTheCovariancePositiveOverManyUpdates) {
   Estimate estimate = RandomEstimate(random, 1.0);
   for (int i = 0; i < 1000; ++i) {
     const Vector6 noise = 1e-4 * test::RandomVector<6>(random);
-    FusePose(estimate, Measure(estimate.state.T_map_imu * ExpSe3(noise), 1e-4), kNoGate);
+    (void)FusePose(estimate, Measure(estimate.state.T_map_imu * ExpSe3(noise), 1e-4), kNoGate);
   }
   EXPECT_EQ((estimate.cov - estimate.cov.transpose()).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<ErrorMatrix>(estimate.cov).eigenvalues().minCoeff(), 0.0);

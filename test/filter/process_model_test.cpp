@@ -85,8 +85,8 @@ TEST(ProcessModel, TransitionMatchesDifferencesInEveryRow) {
       const NavState after = PropagateState(step.before, step.from, step.to, kGravity);
       const ErrorMatrix analytic = TransitionMatrix(step.before, after, step.from, step.to);
       const ErrorMatrix numeric = NumericTransition(step);
-      // The coning term's dependence on the gyro bias is left out: dt^2/12 |w1 - w0|, and the force
-      // turned by it.
+      // The derivative of the coning term by the gyro bias is left out: dt^2/12 |w1 - w0|, and the
+      // force turned by it.
       const double left_out =
           dt_s * dt_s / 12.0 * (step.to.w_imu_radps - step.from.w_imu_radps).norm();
       const double tolerance = 1e-8 + left_out;

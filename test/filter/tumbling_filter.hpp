@@ -59,7 +59,7 @@ inline PoseEvent PoseAt(double t_s, const Vector6& error = Vector6::Zero(), doub
 inline void AddImuUpTo(FilterHistory& history, double to_s, double step_s = kImuStep_s) {
   const double from_s = SecondsOf(history.head().stamp);
   const auto num_steps = static_cast<int>(std::lround((to_s - from_s) / step_s));
-  for (int i = 1; i <= num_steps; ++i) history.AddImu(SampleAt(from_s + i * step_s));
+  for (int i = 1; i <= num_steps; ++i) (void)history.AddImu(SampleAt(from_s + i * step_s));
 }
 
 inline double Difference(const Estimate& a, const Estimate& b) {

@@ -99,12 +99,12 @@ TEST(Alignment, ExactPosesGiveBackTheMotion) {
   EXPECT_NEAR(result.solution.up_any.norm(), 1.0, 1e-9);
   // The car's motion barely separates tilt and accelerometer bias; their sum is more certain.
   EXPECT_LT((result.solution.up_any - window.truth.up_any).norm(), 1e-2);
-  const auto reading = [](const Alignment& at) -> Vector3 {
+  const auto force_at_rest = [](const Alignment& at) -> Vector3 {
     return at.states[0].R_any_imu.conjugate() * (test::kGravity * at.up_any) + at.biases.accel;
   };
-  EXPECT_LT((reading(result.solution) - reading(window.truth)).norm(), 0.02);
-  ASSERT_EQ(result.pose_misfit_sq.size(), 20u);
-  for (const double square : result.pose_misfit_sq) EXPECT_LT(square, 0.1);
+  EXPECT_LT((force_at_rest(result.solution) - force_at_rest(window.truth)).norm(), 0.02);
+  ASSERT_EQ(result.pose_residual_sq.size(), 20u);
+  for (const double square : result.pose_residual_sq) EXPECT_LT(square, 0.1);
 }
 
 TEST(Alignment, WithoutGravityTheVerticalStaysAsItWasGuessed) {
@@ -117,18 +117,17 @@ TEST(Alignment, WithoutGravityTheVerticalStaysAsItWasGuessed) {
   EXPECT_TRUE((result.cov.bottomRows<3>().array() == 0).all());
 }
 
-TEST(Alignment, OneWrongPosePullsLittleAndIsToldByItsMisfit) {
+TEST(Alignment, OneWrongPosePullsLittleAndHasALargeResidual) {
   Window window(test::kGravity);
   window.poses[9].T_any_imu.translation += Vector3(3, 0, 0);
   window.terms.poses = window.poses;
   const AlignmentResult result = Align(window.terms, window.Guess());
   ASSERT_TRUE(result.converged);
   EXPECT_LT((result.solution.states[10].p_any_imu - window.truth.states[10].p_any_imu).norm(), 0.1);
-  // The pose is 3 m off at a standard deviation of 2 cm, which is 150 sigmas minus what the state
-  // gives way.
-  EXPECT_GT(result.pose_misfit_sq[9], 140.0 * 140.0);
-  EXPECT_LT(result.pose_misfit_sq[8], 20.0);
-  EXPECT_LT(result.pose_misfit_sq[10], 20.0);
+  // 3 m at a standard deviation of 2 cm: 150 sigmas, but for what the state gives way.
+  EXPECT_GT(result.pose_residual_sq[9], 140.0 * 140.0);
+  EXPECT_LT(result.pose_residual_sq[8], 20.0);
+  EXPECT_LT(result.pose_residual_sq[10], 20.0);
 }
 
 // With every standard deviation halved, the covariance falls to a quarter.

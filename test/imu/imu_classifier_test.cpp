@@ -74,16 +74,17 @@ ImuVerdict Classify(const DriveCase& setup, const ImuConvention& expected = {},
   return After(setup, expected, rig).Judge();
 }
 
-void ExpectFound(const ImuVerdict& verdict, const ImuConvention& reading) {
-  EXPECT_EQ(verdict.finding, Finding::kOtherwise) << Describe(reading);
-  EXPECT_EQ(verdict.reading, reading) << Describe(verdict.reading) << " for " << Describe(reading);
+void ExpectFound(const ImuVerdict& verdict, const ImuConvention& convention) {
+  EXPECT_EQ(verdict.finding, Finding::kOtherwise) << Describe(convention);
+  EXPECT_EQ(verdict.convention, convention)
+      << Describe(verdict.convention) << " for " << Describe(convention);
   EXPECT_NE(verdict.evidence, "");
 }
 
 TEST(ImuClassifier, PlainMessagesAreSettledByADrive) {
   const ImuVerdict verdict = Classify({});
   EXPECT_EQ(verdict.finding, Finding::kAsExpected);
-  EXPECT_EQ(verdict.reading, ImuConvention{});
+  EXPECT_EQ(verdict.convention, ImuConvention{});
   EXPECT_EQ(verdict.has_gravity, true);
 }
 

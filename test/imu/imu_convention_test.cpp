@@ -21,12 +21,12 @@ TEST(ImuConvention, QuarterTurnsAreAllDifferentRotationsAndTheFirstIsNone) {
 }
 
 TEST(ImuConvention, UnitsAndAxesAreUnderstood) {
-  ImuConvention reading;
-  reading.is_in_g = true;
-  reading.is_in_deg = true;
-  reading.R_imu_sent = Vector3(1, -1, -1).asDiagonal();
+  ImuConvention convention;
+  convention.is_in_g = true;
+  convention.is_in_deg = true;
+  convention.R_imu_sent = Vector3(1, -1, -1).asDiagonal();
   const ImuSample sent{{5}, Vector3(180.0, 90.0, 0.0), Vector3(0.5, 0.0, -1.0)};
-  const ImuSample sample = ToSi(reading, sent);
+  const ImuSample sample = ToSi(convention, sent);
   EXPECT_EQ(sample.stamp, sent.stamp);
   const double pi = std::numbers::pi;
   EXPECT_LT((sample.w_imu_radps - Vector3(pi, -0.5 * pi, 0.0)).norm(), 1e-12);
@@ -35,9 +35,9 @@ TEST(ImuConvention, UnitsAndAxesAreUnderstood) {
 
 TEST(ImuConvention, AsSentUndoesUnderstand) {
   for (const Matrix3& R : QuarterTurns()) {
-    const ImuConvention reading{true, true, R};
+    const ImuConvention convention{true, true, R};
     const ImuSample sent{{7}, Vector3(10.0, -20.0, 30.0), Vector3(0.1, 0.2, 0.9)};
-    const ImuSample back = FromSi(reading, ToSi(reading, sent));
+    const ImuSample back = FromSi(convention, ToSi(convention, sent));
     EXPECT_LT((back.w_imu_radps - sent.w_imu_radps).norm(), 1e-12);
     EXPECT_LT((back.f_imu_mps2 - sent.f_imu_mps2).norm(), 1e-12);
   }

@@ -41,7 +41,7 @@ SmoothMotion BrakingMotion() {
   return motion;
 }
 
-// Holds the input of the estimator and the truth.
+// The inputs of the estimator, and the truth.
 struct Case {
   std::vector<ImuSample> samples;
   std::vector<MatchedPose> poses;
@@ -124,7 +124,7 @@ TEST(MovingStart, TiltAndVelocityAreGoodAfterTwoSeconds) {
       EXPECT_LT(TiltError(estimate.state, c.truth), 1.0 * kDegree) << named.name;
       EXPECT_LT((estimate.state.v_world_imu - c.truth.v_world_imu).norm(), 0.2) << named.name;
       EXPECT_LT((estimate.state.gyro_bias - c.truth.gyro_bias).norm(), 6e-3) << named.name;
-      EXPECT_NEAR(result.misfit, 1.0, 0.4) << named.name;
+      EXPECT_NEAR(result.residual_ratio, 1.0, 0.4) << named.name;
     }
   }
 }
@@ -152,8 +152,8 @@ TEST(MovingStart, CovarianceIsHonest) {
       const Eigen::Matrix<double, 11, 11> cov = pick * estimate.cov * pick.transpose();
       nees_sum += e.dot(cov.ldlt().solve(e)) / 11.0;
     }
-    // The 95 % band of 275 degrees of freedom is 0.84 .. 1.17; the widening by the median of the
-    // normalized residuals only ever widens.
+    // 95 % band of 275 degrees of freedom: 0.84 .. 1.17; the widening by the residuals' median only
+    // ever widens.
     EXPECT_GT(nees_sum / kRuns, 0.7) << named.name;
     EXPECT_LT(nees_sum / kRuns, 1.2) << named.name;
   }

@@ -153,8 +153,9 @@ TEST(ConstantVelocityTracker, TheLastRateHolds) {
   tracker.AddRate(Reading(0.1, {0, 0, 0.5}));
   tracker.AdvanceTo(StampAt(1.1));
   // 0.1 s at 0.4 in the mean, then 1 s at 0.5.
-  EXPECT_LT((LogSo3(tracker.history().head().state.T_map_imu.rotation) - Vector3(0, 0, 0.54)).norm(),
-            1e-9);
+  EXPECT_LT(
+      (LogSo3(tracker.history().head().state.T_map_imu.rotation) - Vector3(0, 0, 0.54)).norm(),
+      1e-9);
 }
 
 TEST(ConstantVelocityTracker, ReadingsThatAreNotNewOrNotWantedAreLeftOut) {

@@ -34,8 +34,7 @@ StampedPoses PosesAlong(const test::Motion& motion, double from_s, double to_s, 
   return poses;
 }
 
-// Returns a moving lidar's points of fixed points of the world; point i is seen at i/num of the
-// sweep.
+// Fixed points of the world as a moving lidar sees them, point i at i/num of the sweep.
 struct Seen {
   std::vector<Vector3> points_world;
   std::vector<ScanPoint> points_lidar;

@@ -225,7 +225,7 @@ TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
     num_kept += static_cast<int>(std::count_if(set->begin(), set->end(), is_grazed));
   }
   EXPECT_LE(num_kept, num_grazed / 50);  // noise, now and then
-  // Points stay if the beams meet the wall at 20 deg and more.
+  // Points that the beams meet at 20 deg and more stay.
   int num_steep = 0;
   for (const std::uint32_t i : features.less_flat) num_steep += cast.sweep.points[i].x_m < 2.5;
   EXPECT_GT(num_steep, 100);

@@ -130,7 +130,7 @@ TEST(LoamRing, SmallJumpsAreNoShadow) {
   EXPECT_EQ(Count(RingOf(-30, 30, range).Labels(options), Label::kOccluded), 6);
 }
 
-// When returns are missing between the two, a shadow cannot be detected.
+// An occlusion cannot be told when returns are missing between the two surfaces.
 TEST(LoamRing, BeamsFarApartDoNotShadowEachOther) {
   const auto range = [](double azimuth_rad) { return azimuth_rad < 0 ? 5.0 : 8.0; };
   for (const double gap_deg : {5.0, 7.0}) {

@@ -35,7 +35,7 @@ TEST(Sampling, SmallSweepsAreUsedWhole) {
   EXPECT_LT(SampleShare(kMaxSampled + 1000), 65536u);
 }
 
-// About kMaxSampled points of a sweep, as drivers send it, are used.
+// About kMaxSampled points are used of sweeps as drivers send them.
 template <class MakePoint>
 void ExpectShareKept(std::size_t num_points, const MakePoint& make) {
   const std::uint32_t share = SampleShare(num_points);
@@ -59,8 +59,8 @@ TEST(Sampling, TheShareIsKeptWithTimesAndWithoutAnything) {
   });
 }
 
-// The drawn points do not depend on where a cloud stores times, so that a moved cloud is sampled
-// alike.
+// The choice does not depend on the position when a cloud has times, so that a moved cloud is
+// sampled alike.
 TEST(Sampling, PlaceCountsOnlyWhereNoTimeIsTold) {
   EXPECT_EQ(Sample(Point(5000, 3, 1)), Sample(Point(5000, 3, 2)));
   EXPECT_NE(Sample(Point(0, 0, 1)), Sample(Point(0, 0, 2)));

@@ -48,7 +48,7 @@ class Pass {
     while (drive_.samples[next_sample_].stamp < truth_[next_truth_].stamp) ++next_sample_;
     HistoryOptions options;
     options.noise = settings.imu;
-    options.max_misfit = {1.0, 1.0};  // white poses
+    options.max_inflation = {1.0, 1.0};  // white poses
     history_.emplace(options, Start(truth_[next_truth_]), drive_.samples[next_sample_]);
     next_pose_ = ++next_truth_;
   }
@@ -60,7 +60,7 @@ class Pass {
            next_pose_ += 2) {
         Deliver(truth_[next_pose_]);
       }
-      history_->AddImu(drive_.samples[next_sample_]);
+      (void)history_->AddImu(drive_.samples[next_sample_]);
       for (; next_truth_ < truth_.size() && truth_[next_truth_].stamp <= now; ++next_truth_) {
         Judge(truth_[next_truth_]);
       }

@@ -124,7 +124,7 @@ void Print(const RotationCalibration& found, const Options& options, const Pass&
       "data:     {} rotations between sweeps, {:.2f} rad/s rms, correlation {:.4f}; rotation of a "
       "sweep {:.4f} deg (1 sigma); residual scale {:.2f}; {} sweeps not matched\n",
       found.num_turns, found.turn_rate_rms_radps, found.correlation, kDegrees * found.sweep_std_rad,
-      found.misfit, pass.num_unmatched);
+      found.residual_ratio, pass.num_unmatched);
 }
 
 void WriteText(const std::string& file, const std::string& text) {
@@ -152,7 +152,7 @@ void WriteJson(const std::string& file, const RotationCalibration& found, const 
   json["correlation"] = found.correlation;
   json["sweep_std_deg"] = kDegrees * found.sweep_std_rad;
   json["turn_std_deg"] = kDegrees * found.turn_std_rad;
-  json["misfit"] = found.misfit;
+  json["misfit"] = found.residual_ratio;
   WriteText(file, json.dump(2) + "\n");
 }
 

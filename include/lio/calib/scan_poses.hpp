@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Poses of the lidar from scan matching alone, for each sweep's middle, on the lidar's own clock:
-// what calibration compares the inertial unit with.
+// Lidar-only odometry for calibration: the lidar's pose in the map at each sweep's middle, by the
+// lidar's own clock.
 //
-// Does: assembles sweeps, guesses by constant velocity (constant_velocity_tracker.hpp), deskews,
-// matches against the map, grows the map. No extrinsic is used: the lidar is the body. Along a path
-// that is known already (calib/sweep_path.hpp) guess and deskew are the path's: a second pass
-// without the skew that a constant velocity leaves.
+// Does: assembles sweeps, predicts by constant velocity (constant_velocity_tracker.hpp), deskews,
+// matches against the map, inserts keyframes. No extrinsic is used: the lidar is the body. Given a
+// known path (calib/sweep_path.hpp), the motion prior and the deskewing are the path's: a second
+// pass without the skew that a constant velocity leaves.
 #pragma once
 
 #include <memory>
@@ -22,11 +22,12 @@ namespace lio {
 
 class ScanPoses {
  public:
-  // Throws std::invalid_argument naming every fault of the options. `path` outlives this.
+  // Throws std::invalid_argument naming every fault of the options. `path` is borrowed and must
+  // outlive this object.
   explicit ScanPoses(const Options& options, const SweepPath* path = nullptr);
 
   void Add(ScanChunk chunk);
-  void Finish();  // the log has ended
+  void Finish();  // closes the last sweeps: the log has ended
 
   const StampedPoses& found() const { return found_; }  // T_map_lidar at the sweeps' middles
   int num_unmatched() const { return num_unmatched_; }
@@ -37,13 +38,13 @@ class ScanPoses {
   void Match(std::shared_ptr<const Sweep> sweep);
   MatchJob JobByTracker(std::shared_ptr<const Sweep> sweep);
   MatchJob JobAlongPath(std::shared_ptr<const Sweep> sweep) const;
-  Pose TellTracker(Timestamp middle, const MatchResult& match);
+  Pose UpdateTracker(Timestamp middle, const MatchResult& match);
 
   const SweepPath* path_;
   Counters counters_;
   ScanAssembler assembler_{counters_};
   RegistrationWorker matching_;
-  std::optional<ConstantVelocityTracker> scout_;
+  std::optional<ConstantVelocityTracker> tracker_;
   KeyframePolicy keyframes_;
   std::optional<Timestamp> last_found_;
   StampedPoses found_;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Motion of the lidar through and between sweeps whose poses are known already: what a second pass
-// of scan matching deskews along.
+// The lidar's path through sweeps whose poses are known, for deskewing in a second pass of scan
+// matching. T_map_lidar, metres, by the lidar's clock.
 //
-// Turns are those of a gyro, from the nearest known pose on; translation is a cubic spline, twice
-// differentiable, through the known positions. A guess of constant velocity leaves millimetres of
-// skew when somebody walks, always in the same phase of the step, and so tenths of a degree in the
-// rotation between lidar and IMU; this does not.
+// Rotation is the gyro's, integrated from the nearest known pose; translation is the natural cubic
+// spline through the known positions. Deskewing by constant velocity instead leaves millimetres of
+// skew when a person walks, always in the same phase of the step, and with it tenths of a degree of
+// error in the rotation between lidar and IMU (docs/calibration.md).
 #pragma once
 
 #include <span>
@@ -19,12 +19,13 @@ namespace lio {
 
 class SweepPath {
  public:
-  // `known`: poses of the lidar at the sweeps' middles, two at least. `rates_lidar`: in the lidar's
-  // axes, by its clock. Throws std::invalid_argument with less.
+  // `known` has at least two poses of the lidar at the sweeps' middles. `rates_lidar` are the
+  // gyro's rates in the lidar's axes and by its clock; their forces are not used. Throws
+  // std::invalid_argument with fewer poses or without rates.
   SweepPath(StampedPoses known, std::vector<ImuSample> rates_lidar);
 
   Pose At(Timestamp stamp) const;
-  // At both stamps and at every rate between them.
+  // The poses at both stamps and at every rate between them.
   StampedPoses Between(Timestamp from, Timestamp to) const;
 
  private:

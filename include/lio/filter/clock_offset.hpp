@@ -1,26 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The offset between the clocks of lidar and IMU, followed while driving: what makes the turns
-// between neighbouring scans agree with those of the gyro.
+// Estimates the offset between the clocks of lidar and IMU while driving, from the turns between
+// neighbouring scans: registration and gyro agree on them only at the right offset.
 //
-// With d the offset (imu clock = lidar clock + d), a_k what scan k's stamp was moved by already,
-// and w_k the rate at the moved stamp, the turn from scan k-1 to k by matching differs from the
-// gyro's between the moved stamps by
-//   r = Log(dR_gyro^-1 dR_matched) = w_k (d - a_k) - dR^T w_k-1 (d - a_k-1),
-// linear in d: a Kalman filter of one state. It stands beside the error-state filter, not in it,
-// because there the map, which is built by the same clock, takes up what a steady motion makes of
-// d, and tells it from drift only as well as the map's own noise is known; turns of neighbouring
-// scans have neither map drift nor velocity in them. What is lost is the translation's say.
-//
-// A turn whose rate hardly changes says nothing of d and is left out: on a straight road the
-// estimate stands still. It stays within kMax_s of zero. Errors of neighbouring turns share a scan
-// and have opposite signs; counted as independent, d is surer than it says.
+// Model. With d the offset (imu clock = lidar clock + d), a_k the correction that scan k's stamp
+// already has, and w_k the rate at the corrected stamp, the turn from scan k-1 to k by registration
+// differs from the gyro's between the corrected stamps by
+//   r = Log(dR_gyro^-1 dR_matched) = w_k (d - a_k) - dR^T w_k-1 (d - a_k-1).
+// The model is linear in d: a Kalman filter of one state. docs/filter.md derives it.
+// It is no state of the error-state filter because the map is built with the same clock: under a
+// steady motion the map absorbs the offset, and the two are told apart only as well as the map's
+// noise is known. Turns between neighbouring scans depend neither on the map's drift nor on
+// velocity. The information in the translations is not used. Limits. A turn whose rate hardly
+// changes holds no information and is left out: the estimate does not change on a straight road.
+// The estimate stays within kMax_s of zero. Neighbouring turns share a scan's error with opposite
+// signs; they are treated as independent, which overstates the variance.
 #pragma once
 
 #include <deque>
 #include <optional>
 #include <span>
 
+#include "lio/filter/filter_parameters.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
 
@@ -28,25 +29,26 @@ namespace lio {
 
 class ClockOffset {
  public:
-  static constexpr double kMax_s = 0.05;
+  static constexpr double kMax_s = kFilterParameters.clock_offset.max_offset_s;
 
   explicit ClockOffset(const ImuRig& imu) : imu_(imu) {}
 
   struct Scan {
-    Timestamp stamp;                                // moved already
-    double moved_by_s = 0.0;                        // what it was moved by
-    Quaternion R_map_imu = Quaternion::Identity();  // as matched
-    double rotation_var = 0.0;                      // of it, rad^2 an axis
-    Vector3 gyro_bias = Vector3::Zero();            // rad/s
+    Timestamp stamp;                                // corrected, IMU clock
+    double moved_by_s = 0.0;                        // the correction in `stamp`
+    Quaternion R_map_imu = Quaternion::Identity();  // by registration
+    double rotation_var = 0.0;                      // of R_map_imu, rad^2 per axis
+    Vector3 gyro_bias = Vector3::Zero();            // rad/s, imu
   };
-  // `samples`: the inertial ones of its sweep. The next scan in time.
+  // Adds the next scan in time. `samples` are the inertial samples of its sweep, ascending.
   void Add(const Scan& scan, std::span<const ImuSample> samples);
-  // A scan was not matched: the next turn is not measured.
+  // Call when a scan was not matched: the turn to the next scan is then not used.
   void Interrupt();
 
-  double offset_s() const { return offset_s_; }
-  double std_s() const;
-  // To be added to the next scan's stamps: follows the offset slowly once that is known.
+  double offset_s() const { return offset_s_; }  // the estimate of d
+  double std_s() const;                          // its standard deviation
+  // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
+  // scan, once the standard deviation is below 2 ms.
   double move_by_s() const { return move_by_s_; }
 
  private:
@@ -55,10 +57,11 @@ class ClockOffset {
 
   ImuRig imu_;
   double offset_s_ = 0.0;
-  double var_s2_ = 0.02 * 0.02;
+  double var_s2_ =
+      kFilterParameters.clock_offset.max_std_s * kFilterParameters.clock_offset.max_std_s;
   double move_by_s_ = 0.0;
   std::optional<Scan> last_;
-  std::deque<ImuSample> samples_;  // since the last scan's sweep
+  std::deque<ImuSample> samples_;  // since the beginning of the last scan's turn
 };
 
 }  // namespace lio

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter over a window of time: every event (inertial sample, pose, standstill, rebase) with
-// its posterior, ordered by stamp. An event that comes late is inserted at its own time and
-// everything after it is replayed, so the result does not depend on the order of arrival.
+// The error-state filter over a sliding window of time: every event (inertial sample, pose, zero
+// velocity, rebase) with the estimate after it, ordered by stamp.
 //
-// Outcomes are values. Equal stamps: inertial samples first, then poses, standstills, rebases.
+// An event that comes late is inserted at its own stamp and all later events are replayed, so the
+// result does not depend on the order of arrival. Events of equal stamp are ordered by kind:
+// inertial samples, poses, zero velocities, rebases. Frames, units and error conventions:
+// nav_state.hpp. Equations: docs/filter.md; Sola, arXiv 1711.02508. Failures are values of
+// EventOutcome; nothing throws. Cost: one event at the end is one propagation step; a late event
+// replays those after it.
 #pragma once
 
 #include <deque>
@@ -12,6 +16,7 @@
 #include <vector>
 
 #include "lio/base/chi_square.hpp"
+#include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/pose_update.hpp"
 #include "lio/filter/process_model.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -20,93 +25,94 @@ namespace lio {
 
 enum class EventOutcome {
   kApplied,
-  kTooOld,       // before the window
-  kBeforeStart,  // before the state the filter started from
-  kDuplicate,    // an event of the kind is already there at this stamp
-  kGated,        // too far off to be believed
+  kTooOld,       // the stamp is before the window
+  kBeforeStart,  // the stamp is before the state the filter started from
+  kDuplicate,    // an event of this kind has the same stamp
+  kGated,        // the innovation is beyond the gate: the estimate is unchanged
 };
 
-// Factors on the covariance of poses.
-struct Misfit {
+// NIS-based covariance inflation: factors (1 or more) on the translation and rotation blocks of a
+// pose's covariance, from the NIS of about the last ten poses. Errors that persist (a clock offset,
+// a loose mount, a wrong extrinsic) make registration's covariances too small; inflation weighs
+// such poses less instead of gating every other one. docs/filter.md, Measurement.
+struct CovarianceInflation {
   double translation = 1.0;
   double rotation = 1.0;
 };
 
+// Settings of one history; defaults of the last two groups are those of filter_parameters.hpp.
 struct HistoryOptions {
   ProcessNoise noise;
-  Vector3 g_world = Vector3(0, 0, -9.80665);
-  double span_s = 3.0;
-  double nis_limit = 22.46;  // 99.9 % of chi-square with 6 degrees of freedom
-  double standstill_nis_limit = kChiSquare3At999;
-  // How many times larger than claimed innovations may say that the covariance of poses is. One
-  // where errors that last are not expected, or judged elsewhere.
-  Misfit max_misfit{9.0, 9.0};  // a filter that is wrong must not shut its eyes
-  // A longer step between samples is a gap: what the sensors did in between is unknown by these.
-  double gap_s = 0.03;
-  double gap_accel_std_mps2 = 3.0;
-  double gap_gyro_std_radps = 0.5;
-  // What is beyond a sensor's range is unknown by these, for clipped_s, when a scan tells.
-  double clipped_s = 0.1;
-  double clipped_accel_std_mps2 = 10.0;
-  double clipped_gyro_std_radps = 2.0;
+  Vector3 g_world = Vector3(0, 0, -9.80665);  // m/s^2; zero when the samples hold no gravity
+  double span_s = 3.0;                        // length of the window, s
+  double nis_limit = 22.46;  // gate of poses: 99.9 % of chi-square with 6 degrees of freedom
+  double zero_velocity_nis_limit = kChiSquare3At999;
+  // Upper bounds of the inflation. A bound of one switches it off: for poses whose errors are
+  // white, or whose consistency is checked elsewhere.
+  CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,
+                                    kFilterParameters.inflation.max_factor};
+  ImuOutageParameters imu_outage = kFilterParameters.imu_outage;
 };
 
 struct PoseEvent {
   PoseMeasurement measurement;
-  bool force = false;  // fuse even beyond the gate, the covariance inflated to what was seen
-  // No time has passed where stamps say so: the place is off by what the pose says, the speed not.
+  // Fuses the pose even beyond the gate, with the covariance or the unseen motion that explains it.
+  bool force = false;
+  // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
   bool is_clock_set = false;
 };
 
 class FilterHistory {
  public:
-  // `sample` holds at start.stamp.
+  // `sample` is the inertial sample that holds at start.stamp.
   FilterHistory(const HistoryOptions& options, const Estimate& start, const ImuSample& sample);
 
-  EventOutcome AddImu(const ImuSample& sample);
+  [[nodiscard]] EventOutcome AddImu(const ImuSample& sample);
   // `result`, when given, is filled under kApplied and kGated.
-  EventOutcome AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result = nullptr);
-  // No velocity but for noise of `variance` an axis, (m/s)^2; gated like poses.
-  EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
-  // From `stamp` on the map is a map of this very pose: the error of T_map_imu begins at zero.
-  EventOutcome AddRebase(Timestamp stamp);
+  [[nodiscard]] EventOutcome AddPose(Timestamp stamp, const PoseEvent& event,
+                                     UpdateResult* result = nullptr);
+  // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. Gated like poses.
+  [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
+  // The map is begun anew at the pose of `stamp`: the error of T_map_imu is zero there.
+  [[nodiscard]] EventOutcome AddRebase(Timestamp stamp);
 
-  // Events from `stamp` on, and what they need, are kept even beyond the window: a scan of that
-  // time is still to come. Absent: none is.
+  // Keeps events from `stamp` on, and the one before them, even when they leave the window, because
+  // a scan of that time is still to come. Without a value only the window is kept.
   void KeepFrom(std::optional<Timestamp> stamp) { keep_from_ = stamp; }
 
   const Estimate& head() const { return nodes_.back().posterior; }
   Timestamp start_stamp() const { return start_stamp_; }
-  // The estimate at `stamp`, after all events up to it. Before the window: the oldest one's.
+  // The estimate at `stamp` after all events up to it; before the window the oldest estimate.
   Estimate At(Timestamp stamp) const;
-  // T_world_imu at every event strictly between the two stamps, and at both of them.
+  // T_world_imu at both stamps and at every event strictly between them.
   StampedPoses Trajectory(Timestamp from, Timestamp to) const;
-  // Measured ones, with stamps after `from` up to `to`.
+  // The measured samples with stamps after `from` up to `to`.
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
  private:
-  enum class Kind { kImu, kPose, kStandstill, kRebase };
+  enum class Kind { kImu, kPose, kZeroVelocity, kRebase };
   struct Node {
     Timestamp stamp;
     Timestamp imu_stamp;  // of the last measured sample up to here
     Kind kind = Kind::kImu;
     ImuSample sample;  // measured, or interpolated at the stamp of another event
     PoseEvent pose;
-    double standstill_var = 0.0;  // (m/s)^2
+    double zero_velocity_var = 0.0;  // (m/s)^2
     UpdateResult update;
-    Misfit misfit;  // after the event
+    CovarianceInflation inflation;  // after the event
     Estimate posterior;
   };
 
   std::optional<EventOutcome> Refuse(Timestamp stamp, Kind kind) const;
-  std::size_t Insert(Node node);  // replays; returns where it is
+  std::size_t Insert(Node node);  // inserts and replays; returns the node's index
   void Replay(std::size_t from);
   void Step(std::size_t at);
   void Fuse(Node& node) const;  // a pose
   void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to, bool is_in_gap) const;
-  // Is `stamp`, just before the node of index `at`, in a gap between measured samples?
+  // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
   bool IsInGap(Timestamp stamp, std::size_t at) const;
-  // The sample at `stamp` from the node before index `at` and the first measured one from it on.
+  // The sample at `stamp`, interpolated between the node before index `at` and the first measured
+  // sample from `at` on.
   ImuSample SampleAt(Timestamp stamp, std::size_t at) const;
   std::size_t FirstAfter(Timestamp stamp) const;
   void Trim();
@@ -114,7 +120,7 @@ class FilterHistory {
   HistoryOptions options_;
   Timestamp start_stamp_;
   std::optional<Timestamp> keep_from_;
-  std::deque<Node> nodes_;  // never empty; the first one is where replays begin
+  std::deque<Node> nodes_;  // never empty; replays begin at the first one
 };
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's state and the conventions of its errors, written once.
+// The filter's state and the conventions of its errors. Error-state form: Sola, arXiv 1711.02508.
 //
 // Frames: world (z up, gravity-aligned, origin at the imu's first pose), imu (the body), map (the
 // frame of the map that scans are matched against; it starts as world and drifts from it).
@@ -13,7 +13,7 @@
 //   velocity       v_true = v + dv                 m/s, world
 //   gyro bias, accel bias                          rad/s, m/s^2, added
 //   map pose       M_true = M ExpSe3(mu)           [m; rad], right (local)
-// Gravity is the vector g_world = (0, 0, -g): an accelerometer at rest reads -R^T g_world.
+// Gravity is the vector g_world = (0, 0, -g): an accelerometer at rest measures -R^T g_world.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ inline constexpr int kMapPose = 15;  // translation, then rotation
 inline constexpr int kStateDim = 21;
 
 using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
-// Of the first four blocks: position, rotation, velocity, gyro bias.
+// Covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
 using NavCov = Eigen::Matrix<double, kAccelBias, kAccelBias>;
 using ErrorMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 
@@ -44,6 +44,7 @@ struct NavState {
   Pose T_map_imu;
 };
 
+// state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
 ErrorVector BoxMinus(const NavState& a, const NavState& b);  // BoxPlus(b, BoxMinus(a, b)) == a
 
@@ -53,7 +54,7 @@ struct Estimate {
   ErrorMatrix cov = ErrorMatrix::Zero();
 };
 
-// The 6x6 covariance of position in world and right rotation error.
+// The 6x6 covariance of position (m, world) and rotation (rad, right error).
 Matrix6 PoseCov(const Estimate& estimate);
 
 }  // namespace lio

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Fuses a registration into the filter: the pose of the imu in the map, Z = T_map_imu ExpSe3(n).
+// Measurement updates of the error-state filter: a pose from registration, a zero velocity, and a
+// general linear measurement. State order, frames and units: nav_state.hpp.
 //
-// Residual r = LogSe3(T_map_imu^-1 Z); with a right error its Jacobian is -Jl^-1(r), and the noise
-// n enters through Jr^-1(r). Joseph form; after injection the covariance is carried over to the new
-// nominal state by the reset Jacobian (Sola, arXiv 1711.02508, section 6.3).
-// After the scan is inserted into the map, the map is partly a map of this very pose: the error of
-// the map pose shrinks by the share of new content, and a fresh part comes in (docs/filter.md).
+// A pose measures Z = T_map_imu ExpSe3(n). The residual is r = LogSe3(T_map_imu^-1 Z); with a right
+// error its Jacobian is -Jl^-1(r), and the noise n enters through Jr^-1(r). Joseph form; after
+// injection the reset Jacobian transforms the covariance to the new nominal state (Sola,
+// arXiv 1711.02508, section 6.3).
+// After the scan is inserted, the map consists in part of this very scan: the error of the map pose
+// shrinks by the share of new content, and that share's own error is added (docs/filter.md, After
+// insertion). Nothing throws; a measurement beyond the gate leaves the estimate as it is.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
@@ -15,36 +18,37 @@ namespace lio {
 
 struct PoseMeasurement {
   Pose T_map_imu;
-  Matrix6 cov = Matrix6::Zero();        // right error [m; rad], weak directions already large
-  double new_content_share = 0.0;       // 0..1, of the map where the scan was matched
-  Matrix6 blend_cov = Matrix6::Zero();  // covariance that the new content brings in, per share
+  Matrix6 cov = Matrix6::Zero();        // right error [m; rad]; large in degenerate directions
+  double new_content_share = 0.0;       // 0..1, share of the matched map that this scan brings
+  Matrix6 blend_cov = Matrix6::Zero();  // covariance added per share of new content
 };
 
 struct UpdateResult {
-  bool fused = false;            // false: gated, and the estimate is untouched
+  bool fused = false;            // false: gated, the estimate is unchanged
   double nis = 0.0;              // normalised innovation squared, 6 degrees of freedom
-  double nis_translation = 0.0;  // of each half on its own, 3 degrees of freedom
-  double nis_rotation = 0.0;
+  double nis_translation = 0.0;  // the translation block alone, 3 degrees of freedom
+  double nis_rotation = 0.0;     // the rotation block alone
 };
 
-// Gates at `nis_limit` (infinity: never).
-UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement, double nis_limit);
+// Fuses a pose unless its NIS exceeds `nis_limit` (infinity: always fuses).
+[[nodiscard]] UpdateResult FusePose(Estimate& estimate, const PoseMeasurement& measurement,
+                                    double nis_limit);
 
-// Fuses a standstill: v_world_imu is zero but for noise of `variance` an axis, (m/s)^2. Gates at
-// `nis_limit`; the result's nis has 3 degrees of freedom.
-UpdateResult FuseStandstill(Estimate& estimate, double variance, double nis_limit);
+// Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2, unless the NIS
+// exceeds `nis_limit`. Only the result's fused and nis are set; nis has 3 degrees of freedom.
+[[nodiscard]] UpdateResult FuseZeroVelocity(Estimate& estimate, double variance, double nis_limit);
 
-// Call when the scan goes into the map at the estimate's T_map_imu.
+// Blends the map pose after insertion. Call when the scan is inserted at the estimate's T_map_imu.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
-// From here on the map's frame is world itself, as for poses that are absolute: of motion capture,
-// or of a surveyed map. T_map_imu becomes T_world_imu with its very error, so that FusePose
-// measures both; nothing may be inserted or rebased then. The two stay equal to second order of the
-// errors.
+// Makes the map's frame the world's, for absolute poses, such as those of motion capture or of a
+// surveyed map. T_map_imu becomes T_world_imu with the same error, so that FusePose measures both.
+// Neither BlendMapPose nor a rebase may follow. The two poses stay equal to second order of errors.
 void MakeMapTheWorld(Estimate& estimate);
 
-// General linear update with noise `R`, for start-up and pseudo-measurements: Joseph form,
-// injection and reset. `H` has as many rows as `residual`.
+// Fuses a general linear measurement, for the initialization: residual = H error + noise of
+// covariance `R`. `H` is n x kStateDim, `R` n x n, `residual` n. Joseph form, injection and reset;
+// never gated.
 void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,
                 const Eigen::MatrixXd& R);
 

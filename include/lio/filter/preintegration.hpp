@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The inertial samples of a stretch of time as one measurement of relative motion, whose dependence
-// on the biases is known to first order, so that it need not be integrated again when they change.
+// The inertial samples of an interval as one measurement of relative motion. Its derivatives by the
+// biases are kept, so that it need not be integrated again when the estimated biases change.
 //
 //   R_to = R_from rotation,  v_to = v_from + g t + R_from velocity,
 //   p_to = p_from + v_from t + g t^2/2 + R_from position,   t = to - from.
@@ -22,11 +22,11 @@ struct Preintegration {
   Timestamp from;
   Timestamp to;
   Quaternion rotation = Quaternion::Identity();
-  Vector3 velocity = Vector3::Zero();   // m/s, in imu at `from`, without gravity
-  Vector3 position = Vector3::Zero();   // m, likewise
-  Vector3 gyro_bias = Vector3::Zero();  // what the samples were corrected by
-  Vector3 accel_bias = Vector3::Zero();
-  // Rows in error order; columns gyro bias, accel bias.
+  Vector3 velocity = Vector3::Zero();    // m/s, in imu at `from`, without gravity
+  Vector3 position = Vector3::Zero();    // m, likewise
+  Vector3 gyro_bias = Vector3::Zero();   // subtracted from the samples, rad/s
+  Vector3 accel_bias = Vector3::Zero();  // likewise, m/s^2
+  // Rows in error order; columns gyro bias (rad/s), accel bias (m/s^2).
   Eigen::Matrix<double, 9, 6> by_bias = Eigen::Matrix<double, 9, 6>::Zero();
   Eigen::Matrix<double, 9, 9> cov = Eigen::Matrix<double, 9, 9>::Zero();
 
@@ -38,8 +38,8 @@ struct Biases {
   Vector3 accel = Vector3::Zero();  // m/s^2
 };
 
-// `samples` ascend in time; between them the reading is linear, before the first and after the last
-// it is held. Throws std::invalid_argument without samples or when `to` is before `from`.
+// `samples` ascend in time. The signal is linear between them and constant before the first and
+// after the last. Throws std::invalid_argument without samples or when `to` is before `from`.
 Preintegration Preintegrate(std::span<const ImuSample> samples, Timestamp from, Timestamp to,
                             const Biases& biases, const ProcessNoise& noise);
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One inertial step: the nominal state and its covariance from one sample to the next.
+// One inertial step: propagates the nominal state and its covariance from one sample to the next.
+// State order, frames and units: nav_state.hpp.
 //
-// Integration: inertial_increment.hpp. Noise: continuous densities over dt, white acceleration
-// giving the position-velocity cross terms dt^3/3, dt^2/2. Sources: Sola, arXiv 1711.02508,
+// Integration: inertial_increment.hpp. Noise: continuous densities over dt; white acceleration
+// noise gives the position and velocity terms dt^3/3, dt^2/2, dt. Sources: Sola, arXiv 1711.02508,
 // sections 4 and 5; Forster et al., TRO 2017; for the map pose docs/filter.md.
 #pragma once
 
@@ -12,7 +13,7 @@
 
 namespace lio {
 
-// Continuous densities; see sensor/rig.hpp for units.
+// Continuous-time noise densities; ImuRig in sensor/rig.hpp has their units.
 struct ProcessNoise {
   double gyro_density = 0.0;
   double accel_density = 0.0;
@@ -23,21 +24,23 @@ struct ProcessNoise {
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world);
 
-// d(error at `to`) / d(error at `from`), along PropagateState. Dense form, for tests and reading.
+// d(error at `to`) / d(error at `from`) along PropagateState. Dense 21x21, for tests and analysis.
 ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, const ImuSample& from,
                              const ImuSample& to);
 
-// Both at once. `from.stamp` is the estimate's stamp; needs to.stamp >= from.stamp.
+// Propagates state and covariance. `from.stamp` is the estimate's stamp; needs to.stamp >=
+// from.stamp.
 void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
                const ProcessNoise& noise, const Vector3& g_world);
 
-// The body has moved in a way that the samples did not tell, by motion of the variances
-// `motion_var_imu` [m^2; rad^2], and its velocity has changed by `velocity_var_imu` [(m/s)^2], all
-// along the imu's axes. Both poses take the same motion; what is known of tilt and biases stays.
+// Adds a motion that the samples did not show: of variance `motion_var_imu` [m^2; rad^2] to both
+// poses alike, and `velocity_var_imu` [(m/s)^2] to the velocity, all along the imu's axes. The
+// covariance of the biases stays as it is.
 void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
                        const Vector3& velocity_var_imu);
 
-// The sample at `stamp` by linear interpolation, held beyond both ends.
+// The sample at `stamp` by linear interpolation, constant beyond both ends; saturated when either
+// is.
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp);
 
 }  // namespace lio

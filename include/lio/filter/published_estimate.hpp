@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimate as it is published: in world, which is level, and in map, which is steady.
+// The estimate as it is published: in world, which is level, and in map, which never jumps.
 //
-// The filter's T_world_imu is the best guess of where gravity points, and keeps changing its mind
-// while tilt and accelerometer bias are told apart: by tenths of a degree, with a consumer IMU by a
-// degree, which at a hundred metres from the origin is metres of height. The map begins as the
-// filter's world and stays where it is: the path in it is never bent after the fact, and its tilt
-// is what the start knew. docs/filter.md has what each is good for.
+// The filter keeps correcting the tilt of T_world_imu while it separates tilt from accelerometer
+// bias: by tenths of a degree, with a consumer IMU by a degree, which a hundred metres from the
+// origin is metres of height. The map's frame is the filter's world at the start and is never
+// corrected: a path in it keeps its shape, but its tilt is the one known at the start.
+// docs/filter.md says which to take for which purpose.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
@@ -16,20 +16,21 @@ namespace lio {
 struct WorldEstimate {
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
-  NavCov cov = NavCov::Zero();
+  NavCov cov = NavCov::Zero();            // as in nav_state.hpp, 12x12
 };
 
-// The filter's own.
+// The filter's own world pose and covariance.
 WorldEstimate InWorld(const Estimate& estimate);
-// With the map taken for the world. `cov` is the mean square error of a reader who does so: the
-// filter's plus the square of the known step between the two.
+// The map's pose as if the map's frame were world. `cov` is the mean square error of that use:
+// the filter's covariance plus the square of the known difference between the two poses.
 WorldEstimate WithMapAsWorld(const Estimate& estimate);
 
 struct MapVelocity {
   Vector3 v_map_imu = Vector3::Zero();  // m/s
   Matrix3 cov = Matrix3::Zero();
 };
-// By M = T_map_imu, T = T_world_imu (rotations R_M, R_T) and u = R_T^-1 v, the velocity in imu:
+// The velocity in map and its covariance. With M = T_map_imu, T = T_world_imu (rotations R_M, R_T)
+// and u = R_T^-1 v, the velocity in imu:
 //   v_map = R_M u,   dv_map = R_M (R_T^-1 dv + [u]x (dtheta - mu_rotation)).
 MapVelocity VelocityInMap(const Estimate& estimate);
 

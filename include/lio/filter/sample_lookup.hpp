@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Inertial samples in order of time: where an instant lies among them, what they read there, and
-// keeping that order.
+// Look-up in inertial samples that ascend in time: by stamp, interpolated, and insertion in order.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +18,8 @@ auto FirstNotBefore(const Samples& samples, Timestamp stamp) {
                           [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
 }
 
-// Between two samples linear, outside of all the nearest one's reading. Needs at least one.
+// The sample at `stamp`: linear between two samples, constant before the first and after the last.
+// Needs at least one sample.
 template <class Samples>
 ImuSample SampleAt(const Samples& samples, Timestamp stamp) {
   const auto after = FirstNotBefore(samples, stamp);
@@ -27,7 +27,8 @@ ImuSample SampleAt(const Samples& samples, Timestamp stamp) {
   return InterpolateSample(*before, after == std::end(samples) ? *before : *after, stamp);
 }
 
-// Most samples belong at the end. False: there is one of that stamp already.
+// Inserts a sample by its stamp; fast at the end. False: a sample of that stamp exists, nothing is
+// inserted.
 inline bool InsertByStamp(std::deque<ImuSample>& samples, const ImuSample& sample) {
   auto at = samples.end();
   while (at != samples.begin() && std::prev(at)->stamp > sample.stamp) --at;

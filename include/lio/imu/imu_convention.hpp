@@ -1,23 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How the numbers of an inertial message are to be understood: their units, and which way the axes
-// point that they are given in.
+// The IMU convention: the units of an inertial message, and the direction of the axes it is given
+// in. The standard gravity of data sheets, 9.80665 m/s^2, is 1 g. Nothing here throws.
 #pragma once
 
 #include <array>
 #include <string>
 
+#include "lio/imu/imu_convention_parameters.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
 
 namespace lio {
 
-inline constexpr double kMaxGyroRate_radps = 100.0;  // beyond any gyro
+// rad/s. No gyro measures more: a larger rate is a fault, or in another unit.
+inline constexpr double kMaxGyroRate_radps = kImuConventionParameters.max_gyro_rate_radps;
 
 struct ImuConvention {
   bool is_in_g = false;    // else m/s^2
   bool is_in_deg = false;  // else rad/s
-  // From the axes of the messages to those that rig.T_imu_lidar is about: one of the 24 turns.
+  // Rotation from the axes of the messages to the imu axes of rig.T_imu_lidar: one of the 24 turns.
   Matrix3 R_imu_sent = Matrix3::Identity();
 
   bool operator==(const ImuConvention&) const = default;
@@ -25,19 +27,20 @@ struct ImuConvention {
   double rate_scale() const;   // rad/s per unit sent
 };
 
-// The turns of a cube onto itself; the first is none at all.
+// The rotations of a cube onto itself; the first is the identity.
 inline constexpr std::size_t kNumQuarterTurns = 24;
 std::array<Matrix3, kNumQuarterTurns> QuarterTurns();
 
-// From a sample as sent to SI units in the axes of imu, and back.
-ImuSample ToSi(const ImuConvention& reading, ImuSample sent);
-ImuSample FromSi(const ImuConvention& reading, ImuSample sample);
+// Converts a sample as sent to SI units in the axes of imu, and back.
+ImuSample ToSi(const ImuConvention& convention, ImuSample sent);
+ImuSample FromSi(const ImuConvention& convention, ImuSample sample);
 
-// What configuration says of the units; SI where it leaves that open.
+// The convention that a configuration states; SI under kAutomatic.
 ImuConvention ConventionOf(ImuUnits units);
-ImuUnits UnitsOf(const ImuConvention& reading);  // never kAutomatic; axes do not count
+ImuUnits UnitsOf(const ImuConvention& convention);  // never kAutomatic; ignores the axes
 
-// For people: "accelerometer in g, gyro in deg/s, its x -y -z are the rig's x y z (z down)".
-std::string Describe(const ImuConvention& reading);
+// A message to users: "accelerometer in g, gyro in deg/s, its x -y -z are the rig's x y z (z
+// down)".
+std::string Describe(const ImuConvention& convention);
 
 }  // namespace lio

@@ -1,78 +1,86 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's first state, from a second of rest; moving_start.hpp has the other way. Both give an
-// estimate with an honest covariance, correlations included: position zero and yaw zero by
-// definition; tilt, velocity and biases as well as the data say.
+// Initialization at rest: the filter's first state from about a second of inertial samples;
+// moving_start.hpp is the initialization in motion. Both give an estimate with its covariance and
+// correlations: position and yaw are zero by definition; tilt, velocity and biases are as uncertain
+// as the data leave them. State order and frames: filter/nav_state.hpp. Constants:
+// initialization_parameters.hpp.
+// Also here: how a new initialization continues the path that was published before it.
 #pragma once
 
 #include <span>
 #include <string>
 
 #include "lio/filter/nav_state.hpp"
+#include "lio/imu/initialization_parameters.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
 
 namespace lio {
 
-// Mean and spread of a stretch of inertial data.
+// Mean and spread of an interval of inertial samples.
 struct ImuStatistics {
   int num_samples = 0;
   double span_s = 0.0;
-  Vector3 mean_w_radps = Vector3::Zero();
-  Vector3 mean_f_mps2 = Vector3::Zero();
-  double gyro_std_radps = 0.0;  // the largest of the three axes
-  double accel_std_mps2 = 0.0;
+  Vector3 mean_w_radps = Vector3::Zero();  // imu
+  Vector3 mean_f_mps2 = Vector3::Zero();   // imu
+  double gyro_std_radps = 0.0;             // on the axis of the largest spread
+  double accel_std_mps2 = 0.0;             // likewise
 };
+// All zero without samples.
 ImuStatistics Summarise(std::span<const ImuSample> samples);
 
-// What shakes a body: of each of the three axes, 1 sigma.
+// Vibration of a body at rest, 1 sigma per axis.
 struct VibrationLevel {
   double gyro_std_radps = 0.0;
   double accel_std_mps2 = 0.0;
 };
-// Is the spread no more than this vibration and the sensors' noise make, which is the more the
-// faster they are read?
+// True when the spread is not larger than this vibration and the sensors' noise explain. The noise
+// of a sample grows with the root of the sample rate.
 bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const VibrationLevel& vibration);
 
-// Is gravity in the accelerometer's reading? `automatic` goes by the mean's length at rest or in
-// smooth motion: nearer to g than to zero.
+// True when the measured forces contain gravity. The setting `automatic` decides by the mean force
+// at rest or in smooth motion: whether its length is nearer to g than to zero.
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig);
 
 struct StartState {
   Estimate estimate;
-  Vector3 g_world = Vector3::Zero();  // zero when the accelerometer's reading has none
-  std::string how;                    // for people
+  Vector3 g_world = Vector3::Zero();  // m/s^2; zero when the measured forces contain no gravity
+  std::string how;                    // for messages to users
 };
 
-// The vehicle stood still over all of `samples`; the state is for `stamp`.
-StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig);
+// The state at `stamp`; the vehicle stood still during all of `samples`. Tilt comes from the mean
+// force, the gyro bias from the mean rate. Throws std::invalid_argument without samples.
+[[nodiscard]] StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp,
+                                     const Rig& rig);
 
-// Where the body was, and how fast.
+// The last known position, attitude and velocity of the body.
 struct LastFix {
   Timestamp stamp;
   Pose T_world_imu;
   Vector3 v_world_imu = Vector3::Zero();  // m/s
   Pose T_map_imu;
-  Matrix6 pose_cov = Matrix6::Zero();  // position in world, right rotation error
+  Matrix6 pose_cov = Matrix6::Zero();  // position (m, world), right rotation error (rad)
 };
-// A start anew is off by this at least.
-inline constexpr double kPlacedStd_m = 0.5;
-inline constexpr double kPlacedStd_rad = 0.05;
-// How long ago that was; no longer than the body may be thought to have gone straight on.
+// Least uncertainty of the pose at which a new initialization continues, 1 sigma per axis.
+inline constexpr double kPlacedStd_m = kInitializationParameters.at_rest.continued_std_m;
+inline constexpr double kPlacedStd_rad = kInitializationParameters.at_rest.continued_std_rad;
+// The time since the fix, in seconds, limited to how long a velocity may be extrapolated.
 double CoastedSince_s(const LastFix& earlier, Timestamp now);
-// The point in a world that is level by what is known now: `R_level_imu`, of any yaw, is the
-// attitude there. Yaw, position and map stay.
+// Rotates the fix into a level world: its roll and pitch become those of `R_level_imu`, a rotation
+// from imu to any level frame, and its velocity turns along. Yaw, position and T_map_imu stay.
 void Level(const Quaternion& R_level_imu, LastFix& point);
-// Turns and moves the world of an estimate so that it goes on from an earlier point: with its yaw,
-// without gravity its whole attitude, and from its position by the mean of both velocities. The map
-// goes on by the same motion. Position and yaw are as unsure as they were, and some more.
+// Rotates and moves the world of `estimate` so that it continues from the earlier fix: with its
+// yaw, or its whole attitude without gravity, and at its position plus the mean of both velocities
+// times the time since. The map continues by the same motion. The covariance of position and yaw is
+// the fix's plus kPlacedStd and the error of the extrapolation.
 void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate);
 
-// The rotation from imu to world that takes `up_imu` to world's z, without turning about it more
-// than needed, and with the imu's x axis at yaw zero.
+// The rotation from imu to world that takes `up_imu` to world's z axis by the shortest way and then
+// makes the yaw of imu's x axis zero.
 Quaternion LevelledRotation(const Vector3& up_imu);
 
-// For people: "started <how>: imu tilted by ...".
+// A message to users: "started <how>: imu tilted by ...".
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity);
 
 }  // namespace lio

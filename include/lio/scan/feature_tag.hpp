@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a point stands for, where a method tells its points apart.
+// The kind of feature a point belongs to, for methods that distinguish features (LOAM).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What LOAM takes from a sweep: its edge points, and its surface points thinned to a number, the
-// flattest first.
+// Reduces a sweep for LOAM: all edge points, and surface points thinned to about the target number,
+// the flattest first. Points in the lidar frame, metres, each at its own instant.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ namespace lio {
 
 class LoamReducer final : public SweepReducer {
  public:
-  // `beam_elevations_rad`: of the lidar's model, lowest first; for sweeps without rings.
+  // `beam_elevations_rad` are those of the lidar's model, lowest first, for sweeps without rings.
   LoamReducer(const LoamFeatureOptions& features, const ReduceOptions& reduce, const LidarRig& rig,
               std::vector<double> beam_elevations_rad);
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which returns are of any use: neither too near nor too far, and not the vehicle itself.
+// Selects usable returns: within the rig's range limits, and not the vehicle itself. Lidar frame,
+// m.
 #pragma once
 
 #include <cmath>
@@ -22,10 +23,10 @@ class PointFilter {
         max_sq_(static_cast<float>(rig.max_range_m) * static_cast<float>(rig.max_range_m)),
         box_(rig.own_vehicle_box) {}
 
-  // `point` is finite.
+  // Needs a finite `point`.
   bool IsWanted(const LidarPoint& point) const { return IsInRange(point) && !IsOwnVehicle(point); }
 
-  // Without a branch.
+  // Branch-free, because the outcome is unpredictable.
   bool IsInRange(const LidarPoint& point) const {
     const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
     return (range_sq >= min_sq_) & (range_sq <= max_sq_);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Thins a sweep: drops what is not finite, too near, too far or the vehicle itself, and keeps one
-// point a voxel, the one nearest the voxel's centre, whatever order the points come in.
+// Thins a sweep: drops points that are not finite, too near, too far or the vehicle itself, and
+// keeps one point per voxel, the nearest to the voxel's centre. The order of the points does not
+// matter. Lidar frame, metres. Nothing throws.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ class ScanReducer final : public SweepReducer {
  public:
   ScanReducer(const ReduceOptions& options, const LidarRig& rig);
 
-  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; no allocation
-  // once warm but the result.
+  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; after the
+  // first calls only the result is allocated.
   ReducedScan Reduce(const Sweep& sweep) override;
 
  private:
@@ -40,9 +41,9 @@ class ScanReducer final : public SweepReducer {
   ReduceOptions options_;
   PointFilter filter_;
   float voxel_m_;
-  std::vector<std::uint32_t> candidates_;  // indices of the points that are looked at
+  std::vector<std::uint32_t> candidates_;  // indices of the finite, sampled points in range
   VoxelTable<Choice> choices_;             // by voxel
-  std::vector<std::uint64_t> is_chosen_;   // a bit a point of the sweep
+  std::vector<std::uint64_t> is_chosen_;   // one bit per point of the sweep
 };
 
 }  // namespace lio

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a method takes from a sweep, and what takes it: one reducer a method.
+// The points that a registration method uses of a sweep, and the interface of reducers: one per
+// method.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +22,10 @@ struct ScanPoint {
 };
 
 struct ReducedScan {
-  std::vector<ScanPoint> points;                 // what the map grows by
-  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
+  std::vector<ScanPoint> points;                 // inserted into the map
+  std::vector<FeatureTag> tags;                  // one per point; empty when the method needs none
   std::vector<std::uint32_t> to_match;           // indices of the points that are matched
-  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  std::shared_ptr<const LoamFeatures> features;  // LOAM only
   int num_raw = 0;
   int num_nonfinite = 0;
   float voxel_m = 0;  // the edge of the thinning grid that was used
@@ -33,15 +34,14 @@ struct ReducedScan {
 class SweepReducer {
  public:
   virtual ~SweepReducer() = default;
-  // Adapts its thinning from call to call, so results depend on the sweeps before, and on nothing
-  // else.
+  // Adapts its thinning from call to call: results depend on earlier sweeps and on nothing else.
   virtual ReducedScan Reduce(const Sweep& sweep) = 0;
 };
 
-// The edge of the thinning grid for the next sweep, when this one left so many points.
+// The edge of the thinning grid for the next sweep, m, when this one kept `num_kept` points.
 float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept);
 
-// About `wanted` of `count` indices, evenly spread.
+// About `wanted` of the indices below `count`, evenly spread and ascending; all when fewer.
 std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted);
 
 }  // namespace lio

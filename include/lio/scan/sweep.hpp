@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One turn of the lidar, put together from its chunks.
+// One turn of the lidar, assembled from its chunks. Points in the lidar frame at their own
+// instants.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,12 @@ struct Sweep {
   Timestamp end;    // the last point's stamp
   std::int32_t scan_seq = 0;
   int num_missing_chunks = 0;
-  std::int64_t decode_ns = 0;      // CPU time its messages took to decode
+  std::int64_t decode_ns = 0;      // CPU time of decoding its messages
   std::vector<LidarPoint> points;  // in the order of the chunks, offsets from `start`
 
-  // The instant that matching measures the pose for. Errors of the motion within the sweep count
-  // from here, half a sweep to either side; counted from the end their variance would be four times
-  // as large, and go with the filter's process noise (docs/filter.md).
+  // The instant for which matching measures the pose. Motion errors within the sweep then act over
+  // half a sweep to either side; with the end as reference their variance would be four times as
+  // large and correlated with the filter's process noise (docs/filter.md, Measurement).
   Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One inertial sample.
+// One inertial sample: angular rate and specific force in the imu frame, SI units.
 #pragma once
 
 #include "lio/base/rotation.hpp"
@@ -12,8 +12,8 @@ struct ImuSample {
   Timestamp stamp;
   Vector3 w_imu_radps = Vector3::Zero();  // angular rate of imu against an inertial frame, in imu
   Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
-  bool is_rate_saturated = false;         // an axis is at the end of its range: it may be any more
-  bool is_force_saturated = false;
+  bool is_rate_saturated = false;   // an axis is at the end of its range: the true rate is larger
+  bool is_force_saturated = false;  // likewise for the force
 };
 
 }  // namespace lio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What is fixed about a vehicle: where its sensors sit and how noisy they are. No identity default
-// for the extrinsic: a wrong one costs metres and looks like a bad filter.
+// The fixed properties of a vehicle: where its sensors sit and how noisy they are. The extrinsic
+// has no default, because a wrong one costs metres and looks like a bad filter.
 #pragma once
 
 #include <optional>
@@ -22,19 +22,19 @@ struct LidarRig {
   std::string model = "generic";  // a beam table in config/lidars/, or generic for none
   double min_range_m = 1.5;       // nearer returns are dropped: the sensor's housing, the roof
   double max_range_m = 120.0;     // farther returns are dropped
-  double clock_offset_s = 0.0;    // added to the lidar's stamps to have the IMU's clock
+  double clock_offset_s = 0.0;    // imu clock = lidar clock + this
   std::optional<OwnVehicleBox> own_vehicle_box;
 };
 
-// Units of the inertial messages' specific force and rates; `automatic` finds units and axes out,
-// see imu/imu_classifier.hpp.
+// Units of the inertial messages' specific force and rates. `automatic` detects units and axes
+// (imu/imu_classifier.hpp).
 enum class ImuUnits { kAutomatic, kSi, kG, kDeg, kGAndDeg };
 
-// Is gravity part of the accelerometer's reading? `automatic` decides from the mean at rest.
+// Whether the measured specific force contains gravity. `automatic` decides from the mean at rest.
 enum class GravityInput { kAutomatic, kPresent, kRemoved };
 
-// Continuous-time densities, one number for the three axes. Defaults: Xsens MTi-10 class, widened
-// by about two for vibration.
+// Noise of the IMU as continuous-time densities, one number for the three axes. Defaults: data
+// sheet of the Xsens MTi-10, about doubled for vibration.
 struct ImuRig {
   double gyro_noise_density = 1.0e-3;       // rad/s/sqrt(Hz)
   double accel_noise_density = 2.0e-3;      // m/s^2/sqrt(Hz)
@@ -48,7 +48,7 @@ struct ImuRig {
 
 struct Rig {
   std::optional<Pose> T_imu_lidar;  // p_imu = T_imu_lidar * p_lidar; required with an IMU
-  // p_base = T_base_imu * p_imu: a frame of the vehicle to give the motion of as well.
+  // p_base = T_base_imu * p_imu: a frame of the vehicle whose motion is published, too.
   std::optional<Pose> T_base_imu;
   LidarRig lidar;
   ImuRig imu;

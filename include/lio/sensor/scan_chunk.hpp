@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar returns as they travel: a sweep is one turn of the sensor, a chunk a part of one sweep.
+// Lidar returns as they are sent: a sweep is one turn of the sensor, a chunk is a part of one
+// sweep.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace lio {
 
-// Laid out as on the wire (docs/messages.md, point format 1), so that decoding is one copy.
+// The layout is that of the wire (docs/messages.md, point format 1), so that decoding is one copy.
 struct LidarPoint {
   float x_m = 0;  // lidar frame at the point's own instant
   float y_m = 0;

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Tuning constants of the calibration of clock offset and rotation between lidar and IMU
+// (docs/calibration.md). Settings of a run are RotationCalibrationOptions. A comment gives the
+// unit, the meaning and the source; a value marked "chosen" has no measurement behind it.
+#pragma once
+
+namespace lio {
+
+// The poses by lidar-only odometry.
+struct ScanPosesParameters {
+  // s. A sweep that is still incomplete so long after a later chunk's stamp is closed. Chosen:
+  // three sweeps at 10 Hz.
+  double wait_s = 0.3;
+  // m, rad. Uncertainty of a pose along a known path, 1 sigma. Chosen; more lets matching search
+  // farther.
+  double path_std_m = 0.05;
+  double path_std_rad = 0.005;
+  // s. Least time since the last match that matching is told. Arithmetic guard.
+  double min_since_last_s = 0.01;
+};
+
+// The turns that are used.
+struct TurnSelectionParameters {
+  // A turn longer than this times the median spans a missing sweep. Between 1 and 2, half way.
+  double max_span_ratio = 1.5;
+  // s. A longer step between inertial samples is a hole: turns across it are left out. Chosen: five
+  // samples at 100 Hz.
+  double max_sample_gap_s = 0.05;
+  // s. Samples are needed so far beyond a turn, because the least squares may move the offset by
+  // about that much.
+  double offset_margin_s = 0.02;
+};
+
+// The search of the offset by correlation.
+struct RateSearchParameters {
+  // s. Step of the grid over all offsets, then of the grid around the best. Chosen: turn rates of
+  // hands and vehicles change little in 10 ms.
+  double grid_step_s = 0.01;
+  double fine_step_s = 0.001;
+  // Fewest turns for a correlation. Chosen; 2 s at 10 Hz.
+  int min_turns = 20;
+};
+
+// Requirements on the data, before the least squares.
+struct CalibrationAcceptance {
+  // Fewest turns covered by samples: 5 s at 10 Hz. Chosen; docs/calibration.md asks for 30 s.
+  int min_turns = 50;
+  // rad/s. Least root mean square of the turn rates. Chosen: less leaves the offset undetermined.
+  double min_rate_rms_radps = 0.02;
+  // Least correlation of the turn rates. Chosen: below it lidar and gyro did not measure one motion
+  // (docs/calibration.md, How).
+  double min_correlation = 0.6;
+  // Least ratio of the second singular value of the rates to the first. Chosen: below it all turns
+  // are about one axis.
+  double min_second_axis_ratio = 1e-3;
+  // s. An offset so near to the limit of the search is refused. Half a step of the grid.
+  double limit_margin_s = 0.005;
+};
+
+// The least squares (src/calib/turn_fit.cpp).
+struct TurnFitParameters {
+  // Rounds of linearized least squares at most. Chosen: a bound on the time.
+  int max_rounds = 8;
+  // The noise is estimated in so many first rounds. Chosen: residuals of the first contain the
+  // errors of the guess.
+  int noise_rounds = 3;
+  // s, rad. A smaller step has converged. Chosen: far below the standard deviations of a result,
+  // 0.04 ms and 0.04 deg (docs/calibration.md, Figures).
+  double converged_s = 1e-7;
+  double converged_rad = 1e-7;
+  // Iterations of Ceres in one round. Chosen: a bound on the time.
+  int max_iterations = 20;
+  // Sigmas. Huber's threshold. Customary: 3 sigma.
+  double huber_sigmas = 3.0;
+  // A residual larger than this times the median does not count in the estimate of the noise.
+  // Chosen.
+  double max_residual_ratio = 4.0;
+  // rad. Least standard deviation of a sweep's rotation and of a turn. Chosen: below any lidar's;
+  // it keeps the weights finite on exact data.
+  double min_std_rad = 1e-5;
+  // Least ratio of a turn's own standard deviation to a sweep's. Chosen: keeps the problem well
+  // conditioned.
+  double min_turn_share = 0.05;
+};
+
+struct CalibrationParameters {
+  ScanPosesParameters scan_poses;
+  TurnSelectionParameters turns;
+  RateSearchParameters search;
+  CalibrationAcceptance acceptance;
+  TurnFitParameters fit;
+};
+inline constexpr CalibrationParameters kCalibrationParameters{};
+
+}  // namespace lio

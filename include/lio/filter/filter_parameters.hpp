@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The filter's tuning constants: those that no configuration key holds. Keys are in
+// filter_options.hpp, the noise of the sensors is in sensor/rig.hpp, and what one FilterHistory may
+// be given otherwise is HistoryOptions. A comment gives the unit, the meaning and the source; a
+// value marked "chosen" has no measurement behind it.
+#pragma once
+
+namespace lio {
+
+// NIS-based covariance inflation of poses from registration (docs/filter.md, Measurement).
+struct InflationParameters {
+  // Share of a new NIS in the factor. Chosen: ten poses, one second at 10 Hz; more follows faster
+  // and is noisier.
+  double rate_per_pose = 0.1;
+  // A larger NIS (3 degrees of freedom) counts as this. Chosen: a wrong match alone multiplies the
+  // factor by 4.2 at most.
+  double max_nis = 100.0;
+  // Largest factor on the covariance. Fitted on 32 drives of the simulator, where 1, 3 and 9 were
+  // tried; without a cap the filter diverged on EuRoC V1_01 (docs/filter.md).
+  double max_factor = 9.0;
+};
+
+// How a pose beyond the gate is fused when it must be (docs/filter.md, Measurement).
+struct ForcedUpdateParameters {
+  // Smaller residuals are registration errors: the pose's covariance is scaled until it fits.
+  // Larger ones are motion that no sample showed. Found on drives of the simulator, where a map of
+  // parked scans pulls by centimetres.
+  double max_registration_error_m = 0.15;
+  double max_registration_error_rad = 0.03;
+  // s. Unseen motion is taken to have lasted this long, which gives its velocity. Chosen: one or
+  // two sweeps at 10 Hz; longer trusts the old velocity more.
+  double unseen_motion_s = 0.2;
+};
+
+// Process noise added where inertial samples are missing or saturated.
+struct ImuOutageParameters {
+  // s. A longer step between samples is a gap. Chosen: three samples at 100 Hz, six at 200 Hz.
+  double gap_s = 0.03;
+  // Unknown acceleration (m/s^2) and rate (rad/s) in a gap, 1 sigma: those of a walking person
+  // (simulated campus walk; docs/filter.md, Propagation).
+  double gap_accel_std_mps2 = 3.0;
+  double gap_gyro_std_radps = 0.5;
+  // s. The error of a saturated sample lasts this long: one sweep at 10 Hz.
+  double saturated_s = 0.1;
+  // Acceleration (m/s^2) and rate (rad/s) beyond the end of the range, 1 sigma. Chosen so that
+  // simulated drives with clipped gyros keep their path (docs/filter.md, Holes and loss; a sports
+  // hall with rates 2 rad/s beyond the range is lost).
+  double saturated_accel_std_mps2 = 10.0;
+  double saturated_gyro_std_radps = 2.0;
+};
+
+// The estimator of the clock offset between lidar and IMU (docs/filter.md, The clocks' offset).
+struct ClockOffsetParameters {
+  // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
+  // finds larger offsets.
+  double max_offset_s = 0.05;
+  // s. Longer turns, across lost scans, are left out. Chosen: three sweeps at 10 Hz.
+  double max_turn_s = 0.35;
+  // rad/s. Turns whose rate changes less are left out. Chosen above the vibration of a car's body;
+  // a smaller value lets vibration move the estimate on a straight road.
+  double min_rate_change_radps = 0.05;
+  // The same limit in standard deviations of the gyro's noise at its sample rate. Chosen.
+  double min_rate_change_in_noise = 6.0;
+  // rad. Error of a turn beyond what registration and gyro claim, 1 sigma. Chosen; more trusts
+  // turns less.
+  double turn_std_rad = 1e-3;
+  // s/sqrt(s). Random walk of the offset. Chosen: oscillators differ by about 10 us per second.
+  double walk_s_per_sqrt_s = 2e-5;
+  // s. Standard deviation at the start, and its upper bound. Chosen.
+  double max_std_s = 0.02;
+  // s. Below this standard deviation the stamps are moved. Chosen: an offset of 2 ms turns a scan
+  // by 2 mrad at 1 rad/s.
+  double known_std_s = 2e-3;
+  // s per scan. Largest change of the correction. Chosen: it turns a scan by 2 mrad at 1 rad/s
+  // (tested by ClockOffset.StampsAreMovedSlowly).
+  double max_step_s = 2e-3;
+};
+
+struct FilterParameters {
+  InflationParameters inflation;
+  ForcedUpdateParameters forced_update;
+  ImuOutageParameters imu_outage;
+  ClockOffsetParameters clock_offset;
+};
+inline constexpr FilterParameters kFilterParameters{};
+
+}  // namespace lio

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Tuning constants of the initialization, at rest (start_state.hpp) and in motion
+// (moving_start.hpp). A comment gives the unit, the meaning and the source; a value marked "chosen"
+// has no measurement behind it. The configuration keys are `start.*`.
+#pragma once
+
+#include <cstddef>
+
+namespace lio {
+
+// The initialization from samples at rest, and the continuation of an earlier path.
+struct RestStartParameters {
+  // m/s. Velocity of a body at rest, 1 sigma. Chosen: above the 2.5 mm/s that a parked vehicle
+  // sways by (docs/filter.md, Standing still).
+  double velocity_std_mps = 0.01;
+  // Samples are calm when their spread is below this factor times noise and vibration. Chosen: the
+  // spread of 1 s of white noise varies by a few per cent only; the rest is margin for data sheets.
+  double max_spread_ratio = 1.5;
+  // rad. Tilt before the mean force is fused, 1 sigma. Chosen: large against the tilt that results.
+  double unknown_tilt_std_rad = 1.0;
+  // m/s^2. Local gravity against the configured value, 1 sigma. Physics: 9.780 to 9.832 m/s^2 from
+  // equator to poles.
+  double gravity_std_mps2 = 0.02;
+  // s. An earlier velocity is extrapolated no longer than this. Chosen: longer gaps say nothing
+  // about the position anyhow; it bounds the jump after a clock step.
+  double max_coast_s = 30.0;
+  // Share of g from which the mean force counts as containing gravity. Half way between the two.
+  double min_gravity_share = 0.5;
+  // Least uncertainty of a path that a new initialization continues, 1 sigma. Chosen: without it
+  // the continued position would be stated to be exact; also the floor of a lidar-only start anew.
+  double continued_std_m = 0.5;
+  double continued_std_rad = 0.05;
+};
+
+// The initialization in motion: what is required of the data, and of the solution.
+struct MovingStartParameters {
+  // Fewest matched scans, and shortest span (s). Chosen: less leaves tilt, velocity and the
+  // accelerometer's bias undetermined; more delays the first pose.
+  std::size_t min_poses = 8;
+  double min_span_s = 1.0;
+  // s. Longest hole in the inertial samples. Chosen: one sweep at 10 Hz.
+  double max_imu_gap_s = 0.1;
+  // Error of scan matching beyond its own covariance, 1 sigma: scans deskewed by a constant
+  // velocity, and a map that has only just begun. Chosen with the simulator's starts in motion.
+  double pose_std_m = 0.02;
+  double pose_std_rad = 0.003;
+  // Largest root of the median normalized squared residual of the poses: 8 cm or 0.7 deg of scatter
+  // at the values above. Chosen; more accepts worse extrinsics and clocks.
+  double max_residual_ratio = 4.0;
+  // rad. Largest uncertainty of roll and pitch, 1 sigma: 3 deg. Chosen.
+  double max_tilt_std_rad = 0.05;
+  // A bias beyond this many of the rig's sigmas means wrong units, axes or gravity. Chosen.
+  double max_bias_sigmas = 6.0;
+};
+
+// The least squares behind it (src/imu/alignment.hpp).
+struct AlignmentParameters {
+  // Sigmas. Huber's threshold: the influence of a pose no longer grows beyond it. Statistics: 99 %
+  // of normal errors in six dimensions are within 4.1.
+  double huber_sigmas = 4.0;
+  // Chosen: a bound on the time; the tolerance below ends the iterations much earlier.
+  int max_iterations = 60;
+  // Relative change of the cost that ends the iterations. Chosen: the cost is about half a term
+  // each, so the step is far below one sigma.
+  double function_tolerance = 1e-5;
+};
+
+struct InitializationParameters {
+  RestStartParameters at_rest;
+  MovingStartParameters in_motion;
+  AlignmentParameters alignment;
+};
+inline constexpr InitializationParameters kInitializationParameters{};
+
+}  // namespace lio

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Tuning constants of thinning, deskewing and LOAM's features that have no configuration key; keys
+// are in reduce_options.hpp and loam_feature_options.hpp. A comment gives the unit, the meaning and
+// the source; a value marked "chosen" has no measurement behind it.
+#pragma once
+
+#include <cstddef>
+
+namespace lio {
+
+struct ThinningParameters {
+  // Points. Larger sweeps are sampled to about this many before thinning. Measured: 2.5 to 1.8 ms
+  // on a sweep of 65 000 points, and several points are left to choose from in each voxel.
+  std::size_t max_sampled = 32000;
+  // The voxel edge changes by these factors at most from one sweep to the next. Chosen: follows
+  // from a hall to a road within ten sweeps and does not answer to one sweep.
+  double min_edge_ratio = 0.8;
+  double max_edge_ratio = 1.25;
+};
+
+struct DeskewParameters {
+  // s. Grid of poses between which transforms are blended linearly. Physics: at 60 m and 1 rad/s
+  // the chord errs by 60 m (1 rad/s 1 ms)^2 / 8 = 0.01 mm; 30 ms would be 4 mm off.
+  double grid_step_s = 1e-3;
+};
+
+struct LoamParameters {
+  // Neighbours on each side in the curvature. Zhang and Singh, RSS 2014; A-LOAM's constant.
+  int half_window = 5;
+  // Points of the far surface that are left out at the border of a shadow. LOAM's published code.
+  std::size_t shadow_points = 6;
+  // Steps on each side over which the slope of a surface is judged. Chosen: less judges the range
+  // noise, more smooths edges away.
+  std::size_t slope_half_window = 2;
+  // Share of the rise that a single step may have in a slope; more is a jump. Chosen: 0.25 is even,
+  // 1 is a single jump.
+  float max_step_share = 0.6f;
+  // Largest share of edges among the matched points. Chosen: edges are few and constrain directions
+  // that surfaces leave free.
+  int edge_divisor = 2;
+};
+
+struct ScanParameters {
+  ThinningParameters thinning;
+  DeskewParameters deskew;
+  LoamParameters loam;
+};
+inline constexpr ScanParameters kScanParameters{};
+
+}  // namespace lio
