@@ -56,7 +56,7 @@ bool ImuConventionMonitor::IsGyroMisleading(const ImuVerdict& verdict,
     return !HasSameRates(verdict.convention, imu_->convention());
   }
   const bool few_are_matched =
-      facts.num_scans >= kImuConvention.min_scans && 2 * facts.num_matched < facts.num_scans;
+      facts.num_scans >= kConventionMonitor.min_scans && 2 * facts.num_matched < facts.num_scans;
   return verdict.finding == ImuVerdict::Finding::kNotExpected || few_are_matched ||
          classifier_.IsGyroAbsurd() || MayBeDegrees(facts.samples);
 }
@@ -66,7 +66,7 @@ bool ImuConventionMonitor::IsContradicted(const TrackingFacts& facts) {
   if (is_settled_) return false;
   const bool is_wild = IsGyroWild(facts);
   const bool is_doubtful = IsDoubtful(facts);
-  if (num_poses_to_judge_ < kImuConvention.poses_per_verdict && !is_wild && !is_doubtful) {
+  if (num_poses_to_judge_ < kConventionMonitor.poses_per_verdict && !is_wild && !is_doubtful) {
     return false;
   }
   num_poses_to_judge_ = 0;
@@ -85,25 +85,26 @@ bool ImuConventionMonitor::IsContradicted(const TrackingFacts& facts) {
 // The filter is sure of itself and refuses what scan matching measured, as it does soon after
 // driving off under a wrong convention. It counts once, for there may be other reasons.
 bool ImuConventionMonitor::IsDoubtful(const TrackingFacts& facts) const {
-  return !has_doubted_ && facts.num_gated_lately >= kImuConvention.max_gated_lately &&
+  return !has_doubted_ && facts.num_gated_lately >= kConventionMonitor.max_gated_lately &&
          classifier_.FavoursAnother();
 }
 
 // Nothing is matched any more, and the gyro reads more than a vehicle's turns.
 bool ImuConventionMonitor::IsGyroWild(const TrackingFacts& facts) const {
-  if (facts.num_unmatched_in_a_row < kImuConvention.wild_after_unmatched) return false;
+  if (facts.num_unmatched_in_a_row < kConventionMonitor.wild_after_unmatched) return false;
   const std::vector<ImuSample> samples =
-      imu_->Between(facts.stamp - kImuConvention.wild_span, facts.stamp);
+      imu_->Between(facts.stamp - kConventionMonitor.wild_span, facts.stamp);
   double sum_sq = 0.0;
   for (const ImuSample& sample : samples) {
     sum_sq += (sample.w_imu_radps - facts.gyro_bias_radps).squaredNorm();
   }
-  return sum_sq > kImuConvention.wild_rate_radps * kImuConvention.wild_rate_radps *
+  return sum_sq > kConventionMonitor.wild_rate_radps * kConventionMonitor.wild_rate_radps *
                       static_cast<double>(samples.size());
 }
 
 bool ImuConventionMonitor::IsInDoubt(Timestamp last_fix, Timestamp now) const {
-  return !is_settled_ && has_doubted_ && SecondsBetween(last_fix, now) < kImuConvention.max_doubt_s;
+  return !is_settled_ && has_doubted_ &&
+         SecondsBetween(last_fix, now) < kConventionMonitor.max_doubt_s;
 }
 
 ImuConventionMonitor::ForceVerdict ImuConventionMonitor::JudgeForce(

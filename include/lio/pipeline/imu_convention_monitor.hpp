@@ -15,7 +15,7 @@
 
 namespace lio {
 
-struct ImuConventionParameters {
+struct ConventionMonitorParameters {
   // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
   std::size_t min_scans = 8;
   // Poses from one verdict to the next while tracking: half a second at 10 Hz.
@@ -31,7 +31,7 @@ struct ImuConventionParameters {
   double max_doubt_s = 10.0;
 };
 
-inline constexpr ImuConventionParameters kImuConvention;
+inline constexpr ConventionMonitorParameters kConventionMonitor;
 
 class ImuConventionMonitor {
  public:
