@@ -107,5 +107,14 @@ TEST(SensorStreamLateImu, ImuByAnotherClockIsToldAndNotUsed) {
   EXPECT_EQ(run.SweepStarts().size(), 59u);
 }
 
+// Sweeps from 4.2 to 4.4 s are stamped wrong: what the IMU sent up to then cannot be trusted.
+TEST(SensorStreamLateImu, SamplesBeforeATimeOfDifferentClocksDoNotCount) {
+  StreamRun run;
+  const SensorMessages apart = Stepped(LateImu(4.0, 6.0), Sensor::kLidar, 4.2, 100.0);
+  run.Feed(Stepped(apart, Sensor::kLidar, 4.4, -100.0));
+  ASSERT_EQ(run.Of<ImuAppeared>().size(), 1u);
+  EXPECT_EQ(run.Of<ImuAppeared>()[0].first, StampAt(4.51)) << "after the next sweep has come";
+}
+
 }  // namespace
 }  // namespace lio

@@ -85,6 +85,18 @@ TEST(SensorStream, SweepThatMissesAChunkIsClosed50MsAfterItsEnd) {
   EXPECT_EQ(run.Of<SweepReady>()[0].sweep->num_missing_chunks, 1);
 }
 
+TEST(SensorStream, WithoutImuStampsOfTheLidarCloseASweep) {
+  StreamOptions options;
+  options.use_imu = false;
+  StreamRun run(options);
+  SensorMessage half = SweepFrom(0.0);
+  half.chunk->chunk_count = 2;
+  run.Feed({half});
+  EXPECT_TRUE(run.events.empty());
+  run.Feed({SweepFrom(0.15)});
+  EXPECT_EQ(Lines(run.events), (Texts{"sweep 0.000"}));
+}
+
 TEST(SensorStream, DuplicateSampleIsCountedAndGivenOnce) {
   StreamRun run;
   run.Feed(OnlyImu(0.0, 0.1));
@@ -205,8 +217,10 @@ TEST(SensorStream, FlushClosesEverythingAndEndsLast) {
 
 TEST(SensorStream, FlushGivesTheSweepThatSamplesDoNotCover) {
   StreamRun run;
+  SensorMessage half = SweepFrom(0.1);
+  half.chunk->chunk_count = 2;
   run.Feed(Sensors(0.0, 0.15));
-  run.Feed({SweepFrom(0.1)});
+  run.Feed({half});
   run.Finish();
   const Texts lines = Lines(run.events);
   const Texts last(lines.end() - 3, lines.end());
@@ -229,12 +243,9 @@ TEST(SensorStream, RejectedStreamCountsMessagesAndDropsThem) {
 
 TEST(SensorStream, RejectDropsEventsThatWereNotTaken) {
   StreamRun run;
-  for (const SensorMessage& message : Sensors(0.0, 0.11)) run.Add(message);
-  run.stream.Flush();
-  ASSERT_TRUE(run.stream.Next(true).has_value());
-  while (std::optional<StreamEvent> event = run.stream.Next(true)) {
-    if (std::holds_alternative<SweepReady>(*event)) break;
-  }
+  run.Feed(OnlyImu(0.0, 0.1));
+  run.Add(ImuAt(0.27));
+  ASSERT_TRUE(run.stream.Next(true).has_value()) << "the first of two samples across the gap";
   run.stream.Reject();
   EXPECT_FALSE(run.stream.Next(true).has_value());
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -102,6 +103,14 @@ std::vector<std::string> Lines(const std::vector<StreamEvent>& events) {
   std::vector<std::string> lines;
   for (const StreamEvent& event : events) lines.push_back(Line(event));
   return lines;
+}
+
+double LargestStep_s(const std::vector<Timestamp>& stamps) {
+  double largest_s = 0.0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    largest_s = std::max(largest_s, std::abs(SecondsBetween(stamps[i - 1], stamps[i])));
+  }
+  return largest_s;
 }
 
 void StreamRun::Add(const SensorMessage& message) {

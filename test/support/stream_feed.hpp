@@ -40,6 +40,9 @@ SensorMessages Stepped(SensorMessages messages, Sensor sensor, double from_s, do
 std::string Line(const StreamEvent& event);
 std::vector<std::string> Lines(const std::vector<StreamEvent>& events);
 
+// The largest difference between neighbours, to either side.
+double LargestStep_s(const std::vector<Timestamp>& stamps);
+
 // A stream and the events that it has given so far.
 struct StreamRun {
   explicit StreamRun(const StreamOptions& options = {}) : stream(options, counters) {}
