@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/stream/sensor_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/stream_feed.hpp"
+
+namespace lio {
+namespace {
+
+using test::ImuAt;
+using test::Lines;
+using test::Sensor;
+using test::SensorMessage;
+using test::SensorMessages;
+using test::Sensors;
+using test::Silenced;
+using test::StampAt;
+using test::StreamRun;
+using test::SweepFrom;
+using Texts = std::vector<std::string>;
+
+SensorMessages OnlyImu(double from_s, double to_s) {
+  return Silenced(Sensors(from_s, to_s), Sensor::kLidar, from_s, to_s);
+}
+
+SensorMessages OnlyLidar(double from_s, double to_s) {
+  return Silenced(Sensors(from_s, to_s), Sensor::kImu, from_s, to_s);
+}
+
+TEST(SensorStream, CleanLogGivesSamplesAndSweepsInOrderOfArrival) {
+  StreamRun run;
+  run.Feed(Sensors(0.0, 0.13));
+  const Texts expected = {"imu 0.000", "imu 0.010",   "imu 0.020", "imu 0.030", "imu 0.040",
+                          "imu 0.050", "imu 0.060",   "imu 0.070", "imu 0.080", "imu 0.090",
+                          "imu 0.100", "sweep 0.000", "imu 0.110", "imu 0.120"};
+  EXPECT_EQ(Lines(run.events), expected);
+  EXPECT_EQ(run.counters.num_imu, 13);
+  EXPECT_EQ(run.counters.num_chunks, 1);
+  EXPECT_EQ(run.counters.num_scans, 1);
+  EXPECT_TRUE(run.stream.has_imu());
+}
+
+TEST(SensorStream, SweepWaitsUntilInertialSamplesPassItsEnd) {
+  StreamRun run;
+  run.Feed({ImuAt(0.0), SweepFrom(0.0)});
+  run.Feed(OnlyImu(0.01, 0.09));
+  EXPECT_TRUE(run.SweepStarts().empty());
+  run.Feed({ImuAt(0.09)});
+  EXPECT_EQ(Lines(run.events).back(), "sweep 0.000");
+}
+
+TEST(SensorStream, ClockMarginDelaysSweeps) {
+  StreamOptions options;
+  options.clock_margin_s = 0.05;
+  StreamRun run(options);
+  EXPECT_EQ(run.stream.clock_margin(), Duration::FromSeconds(0.05));
+  run.Feed(Sensors(0.0, 0.14));
+  EXPECT_TRUE(run.SweepStarts().empty());
+  run.Feed({ImuAt(0.14)});
+  EXPECT_EQ(Lines(run.events).back(), "sweep 0.000");
+  run.Feed({ImuAt(0.135)});
+  EXPECT_EQ(run.counters.num_imu_late, 1) << "the stamps of the sweep may move by the margin";
+}
+
+TEST(SensorStream, OffsetOfTheLidarClockIsAddedToItsStamps) {
+  StreamOptions options;
+  options.lidar_clock_offset_s = -0.03;
+  StreamRun run(options);
+  run.Feed(Sensors(0.0, 0.31));
+  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.07)) << "the one before it begins without samples";
+}
+
+TEST(SensorStream, SweepThatMissesAChunkIsClosed50MsAfterItsEnd) {
+  StreamRun run;
+  SensorMessage half = SweepFrom(0.0);
+  half.chunk->chunk_count = 2;
+  run.Feed(OnlyImu(0.0, 0.1));
+  run.Feed({half});
+  run.Feed(OnlyImu(0.1, 0.15));
+  EXPECT_TRUE(run.SweepStarts().empty()) << "the other chunk may still come";
+  run.Feed({ImuAt(0.15)});
+  ASSERT_EQ(run.Of<SweepReady>().size(), 1u);
+  EXPECT_EQ(run.Of<SweepReady>()[0].sweep->num_missing_chunks, 1);
+}
+
+TEST(SensorStream, WithoutImuStampsOfTheLidarCloseASweep) {
+  StreamOptions options;
+  options.use_imu = false;
+  StreamRun run(options);
+  SensorMessage half = SweepFrom(0.0);
+  half.chunk->chunk_count = 2;
+  run.Feed({half});
+  EXPECT_TRUE(run.events.empty());
+  run.Feed({SweepFrom(0.15)});
+  EXPECT_EQ(Lines(run.events), (Texts{"sweep 0.000"}));
+}
+
+TEST(SensorStream, DuplicateSampleIsCountedAndGivenOnce) {
+  StreamRun run;
+  run.Feed(OnlyImu(0.0, 0.1));
+  run.Feed({ImuAt(0.09)});
+  EXPECT_EQ(run.counters.num_imu_duplicate, 1);
+  EXPECT_EQ(run.MeasuredStamps().size(), 10u);
+}
+
+TEST(SensorStream, SampleOfAGivenSweepIsLate) {
+  StreamRun run;
+  run.Feed(Sensors(0.0, 0.11));
+  run.Feed({ImuAt(0.085)});
+  EXPECT_EQ(run.counters.num_imu_late, 1);
+  EXPECT_EQ(run.MeasuredStamps().size(), 11u);
+  run.Feed({ImuAt(0.095)});
+  EXPECT_EQ(run.counters.num_imu_late, 1) << "no sweep has used this time yet";
+  EXPECT_EQ(run.MeasuredStamps().size(), 12u);
+}
+
+TEST(SensorStream, SweepsBeforeTheFirstSampleAreCountedAndNotGiven) {
+  StreamRun run;
+  run.Feed(Silenced(Sensors(0.0, 1.0), Sensor::kImu, 0.0, 0.51));
+  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.5)) << "10 ms before: the first sample holds there";
+  EXPECT_EQ(run.counters.num_scans_without_imu, 5);
+}
+
+TEST(SensorStream, SweepThatBegins30MsBeforeTheFirstSampleIsNotGiven) {
+  StreamRun run;
+  run.Feed(Silenced(Sensors(0.0, 1.0), Sensor::kImu, 0.0, 0.53));
+  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.6));
+  EXPECT_EQ(run.counters.num_scans_without_imu, 6);
+}
+
+TEST(SensorStream, SweepsBeforeTheEstimatorsBeginAreNotGiven) {
+  StreamRun run;
+  run.stream.SetBegin(StampAt(0.3));
+  run.Feed(Sensors(0.0, 0.6));
+  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.3));
+  EXPECT_EQ(run.counters.num_scans_without_imu, 3);
+}
+
+TEST(SensorStream, SensorsOfDifferentClocksAreTold) {
+  for (const double apart_s : {-100.0, 100.0}) {
+    StreamRun run;
+    run.Feed(Stepped(Sensors(0.0, 1.0), Sensor::kLidar, 0.0, apart_s));
+    ASSERT_FALSE(run.Of<Notice>().empty()) << apart_s;
+    const std::string expected = apart_s > 0.0 ? " s after" : " s before";
+    EXPECT_NE(run.Of<Notice>()[0].text.find(expected), std::string::npos)
+        << run.Of<Notice>()[0].text;
+    EXPECT_TRUE(run.SweepStarts().empty());
+  }
+}
+
+TEST(SensorStream, LidarGoesOnWhenTheImuFallsSilent) {
+  StreamRun run;
+  run.Feed(Silenced(Sensors(0.0, 4.0), Sensor::kImu, 1.0, 4.0));
+  EXPECT_GT(run.SweepStarts().back(), StampAt(2.6)) << "no sweep waits for much over a second";
+  EXPECT_GT(run.counters.num_scans_without_imu, 0);
+  run.Finish();
+  EXPECT_EQ(run.SweepStarts().size(), 39u);
+  const std::vector<ImuReady> samples = run.Of<ImuReady>();
+  EXPECT_TRUE(samples.back().is_made_up);
+  EXPECT_EQ(samples.back().sample.stamp, StampAt(3.89)) << "the end of the last sweep";
+}
+
+TEST(SensorStream, LogWithoutImuGoesOnWithTheLidarAlone) {
+  StreamRun run;
+  run.Feed(OnlyLidar(0.0, 2.2));
+  EXPECT_TRUE(run.events.empty());
+  run.Feed({SweepFrom(2.1)});
+  const Texts lines = Lines(run.events);
+  ASSERT_EQ(lines.size(), 23u) << "2.1 s of sweeps have waited for an IMU";
+  EXPECT_EQ(lines[0], "absent 0.090");
+  EXPECT_EQ(lines[1], "sweep 0.000");
+  EXPECT_EQ(lines[22], "sweep 2.100");
+  EXPECT_FALSE(run.stream.has_imu());
+  run.Feed({SweepFrom(2.2)});
+  EXPECT_EQ(Lines(run.events).back(), "sweep 2.200");
+}
+
+TEST(SensorStream, ShortLogWithoutImuGivesItsSweepsAtTheEnd) {
+  StreamRun run;
+  run.Feed(OnlyLidar(0.0, 0.3));
+  EXPECT_TRUE(run.events.empty());
+  run.Finish();
+  const Texts expected = {"absent 0.090", "sweep 0.000", "sweep 0.100", "ended"};
+  EXPECT_EQ(Lines(run.events), expected);
+}
+
+TEST(SensorStream, ImuThatIsSwitchedOffIsOnlyCounted) {
+  StreamOptions options;
+  options.use_imu = false;
+  options.clock_margin_s = 0.05;
+  StreamRun run(options);
+  EXPECT_FALSE(run.stream.has_imu());
+  EXPECT_EQ(run.stream.clock_margin(), Duration{}) << "there is nothing to wait for";
+  run.Feed(Sensors(0.0, 0.21));
+  EXPECT_EQ(Lines(run.events), (Texts{"sweep 0.000", "sweep 0.100"}));
+  EXPECT_EQ(run.counters.num_imu, 21);
+}
+
+TEST(SensorStream, FlushClosesEverythingAndEndsLast) {
+  StreamRun run;
+  SensorMessage half = SweepFrom(0.1);
+  half.chunk->chunk_count = 2;
+  run.Feed(Sensors(0.0, 0.13));
+  run.Feed({half});
+  run.Feed({ImuAt(0.5)});  // held: its stamp may be wrong
+  EXPECT_FALSE(run.stream.is_flushed());
+  const auto num_before = static_cast<std::ptrdiff_t>(run.events.size());
+  run.Finish();
+  EXPECT_TRUE(run.stream.is_flushed());
+  const std::vector<StreamEvent> at_end(run.events.begin() + num_before, run.events.end());
+  const Texts expected = {"made up 0.121", "made up 0.499", "imu 0.500", "sweep 0.100", "ended"};
+  EXPECT_EQ(Lines(at_end), expected);
+  EXPECT_FALSE(run.stream.Next(true).has_value());
+}
+
+TEST(SensorStream, FlushGivesTheSweepThatSamplesDoNotCover) {
+  StreamRun run;
+  SensorMessage half = SweepFrom(0.1);
+  half.chunk->chunk_count = 2;
+  run.Feed(Sensors(0.0, 0.15));
+  run.Feed({half});
+  run.Finish();
+  const Texts lines = Lines(run.events);
+  const Texts last(lines.end() - 3, lines.end());
+  EXPECT_EQ(last, (Texts{"made up 0.190", "sweep 0.100", "ended"}));
+}
+
+TEST(SensorStream, RejectedStreamCountsMessagesAndDropsThem) {
+  StreamRun run;
+  for (const SensorMessage& message : Sensors(0.0, 0.21)) run.Add(message);
+  run.stream.Reject();
+  for (const SensorMessage& message : Sensors(0.21, 0.52)) run.Add(message);
+  run.Drain();
+  EXPECT_TRUE(run.events.empty());
+  EXPECT_EQ(run.counters.num_imu, 52);
+  EXPECT_EQ(run.counters.num_chunks, 4);
+  EXPECT_TRUE(run.stream.is_flushed()) << "nothing is to be waited for";
+  run.Finish();
+  EXPECT_TRUE(run.events.empty());
+}
+
+TEST(SensorStream, RejectDropsEventsThatWereNotTaken) {
+  StreamRun run;
+  run.Feed(OnlyImu(0.0, 0.1));
+  run.Add(ImuAt(0.27));
+  ASSERT_TRUE(run.stream.Next(true).has_value()) << "the first of two samples across the gap";
+  run.stream.Reject();
+  EXPECT_FALSE(run.stream.Next(true).has_value());
+}
+
+TEST(SensorStream, SaturatedGyroIsMarkedCountedAndToldOnce) {
+  StreamRun run;
+  for (int i = 0; i < 30; ++i) {
+    SensorMessage message = ImuAt(0.01 * i);
+    message.sample.w_imu_radps.z() = i < 10 ? 0.1 * i : 8.7;  // at the end of its range
+    run.Feed({message});
+  }
+  EXPECT_FALSE(run.Of<ImuReady>().front().sample.is_rate_saturated);
+  EXPECT_TRUE(run.Of<ImuReady>().back().sample.is_rate_saturated);
+  EXPECT_GT(run.counters.num_imu_clipped, 10);
+  ASSERT_EQ(run.Of<Notice>().size(), 1u);
+  EXPECT_NE(run.Of<Notice>()[0].text.find("gyro is saturated"), std::string::npos);
+  EXPECT_EQ(run.Of<Notice>()[0].severity, Notice::Severity::kWarning);
+}
+
+// 200 deg/s is a turn; 200 rad/s is no gyro's.
+TEST(SensorStream, RangeOfTheGyroIsJudgedInTheUnitsThatTheOptionAllows) {
+  for (const ImuUnits units : {ImuUnits::kAutomatic, ImuUnits::kDeg, ImuUnits::kSi}) {
+    StreamOptions options;
+    options.units = units;
+    StreamRun run(options);
+    SensorMessage message = ImuAt(0.0);
+    message.sample.w_imu_radps.z() = 200.0;
+    if (units == ImuUnits::kAutomatic) run.stream.SetConvention(ConventionOf(ImuUnits::kDeg));
+    run.Feed({message});
+    const bool is_usable = units != ImuUnits::kSi;
+    EXPECT_EQ(run.counters.num_imu_out_of_range, is_usable ? 0 : 1);
+    EXPECT_EQ(run.Of<ImuReady>().size(), is_usable ? 1u : 0u);
+  }
+}
+
+}  // namespace
+}  // namespace lio
