@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/clock_offset_follower.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/smooth_motion.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kScan_s = 0.1;
+constexpr double kImuRate_hz = 100.0;
+constexpr double kOffset_s = 0.02;  // the lidar's clock is behind the IMU's
+constexpr int kEnough = 150;        // scans of a walk
+
+Options OptionsWith(bool estimates, double configured_s = 0.0) {
+  Options options;
+  options.rig.imu.gyro_noise_density = 5e-4;
+  options.rig.lidar.clock_offset_s = configured_s;
+  options.filter.estimate_clock_offset = estimates;
+  return options;
+}
+
+Timestamp At(double t_s) {
+  return Timestamp{} + Duration::FromSeconds(t_s);
+}
+
+// A sensor in a walker's hands, whose scans are matched without errors.
+class Walk {
+ public:
+  explicit Walk(double offset_s = kOffset_s) : offset_s_(offset_s) {}
+
+  SweepPtr NextSweep() {
+    const double start_s = 1.0 + kScan_s * num_scans_++ - offset_s_;
+    Sweep sweep;
+    sweep.start = At(start_s);
+    sweep.end = At(start_s + kScan_s);
+    return std::make_shared<Sweep>(sweep);
+  }
+
+  // Feeds the next scan; `unmatched`: its match is of no use.
+  std::optional<std::string> AddScan(ClockOffsetFollower& follower,
+                                     MatchStatus status = MatchStatus::kConverged,
+                                     unsigned degenerate_mask = 0) {
+    const SweepPtr sweep = NextSweep();
+    const SweepPtr moved = follower.Moved(sweep);
+    FeedImuUpTo(SecondsBetween(Timestamp{}, moved->end) + 0.02);
+    MatchOutcome outcome;
+    outcome.sweep = moved;
+    outcome.match.status = status;
+    outcome.match.degenerate_mask = degenerate_mask;
+    outcome.match.cov = 1e-8 * Matrix6::Identity();
+    const double seen_s = SecondsBetween(Timestamp{}, sweep->middle()) + offset_s_;
+    outcome.match.T_map_imu = motion_.At(seen_s).T_world_imu;
+    return follower.AddScan(outcome, history_);
+  }
+
+  int NumAnnounced(ClockOffsetFollower& follower, int num_scans) {
+    int num = 0;
+    for (int k = 0; k < num_scans; ++k) num += AddScan(follower).has_value() ? 1 : 0;
+    return num;
+  }
+
+ private:
+  void FeedImuUpTo(double to_s) {
+    for (; num_samples_ / kImuRate_hz < to_s; ++num_samples_)
+      history_.AddImu(SampleOf(num_samples_));
+  }
+  ImuSample SampleOf(int i) {
+    const double t_s = i / kImuRate_hz;
+    return test::ReadImu(motion_, t_s, t_s, kImuRate_hz, {}, random_).at(0);
+  }
+  Estimate Start() const {
+    Estimate estimate;
+    const test::MotionPoint point = motion_.At(0.0);
+    estimate.state.T_world_imu = estimate.state.T_map_imu = point.T_world_imu;
+    estimate.state.v_world_imu = point.v_world;
+    return estimate;
+  }
+
+  double offset_s_;
+  test::SmoothMotion motion_ = test::WalkMotion();
+  std::mt19937_64 random_{5};
+  int num_scans_ = 0;
+  int num_samples_ = 1;
+  FilterHistory history_{HistoryOptions{}, Start(), SampleOf(0)};
+};
+
+TEST(ClockOffsetFollower, IsOffUnlessAskedFor) {
+  const Options options = OptionsWith(false, 0.03);
+  ClockOffsetFollower follower(options);
+  Walk walk;
+  EXPECT_EQ(walk.NumAnnounced(follower, 30), 0);
+  const SweepPtr sweep = walk.NextSweep();
+  EXPECT_EQ(follower.Moved(sweep), sweep) << "not even a copy";
+  EXPECT_FALSE(follower.is_running());
+  EXPECT_EQ(follower.total_s(), 0.03);
+  EXPECT_EQ(follower.std_s(), 0.0);
+  follower.Restart();
+  EXPECT_FALSE(follower.is_running());
+}
+
+TEST(ClockOffsetFollower, DoesNotRunWithoutAnImu) {
+  Options options = OptionsWith(true);
+  EXPECT_TRUE(ClockOffsetFollower(options).is_running());
+  options.pipeline.use_imu = false;
+  EXPECT_FALSE(ClockOffsetFollower(options).is_running());
+}
+
+TEST(ClockOffsetFollower, MovesNoSweepWhileNothingIsKnown) {
+  const Options options = OptionsWith(true);
+  ClockOffsetFollower follower(options);
+  const SweepPtr sweep = Walk().NextSweep();
+  EXPECT_EQ(follower.Moved(sweep), sweep);
+}
+
+// Tolerance: what ten scans a second of a walk tell, see the test of ClockOffset.
+TEST(ClockOffsetFollower, MovesSweepsByTheOffsetOnceThatIsKnown) {
+  for (const double offset_s : {kOffset_s, -kOffset_s}) {
+    const Options options = OptionsWith(true);
+    ClockOffsetFollower follower(options);
+    Walk walk(offset_s);
+    walk.NumAnnounced(follower, kEnough);
+    const SweepPtr sweep = walk.NextSweep();
+    const SweepPtr moved = follower.Moved(sweep);
+    EXPECT_NEAR(SecondsBetween(sweep->start, moved->start), offset_s, 1e-3);
+    EXPECT_EQ(moved->end - moved->start, sweep->end - sweep->start);
+  }
+}
+
+TEST(ClockOffsetFollower, WhatIsConfiguredComesOnTop) {
+  const Options options = OptionsWith(true, 0.1);
+  ClockOffsetFollower follower(options);
+  EXPECT_EQ(follower.total_s(), 0.1);
+  Walk walk;
+  walk.NumAnnounced(follower, kEnough);
+  EXPECT_NEAR(follower.total_s(), 0.1 + kOffset_s, 1e-3);
+}
+
+TEST(ClockOffsetFollower, AnnouncesTheOffsetOnceWhenItIsKnownToAMillisecond) {
+  const Options options = OptionsWith(true);
+  ClockOffsetFollower follower(options);
+  Walk walk;
+  std::optional<std::string> text;
+  for (int k = 0; k < kEnough && !text; ++k) {
+    EXPECT_GT(follower.std_s(), 1e-3);
+    text = walk.AddScan(follower);
+  }
+  ASSERT_TRUE(text);
+  EXPECT_LE(follower.std_s(), 1e-3);
+  EXPECT_NE(text->find("ms behind the IMU's"), std::string::npos) << *text;
+  EXPECT_NE(text->find("rig.lidar.clock_offset_s: 0.0"), std::string::npos) << *text;
+  EXPECT_EQ(walk.NumAnnounced(follower, kEnough), 0);
+}
+
+TEST(ClockOffsetFollower, ALidarThatIsAheadIsAnnouncedAsSuch) {
+  const Options options = OptionsWith(true);
+  ClockOffsetFollower follower(options);
+  Walk walk(-kOffset_s);
+  std::optional<std::string> text;
+  for (int k = 0; k < kEnough && !text; ++k) text = walk.AddScan(follower);
+  ASSERT_TRUE(text);
+  EXPECT_NE(text->find("ms ahead of the IMU's"), std::string::npos) << *text;
+  EXPECT_NE(text->find("rig.lidar.clock_offset_s: -0.0"), std::string::npos) << *text;
+}
+
+TEST(ClockOffsetFollower, ScansThatAreNotMatchedInAllDirectionsTellNothing) {
+  const Options options = OptionsWith(true);
+  for (const bool is_degenerate : {false, true}) {
+    ClockOffsetFollower follower(options);
+    const double std_s = follower.std_s();
+    Walk walk;
+    for (int k = 0; k < 60; ++k) {
+      if (is_degenerate) {
+        (void)walk.AddScan(follower, MatchStatus::kDegenerate, 0b1);
+      } else {
+        (void)walk.AddScan(follower, MatchStatus::kDiverged);
+      }
+    }
+    EXPECT_EQ(follower.std_s(), std_s);
+    EXPECT_EQ(follower.total_s(), 0.0);
+  }
+}
+
+TEST(ClockOffsetFollower, TheTurnAcrossALostScanIsNotMeasured) {
+  const Options options = OptionsWith(true);
+  for (const bool is_told : {false, true}) {  // told of it, or by a match of no use
+    ClockOffsetFollower follower(options);
+    const double std_s = follower.std_s();
+    Walk walk;
+    for (int k = 0; k < 30; ++k) {
+      (void)walk.AddScan(follower);
+      if (is_told) {
+        follower.Interrupt();
+      } else {
+        (void)walk.AddScan(follower, MatchStatus::kDiverged);
+      }
+    }
+    EXPECT_EQ(follower.std_s(), std_s);
+  }
+}
+
+TEST(ClockOffsetFollower, ARestartKnowsNothingAnyMore) {
+  const Options options = OptionsWith(true);
+  ClockOffsetFollower follower(options);
+  const double std_s = follower.std_s();
+  Walk walk;
+  walk.NumAnnounced(follower, kEnough);
+  follower.Restart();
+  EXPECT_EQ(follower.std_s(), std_s);
+  EXPECT_EQ(follower.total_s(), 0.0);
+  const SweepPtr sweep = walk.NextSweep();
+  EXPECT_EQ(follower.Moved(sweep), sweep);
+}
+
+TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
+  const Options options = OptionsWith(true, 0.1);
+  ClockOffsetFollower follower(options);
+  Walk walk;
+  walk.NumAnnounced(follower, kEnough);
+  follower.Stop();
+  const SweepPtr sweep = walk.NextSweep();
+  EXPECT_EQ(follower.Moved(sweep), sweep);
+  EXPECT_FALSE(follower.is_running());
+  EXPECT_EQ(follower.total_s(), 0.1);
+  EXPECT_EQ(follower.std_s(), 0.0);
+}
+
+}  // namespace
+}  // namespace lio

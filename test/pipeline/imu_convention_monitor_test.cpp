@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/imu_convention_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/motion.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+using Kind = ImuConventionMonitor::Finding::Kind;
+
+constexpr double kGravity_mps2 = 9.80665;
+constexpr int kManySteps = 60;  // six seconds
+
+const ImuConvention kSi;
+const ImuConvention kG{true, false};
+const ImuConvention kDeg{false, true};
+// The imu's x axis points to the left.
+const ImuConvention kTurned{false, false,
+                            ExpSo3(Vector3(0, 0, M_PI / 2)).toRotationMatrix().array().round()};
+
+// From rest straight ahead with 2 m/s^2.
+Pose DriveOff(double t_s) {
+  return {Quaternion::Identity(), Vector3(t_s * t_s, 0, 0)};
+}
+
+// A body whose samples, at 50 Hz, are in `sent_as` and whose exact poses, at 10 Hz, a monitor sees.
+class Watched {
+ public:
+  explicit Watched(const ImuConvention& sent_as, test::Motion motion = test::WindingDrive(0.0))
+      : sent_as_(sent_as), motion_(std::move(motion)) {}
+
+  void AddStep() {
+    std::vector<ImuReady> ready;
+    for (int i = 0; i < 5; ++i) {
+      const double t_s = 0.1 * num_steps_ + 0.02 * i;
+      (void)imu.Add(FromSi(sent_as_, test::ExactSample(motion_, t_s, g_world)), ready);
+    }
+    const double t_s = 0.1 * num_steps_++ + 0.08;
+    monitor.AddPose({StampAt(t_s), T_map_world * (matched ? matched : motion_)(t_s)});
+  }
+  void AddSteps(int num) {
+    for (int i = 0; i < num; ++i) AddStep();
+  }
+  // The samples are read as they are meant from here on, or otherwise.
+  void Believe(const ImuConvention& convention) {
+    imu.SetConvention(convention);
+    monitor.Restart();
+  }
+  ImuConventionMonitor::Finding Judge() { return monitor.JudgeInitializing({}, false); }
+  ImuConventionMonitor::TrackingFacts Facts(int num_gated_lately = 0) const {
+    return {StampAt(0.1 * num_steps_), 0, num_gated_lately, Vector3::Zero()};
+  }
+  Timestamp now() const { return StampAt(0.1 * num_steps_); }
+
+  Rig rig;
+  Counters counters;
+  ImuBuffer imu{kSi, counters};
+  ImuConventionMonitor monitor{rig, imu};
+  Vector3 g_world = test::kGravity;
+  Pose T_map_world;
+  test::Motion matched;  // what scan matching sees, where it is not the motion
+
+ private:
+  ImuConvention sent_as_;
+  test::Motion motion_;
+  int num_steps_ = 0;
+};
+
+// Samples of a gyro in deg/s, at rest: white noise of 0.3 in the unit in which they are sent.
+std::vector<ImuSample> NoiseOfDegrees() {
+  std::vector<ImuSample> samples(100);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].stamp = StampAt(0.01 * static_cast<double>(i));
+    samples[i].w_imu_radps.z() = i % 2 == 0 ? 0.3 : -0.3;
+  }
+  return samples;
+}
+
+TEST(ImuConventionMonitor, APlainDriveSettlesIt) {
+  Watched drive(kSi);
+  drive.AddSteps(kManySteps);
+  EXPECT_EQ(drive.Judge().kind, Kind::kNone);
+  EXPECT_TRUE(drive.monitor.trusts_gyro());
+  // Once settled nothing is doubted any more, whatever speaks against it.
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, Kind::kNone);
+  EXPECT_TRUE(drive.monitor.trusts_gyro());
+}
+
+TEST(ImuConventionMonitor, AStandstillSettlesNothing) {
+  Watched rest(kSi, [](double) { return Pose{}; });
+  rest.AddSteps(kManySteps);
+  EXPECT_EQ(rest.Judge().kind, Kind::kNone);
+  EXPECT_EQ(rest.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
+}
+
+TEST(ImuConventionMonitor, ForcesInGAreFoundAtOnce) {
+  Watched drive(kG);
+  drive.AddSteps(kManySteps);
+  const ImuConventionMonitor::Finding finding = drive.Judge();
+  EXPECT_EQ(finding.kind, Kind::kOtherwise);
+  EXPECT_EQ(finding.convention, kG);
+  EXPECT_NE(finding.evidence, "");
+  EXPECT_TRUE(drive.monitor.trusts_gyro()) << "its rates are right";
+}
+
+// A track that was led by wrong rates is no evidence: what they are is judged by the next one.
+TEST(ImuConventionMonitor, OtherRatesAreMisleadingFirstAndFoundByATrackWithoutThem) {
+  for (const ImuConvention& sent_as : {kDeg, kTurned}) {
+    Watched drive(sent_as);
+    drive.AddSteps(kManySteps);
+    EXPECT_EQ(drive.Judge().kind, Kind::kMisleadingGyro);
+    EXPECT_FALSE(drive.monitor.trusts_gyro());
+    EXPECT_EQ(drive.Judge().kind, Kind::kNone) << "no evidence is left";
+    drive.AddSteps(kManySteps);
+    const ImuConventionMonitor::Finding finding = drive.Judge();
+    EXPECT_EQ(finding.kind, Kind::kOtherwise);
+    EXPECT_EQ(finding.convention, sent_as) << Describe(finding.convention);
+  }
+}
+
+TEST(ImuConventionMonitor, TheConventionThatWasFoundIsSettledByMoreOfTheDrive) {
+  Watched drive(kDeg);
+  drive.Believe(kDeg);
+  drive.AddSteps(kManySteps);
+  EXPECT_EQ(drive.Judge().kind, Kind::kNone);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, Kind::kNone) << "settled";
+}
+
+TEST(ImuConventionMonitor, AnotherMapIsNoMotion) {
+  for (const bool is_told : {false, true}) {
+    Watched drive(kSi);
+    drive.AddSteps(kManySteps / 2);
+    drive.T_map_world = {ExpSo3(Vector3(0, 0, 1.0)), Vector3(100, 50, 0)};
+    if (is_told) drive.monitor.BeginMap(drive.now());
+    drive.AddSteps(kManySteps / 2);
+    (void)drive.Judge();
+    const bool is_settled =
+        drive.monitor.JudgeInitializing({8, 0, {}}, false).kind == Kind::kNone &&
+        drive.monitor.trusts_gyro();
+    EXPECT_EQ(is_settled, is_told);
+  }
+}
+
+TEST(ImuConventionMonitor, AGyroByWhichFewScansAreMatchedMisleads) {
+  const auto kind_of = [](const ImuConventionMonitor::TrackFacts& facts) {
+    return Watched(kSi).monitor.JudgeInitializing(facts, false).kind;
+  };
+  EXPECT_EQ(kind_of({8, 3, {}}), Kind::kMisleadingGyro);
+  EXPECT_EQ(kind_of({8, 4, {}}), Kind::kNone);
+  EXPECT_EQ(kind_of({7, 0, {}}), Kind::kNone) << "too few to tell";
+}
+
+TEST(ImuConventionMonitor, AGyroMisleadsOnce) {
+  Watched drive(kSi);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kNone);
+  drive.monitor.TrustGyro(true);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
+}
+
+TEST(ImuConventionMonitor, NoiseThatOnlyFitsDegreesMisleads) {
+  const std::vector<ImuSample> noise = NoiseOfDegrees();
+  Watched drive(kSi);
+  drive.rig.imu.gyro_noise_density = 5.2e-4;
+  EXPECT_TRUE(drive.monitor.MayBeDegrees(noise));
+  EXPECT_EQ(drive.monitor.JudgeInitializing({1, 1, noise}, false).kind, Kind::kMisleadingGyro);
+}
+
+TEST(ImuConventionMonitor, NoiseSaysNothingWhereUnitsAreKnownOrDegreesAreBelieved) {
+  const std::vector<ImuSample> noise = NoiseOfDegrees();
+  Watched drive(kSi);
+  drive.rig.imu.gyro_noise_density = 5.2e-4;
+  drive.rig.imu.units = ImuUnits::kSi;
+  EXPECT_FALSE(drive.monitor.MayBeDegrees(noise));
+  drive.rig.imu.units = ImuUnits::kAutomatic;
+  drive.imu.SetConvention(kDeg);
+  EXPECT_FALSE(drive.monitor.MayBeDegrees(noise));
+}
+
+TEST(ImuConventionMonitor, TrackingIsContradictedByRatesInDegreesEveryFivePosesAtMost) {
+  Watched drive(kDeg);
+  int num_steps = 0;
+  bool is_contradicted = false;
+  while (!is_contradicted && num_steps < kManySteps) {
+    drive.AddStep();
+    ++num_steps;
+    is_contradicted = drive.monitor.IsContradicted(drive.Facts());
+  }
+  EXPECT_TRUE(is_contradicted);
+  EXPECT_EQ(num_steps % 5, 0);
+  EXPECT_FALSE(drive.monitor.trusts_gyro());
+}
+
+TEST(ImuConventionMonitor, TrackingIsContradictedByOtherUnitsOfForce) {
+  Watched drive(kG);
+  drive.AddSteps(kManySteps);
+  EXPECT_TRUE(drive.monitor.IsContradicted(drive.Facts()));
+}
+
+TEST(ImuConventionMonitor, TrackingAPlainDriveIsNotContradicted) {
+  Watched drive(kSi);
+  for (int i = 0; i < 30; ++i) {
+    drive.AddStep();
+    EXPECT_FALSE(drive.monitor.IsContradicted(drive.Facts(5))) << i;
+  }
+  EXPECT_TRUE(drive.monitor.trusts_gyro());
+}
+
+// Rates of 1.2 rad/s for as long as nothing is matched are another unit's.
+TEST(ImuConventionMonitor, AWildGyroContradictsWhereNothingIsMatched) {
+  const auto is_contradicted = [](double rate_radps, int num_unmatched, double bias_radps) {
+    Watched drive(kSi);
+    std::vector<ImuReady> ready;
+    for (int i = 0; i < 100; ++i) {
+      const ImuSample sample{StampAt(0.01 * i), Vector3(0, 0, rate_radps), Vector3(0, 0, 9.8)};
+      (void)drive.imu.Add(sample, ready);
+    }
+    return drive.monitor.IsContradicted(
+        {StampAt(0.99), num_unmatched, 0, Vector3(0, 0, bias_radps)});
+  };
+  EXPECT_TRUE(is_contradicted(1.2, 5, 0.0));
+  EXPECT_FALSE(is_contradicted(1.2, 4, 0.0));
+  EXPECT_FALSE(is_contradicted(0.9, 5, 0.0));
+  EXPECT_FALSE(is_contradicted(1.2, 5, 0.3)) << "less the bias";
+}
+
+// Turned axes, too little of a drive for a verdict, but two of five scans were gated.
+TEST(ImuConventionMonitor, GatedScansRaiseADoubtWhereAnotherConventionFitsBetter) {
+  for (const bool is_right : {false, true}) {
+    Watched drive(is_right ? kSi : kTurned, DriveOff);
+    drive.AddSteps(14);
+    EXPECT_FALSE(drive.monitor.IsContradicted(drive.Facts(1))) << "one gated scan is none";
+    EXPECT_EQ(drive.monitor.IsContradicted(drive.Facts(2)), !is_right);
+  }
+}
+
+TEST(ImuConventionMonitor, ADoubtCountsOnce) {
+  Watched drive(kTurned, DriveOff);
+  drive.AddSteps(14);
+  ASSERT_TRUE(drive.monitor.IsContradicted(drive.Facts(2)));
+  EXPECT_FALSE(drive.monitor.IsContradicted(drive.Facts(2)));
+  drive.monitor.ForgetDoubt();
+  EXPECT_TRUE(drive.monitor.IsContradicted(drive.Facts(2)));
+}
+
+TEST(ImuConventionMonitor, ADoubtHoldsTheStartUpForTenSecondsAtMost) {
+  Watched drive(kTurned, DriveOff);
+  drive.AddSteps(14);
+  EXPECT_FALSE(drive.monitor.IsInDoubt(StampAt(1.0), StampAt(2.0)));
+  ASSERT_TRUE(drive.monitor.IsContradicted(drive.Facts(2)));
+  EXPECT_TRUE(drive.monitor.IsInDoubt(StampAt(1.0), StampAt(10.9)));
+  EXPECT_FALSE(drive.monitor.IsInDoubt(StampAt(1.0), StampAt(11.0)));
+  drive.monitor.ForgetDoubt();
+  EXPECT_FALSE(drive.monitor.IsInDoubt(StampAt(1.0), StampAt(2.0)));
+}
+
+// Scans that cling to the rings of a rest see no forces: smaller ones would fit them better.
+TEST(ImuConventionMonitor, AUnitOfForceToldAtRestIsKeptAgainstMotion) {
+  for (const bool is_kept : {false, true}) {
+    Watched drive(kG, [](double t_s) { return DriveOff(std::max(0.0, t_s - 1.0)); });
+    drive.matched = [](double) { return Pose{}; };
+    drive.imu.SetConvention(kG);
+    drive.monitor.Restart();
+    if (is_kept) {
+      drive.monitor.KeepForceUnit();
+      drive.monitor.Restart();  // it is known beyond that
+    }
+    drive.AddSteps(40);
+    EXPECT_EQ(drive.monitor.IsContradicted(drive.Facts(2)), !is_kept);
+  }
+}
+
+TEST(ImuConventionMonitor, TheForceAtRestTellsItsUnit) {
+  const Watched drive(kSi);
+  const auto metric = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2));
+  EXPECT_EQ(metric.force, ForceAtRest::kMetric);
+  EXPECT_FALSE(metric.convention.is_in_g);
+  const auto in_g = drive.monitor.JudgeForce(Vector3(0, 0, 1.0));
+  EXPECT_EQ(in_g.force, ForceAtRest::kInG);
+  EXPECT_TRUE(in_g.convention.is_in_g);
+  EXPECT_NE(in_g.evidence.find("reads 1.00"), std::string::npos) << in_g.evidence;
+}
+
+TEST(ImuConventionMonitor, TheForceAtRestIsJudgedAsItWasSent) {
+  Watched drive(kSi);
+  drive.imu.SetConvention(kG);
+  const auto in_g = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2));
+  EXPECT_EQ(in_g.force, ForceAtRest::kInG);
+  EXPECT_TRUE(in_g.convention.is_in_g);
+  const auto metric = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2 * kGravity_mps2));
+  EXPECT_EQ(metric.force, ForceAtRest::kMetric);
+  EXPECT_FALSE(metric.convention.is_in_g);
+}
+
+TEST(ImuConventionMonitor, AForceAtRestThatTellsNothingLeavesTheConvention) {
+  Watched drive(kSi);
+  drive.imu.SetConvention({false, true});
+  const auto without = drive.monitor.JudgeForce(Vector3(0.05, 0, 0.1));
+  EXPECT_EQ(without.force, ForceAtRest::kWithoutGravity);
+  EXPECT_EQ(without.convention, kDeg);
+  const auto unclear = drive.monitor.JudgeForce(Vector3(0, 0, 4.0));
+  EXPECT_EQ(unclear.force, ForceAtRest::kUnclear);
+  EXPECT_EQ(unclear.convention, kDeg);
+}
+
+TEST(ImuConventionMonitor, AMeanForceOfMoreThanHalfOfGravityHasItIn) {
+  const Watched drive(kSi);
+  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 5.0)), true);
+  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 4.8)), std::nullopt);
+}
+
+TEST(ImuConventionMonitor, ADriveShowsThatGravityWasRemoved) {
+  Watched drive(kSi);
+  drive.g_world = Vector3::Zero();
+  drive.AddSteps(kManySteps);
+  (void)drive.Judge();
+  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 0.5)), false);
+  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 9.8)), true) << "the force itself tells";
+}
+
+}  // namespace
+}  // namespace lio

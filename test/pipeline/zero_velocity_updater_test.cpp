@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/zero_velocity_updater.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/motion.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+
+const Vector3 kGravityWorld(0, 0, -9.80665);
+constexpr double kSwayVariance = 0.0025 * 0.0025;  // variance of a body's sway at rest [(m/s)^2]
+
+struct Belief {
+  double speed_mps = 0.0;
+  double speed_std_mps = 10.0;
+};
+
+// A filter of an IMU at rest, without noise, ten scans a second of a lidar at rest.
+class Rest {
+ public:
+  explicit Rest(const Belief& belief = {}) : history_(Settings(), Start(belief), Sample(0)) {
+    for (int i = 1; i <= 250; ++i) history_.AddImu(Sample(i));
+  }
+
+  // The scan whose middle is at `middle_s`.
+  bool AddScan(ZeroVelocityUpdater& updater, double middle_s, double position_m = 0.0,
+               unsigned degenerate_mask = 0) {
+    Sweep sweep;
+    sweep.start = StampAt(middle_s - 0.05);
+    sweep.end = StampAt(middle_s + 0.05);
+    MatchOutcome outcome;
+    outcome.sweep = std::make_shared<Sweep>(sweep);
+    outcome.match.status = MatchStatus::kConverged;
+    outcome.match.T_map_imu.translation.x() = position_m;
+    outcome.match.degenerate_mask = degenerate_mask;
+    return updater.AddFusedScan(outcome, kGravityWorld, history_);
+  }
+
+  double SpeedVarianceAt(double t_s) const { return history_.At(StampAt(t_s)).cov(kVel, kVel); }
+  double SpeedAt(double t_s) const { return history_.At(StampAt(t_s)).state.v_world_imu.x(); }
+
+ private:
+  static HistoryOptions Settings() {
+    HistoryOptions options;
+    options.g_world = kGravityWorld;
+    return options;
+  }
+  static ImuSample Sample(int i) { return {StampAt(0.01 * i), Vector3::Zero(), -kGravityWorld}; }
+  static Estimate Start(const Belief& belief) {
+    Estimate estimate;
+    estimate.stamp = StampAt(0.0);
+    estimate.state.v_world_imu.x() = belief.speed_mps;
+    estimate.cov.block<3, 3>(kVel, kVel) =
+        belief.speed_std_mps * belief.speed_std_mps * Matrix3::Identity();
+    return estimate;
+  }
+
+  FilterHistory history_;
+};
+
+TEST(ZeroVelocityUpdater, AfterAStartAtRestTheFirstScanIsFusedAsRest) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest({0.5, 10.0});
+  EXPECT_TRUE(rest.AddScan(updater, 0.1));
+  EXPECT_NEAR(rest.SpeedAt(0.1), 0.0, 1e-4);
+}
+
+TEST(ZeroVelocityUpdater, OtherwiseRestIsFusedOnceTheWindowIsFull) {
+  ZeroVelocityUpdater updater({}, false);
+  Rest rest;
+  for (int k = 0; k < 15; ++k) EXPECT_FALSE(rest.AddScan(updater, 0.1 + 0.1 * k)) << k;
+  EXPECT_NEAR(rest.SpeedVarianceAt(1.5), 100.0, 1e-6);
+  EXPECT_TRUE(rest.AddScan(updater, 1.65));
+  EXPECT_LT(rest.SpeedVarianceAt(1.65), 1e-3);
+}
+
+// A body sways to and fro within 0.3 s: a measurement on its own counts as twice that.
+TEST(ZeroVelocityUpdater, TheFirstMeasurementHasTwiceTheVarianceOfTheSway) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  rest.AddScan(updater, 0.1);
+  EXPECT_NEAR(rest.SpeedVarianceAt(0.1), 2.0 * kSwayVariance, 1e-3 * kSwayVariance);
+}
+
+// 0.1 s apart they have six times the variance of the sway, for 2 * 0.3 s / 0.1 s = 6.
+TEST(ZeroVelocityUpdater, MeasurementsThatFollowSoonerHaveLargerVariances) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  rest.AddScan(updater, 0.1);
+  rest.AddScan(updater, 0.2);
+  const double expected = 1.0 / (1.0 / 2.0 + 1.0 / 6.0) * kSwayVariance;
+  EXPECT_NEAR(rest.SpeedVarianceAt(0.2), expected, 1e-3 * expected);
+}
+
+TEST(ZeroVelocityUpdater, MeasurementsFartherApartThanTheSwayLastsAreIndependent) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  rest.AddScan(updater, 0.1);
+  rest.AddScan(updater, 0.5);
+  EXPECT_NEAR(rest.SpeedVarianceAt(0.5), kSwayVariance, 1e-3 * kSwayVariance);
+}
+
+TEST(ZeroVelocityUpdater, MatchesAtRestAreLessSure) {
+  ZeroVelocityUpdater updater({}, true);
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+  Rest rest;
+  rest.AddScan(updater, 0.1);
+  EXPECT_EQ(updater.match_cov_factor(), 4.0);
+}
+
+TEST(ZeroVelocityUpdater, MotionEndsIt) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  ASSERT_TRUE(rest.AddScan(updater, 0.1));
+  EXPECT_FALSE(rest.AddScan(updater, 0.2, 0.2));
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+  EXPECT_FALSE(rest.AddScan(updater, 0.3, 0.2)) << "a full window of rest is needed again";
+}
+
+TEST(ZeroVelocityUpdater, AScanThatIsNotObservableInAllDirectionsBeginsTheWindowAnew) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  ASSERT_TRUE(rest.AddScan(updater, 0.1));
+  EXPECT_FALSE(rest.AddScan(updater, 0.2, 0.0, 0b1));
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+  for (int k = 0; k < 15; ++k) EXPECT_FALSE(rest.AddScan(updater, 0.3 + 0.1 * k)) << k;
+  EXPECT_TRUE(rest.AddScan(updater, 1.85));
+}
+
+TEST(ZeroVelocityUpdater, AfterForgettingTheWindowBeginsAnew) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest;
+  ASSERT_TRUE(rest.AddScan(updater, 0.1));
+  updater.Forget();
+  EXPECT_FALSE(rest.AddScan(updater, 0.2));
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+}
+
+TEST(ZeroVelocityUpdater, RestThatAFilterSureOfItsSpeedRefusesIsNotTakenForFused) {
+  ZeroVelocityUpdater updater({}, true);
+  Rest rest({1.0, 0.001});
+  EXPECT_FALSE(rest.AddScan(updater, 0.1));
+  EXPECT_NEAR(rest.SpeedAt(0.1), 1.0, 1e-9);
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+}
+
+}  // namespace
+}  // namespace lio
