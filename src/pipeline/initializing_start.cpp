@@ -250,12 +250,11 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
     }
     PlaceInWorld(fix, has_gravity, start.estimate);
   }
-  Handover handover = handover_;
-  handover.origin = Origin::kInertial;
-  handover.T_world_start = start.estimate.state.T_world_imu;
-  handover.T_map_start = start.estimate.state.T_map_imu;
-  handover.last_fix = MakeFix(start.estimate.stamp, start.estimate, start.g_world);
-  handover.last_fused = start.estimate.stamp;
+  handover_.origin = Origin::kInertial;
+  handover_.T_world_start = start.estimate.state.T_world_imu;
+  handover_.T_map_start = start.estimate.state.T_map_imu;
+  handover_.last_fix = MakeFix(start.estimate.stamp, start.estimate, start.g_world);
+  handover_.last_fused = start.estimate.stamp;
   context_.convention.BeginMap(start.estimate.stamp);
   context_.sweeps.erase(context_.sweeps.begin(),
                         context_.sweeps.begin() + static_cast<std::ptrdiff_t>(first_sweep));
@@ -263,7 +262,7 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
   const std::string read_as = convention == ImuConvention{} ? "" : "; " + Describe(convention);
   context_.outputs.Notify(start.estimate.stamp, Notice::Severity::kInfo, start.how + read_as);
   return {.trigger = Trigger::kStarted,
-          .handover = std::move(handover),
+          .handover = handover_,
           .start = std::move(start),
           .is_at_rest = is_at_rest};
 }

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr LoamParameters kParameters = kScanParameters.loam;
+constexpr LoamFeatureParameters kParameters = kScanParameters.loam;
 
 float Radians(double degrees) {
   return static_cast<float>(degrees * std::numbers::pi / 180.0);

@@ -25,7 +25,7 @@ struct DeskewParameters {
   double grid_step_s = 1e-3;
 };
 
-struct LoamParameters {
+struct LoamFeatureParameters {
   // Neighbours on each side in the curvature. Zhang and Singh, RSS 2014; A-LOAM's constant.
   int half_window = 5;
   // Points of the far surface that are left out at the border of a shadow. LOAM's published code.
@@ -44,7 +44,7 @@ struct LoamParameters {
 struct ScanParameters {
   ThinningParameters thinning;
   DeskewParameters deskew;
-  LoamParameters loam;
+  LoamFeatureParameters loam;
 };
 inline constexpr ScanParameters kScanParameters{};
 

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/output_queue.hpp"
+
+namespace lio {
+namespace {
+
+constexpr double kWaitingEvery_s = 1.0;  // a person reads no faster
+
+}  // namespace
+
+void OutputQueue::Add(Output output) {
+  outputs_.push_back(std::move(output));
+}
+
+void OutputQueue::Notify(Timestamp stamp, Notice::Severity severity, std::string text) {
+  outputs_.emplace_back(std::in_place_type<Notice>, Notice{stamp, severity, std::move(text)});
+}
+
+void OutputQueue::NotifyWaiting(Timestamp stamp, std::string text) {
+  if (SecondsBetween(last_waiting_, stamp) < kWaitingEvery_s) return;
+  last_waiting_ = stamp;
+  Notify(stamp, Notice::Severity::kInfo, std::move(text));
+}
+
+}  // namespace lio
