@@ -188,5 +188,58 @@ TEST(InitializingStart, RestartGoesOnWhereTheLastFixWas) {
   EXPECT_GE(transition->start->estimate.cov(kPos, kPos), kPlacedStd_m * kPlacedStd_m);
 }
 
+TEST(InitializingStart, RestartAfterLidarOnlyLevelsTheWorldAndKeepsTheMap) {
+  Handover handover;
+  handover.origin = Handover::Origin::kLidar;
+  handover.last_fix.stamp = StampAt(-1.0);
+  handover.last_fix.T_world_imu = {ExpSo3(Vector3(0.5, 0.3, 0)), Vector3(10, 5, 2)};
+  handover.last_fix.T_map_imu = {ExpSo3(Vector3(0.2, 0, 0.4)), Vector3(7, 8, 9)};
+  InitializingBench b({}, handover);
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  const NavState& state = transition->start->estimate.state;
+  EXPECT_NEAR((UpOf(state.T_world_imu) - UpOf(Leaning()(0.0))).norm(), 0.0, 1e-3);
+  EXPECT_NEAR((state.T_world_imu.translation - Vector3(10, 5, 2)).norm(), 0.0, 1e-3);
+  const Pose error = handover.last_fix.T_map_imu.Inverse() * state.T_map_imu;
+  EXPECT_NEAR(LogSe3(error).norm(), 0.0, 1e-3);
+}
+
+TEST(InitializingStart, OtherConventionGivesTheLastFixTheShapeOfThePathInTheMap) {
+  Handover handover;
+  handover.origin = Handover::Origin::kInertial;
+  handover.last_fix.T_world_imu.translation = Vector3(9, 0, 3);  // bent by a wrong gravity
+  handover.last_fix.T_map_imu.translation = Vector3(10, 0, 0);
+  handover.T_world_start.translation = Vector3(0, 0, 1);
+  InitializingBench b({}, handover);
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kRetry);
+  const LastFix& fix = transition->handover.last_fix;
+  EXPECT_NEAR((fix.T_world_imu.translation - Vector3(10, 0, 1)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((fix.T_map_imu.translation - Vector3(10, 0, 0)).norm(), 0.0, 1e-9);
+}
+
+// Each second a tenth of a second of samples is missing, which no alignment in motion accepts.
+TEST(InitializingStart, DriveThatCannotBeAlignedIsTriedAgainWithoutTheGyro) {
+  const Motion drive = test::WindingDrive(0.0);
+  InitializingBench b;
+  std::optional<Transition> transition;
+  int num_sweeps = 0;
+  while (!transition && num_sweeps < 50) {
+    const double start_s = kDriveFrom_s + 0.1 * num_sweeps;
+    if (num_sweeps % 10 != 5) b.bench.FeedImu(drive, start_s, start_s + 0.1);
+    b.bench.AddSweep(start_s);
+    ++num_sweeps;
+    transition = b.MatchWaiting(drive);
+  }
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kRetry);
+  EXPECT_EQ(num_sweeps, 35);  // the window of 3.5 s
+  EXPECT_TRUE(b.bench.sweeps.empty());
+  EXPECT_EQ(transition->initializing_since, StampAt(kDriveFrom_s));
+  EXPECT_FALSE(b.bench.context().convention.trusts_gyro());
+}
+
 }  // namespace
 }  // namespace lio
