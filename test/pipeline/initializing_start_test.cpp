@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The first state from the coarse track and the inertial samples.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "lio/pipeline/initializing.hpp"
+#include "support/initializing_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::InitializingBench;
+using test::Leaning;
+using test::Motion;
+using test::SecondsOf;
+using test::StampAt;
+using test::StateOf;
+using test::Straight;
+
+constexpr double kStandardGravity_mps2 = 9.80665;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr double kDriveFrom_s = 6.0;  // WindingDrive() has its full speed of 8 m/s by then
+
+Options WithUnits(ImuUnits units) {
+  Options options;
+  options.rig.imu.units = units;
+  return options;
+}
+
+Vector3 UpOf(const Pose& T_world_imu) {
+  return T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+}
+
+// Turns and moves about the origin by some centimetres, as on a soft suspension: too much for the
+// spread at rest, too little for scans to have moved.
+Motion Shaking() {
+  return [](double t_s) {
+    return Pose{Quaternion::Identity(), Vector3(0, 0, 0.002 * std::sin(30.0 * t_s))};
+  };
+}
+
+TEST(InitializingStart, SecondOfRestGivesALevelState) {
+  InitializingBench b;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_TRUE(transition->is_at_rest);
+  const NavState& state = transition->start->estimate.state;
+  EXPECT_NEAR((UpOf(state.T_world_imu) - UpOf(Leaning()(0.0))).norm(), 0.0, 1e-3);
+  EXPECT_NEAR(state.v_world_imu.norm(), 0.0, 1e-3);
+  EXPECT_NEAR(transition->start->g_world.z(), -kStandardGravity_mps2, 1e-9);
+}
+
+TEST(InitializingStart, RestTakesASecondAndEndsWithTheLastSweepOnly) {
+  InitializingBench b;
+  EXPECT_FALSE(b.Drive(Leaning(), 0.0, 0.9));
+  const auto transition = b.Drive(Leaning(), 0.9, 1.1);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(b.bench.sweeps.size(), 1U);
+  EXPECT_EQ(transition->start->estimate.stamp, b.bench.sweeps.front()->start);
+  EXPECT_EQ(transition->handover.origin, Handover::Origin::kInertial);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
+}
+
+TEST(InitializingStart, ShakenRestIsAwaitedForFourTenthsMore) {
+  InitializingBench b;
+  const auto transition = b.Drive(Shaking(), 0.0, 3.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_TRUE(transition->is_at_rest);
+  EXPECT_NEAR(SecondsOf(b.bench.sweeps.back()->end), 1.4, 0.1 + 1e-6);
+}
+
+TEST(InitializingStart, DriveGivesAStateInMotion) {
+  const Motion drive = test::WindingDrive(0.0);
+  InitializingBench b;
+  const auto transition = b.Drive(drive, kDriveFrom_s, kDriveFrom_s + 3.5);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_FALSE(transition->is_at_rest);
+  const Estimate& estimate = transition->start->estimate;
+  const auto truth = StateOf(drive, SecondsOf(estimate.stamp));
+  EXPECT_NEAR(estimate.state.v_world_imu.norm(), truth.v_world_imu.norm(), 0.1);
+  EXPECT_NEAR((UpOf(estimate.state.T_world_imu) - UpOf(truth.T_world_imu)).norm(), 0.0, 0.02);
+}
+
+TEST(InitializingStart, StateInMotionIsForTheFirstSweepOfTwoSeconds) {
+  InitializingBench b;
+  const auto transition = b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.5);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->start->estimate.stamp, StampAt(kDriveFrom_s));
+  EXPECT_EQ(b.bench.sweeps.front()->start, StampAt(kDriveFrom_s));
+  EXPECT_NEAR(SecondsOf(b.bench.sweeps.back()->end), kDriveFrom_s + 2.0, 0.1 + 1e-6);
+}
+
+TEST(InitializingStart, InMotionARestIsAwaitedWhereThatIsAskedFor) {
+  Options options;
+  options.start.wait_for_rest_s = 60.0;
+  InitializingBench b(options);
+  EXPECT_FALSE(b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 4.0));
+  EXPECT_LE(b.bench.sweeps.size(), 20U);  // the window of a start in motion
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
+}
+
+TEST(InitializingStart, ForcesInGAtRestChangeTheConventionAndBeginAgain) {
+  InitializingBench b;
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kRetry);
+  EXPECT_TRUE(b.bench.stream().imu().convention().is_in_g);
+  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_deg);
+  EXPECT_NEAR(b.bench.stream().imu().samples().back().f_imu_mps2.norm(), kStandardGravity_mps2,
+              1e-6);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+}
+
+TEST(InitializingStart, SecondTryWithTheSamplesInGStarts) {
+  InitializingBench b;
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  auto retry = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(retry);
+  b.BeginAgain(*retry);
+  const auto transition = b.MatchWaiting(Leaning());
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+}
+
+TEST(InitializingStart, RatesInDegreesOfADriveChangeTheConvention) {
+  InitializingBench b;
+  b.bench.rate_scale = kDegPerRad;
+  const Motion drive = test::WindingDrive(0.0);
+  double from_s = kDriveFrom_s;
+  while (!b.bench.stream().imu().convention().is_in_deg && from_s < kDriveFrom_s + 10.0) {
+    const auto transition = b.Drive(drive, from_s, from_s + 0.1);
+    from_s += 0.1;
+    if (!transition) continue;
+    ASSERT_EQ(transition->trigger, Trigger::kRetry);
+    b.BeginAgain(*transition);
+  }
+  EXPECT_TRUE(b.bench.stream().imu().convention().is_in_deg);
+  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_g);
+}
+
+TEST(InitializingStart, ForcesInGContradictConfiguredSiUnits) {
+  InitializingBench b(WithUnits(ImuUnits::kSi));
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kContradicted);
+  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_g);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kError));
+}
+
+TEST(InitializingStart, GravityInTheForcesContradictsARigWithoutIt) {
+  Options options;
+  options.rig.imu.gravity = GravityInput::kRemoved;
+  InitializingBench b(options);
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kContradicted);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kError));
+}
+
+TEST(InitializingStart, ForceOfNoUnitIsWaitedOut) {
+  InitializingBench b;
+  b.bench.force_scale = 0.5;
+  EXPECT_FALSE(b.Drive(Leaning(), 0.0, 2.0));
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
+}
+
+TEST(InitializingStart, RestartGoesOnWhereTheLastFixWas) {
+  Handover handover;
+  handover.origin = Handover::Origin::kInertial;
+  handover.last_fix.stamp = StampAt(-1.0);
+  handover.last_fix.T_world_imu = {ExpSo3(Vector3(0, 0, 1.0)), Vector3(10, 5, 2)};
+  handover.last_fix.T_map_imu = {ExpSo3(Vector3(0, 0, 0.4)), Vector3(7, 8, 9)};
+  InitializingBench b({}, handover);
+  const auto transition = b.Drive(Straight(0.0), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kStarted);
+  const NavState& state = transition->start->estimate.state;
+  EXPECT_NEAR((state.T_world_imu.translation - Vector3(10, 5, 2)).norm(), 0.0, 1e-3);
+  EXPECT_NEAR(LogSo3(state.T_world_imu.rotation).z(), 1.0, 1e-3);
+  EXPECT_NEAR((state.T_map_imu.translation - Vector3(7, 8, 9)).norm(), 0.0, 1e-3);
+  EXPECT_GE(transition->start->estimate.cov(kPos, kPos), kPlacedStd_m * kPlacedStd_m);
+}
+
+TEST(InitializingStart, RestartAfterLidarOnlyLevelsTheWorldAndKeepsTheMap) {
+  Handover handover;
+  handover.origin = Handover::Origin::kLidar;
+  handover.last_fix.stamp = StampAt(-1.0);
+  handover.last_fix.T_world_imu = {ExpSo3(Vector3(0.5, 0.3, 0)), Vector3(10, 5, 2)};
+  handover.last_fix.T_map_imu = {ExpSo3(Vector3(0.2, 0, 0.4)), Vector3(7, 8, 9)};
+  InitializingBench b({}, handover);
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  const NavState& state = transition->start->estimate.state;
+  EXPECT_NEAR((UpOf(state.T_world_imu) - UpOf(Leaning()(0.0))).norm(), 0.0, 1e-3);
+  EXPECT_NEAR((state.T_world_imu.translation - Vector3(10, 5, 2)).norm(), 0.0, 1e-3);
+  const Pose error = handover.last_fix.T_map_imu.Inverse() * state.T_map_imu;
+  EXPECT_NEAR(LogSe3(error).norm(), 0.0, 1e-3);
+}
+
+TEST(InitializingStart, OtherConventionGivesTheLastFixTheShapeOfThePathInTheMap) {
+  Handover handover;
+  handover.origin = Handover::Origin::kInertial;
+  handover.last_fix.T_world_imu.translation = Vector3(9, 0, 3);  // bent by a wrong gravity
+  handover.last_fix.T_map_imu.translation = Vector3(10, 0, 0);
+  handover.T_world_start.translation = Vector3(0, 0, 1);
+  InitializingBench b({}, handover);
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kRetry);
+  const LastFix& fix = transition->handover.last_fix;
+  EXPECT_NEAR((fix.T_world_imu.translation - Vector3(10, 0, 1)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((fix.T_map_imu.translation - Vector3(10, 0, 0)).norm(), 0.0, 1e-9);
+}
+
+// Each second a tenth of a second of samples is missing, which no alignment in motion accepts.
+TEST(InitializingStart, DriveThatCannotBeAlignedIsTriedAgainWithoutTheGyro) {
+  const Motion drive = test::WindingDrive(0.0);
+  InitializingBench b;
+  std::optional<Transition> transition;
+  int num_sweeps = 0;
+  while (!transition && num_sweeps < 50) {
+    const double start_s = kDriveFrom_s + 0.1 * num_sweeps;
+    if (num_sweeps % 10 != 5) b.bench.FeedImu(drive, start_s, start_s + 0.1);
+    b.bench.AddSweep(start_s);
+    ++num_sweeps;
+    transition = b.MatchWaiting(drive);
+  }
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kRetry);
+  EXPECT_EQ(num_sweeps, 35);  // the window of 3.5 s
+  EXPECT_TRUE(b.bench.sweeps.empty());
+  EXPECT_EQ(transition->initializing_since, StampAt(kDriveFrom_s));
+  EXPECT_FALSE(b.bench.context().convention.trusts_gyro());
+}
+
+}  // namespace
+}  // namespace lio

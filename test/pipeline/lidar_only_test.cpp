@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/lidar_only.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/mode_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::kSweepSpan_s;
+using test::ModeBench;
+using test::Motion;
+using test::SecondsOf;
+using test::StampAt;
+using test::Straight;
+using test::WithoutImu;
+
+using Origin = Handover::Origin;
+
+constexpr double kSpeed_mps = 8.0;
+
+// A motion that was known before: straight ahead, without turning.
+MotionSeed Ahead(double speed_mps) {
+  NavState motion;
+  motion.v_world_imu = Vector3(speed_mps, 0, 0);
+  return {std::nullopt, motion};
+}
+
+// Runs the mode along a straight road, from second 0.
+struct LidarOnlyBench {
+  explicit LidarOnlyBench(double speed_mps = kSpeed_mps, Handover handover = {})
+      : motion(Straight(speed_mps)),
+        bench(WithoutImu()),
+        mode(bench.context(), std::move(handover), Ahead(speed_mps)) {}
+
+  MatchJob NextJob() {
+    const SweepPtr sweep = bench.AddSweep(sweep_start_s);
+    sweep_start_s += kSweepSpan_s;
+    return mode.MakeJob(sweep);
+  }
+  std::optional<Transition> Finish(const MatchOutcome& outcome) {
+    insert = {};
+    return mode.FinishJob(outcome, insert);
+  }
+  std::optional<Transition> Match() { return Finish(bench.Matched(NextJob(), motion)); }
+  std::optional<Transition> Miss() { return Finish(bench.Unmatched(NextJob())); }
+  // So many scans; the first transition ends them.
+  std::optional<Transition> Match(int num_scans) {
+    for (int i = 0; i < num_scans; ++i) {
+      if (auto transition = Match()) return transition;
+    }
+    return std::nullopt;
+  }
+  std::optional<Transition> Miss(int num_scans) {
+    for (int i = 0; i < num_scans; ++i) {
+      if (auto transition = Miss()) return transition;
+    }
+    return std::nullopt;
+  }
+
+  Motion motion;
+  ModeBench bench;
+  LidarOnly mode;
+  InsertTask insert;
+  double sweep_start_s = 0.0;
+};
+
+// The way was lost a second before second 0, ten metres ahead and in a slow turn to the left.
+Handover LostASecondAgo() {
+  Handover handover;
+  handover.origin = Origin::kLostLidar;
+  handover.last_fix.stamp = StampAt(-1.0);
+  handover.last_fix.T_world_imu.translation = Vector3(10, 0, 0);
+  handover.last_fix.v_world_imu = Vector3(kSpeed_mps, 0, 0);
+  handover.w_imu_radps = Vector3(0, 0, 0.2);
+  handover.pose_cov = 0.04 * Matrix6::Identity();
+  return handover;
+}
+
+TEST(LidarOnly, MapIsClearedThenWarmedUpForTenScans) {
+  LidarOnlyBench b;
+  std::vector<MapAction> actions;
+  for (int i = 0; i < 12; ++i) {
+    const MatchJob job = b.NextJob();
+    actions.push_back(job.map_action);
+    ASSERT_FALSE(b.Finish(b.bench.Matched(job, b.motion)));
+  }
+  std::vector<MapAction> expected(12, MapAction::kWarmUp);
+  expected[0] = MapAction::kClear;
+  expected[10] = expected[11] = MapAction::kKeep;
+  EXPECT_EQ(actions, expected);
+}
+
+TEST(LidarOnly, FirstSweepIsPredictedByTheMotionItBeginsWith) {
+  LidarOnlyBench b;
+  const MatchJob job = b.NextJob();
+  EXPECT_NEAR(job.prior.T_map_imu.translation.x(), 0.05 * kSpeed_mps, 1e-6);
+  EXPECT_TRUE(job.refines_deskew);
+}
+
+TEST(LidarOnly, SearchesAnywhereOnceAScanIsLocated) {
+  LidarOnlyBench b;
+  const MatchJob first = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<Track>(first.task));
+  ASSERT_FALSE(b.Finish(b.bench.Matched(first, b.motion)));
+  const MatchJob second = b.NextJob();
+  const auto* task = std::get_if<Relocalize>(&second.task);
+  ASSERT_NE(task, nullptr);
+  EXPECT_EQ(task->search.region, SearchRegion::kAnywhere);
+  EXPECT_FALSE(task->search.T_map_imu_alternative);
+  EXPECT_TRUE(task->track.holds_degenerate);
+}
+
+TEST(LidarOnly, FollowsTheMatchedPosesAndPublishesEachScan) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(20));
+  const std::vector<ScanOutput> scans = b.bench.Take<ScanOutput>();
+  ASSERT_EQ(scans.size(), 20U);
+  const FilterReport& last = *scans.back().filter;
+  EXPECT_EQ(last.nav.stamp, StampAt(2.0));
+  EXPECT_EQ(last.nav.status, TrackingStatus::kOk);
+  EXPECT_EQ(last.nav.scan_seq, 19);
+  EXPECT_NEAR(last.nav.T_world_imu.translation.x(), 2.0 * kSpeed_mps, 0.05);
+  EXPECT_NEAR(last.nav.v_world_imu_mps.x(), kSpeed_mps, 0.1);
+  EXPECT_TRUE(scans.back().scan.fused);
+  EXPECT_TRUE(b.bench.sweeps.empty());
+}
+
+TEST(LidarOnly, FiveUnmatchedScansInARowEndTheMode) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(10));
+  ASSERT_FALSE(b.Miss(4));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kCoasting);
+  const auto transition = b.Miss();
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kLost);
+  const Handover& handover = transition->handover;
+  EXPECT_EQ(handover.origin, Origin::kLostLidar);
+  EXPECT_EQ(handover.last_fix.stamp, StampAt(0.95));  // the middle of the last matched sweep
+  EXPECT_NEAR(handover.last_fix.T_world_imu.translation.x(), 0.95 * kSpeed_mps, 0.05);
+  EXPECT_NEAR(handover.last_fix.v_world_imu.x(), kSpeed_mps, 0.1);
+  EXPECT_EQ(handover.last_seq, 9);
+  EXPECT_GT(handover.pose_cov(0, 0), 0.01);  // unsure since
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+}
+
+TEST(LidarOnly, MatchInBetweenBeginsTheCountOfUnmatchedScansAnew) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(10));
+  ASSERT_FALSE(b.Miss(4));
+  ASSERT_FALSE(b.Match());
+  EXPECT_FALSE(b.Miss(4));
+}
+
+TEST(LidarOnly, ScanAfterUnmatchedOnesDoesNotGrowTheMapYet) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(10));
+  ASSERT_TRUE(b.insert.T_map_imu);
+  ASSERT_FALSE(b.Miss(2));
+  EXPECT_FALSE(b.insert.T_map_imu);
+  ASSERT_FALSE(b.Match());
+  EXPECT_FALSE(b.insert.T_map_imu);
+  ASSERT_FALSE(b.Match());
+  EXPECT_TRUE(b.insert.T_map_imu);
+}
+
+TEST(LidarOnly, RelocalizedScanIsFusedButGrowsNoMapAndIsNoFix) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(10));
+  MatchOutcome found = b.bench.Matched(b.NextJob(), b.motion);
+  found.is_relocalized = true;
+  found.match.T_map_imu.translation.y() += 20.0;
+  ASSERT_FALSE(b.Finish(found));
+  EXPECT_FALSE(b.insert.T_map_imu);
+  EXPECT_TRUE(b.bench.Take<ScanOutput>().back().scan.fused);
+  EXPECT_EQ(b.mode.TakeImu({StampAt(2.0)}).handover.last_fix.stamp, StampAt(0.95));
+}
+
+TEST(LidarOnly, BeginsAfterALossWhereTheMotionBeforeItLeads) {
+  LidarOnlyBench b(kSpeed_mps, LostASecondAgo());
+  const MatchJob job = b.NextJob();
+  // A second at 8 m/s, half of it before and half after half a second's turn; and half a sweep.
+  const Quaternion turn = ExpSo3(Vector3(0, 0, 0.1));
+  const Vector3 ahead_m(kSpeed_mps, 0, 0);
+  const Vector3 expected_m = Vector3(10, 0, 0) + 0.5 * (ahead_m + turn * ahead_m);
+  EXPECT_NEAR((job.T_any_imu.front().pose.translation - expected_m).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(LogSo3(job.prior.T_map_imu.rotation).z(), 0.1, 1e-6);
+}
+
+TEST(LidarOnly, PlaceAfterALossIsAsUnsureAsBeforeAndSomeMore) {
+  LidarOnlyBench b(kSpeed_mps, LostASecondAgo());
+  ASSERT_FALSE(b.Match());
+  const Matrix6 cov = b.bench.Take<ScanOutput>().back().filter->nav.pose_cov;
+  EXPECT_GE(cov(0, 0), 0.04 + kPlacedStd_m * kPlacedStd_m);
+  EXPECT_GE(cov(5, 5), 0.04 + kPlacedStd_rad * kPlacedStd_rad);
+}
+
+TEST(LidarOnly, WithoutALossItBeginsAtTheOrigin) {
+  Handover handover = LostASecondAgo();
+  handover.origin = Origin::kNone;
+  LidarOnlyBench b(kSpeed_mps, handover);
+  EXPECT_NEAR(b.NextJob().T_any_imu.front().pose.translation.norm(), 0.0, 1e-9);
+}
+
+TEST(LidarOnly, ImuThatAppearsGetsTheWorldAndTheMap) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match(10));
+  const Transition transition = b.mode.TakeImu({StampAt(1.0)});
+  EXPECT_EQ(transition.trigger, Trigger::kImuAppeared);
+  EXPECT_EQ(transition.handover.origin, Origin::kLidar);
+  EXPECT_TRUE(transition.handover.is_map_by_lidar);
+  EXPECT_NEAR(transition.handover.last_fix.T_map_imu.translation.x(), 0.95 * kSpeed_mps, 0.05);
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/tracking_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::ExactSample;
+using test::Motion;
+using test::SecondsOf;
+using test::StampAt;
+using test::StateOf;
+using test::Straight;
+using test::TrackingBench;
+using test::TrueStart;
+
+constexpr double kSpeed_mps = 8.0;
+
+// Eight metres a second on a winding road.
+Motion Winding() {
+  return [road = test::WindingDrive(0.0)](double t_s) { return road(t_s + 6.0); };
+}
+
+ScanOutput LastScan(TrackingBench& b) {
+  return b.bench.Take<ScanOutput>().back();
+}
+
+TEST(Tracking, BeginsAtTheStartItIsGiven) {
+  TrackingBench b(Straight(kSpeed_mps));
+  EXPECT_EQ(b.mode.begin(), StampAt(0.0));
+  EXPECT_EQ(b.mode.next_sweep(), 0U);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+}
+
+TEST(Tracking, JobIsPredictedByTheSamples) {
+  TrackingBench b(Winding());
+  const MatchJob job = b.NextJob();
+  const Pose truth = b.motion(SecondsOf(job.sweep->middle()));
+  EXPECT_TRUE(std::holds_alternative<Track>(job.task));
+  EXPECT_NEAR(LogSe3(truth.Inverse() * job.prior.T_map_imu).norm(), 0.0, 1e-3);
+  EXPECT_EQ(job.T_any_imu.front().stamp, job.sweep->start);
+  EXPECT_EQ(job.T_any_imu.back().stamp, job.sweep->end);
+}
+
+TEST(Tracking, OnlyTheFirstJobClearsTheMap) {
+  TrackingBench b(Straight(kSpeed_mps));
+  const MatchJob first = b.NextJob();
+  EXPECT_EQ(first.map_action, MapAction::kClear);
+  ASSERT_FALSE(b.Finish(b.bench.Matched(first, b.motion)));
+  EXPECT_TRUE(b.insert.T_map_imu);
+  EXPECT_EQ(b.NextJob().map_action, MapAction::kKeep);
+}
+
+TEST(Tracking, ScanThatIsMatchedLeavesTheQueue) {
+  TrackingBench b(Straight(kSpeed_mps));
+  const MatchJob job = b.NextJob();
+  const SweepPtr next = b.bench.AddSweep(0.1);
+  ASSERT_FALSE(b.Finish(b.bench.Matched(job, b.motion)));
+  ASSERT_EQ(b.bench.sweeps.size(), 1U);
+  EXPECT_EQ(b.bench.sweeps.front(), next);
+}
+
+TEST(Tracking, NothingIsPublishedAtTheRateOfTheImuBeforeTheFirstScan) {
+  TrackingBench b(Straight(kSpeed_mps));
+  b.FeedSweep();
+  EXPECT_TRUE(b.bench.Take<NavOutput>().empty());
+}
+
+TEST(Tracking, PublishesOneStateASampleAfterTheFirstScan) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match());
+  (void)b.bench.Take<NavOutput>();
+  b.FeedSweep();
+  const std::vector<NavOutput> states = b.bench.Take<NavOutput>();
+  ASSERT_EQ(states.size(), 10U);  // samples at 100 Hz
+  EXPECT_EQ(states.front().stamp, StampAt(0.11));
+  EXPECT_EQ(states.back().stamp, StampAt(0.2));
+  EXPECT_EQ(states.back().source, OdometrySource::kImuPropagated);
+  EXPECT_EQ(states.back().scan_seq, 0);
+  EXPECT_NEAR(states.back().T_world_imu.translation.x(), 0.2 * kSpeed_mps, 0.01);
+}
+
+TEST(Tracking, LateSampleIsNotPublished) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(2));
+  (void)b.bench.Take<NavOutput>();
+  b.mode.AddImu({ExactSample(b.motion, 0.155)});
+  EXPECT_TRUE(b.bench.Take<NavOutput>().empty());
+}
+
+TEST(Tracking, StatesOfAnEarlierModeAreNotPublishedAgain) {
+  Handover handover;
+  handover.last_published = StampAt(0.155);
+  TrackingBench b(Straight(kSpeed_mps), Options{}, handover);
+  ASSERT_FALSE(b.Match());
+  b.FeedSweep();
+  const std::vector<NavOutput> states = b.bench.Take<NavOutput>();
+  ASSERT_EQ(states.size(), 5U);
+  EXPECT_EQ(states.front().stamp, StampAt(0.16));
+}
+
+TEST(Tracking, MadeUpSamplesAreNotPublished) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match());
+  (void)b.bench.Take<NavOutput>();
+  b.mode.AddImu({.sample = ExactSample(b.motion, 0.15), .is_made_up = true});
+  EXPECT_TRUE(b.bench.Take<NavOutput>().empty());
+}
+
+TEST(Tracking, ScansCorrectAWrongVelocity) {
+  const Motion drive = Winding();
+  StartState start = TrueStart(drive, 0.0);
+  start.estimate.state.v_world_imu += Vector3(0.5, -0.3, 0.0);
+  start.estimate.cov.diagonal().segment<3>(kVel).setConstant(0.25);
+  TrackingBench b(drive, start);
+  ASSERT_FALSE(b.Match(15));
+  const ScanOutput scan = LastScan(b);
+  const Vector3 truth_mps = StateOf(drive, SecondsOf(scan.scan.stamp)).v_world_imu;
+  EXPECT_TRUE(scan.scan.fused);
+  EXPECT_NEAR((scan.filter->nav.v_world_imu_mps - truth_mps).norm(), 0.0, 0.05);
+  EXPECT_EQ(scan.filter->nav.scan_seq, 14);
+}
+
+TEST(Tracking, ScanFarFromThePredictionIsRefusedTwiceThenFused) {
+  TrackingBench b(Winding());
+  ASSERT_FALSE(b.Match(25));  // the IMU convention is beyond doubt by then
+  std::vector<bool> fused;
+  for (int i = 0; i < 3; ++i) {
+    MatchOutcome aside = b.bench.Matched(b.NextJob(), b.motion);
+    aside.match.T_map_imu.translation.y() += 5.0;
+    ASSERT_FALSE(b.Finish(aside));
+    fused.push_back(LastScan(b).scan.fused);
+  }
+  EXPECT_EQ(fused, std::vector<bool>({false, false, true}));
+  EXPECT_EQ(b.bench.counters.num_gated, 2);
+}
+
+TEST(Tracking, RelocalizedScanIsFusedHoweverFarItIs) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(10));
+  MatchOutcome aside = b.bench.Matched(b.NextJob(), b.motion);
+  aside.match.T_map_imu.translation.y() += 5.0;
+  aside.is_relocalized = true;
+  ASSERT_FALSE(b.Finish(aside));
+  EXPECT_TRUE(LastScan(b).scan.fused);
+}
+
+TEST(Tracking, MovedScansGrowTheMapAndRestingOnesSoonDoNot) {
+  TrackingBench moving(Straight(kSpeed_mps));
+  ASSERT_FALSE(moving.Match(10));
+  EXPECT_TRUE(moving.insert.T_map_imu);
+  TrackingBench resting(Straight(0.0));
+  ASSERT_FALSE(resting.Match(10));
+  EXPECT_FALSE(resting.insert.T_map_imu);
+}
+
+TEST(Tracking, MapGoesOnFromThePredictionAfterTenUnmatchedScans) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.Miss(10));
+  EXPECT_FALSE(b.insert.T_map_imu);
+  ASSERT_FALSE(b.Miss());
+  ASSERT_TRUE(b.insert.T_map_imu);
+  EXPECT_NEAR(b.insert.T_map_imu->translation.x(), 1.55 * kSpeed_mps, 0.1);
+}
+
+TEST(Tracking, CoastsAndIsLostAfterTwoSecondsWithoutAMatch) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.Miss(19));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kCoasting);
+  EXPECT_FALSE(b.bench.HasNotified(Notice::Severity::kWarning));
+  ASSERT_FALSE(b.Miss(2));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+}
+
+TEST(Tracking, TwentyFiveUnmatchedScansInARowEndTheMode) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.Miss(24));
+  const auto transition = b.Miss();
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kLost);
+  const Handover& handover = transition->handover;
+  EXPECT_EQ(handover.origin, Handover::Origin::kInertial);
+  EXPECT_EQ(handover.last_fix.stamp, StampAt(0.45));  // the middle of the last matched sweep
+  EXPECT_NEAR(handover.last_fix.T_world_imu.translation.x(), 0.45 * kSpeed_mps, 0.05);
+  EXPECT_EQ(handover.last_seq, 4);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+}
+
+TEST(Tracking, MatchInBetweenBeginsTheCountOfUnmatchedScansAnew) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.Miss(9));
+  ASSERT_FALSE(b.Match());
+  EXPECT_FALSE(b.Miss(24));
+}
+
+TEST(Tracking, ScansOfFewPointsDoNotEndTheMode) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  for (int i = 0; i < 30; ++i) {
+    MatchOutcome outcome = b.bench.Unmatched(b.NextJob());
+    outcome.num_used = kHealth.min_points - 1;
+    ASSERT_FALSE(b.Finish(outcome)) << i;
+  }
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+}
+
+TEST(Tracking, StandstillIsFusedAsZeroVelocity) {
+  TrackingBench b(Straight(0.0), Options{}, Handover{}, true);
+  ASSERT_FALSE(b.Match(20));
+  EXPECT_GT(b.bench.counters.num_standstills, 0);
+}
+
+TEST(Tracking, StandstillIsNotFusedWhereThatIsSwitchedOff) {
+  Options options;
+  options.filter.use_zero_velocity = false;
+  TrackingBench b(Straight(0.0), options, Handover{}, true);
+  ASSERT_FALSE(b.Match(20));
+  EXPECT_EQ(b.bench.counters.num_standstills, 0);
+}
+
+TEST(Tracking, RatesOfAnotherUnitThanBelievedEndTheMode) {
+  TrackingBench b(Winding());
+  b.bench.rate_scale = 180.0 / std::numbers::pi;
+  const auto transition = b.Match(25);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kConventionDoubted);
+  EXPECT_EQ(transition->handover.origin, Handover::Origin::kInertial);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+}
+
+TEST(Tracking, RightSamplesAreNotDoubted) {
+  TrackingBench b(Winding());
+  EXPECT_FALSE(b.Match(25));
+}
+
+}  // namespace
+}  // namespace lio
