@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/motion.hpp"
+#include "pipeline/watched_imu.hpp"
 
 namespace lio {
 namespace {
@@ -15,12 +15,6 @@ namespace {
 using test::StampAt;
 using Kind = ImuConventionMonitor::Finding::Kind;
 
-constexpr double kGravity_mps2 = 9.80665;
-constexpr int kManySteps = 60;  // six seconds
-
-const ImuConvention kSi;
-const ImuConvention kG{true, false};
-const ImuConvention kDeg{false, true};
 // The imu's x axis points to the left.
 const ImuConvention kTurned{false, false,
                             ExpSo3(Vector3(0, 0, M_PI / 2)).toRotationMatrix().array().round()};
@@ -29,49 +23,6 @@ const ImuConvention kTurned{false, false,
 Pose DriveOff(double t_s) {
   return {Quaternion::Identity(), Vector3(t_s * t_s, 0, 0)};
 }
-
-// A body whose samples, at 50 Hz, are in `sent_as` and whose exact poses, at 10 Hz, a monitor sees.
-class Watched {
- public:
-  explicit Watched(const ImuConvention& sent_as, test::Motion motion = test::WindingDrive(0.0))
-      : sent_as_(sent_as), motion_(std::move(motion)) {}
-
-  void AddStep() {
-    std::vector<ImuReady> ready;
-    for (int i = 0; i < 5; ++i) {
-      const double t_s = 0.1 * num_steps_ + 0.02 * i;
-      (void)imu.Add(FromSi(sent_as_, test::ExactSample(motion_, t_s, g_world)), ready);
-    }
-    const double t_s = 0.1 * num_steps_++ + 0.08;
-    monitor.AddPose({StampAt(t_s), T_map_world * (matched ? matched : motion_)(t_s)});
-  }
-  void AddSteps(int num) {
-    for (int i = 0; i < num; ++i) AddStep();
-  }
-  // The samples are read as they are meant from here on, or otherwise.
-  void Believe(const ImuConvention& convention) {
-    imu.SetConvention(convention);
-    monitor.Restart();
-  }
-  ImuConventionMonitor::Finding Judge() { return monitor.JudgeInitializing({}, false); }
-  ImuConventionMonitor::TrackingFacts Facts(int num_gated_lately = 0) const {
-    return {StampAt(0.1 * num_steps_), 0, num_gated_lately, Vector3::Zero()};
-  }
-  Timestamp now() const { return StampAt(0.1 * num_steps_); }
-
-  Rig rig;
-  Counters counters;
-  ImuBuffer imu{kSi, counters};
-  ImuConventionMonitor monitor{rig, imu};
-  Vector3 g_world = test::kGravity;
-  Pose T_map_world;
-  test::Motion matched;  // what scan matching sees, where it is not the motion
-
- private:
-  ImuConvention sent_as_;
-  test::Motion motion_;
-  int num_steps_ = 0;
-};
 
 // Samples of a gyro in deg/s, at rest: white noise of 0.3 in the unit in which they are sent.
 std::vector<ImuSample> NoiseOfDegrees() {
@@ -275,54 +226,6 @@ TEST(ImuConventionMonitor, AUnitOfForceToldAtRestIsKeptAgainstMotion) {
     drive.AddSteps(40);
     EXPECT_EQ(drive.monitor.IsContradicted(drive.Facts(2)), !is_kept);
   }
-}
-
-TEST(ImuConventionMonitor, TheForceAtRestTellsItsUnit) {
-  const Watched drive(kSi);
-  const auto metric = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2));
-  EXPECT_EQ(metric.force, ForceAtRest::kMetric);
-  EXPECT_FALSE(metric.convention.is_in_g);
-  const auto in_g = drive.monitor.JudgeForce(Vector3(0, 0, 1.0));
-  EXPECT_EQ(in_g.force, ForceAtRest::kInG);
-  EXPECT_TRUE(in_g.convention.is_in_g);
-  EXPECT_NE(in_g.evidence.find("reads 1.00"), std::string::npos) << in_g.evidence;
-}
-
-TEST(ImuConventionMonitor, TheForceAtRestIsJudgedAsItWasSent) {
-  Watched drive(kSi);
-  drive.imu.SetConvention(kG);
-  const auto in_g = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2));
-  EXPECT_EQ(in_g.force, ForceAtRest::kInG);
-  EXPECT_TRUE(in_g.convention.is_in_g);
-  const auto metric = drive.monitor.JudgeForce(Vector3(0, 0, kGravity_mps2 * kGravity_mps2));
-  EXPECT_EQ(metric.force, ForceAtRest::kMetric);
-  EXPECT_FALSE(metric.convention.is_in_g);
-}
-
-TEST(ImuConventionMonitor, AForceAtRestThatTellsNothingLeavesTheConvention) {
-  Watched drive(kSi);
-  drive.imu.SetConvention({false, true});
-  const auto without = drive.monitor.JudgeForce(Vector3(0.05, 0, 0.1));
-  EXPECT_EQ(without.force, ForceAtRest::kWithoutGravity);
-  EXPECT_EQ(without.convention, kDeg);
-  const auto unclear = drive.monitor.JudgeForce(Vector3(0, 0, 4.0));
-  EXPECT_EQ(unclear.force, ForceAtRest::kUnclear);
-  EXPECT_EQ(unclear.convention, kDeg);
-}
-
-TEST(ImuConventionMonitor, AMeanForceOfMoreThanHalfOfGravityHasItIn) {
-  const Watched drive(kSi);
-  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 5.0)), true);
-  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 4.8)), std::nullopt);
-}
-
-TEST(ImuConventionMonitor, ADriveShowsThatGravityWasRemoved) {
-  Watched drive(kSi);
-  drive.g_world = Vector3::Zero();
-  drive.AddSteps(kManySteps);
-  (void)drive.Judge();
-  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 0.5)), false);
-  EXPECT_EQ(drive.monitor.GravityInMotion(Vector3(0, 0, 9.8)), true) << "the force itself tells";
 }
 
 }  // namespace

@@ -110,7 +110,6 @@ TEST(MakeTrackingJob, HasTheTrajectoryOverTheWholeSweep) {
   ASSERT_GE(job.T_any_imu.size(), 20U);
   EXPECT_EQ(job.T_any_imu.front().stamp, StampAt(0.905));
   EXPECT_EQ(job.T_any_imu.back().stamp, StampAt(1.105));
-  EXPECT_NEAR(job.T_any_imu.front().pose.translation.x(), 9.05, 1e-6);
   EXPECT_NEAR(job.T_any_imu.back().pose.translation.x(), 11.05, 1e-6);
 }
 
@@ -245,12 +244,7 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
     double nis = 0.0;
     (void)FuseMatch(outcome, settings, filter, history, nis);
     const double variance = history.At(StampAt(1.0)).cov(kMapPose, kMapPose);
-    if (grows_map) {
-      EXPECT_NEAR(variance, 0.5 * 9e-4, 1e-9);
-    } else {
-      EXPECT_LT(variance, 1e-3);
-      EXPECT_GT(std::abs(variance - 0.5 * 9e-4), 1e-5);
-    }
+    EXPECT_EQ(std::abs(variance - 0.5 * 9e-4) < 1e-9, grows_map) << variance;
   }
 }
 
@@ -270,12 +264,10 @@ TEST(FuseMatch, WhereTheClockWasSetThePlaceIsCorrectedAndTheSpeedIsNot) {
 
 TEST(MakeScanReport, SaysWhatMatchingDid) {
   MatchOutcome outcome;
-  Sweep sweep;
-  sweep.start = StampAt(0.9);
-  sweep.end = StampAt(1.1);
-  sweep.scan_seq = 42;
-  sweep.points.resize(7);
-  outcome.sweep = std::make_shared<Sweep>(sweep);
+  auto sweep = std::make_shared<Sweep>(*SweepOf(0.9, 1.1));
+  sweep->scan_seq = 42;
+  sweep->points.resize(7);
+  outcome.sweep = sweep;
   outcome.num_used = 6;
   outcome.match.num_matched = 5;
   outcome.match.iterations = 4;
