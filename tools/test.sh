@@ -7,13 +7,13 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/test.sh [--fast | --asan | --tsan] [CTEST_ARGUMENT...]
-Sets up, with what only tests need, and runs all tests by ctest; then the tests of core, io and app
-under the address and undefined-behaviour sanitizers, and those of app under the thread sanitizer.
-Tests that need the real data look for it in LIO_DATA, else in ../shared/data, and are reported as
-skipped without it.
+Sets up, with what only tests need, and runs all tests by ctest; then the fuzz tests under the
+address and undefined-behaviour sanitizers. Tests that need the real data look for it in LIO_DATA,
+else in ../shared/data, and are reported as skipped without it.
   --fast  without the sanitizers
-  --asan  only those under the address and undefined-behaviour sanitizers (build-asan/)
-  --tsan  only those under the thread sanitizer (build-tsan/)
+  --asan  only the tests of fuzz, core, io and app, under the address and undefined-behaviour
+          sanitizers (build-asan/)
+  --tsan  only the tests of app, under the thread sanitizer (build-tsan/)
 The sanitizers build with clang++, a second compiler beside g++.
 Environment: LIO_JOBS      parallel compilers and tests (one a core)
              GTEST_FILTER  which of the tests run under the sanitizers (all)
@@ -66,7 +66,7 @@ sanitized() {
 
 run_asan() {
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
-  sanitized asan lio_fuzz_test lio_core_test lio_io_test lio_app_test
+  sanitized asan "$@"
 }
 
 run_tsan() {
@@ -80,5 +80,8 @@ if [[ $part == all || $part == fast ]]; then
 else
   tools/setup.sh --test-packages
 fi
-if [[ $part == all || $part == asan ]]; then run_asan; fi
-if [[ $part == all || $part == tsan ]]; then run_tsan; fi
+case $part in
+  all) run_asan lio_fuzz_test ;;
+  asan) run_asan lio_fuzz_test lio_core_test lio_io_test lio_app_test ;;
+  tsan) run_tsan ;;
+esac

@@ -20,6 +20,7 @@ ClockOffsetFollower::ClockOffsetFollower(const Options& options) : options_(&opt
 
 void ClockOffsetFollower::Restart() {
   if (options_->filter.estimate_clock_offset) offset_.emplace(options_->rig.imu);
+  is_announced_ = false;
 }
 
 void ClockOffsetFollower::Interrupt() {

@@ -80,7 +80,9 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const bool is_place_sure = IsPlaceSure(outcome);
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu) && is_place_sure;
   ScanReport report = Fuse(outcome, is_keyframe);
-  if (starts_map) (void)tracker_->history().AddRebase(middle);
+  if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
+    ++context_.counters.num_scans_late;
+  }
   const Estimate estimate = tracker_->history().At(middle);
   if (starts_map || (report.fused && is_keyframe)) {
     insert.T_map_imu = estimate.state.T_map_imu;

@@ -27,7 +27,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
 }
 
 void Tracking::AddImu(const ImuReady& event) {
-  (void)history_.AddImu(event.sample);
+  if (history_.AddImu(event.sample) == EventOutcome::kTooOld) ++context_.counters.num_imu_late;
   if (!event.is_made_up) PublishAtImuRate();
 }
 
@@ -135,7 +135,9 @@ void Tracking::GrowMap(const MatchOutcome& outcome, const ScanReport& report, bo
                        bool rebases_map, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();
   const bool begins_map = outcome.match.status == MatchStatus::kEmptyMap || rebases_map;
-  if (begins_map) (void)history_.AddRebase(middle);
+  if (begins_map && history_.AddRebase(middle) != EventOutcome::kApplied) {
+    ++context_.counters.num_scans_late;
+  }
   if (!begins_map && !(report.fused && is_keyframe)) return;
   insert.T_map_imu = history_.At(middle).state.T_map_imu;
   keyframes_.Accept(*insert.T_map_imu);

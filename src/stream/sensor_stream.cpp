@@ -43,7 +43,7 @@ void SensorStream::AddImu(const ImuSample& sample) {
     ++counters_->num_imu;
     return;
   }
-  inbox_.push_back({sample, std::nullopt, 0});
+  Enqueue({sample, std::nullopt, 0});
 }
 
 void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
@@ -52,7 +52,18 @@ void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     return;
   }
   chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.lidar_clock_offset_s);
-  inbox_.push_back({{}, std::move(chunk), decode_ns});
+  Enqueue({{}, std::move(chunk), decode_ns});
+}
+
+// While a match is out, only so many messages wait behind a step: newer ones are dropped and
+// counted.
+void SensorStream::Enqueue(Message message) {
+  if (inbox_.size() < kStream.max_waiting_messages) {
+    inbox_.push_back(std::move(message));
+    return;
+  }
+  ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
+  ++(message.chunk ? counters_->num_chunks_late : counters_->num_imu_late);
 }
 
 void SensorStream::Flush() {

@@ -227,5 +227,13 @@ TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
   EXPECT_EQ(follower.std_s(), 0.0);
 }
 
+TEST(ClockOffsetFollower, AfterARestartTheOffsetIsAnnouncedAgain) {
+  const Options options = OptionsWith(true);
+  ClockOffsetFollower follower(options);
+  EXPECT_EQ(Walk().NumAnnounced(follower, kEnough), 1);
+  follower.Restart();
+  EXPECT_EQ(Walk().NumAnnounced(follower, kEnough), 1);
+}
+
 }  // namespace
 }  // namespace lio

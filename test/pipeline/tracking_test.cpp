@@ -244,5 +244,14 @@ TEST(Tracking, RightSamplesAreNotDoubted) {
   EXPECT_FALSE(b.Match(25));
 }
 
+TEST(Tracking, ASampleFromBeforeItsHistoryIsCountedAsLate) {
+  Options options;
+  options.filter.history_s = 0.5;
+  TrackingBench track(Winding(), options);
+  ASSERT_FALSE(track.Match(12));
+  track.mode.AddImu({test::ExactSample(Winding(), 0.205)});
+  EXPECT_EQ(track.bench.counters.num_imu_late, 1);
+}
+
 }  // namespace
 }  // namespace lio

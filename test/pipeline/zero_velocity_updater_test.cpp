@@ -148,5 +148,14 @@ TEST(ZeroVelocityUpdater, RestThatAFilterSureOfItsSpeedRefusesIsNotTakenForFused
   EXPECT_EQ(updater.match_cov_factor(), 1.0);
 }
 
+TEST(ZeroVelocityUpdater, AfterForgettingMatchesCountInFullAgain) {
+  Rest rest;
+  ZeroVelocityUpdater updater(ImuRig{}, true);
+  ASSERT_TRUE(rest.AddScan(updater, 0.1));
+  ASSERT_GT(updater.match_cov_factor(), 1.0);
+  updater.Forget();
+  EXPECT_EQ(updater.match_cov_factor(), 1.0);
+}
+
 }  // namespace
 }  // namespace lio

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lio/stream/sensor_stream.hpp"
+#include "lio/stream/stream_parameters.hpp"
 #include "support/stream_feed.hpp"
 
 namespace lio {
@@ -211,6 +212,23 @@ TEST(SensorStreamStep, RejectEndsTheWaitForIdle) {
   run.stream.Reject();
   run.Drain();
   EXPECT_EQ(NumSegments(run), 0u);
+}
+
+TEST(SensorStreamStep, OnlySoManyMessagesWaitForIdleAndTheRestIsCounted) {
+  StreamRun run;
+  run.Feed(GapOfBoth(3.5));
+  run.Feed(Silenced(Sensors(3.5, 4.5), Sensor::kLidar, 0.0, 10.0), false);
+  ASSERT_EQ(NumSegments(run), 0u) << "the step must wait for idle";
+  const std::int64_t num_before = run.counters.num_imu;
+  constexpr std::size_t kTooMany = 100;
+  const std::size_t num_sent = kStream.max_waiting_messages + kTooMany;
+  for (std::size_t i = 0; i < num_sent; ++i) {
+    run.Add(ImuAt(4.5 + 0.01 * static_cast<double>(i)));
+  }
+  EXPECT_GE(run.counters.num_imu_late, static_cast<std::int64_t>(kTooMany));
+  EXPECT_EQ(run.counters.num_imu - num_before, run.counters.num_imu_late);
+  run.Drain();
+  EXPECT_EQ(NumSegments(run), 1u);
 }
 
 }  // namespace

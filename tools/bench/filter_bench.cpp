@@ -85,7 +85,7 @@ void ReplayOf100Ms(benchmark::State& state) {
   FilterHistory history({Noise(), kG}, Start(), SampleAt(0));
   int num_samples = 0;
   const auto drive_on = [&](int num) {
-    for (int i = 0; i < num; ++i) history.AddImu(SampleAt(0.0025 * ++num_samples));
+    for (int i = 0; i < num; ++i) (void)history.AddImu(SampleAt(0.0025 * ++num_samples));
   };
   drive_on(800);
   for (auto _ : state) {

@@ -33,7 +33,10 @@ class ZeroVelocityUpdater {
   // After a scan that was fused. True: the filter took the velocity for zero.
   bool AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world, FilterHistory& history);
   // The time before says nothing about now.
-  void Forget() { detector_.Forget(); }
+  void Forget() {
+    detector_.Forget();
+    last_.reset();
+  }
 
   // Factor on the covariance of the next match.
   double match_cov_factor() const { return last_ ? kZeroVelocity.matches_alike : 1.0; }

@@ -86,6 +86,7 @@ class SensorStream {
     Timestamp newest_examined;       // of the inertial samples since the step
   };
 
+  void Enqueue(Message message);
   bool Advance(bool is_idle);
   void Process(Message message);
   void ProcessImu(const ImuSample& sample);
