@@ -33,7 +33,7 @@ TEST(InputDecoder, RefusalsAreCountedByReason) {
 TEST(InputDecoder, HolesInTheSequenceAreCountedExactly) {
   InputDecoder decoder;
   ImuSample sample;
-  for (const std::int32_t seq : {5, 6, 9, 10}) decoder.Imu(Imu(seq), sample);
+  for (const std::int32_t seq : {5, 6, 9, 10}) (void)decoder.Imu(Imu(seq), sample);
   EXPECT_EQ(decoder.counters().num_imu_missing, 2);
 }
 

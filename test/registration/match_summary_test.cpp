@@ -122,7 +122,7 @@ TEST(Summarise, WhatTheKernelTakesOfTheCurvatureWidensTheCovariance) {
   const auto variance_at = [&](double curvature) {
     sums.curvature_sum = curvature * sums.information_sum;
     MatchResult result;
-    Summarise(sums, score_cov, result);
+    (void)Summarise(sums, score_cov, result);
     return result.cov(0, 0);
   };
   EXPECT_NEAR(variance_at(0.5) / variance_at(1.0), 4.0, 1e-9);
@@ -148,7 +148,7 @@ TEST(Summarise, OtherStatesThanConvergedAreKept) {
   MatchResult result;
   result.status = MatchStatus::kMaxIterations;
   const MatchSums sums = HeldSums(2, 0.02f);
-  Summarise(sums, sums.information.Full(), result);
+  (void)Summarise(sums, sums.information.Full(), result);
   EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
   EXPECT_NE(result.degenerate_mask, 0u);
 }
