@@ -65,7 +65,7 @@ class Walk {
  private:
   void FeedImuUpTo(double to_s) {
     for (; num_samples_ / kImuRate_hz < to_s; ++num_samples_)
-      history_.AddImu(SampleOf(num_samples_));
+      (void)history_.AddImu(SampleOf(num_samples_));
   }
   ImuSample SampleOf(int i) {
     const double t_s = i / kImuRate_hz;

@@ -50,7 +50,7 @@ FilterHistory Driving(const Unknown& unknown, double nis_limit = kNever) {
   FilterHistory history(options, start, sample);
   for (int i = 1; i <= 200; ++i) {
     sample.stamp = StampAt(0.01 * i);
-    history.AddImu(sample);
+    (void)history.AddImu(sample);
   }
   return history;
 }
@@ -83,7 +83,7 @@ double VarianceOfMatch(int axis, const Unknown& unknown, const FusionSettings& s
                        const FilterOptions& filter = UnscaledFilter()) {
   constexpr double kError = 1e-4;
   FilterHistory history = Driving(unknown);
-  history.AddRebase(StampAt(1.0) - Duration{1});
+  (void)history.AddRebase(StampAt(1.0) - Duration{1});
   double nis = 0.0;
   const MatchOutcome outcome = Matched(Along(axis, kError));
   EXPECT_EQ(FuseMatch(outcome, settings, filter, history, nis), EventOutcome::kApplied);

@@ -23,7 +23,7 @@ struct Belief {
 class Rest {
  public:
   explicit Rest(const Belief& belief = {}) : history_(Settings(), Start(belief), Sample(0)) {
-    for (int i = 1; i <= 250; ++i) history_.AddImu(Sample(i));
+    for (int i = 1; i <= 250; ++i) (void)history_.AddImu(Sample(i));
   }
 
   // The scan whose middle is at `middle_s`.
