@@ -27,7 +27,7 @@ class ClockOffset(unittest.TestCase):
         unknown, _ = error_m("clock-unknown")
         known, _ = error_m("clock-known", f"rig.lidar.clock_offset_s={-OFFSET_S}")
         followed, told = error_m("clock-followed", "filter.estimate_clock_offset=true")
-        found_s = float(re.search(r"rig\.lidar\.clock_offset_s (-?\d+\.\d+)", told)[1])
+        found_s = float(re.search(r"rig\.lidar\.clock_offset_s: (-?\d+\.\d+)", told)[1])
         print(f"found {1e3 * found_s:.1f} ms; APE rmse {unknown:.4f} m unknown, {known:.4f} m "
               f"known, {followed:.4f} m followed")
         self.assertAlmostEqual(found_s, -OFFSET_S, delta=2e-3)

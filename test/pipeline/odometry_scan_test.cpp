@@ -191,8 +191,10 @@ TEST(OdometryScan, AfterTwoSecondsWithoutAMatchItIsLostAndSaysSoOnce) {
   }
   EXPECT_EQ(run.status(), TrackingStatus::kInit);
   EXPECT_EQ(run.counters().num_restarts, 1);
-  for (const char* text : {"lost: no scan was matched for two seconds",
-                           "lost among things to see: the start begins anew"}) {
+  for (const char* text :
+       {"lost: no scan has matched the map for two seconds; the pose drifts",
+        "lost: scans see enough but match the map nowhere, so initialization begins "
+        "again at the last pose that was found"}) {
     EXPECT_EQ(std::count_if(run.notices.begin(), run.notices.end(),
                             [&](const Notice& notice) { return notice.text == text; }),
               1)
