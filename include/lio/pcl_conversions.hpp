@@ -54,7 +54,7 @@ LidarPoint ToLidarPoint(const Point& p) {
   if constexpr (requires { p.intensity; }) {
     const auto intensity = static_cast<double>(p.intensity);
     point.intensity =
-        intensity > 0.0 ? static_cast<std::uint16_t>(std::min(intensity, 65535.0) + 0.5) : 0;
+        intensity > 0.0 ? static_cast<std::uint16_t>(std::lround(std::min(intensity, 65535.0))) : 0;
   }
   if constexpr (requires { p.ring; }) point.ring = static_cast<std::uint16_t>(p.ring);
   return point;
