@@ -103,8 +103,8 @@ LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp,
   return sweep;
 }
 
-// With the point type's own time, see above. A type without one gives a sweep that was measured at
-// once; its points must have been moved to where they are seen at `stamp` already.
+// The points keep the type's own time, see above. A type without one gives a sweep that was
+// measured at once; its points must have been moved to where they are seen at `stamp` already.
 template <class Point>
 LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp) {
   static_assert(!pcl_detail::HasAmbiguousTime<Point>,

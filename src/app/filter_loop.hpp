@@ -23,7 +23,7 @@ namespace lio {
 
 class FilterLoop {
  public:
-  // Where the loop takes its items from and where its results go to. All are borrowed.
+  // The loop takes its items from these and gives its results to them. All are borrowed.
   struct Neighbours {
     FilterInbox& inbox;
     Publisher& publisher;
@@ -49,7 +49,7 @@ class FilterLoop {
   [[nodiscard]] double input_duration_s() const;
 
  private:
-  // Of the scan that is being matched or was just fused.
+  // The clouds of the scan that is being matched or was just fused.
   struct Clouds {
     FullCloudTask full;                       // of the job that is out
     std::vector<Eigen::Vector3f> points_imu;  // for LIO_CLOUD

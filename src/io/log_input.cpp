@@ -85,7 +85,7 @@ std::optional<InputItem> LogInput::Impl::Read() {
   while (reader_.Next(event_)) {
     if (!log_utime_) log_utime_ = event_.utime;
     const double since_s = SecondsBetweenUtimes(*log_utime_, event_.utime);
-    // With a start of 0, events received before the first one are taken too: a clock was set.
+    // A start of 0 takes events received before the first one, too: a clock was set.
     if (options_.start_s > 0 && since_s < options_.start_s) continue;
     if (since_s >= options_.start_s + options_.duration_s) continue;
     const std::int64_t begin_ns = Now();

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Where no gravity is felt nothing levels a world: it is the map's frame.
+// The world is the map's frame if no gravity is felt, as nothing levels it then.
 WorldEstimate InPublishedWorld(const Estimate& estimate, const Vector3& g_world) {
   return g_world.isZero() ? WithMapAsWorld(estimate) : InWorld(estimate);
 }

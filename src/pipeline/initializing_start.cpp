@@ -23,7 +23,7 @@ std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
 }
 
-// What to configure for messages of the convention that was found.
+// Tells the user what to configure for messages of the convention that was found.
 std::string FixFor(const ImuConvention& found, const Rig& rig) {
   const std::string fix = "set rig.imu.units: auto";
   if (found.R_imu_sent == Matrix3::Identity()) return fix + " or " + NameOfUnits(UnitsOf(found));
@@ -212,7 +212,7 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   return Retry();
 }
 
-// What was published since a start with the axes that were believed was turned about it. The path
+// A start with wrong axes turned all that was published since. This turns it back. The path
 // in map is the lidar's, rigid; the filter's world was bent by a gravity in a wrong direction.
 void Initializing::TurnHandover(const ImuConvention& found) {
   const Matrix3 R_found_believed =

@@ -97,7 +97,7 @@ void CheckBox(const OwnVehicleBox& box, std::vector<OptionFault>& faults) {
   }
 }
 
-// What fields demand of each other.
+// Some fields make demands on others: this checks them.
 void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
   if (o.pipeline.use_imu && !o.rig.T_imu_lidar) {
     faults.push_back({"rig.T_imu_lidar",

@@ -8,7 +8,7 @@
 namespace lio {
 namespace {
 
-// What the motion within the sweep leaves of errors in the deskewed scan, counted from its middle.
+// The errors that motion within the sweep leaves in the deskewed scan, counted from its middle.
 // Rotation: white gyro noise integrated to both sides has variance density^2 T / 12 in the mean;
 // translation: an error dv of the velocity shifts points by dv t, T^2 / 12 in the mean square.
 Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_density) {

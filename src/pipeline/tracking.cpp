@@ -130,7 +130,7 @@ void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused) {
   }
 }
 
-// Where the map has nothing to match against, it is grown at the predicted pose.
+// The map is grown at the predicted pose if it has nothing to match against.
 void Tracking::GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
                        bool rebases_map, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();

@@ -12,9 +12,9 @@
 namespace lio {
 namespace {
 
-// What an idling engine adds to the sensors' noise.
+// An idling engine adds this to the sensors' noise.
 constexpr VibrationLevel kIdleVibration{0.005, 0.08};
-// What it, and errors of the sensors that the filter does not know, leave in means.
+// The engine, and errors of the sensors that the filter does not know, leave this in means.
 constexpr double kMeanRateStd_radps = 5e-4;
 constexpr double kMeanForceStd_mps2 = 0.01;
 
@@ -53,7 +53,7 @@ struct Line {
   Vector3 At(Timestamp when) const { return place_m + SecondsBetween(stamp, when) * speed_mps; }
 };
 
-// By least squares, through where the scans were matched.
+// Fits a line through the places of the matched scans by least squares.
 Line FitLine(const std::deque<ZeroVelocityScan>& scans) {
   const auto num = static_cast<double>(scans.size());
   double time_s = 0.0;

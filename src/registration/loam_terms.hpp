@@ -51,7 +51,7 @@ class LoamTerms {
   // Sets the terms' weights. Information in units of 1 / surface variance.
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
                       PoseScores& scores);
-  // With those weights.
+  // The cost with the weights of the last Linearize.
   double FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
                                  const Pose& T_target_imu) const;
 

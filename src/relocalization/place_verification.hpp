@@ -19,7 +19,7 @@ namespace lio {
 // degenerate unless the last scan had one.
 [[nodiscard]] bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last);
 
-// With so many points on surfaces that there is no need to search on.
+// A match is beyond doubt with so many points on surfaces that there is no need to search on.
 [[nodiscard]] bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last);
 
 // Is the match much nearer to `alternative` than to `prior`, two poses that are apart?

@@ -23,7 +23,7 @@ WORK = pathlib.Path("out/golden")
 ENVIRONMENT = dict(os.environ, GLIBC_TUNABLES="glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4")
 TRAJECTORIES = ("trajectory.tum", "trajectory_world.tum", "trajectory_imu_rate.tum")
 COVARIANCES = ("covariance.csv", "covariance_world.csv")
-# What was computed for a scan. The count of matches is told apart: searches may be cut differently.
+# The columns computed for a scan, but for the count of matches: searches may be cut differently.
 COUNT_OF_MATCHES = "matches"
 COLUMNS = ("case", "log", "exit", "trajectory", "covariance", "registration", "counters", "matches")
 

@@ -119,7 +119,7 @@ def draw(allowed):
             lines.append(f"  {folder} --> {' & '.join(arrows)}")
     lines += ["```", "", "| folder | may include |", "|---|---|"]
     for folder in reversed(allowed):
-        lines.append(f"| `{folder}` | {' '.join(f'`{o}`' for o in allowed[folder]) or 'nothing'} |")
+        lines.append(f"| `{folder}` | {', '.join(allowed[folder]) or 'nothing'} |")
     return "\n".join(lines + [END])
 
 

@@ -54,7 +54,7 @@ class RosSchema {
     int depth = 0;
   };
   bool ReadMessage(Walk& walk, std::size_t message, const std::string& prefix) const;
-  // With an empty name the value is skipped.
+  // The value is skipped when the name is empty.
   bool ReadField(Walk& walk, const Field& field, const std::string& name) const;
 
   std::vector<Message> messages_;  // the first is the message itself

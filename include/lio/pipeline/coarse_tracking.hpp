@@ -11,8 +11,8 @@
 
 namespace lio {
 
-// Where a track that begins with this sweep begins: with a known motion at the sweep's start, else
-// at its middle, where its first pose will be.
+// A track that begins with this sweep begins at the sweep's start if the motion is known, else at
+// its middle, where its first pose will be.
 [[nodiscard]] Timestamp TrackStart(const Sweep& sweep, const MotionSeed& seed);
 
 // Roughly up in imu, in whatever unit and sign forces come. Where gravity is not in them they point

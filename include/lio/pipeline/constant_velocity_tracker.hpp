@@ -33,7 +33,7 @@ struct ConstantVelocityParameters {
   double unseen_s = 0.5;
   double unseen_shift_m = 1.0;
   double unseen_turn_rad = 0.2;
-  // With a gyro: also for errors of its scale and of its time stamps.
+  // A gyro's density also stands for errors of its scale and of its time stamps.
   double gyro_density = 5.0e-3;       // rad/s/sqrt(Hz)
   double gyro_bias_std_radps = 0.02;  // consumer units, 1 deg/s
 };
@@ -54,7 +54,7 @@ struct TrackerOptions {
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
   MotionSeed seed;
-  // Where it begins, and what is unknown of that in the world; its map begins there.
+  // The track and its map begin at this pose; the covariance is that of the pose in the world.
   Pose T_world_start;
   Matrix6 start_cov = Matrix6::Zero();
 };

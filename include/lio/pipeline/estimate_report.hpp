@@ -13,7 +13,7 @@
 
 namespace lio {
 
-// What a report says besides the estimate. References are borrowed for the call.
+// A report says this besides the estimate. References are borrowed for the call.
 struct ReportContext {
   const Options& options;
   Vector3 g_world;        // zero where no gravity is felt: the world is then the map's frame

@@ -41,7 +41,7 @@ class Health {
          Counters& counters)
       : has_imu_(has_imu), status_(status), last_fused_(last_fused), counters_(&counters) {}
 
-  // What the filter did with the pose of a matched scan.
+  // Counts how the filter took the pose of a matched scan.
   void AddFusion(EventOutcome outcome);
   // So many poses in a row were beyond the gate that the next one is fused all the same.
   [[nodiscard]] bool MustForce(int max_gated_in_a_row) const {
@@ -59,7 +59,7 @@ class Health {
   TrackingStatus status() const { return status_; }
   std::optional<Timestamp> last_fused() const { return last_fused_; }
   int num_unmatched_in_a_row() const { return num_unmatched_in_a_row_; }
-  // Of the last five matched scans, how many were beyond the gate?
+  // How many of the last five matched scans were beyond the gate?
   [[nodiscard]] int NumGatedLately() const;
   void ShiftTimesBy(Duration by) {
     if (last_fused_) *last_fused_ = *last_fused_ + by;

@@ -77,7 +77,7 @@ class ImuConventionMonitor {
   // A start since then would be wrong again as long as the doubt that ended it is not settled.
   [[nodiscard]] bool IsInDoubt(Timestamp last_fix, Timestamp now) const;
 
-  // What a mean force over a rest says. `mean_f_mps2`: as read under the convention.
+  // A mean force over a rest tells this of the convention under which it was read.
   struct ForceVerdict {
     ForceAtRest force = ForceAtRest::kUnclear;
     ImuConvention convention;  // that the force tells

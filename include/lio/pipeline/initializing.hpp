@@ -44,7 +44,7 @@ struct InitializingParameters {
   std::size_t min_scans_for_motion = 4;
   std::size_t max_scans_for_motion = 8;
   double motion_velocity_std_mps = 1.0;  // the motion is known when it is surer than this
-  // Where after so many scans no velocity is clear, the track starts from rest.
+  // The track starts from rest if no velocity is clear after so many scans.
   std::size_t max_scans_for_velocity = 8;
   // A scan whose place in the map is less sure would blur the map.
   double max_insert_std_m = 0.3;

@@ -26,7 +26,7 @@ enum class TrackingStatus : std::int8_t {
 
 enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
 
-// What the state says of the rig's base frame. Covariances as in NavOutput, for base.
+// The state of the rig's base frame. Covariances are those of NavOutput, for base.
 struct BaseMotion {
   Pose T_world_base;
   Matrix6 pose_cov = Matrix6::Zero();

@@ -13,8 +13,8 @@
 namespace lio {
 
 struct ScanStepParameters {
-  // Where inertial samples are missing a sweep may be bent by more than this after the deskew (10
-  // cm at 20 m): it is deskewed again along what the match found.
+  // A sweep with missing inertial samples may be bent by more than this after the deskew (10 cm at
+  // 20 m): it is deskewed again along the motion that the match found.
   double unsure_turn_rad = 0.005;
   // A shift since the last located scan that is less sure than this is beyond what matching
   // reaches: correlative alignment betters the prior.
@@ -45,7 +45,7 @@ struct FusionSettings {
                                      const FilterOptions& filter, FilterHistory& history,
                                      double& nis);
 
-// What matching did, for registration.csv: all but the filter's part.
+// The report of the matching for registration.csv: all but the filter's part.
 [[nodiscard]] ScanReport MakeScanReport(const MatchOutcome& outcome);
 
 // Adds the filter's time to the stage times, and their total.

@@ -22,7 +22,7 @@ struct TrackingParameters {
   // A longer gap between segments may as well be a clock that was set: the doubt about the motion
   // meanwhile is that of so long a time.
   double max_gap_s = 3.0;
-  // What may be missing where a clock was set.
+  // Samples of at most this time may be missing at a moment when a clock was set.
   double clock_set_s = 0.1;
 };
 

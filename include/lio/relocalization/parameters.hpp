@@ -69,8 +69,8 @@ struct PlaceVerificationParameters {
   // matching. Chosen: the largest correspondence radius.
   double max_prior_std_m = 2.0;
   double lever_m = 20.0;
-  // Of the points that come to a surface of the map 98 % lie on it where the scan is, on the worst
-  // walks, and 78 % at most elsewhere: so much of the last scan's share is enough. Measured.
+  // The share of points on a surface of the map, of those that come to one, was 98 % at the true
+  // pose on the worst walks and 78 % at most elsewhere: so much of the last scan's share is enough.
   double min_share = 0.9;
   double min_number = 0.2;     // points on surfaces, of those of the last scan; chosen
   double plenty_number = 0.6;  // as many end the search and overrule inertial prediction; measured

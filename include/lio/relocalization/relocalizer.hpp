@@ -57,8 +57,8 @@ class Relocalizer {
   // The prior with its position by the shift since the last located scan, where that is clear.
   [[nodiscard]] MotionPrior Align(const DeskewedScan& scan, const MotionPrior& prior) const;
 
-  // Where the scan is if `near_prior`, its match from the prior, is not the place: `near_prior`
-  // itself if it stands. Candidates are ranked by coarse matches; those that the matcher's bound
+  // Finds the scan's place if `near_prior`, its match from the prior, is not the place; returns
+  // `near_prior` if it is. Candidates are ranked by coarse matches; those that the matcher's bound
   // leaves untried come first in the search for the next scan.
   [[nodiscard]] Found Search(const SearchRequest& request, const DeskewedScan& scan,
                              const MotionPrior& prior, const MatchResult& near_prior,

@@ -39,8 +39,9 @@ class ClockStepArbiter {
 
   // Did time pass for the lidar up to a step forth, as it does in a gap of the inertial stream?
   bool HasTimePassed(const ClockStep& step) const;
-  // By a chunk that came after the step, when the inertial stream was at `newest_imu`. Until it is
-  // known how long after the inertial samples chunks come, that is taken for no time.
+  // Judges by a chunk that came after the step, when the inertial stream was at `newest_imu`.
+  // Chunks are taken to come at once until it is known how long after the inertial samples they
+  // come.
   StepVerdict Judge(const ClockStep& step, Timestamp chunk, Timestamp newest_imu) const;
 
  private:

@@ -39,7 +39,7 @@ class ImuBuffer {
   const std::deque<ImuSample>& sent() const { return sent_; }
   // In SI units and the imu's axes, without those that no gyro can have read.
   const std::deque<ImuSample>& samples() const { return samples_; }
-  // Of samples(), both ends included.
+  // The samples() from the one stamp to the other, both included.
   [[nodiscard]] std::vector<ImuSample> Between(Timestamp from, Timestamp to) const;
   [[nodiscard]] std::optional<Timestamp> newest() const;
 

@@ -55,7 +55,7 @@ class ImuPreprocessor {
  private:
   bool IsSane(const ImuSample& sample);
   double MeanStep_s() const;
-  // Of a clock by which the sample that follows the newest one has that stamp.
+  // The step of a clock by which the sample that follows the newest one has that stamp.
   double ClockStepTo_s(Timestamp stamp) const;
   bool IsFar(Timestamp stamp) const;
   bool IsBehindHole(Timestamp stamp) const;

@@ -13,7 +13,7 @@ struct StreamParameters {
   // A gap: samples of an IMU of 10 Hz and more are nearer than this to each other. What the sensor
   // did in a longer one is taken from the mean of the time before.
   double imu_gap_s = 0.15;
-  // That mean spans both steps of a walker (1.8 steps a second): over one alone the body turns.
+  // The mean spans both steps of a walker (1.8 steps a second): over one alone the body turns.
   double mean_before_gap_s = 1.1;
   // Made-up samples stand this far from the measured ones at both edges of a gap.
   Duration gap_edge{1'000'000};
@@ -35,7 +35,7 @@ struct StreamParameters {
   std::size_t max_judged_messages = 3000;
   // A held sample that is this far ahead of the others tells no time: its stamp is wrong.
   Duration stray{200'000'000};
-  // By the lidar's clock, samples are missing at a step of the inertial clock from this on.
+  // Samples are missing at a step of the inertial clock that is this long by the lidar's clock.
   Duration missing_at_step{150'000'000};
   // Messages that wait while a match is out, at most: two minutes of a 400 Hz IMU. More are
   // dropped, newest first, and counted.
@@ -44,7 +44,7 @@ struct StreamParameters {
 
 inline constexpr StreamParameters kStream;
 
-// What is believed of an inertial sample before anything is integrated (imu_preprocessor.hpp).
+// The bounds on an inertial sample before anything is integrated (imu_preprocessor.hpp).
 struct ImuPreprocessorParameters {
   double max_force_mps2 = 2000.0;  // beyond any accelerometer (200 g)
   // A longer step in stamps begins a new segment, whatever follows: the filter's own models of a
