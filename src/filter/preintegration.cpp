@@ -37,15 +37,14 @@ Transition MakeTransition(const Matrix3& R, const InertialIncrement& step,
   return t;
 }
 
-void AddNoise(double dt, const ProcessNoise& noise, Matrix9& cov) {
-  const double velocity = noise.accel_density * noise.accel_density * dt;
-  for (int i = 0; i < 3; ++i) {
-    cov(kP + i, kP + i) += dt * dt / 3.0 * velocity;
-    cov(kP + i, kV + i) += 0.5 * dt * velocity;
-    cov(kV + i, kP + i) += 0.5 * dt * velocity;
-    cov(kV + i, kV + i) += velocity;
-    cov(kR + i, kR + i) += noise.gyro_density * noise.gyro_density * dt;
-  }
+void AddNoise(double dt, const Matrix3& R, const ProcessNoise& noise, const ImuSample& to,
+              Matrix9& cov) {
+  const Matrix3 velocity = dt * R * AccelPsd(noise, to).asDiagonal() * R.transpose();
+  cov.block<3, 3>(kP, kP) += dt * dt / 3.0 * velocity;
+  cov.block<3, 3>(kP, kV) += 0.5 * dt * velocity;
+  cov.block<3, 3>(kV, kP) += 0.5 * dt * velocity;
+  cov.block<3, 3>(kV, kV) += velocity;
+  cov.block<3, 3>(kR, kR).diagonal() += dt * GyroPsd(noise, to);
 }
 
 void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& noise,
@@ -56,7 +55,7 @@ void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& nois
   const Transition t = MakeTransition(R, step, by_bias);
   sum.by_bias = t.A * sum.by_bias + t.B;
   sum.cov = t.A * sum.cov * t.A.transpose();
-  AddNoise(step.dt_s, noise, sum.cov);
+  AddNoise(step.dt_s, R * step.turn.toRotationMatrix(), noise, to, sum.cov);
   sum.position += step.dt_s * sum.velocity + R * step.position;
   sum.velocity += R * step.velocity;
   sum.rotation = (sum.rotation * step.turn).normalized();

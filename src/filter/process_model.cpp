@@ -115,32 +115,40 @@ ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& 
   return out;
 }
 
-// Adds the noise of one step to the lower triangle of P.
-void AddNoise(const Step& s, const ProcessNoise& noise, ErrorMatrix& P) {
+// Adds the noise of one step to the lower triangle of P. White noise of PSD S along the imu's axes
+// adds S dt to the velocity and S dt^3 / 3 to the position.
+void AddNoise(const Step& s, const ProcessNoise& noise, const ImuSample& to, ErrorMatrix& P) {
   const double dt = s.increment.dt_s;
-  const double gyro = noise.gyro_density * noise.gyro_density * dt;
-  const double vel = noise.accel_density * noise.accel_density * dt;
-  const double pos_vel = 0.5 * dt * vel;
-  const double pos = dt * dt / 3.0 * vel;
-  P.block<3, 3>(kMapPose, kPos) += pos * s.R1.transpose();
-  P.block<3, 3>(kMapPose, kVel) += pos_vel * s.R1.transpose();
-  const auto add_diagonal = [&P](int row, int col, double value) {
-    for (int i = 0; i < 3; ++i) P(row + i, col + i) += value;
+  const Vector3 gyro = dt * GyroPsd(noise, to);
+  const Vector3 vel = dt * AccelPsd(noise, to);
+  const Matrix3 vel_by_world = vel.asDiagonal() * s.R1.transpose();
+  const Matrix3 vel_world = s.R1 * vel_by_world;
+  P.block<3, 3>(kMapPose, kPos) += dt * dt / 3.0 * vel_by_world;
+  P.block<3, 3>(kMapPose, kVel) += 0.5 * dt * vel_by_world;
+  P.block<3, 3>(kPos, kPos) += dt * dt / 3.0 * vel_world;
+  P.block<3, 3>(kVel, kPos) += 0.5 * dt * vel_world;
+  P.block<3, 3>(kVel, kVel) += vel_world;
+  const auto add_diagonal = [&P](int row, int col, const Vector3& value) {
+    for (int i = 0; i < 3; ++i) P(row + i, col + i) += value[i];
   };
-  add_diagonal(kPos, kPos, pos);
-  add_diagonal(kVel, kPos, pos_vel);
-  add_diagonal(kVel, kVel, vel);
+  add_diagonal(kMapPose, kMapPose, dt * dt / 3.0 * vel);
   add_diagonal(kRot, kRot, gyro);
-  add_diagonal(kMapPose, kMapPose, pos);
   add_diagonal(kMapPose + 3, kMapPose + 3, gyro);
   add_diagonal(kMapPose + 3, kRot, gyro);
-  add_diagonal(kGyroBias, kGyroBias,
-               noise.gyro_bias_walk_density * noise.gyro_bias_walk_density * dt);
-  add_diagonal(kAccelBias, kAccelBias,
-               noise.accel_bias_walk_density * noise.accel_bias_walk_density * dt);
+  const auto walk = [dt](double density) { return Vector3::Constant(density * density * dt); };
+  add_diagonal(kGyroBias, kGyroBias, walk(noise.gyro_bias_walk_density));
+  add_diagonal(kAccelBias, kAccelBias, walk(noise.accel_bias_walk_density));
 }
 
 }  // namespace
+
+Vector3 GyroPsd(const ProcessNoise& noise, const ImuSample& sample) {
+  return sample.gyro_noise_psd.cwiseMax(noise.gyro_density * noise.gyro_density);
+}
+
+Vector3 AccelPsd(const ProcessNoise& noise, const ImuSample& sample) {
+  return sample.accel_noise_psd.cwiseMax(noise.accel_density * noise.accel_density);
+}
 
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world) {
@@ -170,7 +178,7 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
   const Step step = MakeStep(before, estimate.state, from, to);
   const ErrorMatrix half = TimesTransitionTransposed(step, estimate.cov);  // P F^T
   estimate.cov = LowerTimesTransitionTransposed(step, half.transpose());   // F P F^T
-  AddNoise(step, noise, estimate.cov);
+  AddNoise(step, noise, to, estimate.cov);
   estimate.cov.triangularView<Eigen::StrictlyUpper>() = estimate.cov.transpose();
 }
 
@@ -193,6 +201,8 @@ ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp st
   sample.stamp = stamp;
   sample.w_imu_radps = a.w_imu_radps + fraction * (b.w_imu_radps - a.w_imu_radps);
   sample.f_imu_mps2 = a.f_imu_mps2 + fraction * (b.f_imu_mps2 - a.f_imu_mps2);
+  sample.gyro_noise_psd = a.gyro_noise_psd.cwiseMax(b.gyro_noise_psd);
+  sample.accel_noise_psd = a.accel_noise_psd.cwiseMax(b.accel_noise_psd);
   sample.is_rate_saturated = a.is_rate_saturated || b.is_rate_saturated;
   sample.is_force_saturated = a.is_force_saturated || b.is_force_saturated;
   return sample;

@@ -31,8 +31,8 @@ void Disguise(ImuVariant variant, const Vector3& g_imu, ImuSample& sample) {
 
 }  // namespace
 
-ImuSimulator::Triad::Triad(const InertialModel& model, double dt_s, Random random)
-    : model_(model), dt_s_(dt_s), random_(random) {
+ImuSimulator::Triad::Triad(const InertialModel& model, double dt_s, Random random, Random vibration)
+    : model_(model), dt_s_(dt_s), random_(random), vibration_(vibration) {
   turn_on_ = Noise(model.turn_on_bias_std);
   slow_ = Noise(model.bias_instability);
   bias_ = turn_on_ + slow_;
@@ -44,15 +44,16 @@ ImuSimulator::Triad::Triad(const InertialModel& model, double dt_s, Random rando
   }
 }
 
-Vector3 ImuSimulator::Triad::Noise(double sigma) {
-  const double x = random_.Gaussian();
-  const double y = random_.Gaussian();
-  return sigma * Vector3(x, y, random_.Gaussian());
+Vector3 ImuSimulator::Triad::Noise(Random& random, double sigma) {
+  const double x = random.Gaussian();
+  const double y = random.Gaussian();
+  return sigma * Vector3(x, y, random.Gaussian());
 }
 
-Vector3 ImuSimulator::Triad::Measure(const Vector3& truth) {
+Vector3 ImuSimulator::Triad::Measure(const Vector3& truth, double vibrating_mps) {
   bias_ = turn_on_ + walk_ + slow_;
   Vector3 out = coupling_ * truth + bias_ + Noise(model_.noise_density / std::sqrt(dt_s_));
+  out += Noise(vibration_, model_.vibration_std_per_mps * vibrating_mps);
   walk_ += Noise(model_.bias_walk_density * std::sqrt(dt_s_));
   const double decay = std::exp(-dt_s_ / model_.bias_instability_time_s);
   slow_ = decay * slow_ + Noise(model_.bias_instability * std::sqrt(1.0 - decay * decay));
@@ -66,8 +67,10 @@ Vector3 ImuSimulator::Triad::Measure(const Vector3& truth) {
 ImuSimulator::ImuSimulator(const ImuSetup& setup, const Trajectory& trajectory)
     : setup_(setup),
       trajectory_(&trajectory),
-      gyro_(setup.model.gyro, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 1)),
-      accel_(setup.model.accel, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 2)) {}
+      gyro_(setup.model.gyro, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 1),
+            Random(setup.seed, Purpose::kVibration, 1)),
+      accel_(setup.model.accel, 1.0 / setup.model.rate_hz, Random(setup.seed, Purpose::kImu, 2),
+             Random(setup.seed, Purpose::kVibration, 2)) {}
 
 SimulatedImu ImuSimulator::Sample(std::int64_t t_ns) {
   SimulatedImu out;
@@ -76,8 +79,9 @@ SimulatedImu ImuSimulator::Sample(std::int64_t t_ns) {
   const Quaternion R_imu_world = out.truth.T_world_imu.rotation.conjugate();
   const Vector3 f_imu = R_imu_world * (out.truth.a_world_mps2 - g_world);
   out.sample.stamp = {t_ns};
-  out.sample.w_imu_radps = gyro_.Measure(out.truth.w_imu_radps);
-  out.sample.f_imu_mps2 = accel_.Measure(f_imu);
+  const double vibrating_mps = setup_.vibrates ? out.truth.v_world_mps.norm() : 0.0;
+  out.sample.w_imu_radps = gyro_.Measure(out.truth.w_imu_radps, vibrating_mps);
+  out.sample.f_imu_mps2 = accel_.Measure(f_imu, vibrating_mps);
   out.gyro_bias_radps = gyro_.bias();
   out.accel_bias_mps2 = accel_.bias();
   Disguise(setup_.variant, R_imu_world * g_world, out.sample);

@@ -19,9 +19,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kLobe_rad = 0.07;       // half width of a polished surface's lobe
 constexpr float kMergedEchoes_m = 0.6f;  // two echoes nearer than this merge into one
 constexpr float kEdge_m = 0.12f;         // a larger step in range is an edge, not a slope
-constexpr float kInBetweenReach_m =
-    3.0f;  // across gaps up to this a straddled echo may lie in between
-constexpr double kInBetweenChance = 0.1;
+constexpr double kMaxGrazingBias_m = 0.04;
 
 // Holds two numbers made from one word.
 struct Pair {
@@ -37,6 +35,11 @@ float GaussianFrom(std::uint64_t bits) {
   const Pair u = Halves(bits);
   return std::sqrt(-2.0f * std::log(static_cast<float>(u.a))) *
          std::cos(static_cast<float>(kTurn * u.b));
+}
+
+Vector3 Direction(double elevation_rad, double azimuth_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+          std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
 // Returns the strength of the light that comes back from a surface at 1 m.
@@ -81,11 +84,15 @@ struct LidarSimulator::Echoes {
 LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory)
     : setup_(std::move(setup)), scene_(&scene), trajectory_(&trajectory) {
   const LidarModel& model = setup_.model;
+  Random random(setup_.seed, Purpose::kLaser);
   for (const Beam& beam : model.beams) {
     const double azimuth = beam.azimuth_offset_rad - kTurn * model.rotation_hz * beam.fire_time_s;
-    column_directions_.emplace_back(std::cos(beam.elevation_rad) * std::cos(azimuth),
-                                    std::cos(beam.elevation_rad) * std::sin(azimuth),
-                                    std::sin(beam.elevation_rad));
+    const double off_elevation = setup_.errors.beam_table_std_rad * random.Gaussian();
+    const double off_azimuth = setup_.errors.beam_table_std_rad * random.Gaussian();
+    table_directions_.push_back(Direction(beam.elevation_rad, azimuth));
+    column_directions_.push_back(
+        Direction(beam.elevation_rad + off_elevation, azimuth + off_azimuth));
+    laser_bias_m_.push_back(setup_.errors.laser_bias_std_m * random.Gaussian());
   }
   firing_order_.resize(model.beams.size());
   std::iota(firing_order_.begin(), firing_order_.end(), std::size_t{0});
@@ -183,30 +190,51 @@ SimulatedSweep LidarSimulator::Sweep(std::int64_t index) const {
   return sweep;
 }
 
-float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index,
-                                     std::uint64_t bits) const {
-  const LidarModel& model = setup_.model;
-  const Hit& hit = echoes.hits[index];
-  const Pair u = Halves(bits);
-  // Only one side can be straddled; the half width of the beam decides how often.
-  const bool next = u.a < 0.5;
-  const std::size_t stride = model.beams.size();
-  if (next ? index + stride >= echoes.hits.size() : index < stride) return hit.range_m;
-  const Hit& other = echoes.hits[next ? index + stride : index - stride];
-  if (!std::isfinite(other.range_m)) return hit.range_m;
-  const double spacing = kTurn * model.rotation_hz * model.column_period_s;
-  const double depth =
-      0.5 * model.beam_width_horizontal_rad / spacing;          // half width of the beam in columns
-  const double edge_at = next ? 2.0 * u.a : 2.0 * (u.a - 0.5);  // 0: here, 1: the other
-  const float gap = other.range_m - hit.range_m;
-  const float slope = hit.range_m * static_cast<float>(spacing) / std::max(0.1f, hit.cos_incidence);
+float LidarSimulator::StraddledRange(const Hit& hit, const Neighbour& other, double edge_at,
+                                     double chance) const {
+  if (!std::isfinite(other.hit->range_m)) return hit.range_m;
+  const double depth = other.half_width_rad / other.spacing_rad;
+  const float gap = other.hit->range_m - hit.range_m;
+  const float slope =
+      hit.range_m * static_cast<float>(other.spacing_rad) / std::max(0.1f, hit.cos_incidence);
   if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return hit.range_m;
   const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
-  if (std::abs(gap) < kMergedEchoes_m ||
-      (std::abs(gap) < kInBetweenReach_m && u.b < kInBetweenChance)) {
+  if (std::abs(gap) < kMergedEchoes_m || (std::abs(gap) < setup_.errors.in_between_reach_m &&
+                                          chance < setup_.errors.in_between_chance)) {
     return hit.range_m + share * gap;
   }
-  return gap < 0.0f && share > 0.3f ? other.range_m : hit.range_m;
+  return gap < 0.0f && share > 0.3f ? other.hit->range_m : hit.range_m;
+}
+
+// Only one side of each direction can be straddled; the half width of the beam decides how often.
+float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index, std::size_t beam,
+                                     std::uint64_t key) const {
+  const LidarModel& model = setup_.model;
+  const Hit& hit = echoes.hits[index];
+  const std::size_t stride = model.beams.size();
+  const Pair across = Halves(MixBits(key + 2));
+  const bool next = across.a < 0.5;
+  // 0: the edge is here, 1: it is at the other.
+  const auto edge_at = [](double uniform) {
+    return uniform < 0.5 ? 2.0 * uniform : 2.0 * uniform - 1.0;
+  };
+  if (next ? index + stride < echoes.hits.size() : index >= stride) {
+    const Neighbour column{&echoes.hits[next ? index + stride : index - stride],
+                           kTurn * model.rotation_hz * model.column_period_s,
+                           0.5 * model.beam_width_horizontal_rad};
+    const float range_m = StraddledRange(hit, column, edge_at(across.a), across.b);
+    if (range_m != hit.range_m) return range_m;
+  }
+  if (!setup_.errors.straddles_rings) return hit.range_m;
+  const Pair along = Halves(MixBits(key + 6));
+  const bool above = along.a < 0.5;
+  if (above ? beam + 1 >= stride : beam == 0) return hit.range_m;
+  const std::size_t other = above ? beam + 1 : beam - 1;
+  const Neighbour ring{
+      &echoes.hits[above ? index + 1 : index - 1],
+      std::max(1e-6, std::abs(model.beams[other].elevation_rad - model.beams[beam].elevation_rad)),
+      0.5 * model.beam_width_vertical_rad};
+  return StraddledRange(hit, ring, edge_at(along.a), along.b);
 }
 
 void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column,
@@ -229,8 +257,10 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
     const double weakness_sq = weakness * weakness;
     const bool seen = !errors.has_weak_echoes || chance.a * (1.0 + weakness_sq * weakness_sq) < 1.0;
     if (!seen || chance.b < errors.dropout_ratio) hit.object = Hit::kNothing;
-    if (errors.has_mixed_pixels) range_m = StraddledRange(echoes, index, MixBits(key + 2));
-    const double slant = std::min(1.0 / std::max(0.05f, hit.cos_incidence) - 1.0, 6.0);
+    if (errors.has_mixed_pixels) range_m = StraddledRange(echoes, index, beam, key);
+    const double grazing = 1.0 / std::max(0.05f, hit.cos_incidence) - 1.0;
+    range_m += std::min(errors.grazing_bias_m * grazing, kMaxGrazingBias_m) + laser_bias_m_[beam];
+    const double slant = std::min(grazing, 6.0);
     std_scale *= std::sqrt(1.0 + 0.15 * slant * slant + 0.5 * std::min(weakness, 2.0));
   }
   if (const Dust* dust = DustAt(errors.dust, t_s)) {
@@ -244,12 +274,14 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
   }
   if (hit.object == Hit::kNothing) return;
   range_m += std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
-  range_m = model.range_step_m * std::round(range_m / model.range_step_m);
+  if (model.range_step_m > 0.0) {
+    range_m = model.range_step_m * std::round(range_m / model.range_step_m);
+  }
   if (range_m < model.min_range_m || range_m > model.max_range_m) return;
   const double heading = echoes.headings_rad[in_sweep];
   const double c = std::cos(heading);
   const double s = std::sin(heading);
-  const Vector3& d = column_directions_[beam];
+  const Vector3& d = table_directions_[beam];
   LidarPoint point;
   point.x_m = static_cast<float>(range_m * (c * d.x() - s * d.y()));
   point.y_m = static_cast<float>(range_m * (s * d.x() + c * d.y()));

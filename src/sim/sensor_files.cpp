@@ -62,6 +62,7 @@ InertialModel ReadInertial(const Reader& file, const std::string& section,
   model.turn_on_bias_std = number("turn_on_bias_std_" + unit);
   model.scale_std_ratio = number("scale_std_ratio");
   model.misalignment_std_rad = number("misalignment_std_rad");
+  model.vibration_std_per_mps = number("vibration_std_" + unit + "_per_mps");
   model.full_scale = number("full_scale_" + unit);
   model.step = number("step_" + unit);
   return model;
@@ -81,6 +82,7 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
   model.range_std_m = file.Number("range_std_m");
   model.range_step_m = file.Number("range_step_m");
   model.beam_width_horizontal_rad = 1e-3 * file.Number("beam_width_horizontal_mrad");
+  model.beam_width_vertical_rad = 1e-3 * file.Number("beam_width_vertical_mrad");
   model.range_at_10_percent_m = file.Number("range_at_10_percent_m");
   const auto elevation = file.Get<std::vector<double>>("beams", "elevation_deg");
   const auto fire_time = file.Get<std::vector<double>>("beams", "fire_time_us");

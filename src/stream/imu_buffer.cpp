@@ -31,8 +31,9 @@ bool ImuBuffer::Keep(const ImuSample& sent, bool is_made_up, std::vector<ImuRead
   const Timestamp oldest = sent_.back().stamp - Duration::FromSeconds(kStream.imu_buffer_s);
   while (sent_.front().stamp < oldest) sent_.pop_front();
   while (!samples_.empty() && samples_.front().stamp < oldest) samples_.pop_front();
-  const std::optional<ImuSample> sample = Read(sent);
+  std::optional<ImuSample> sample = Read(sent);
   if (!sample) return true;
+  if (!is_made_up) noise_.Add(*sample);
   InsertByStamp(samples_, *sample);
   ready.push_back({*sample, is_made_up});
   return true;
@@ -82,9 +83,13 @@ void ImuBuffer::FreezeUpTo(Timestamp stamp, std::vector<ImuReady>& ready) {
 void ImuBuffer::SetConvention(const ImuConvention& convention) {
   counters_->num_imu_out_of_range -= std::ssize(sent_) - std::ssize(samples_);
   samples_.clear();
+  noise_ = {};
   convention_ = convention;
   for (const ImuSample& sent : sent_) {
-    if (const std::optional<ImuSample> sample = Read(sent)) samples_.push_back(*sample);
+    if (std::optional<ImuSample> sample = Read(sent)) {
+      noise_.Add(*sample);
+      samples_.push_back(*sample);
+    }
   }
 }
 
@@ -93,6 +98,7 @@ void ImuBuffer::Clear() {
   samples_.clear();
   mean_before_gap_.reset();
   frozen_until_.reset();
+  noise_.Interrupt();
 }
 
 }  // namespace lio

@@ -16,6 +16,7 @@
 #include "lio/io/progress_bar.hpp"
 #include "lio/sim/data_file.hpp"
 #include "lio/sim/picture.hpp"
+#include "lio/sim/realism.hpp"
 #include "lio/sim/recorder.hpp"
 
 namespace {
@@ -32,6 +33,8 @@ struct Arguments {
   sim::ImuVariant imu_variant = sim::ImuVariant::kNormal;
   double latitude_deg = 22.3;  // Hong Kong
   double altitude_m = 0.0;
+  sim::Realism realism = sim::Realism::kField;
+  std::vector<std::string> without;
   std::vector<std::string> faults;
   bool starts_moving = false;
   bool lists = false;
@@ -106,6 +109,20 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--moving-start", arguments.starts_moving,
                "begin the log in motion instead of at rest");
+  const std::map<std::string, sim::Realism> grades = {{"ideal", sim::Realism::kIdeal},
+                                                      {"datasheet", sim::Realism::kDatasheet},
+                                                      {"field", sim::Realism::kField}};
+  app.add_option("--realism", arguments.realism,
+                 "errors of the sensors: ideal (none), datasheet (as data sheets state them),\n"
+                 "field (and those a sensor has on a vehicle)")
+      ->transform(CLI::CheckedTransformer(grades).description(""))
+      ->default_str("field")
+      ->type_name("NAME");
+  app.add_option("--without", arguments.without,
+                 "effect of the field that is left out; can be given several times: " +
+                     CLI::detail::join(sim::FieldEffects(), ", "))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--fault", arguments.faults,
                  "fault to simulate, as KIND:KEY=VALUE,...; can be given several times; see below")
       ->expected(1)
@@ -129,6 +146,7 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   for (const std::string& fault : arguments.faults) {
     options.faults.push_back(sim::ParseFault(fault));
   }
+  sim::SetRealism(arguments.realism, arguments.without, options);
   options.seed = arguments.seed;
   options.num_threads = arguments.num_threads;
   return options;

@@ -21,6 +21,11 @@ struct ProcessNoise {
   double accel_bias_walk_density = 0.0;
 };
 
+// The power spectral density of the white noise of a sample, per axis: what the sensor shows, and
+// at least what `noise` says. Units: those of the densities, squared.
+Vector3 GyroPsd(const ProcessNoise& noise, const ImuSample& sample);
+Vector3 AccelPsd(const ProcessNoise& noise, const ImuSample& sample);
+
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world);
 

@@ -17,8 +17,10 @@ struct InertialModel {
   double turn_on_bias_std = 0.0;  // unit
   double scale_std_ratio = 0.0;
   double misalignment_std_rad = 0.0;
-  double full_scale = 0.0;  // unit; 0: no saturation
-  double step = 0.0;        // unit; 0: no quantization
+  // Vibration while moving: white from sample to sample, 1 sigma, per m/s of the body's speed.
+  double vibration_std_per_mps = 0.0;  // unit s/m
+  double full_scale = 0.0;             // unit; 0: no saturation
+  double step = 0.0;                   // unit; 0: no quantization
 };
 
 struct ImuModel {

@@ -8,7 +8,8 @@
 //
 // A sample of white noise n has sigma density / sqrt(dt), and a random walk steps by density
 // sqrt(dt). The bias b is turn-on bias + random walk + a first-order Gauss-Markov process (bias
-// instability). M is I + scale and misalignment errors. The Earth's rotation (15 deg/h) is left
+// instability). M is I + scale and misalignment errors. Vibration of a moving body adds white noise
+// that grows with its speed. The Earth's rotation (15 deg/h) is left
 // out.
 #pragma once
 
@@ -36,6 +37,7 @@ struct ImuSetup {
   ImuModel model;
   ImuVariant variant = ImuVariant::kNormal;
   double gravity_mps2 = 9.80665;
+  bool vibrates = false;  // with the model's vibration while the body moves
   std::uint64_t seed = 1;
 };
 
@@ -59,16 +61,19 @@ class ImuSimulator {
   // Draws the errors of three equal axes.
   class Triad {
    public:
-    Triad(const InertialModel& model, double dt_s, Random random);
-    Vector3 Measure(const Vector3& truth);
+    Triad(const InertialModel& model, double dt_s, Random random, Random vibration);
+    // `vibrating_mps`: the speed that shakes the sensor.
+    Vector3 Measure(const Vector3& truth, double vibrating_mps);
     const Vector3& bias() const { return bias_; }
 
    private:
-    Vector3 Noise(double sigma);
+    static Vector3 Noise(Random& random, double sigma);
+    Vector3 Noise(double sigma) { return Noise(random_, sigma); }
 
     InertialModel model_;
     double dt_s_;
     Random random_;
+    Random vibration_;
     Matrix3 coupling_ = Matrix3::Identity();
     Vector3 turn_on_ = Vector3::Zero();
     Vector3 walk_ = Vector3::Zero();

@@ -26,6 +26,7 @@ struct LidarModel {
   double range_std_m = 0.02;  // range noise at normal incidence
   double range_step_m = 0.002;
   double beam_width_horizontal_rad = 2.8e-3;
+  double beam_width_vertical_rad = 1.4e-3;
   double range_at_10_percent_m =
       60.0;                 // half of the echoes of a matt 10 % target are lost at this range
   std::vector<Beam> beams;  // sorted from the lowest: the index is the ring

@@ -33,7 +33,15 @@ struct LidarErrors {
   double noise_scale = 1.0;      // factor on the range noise
   double dropout_ratio = 0.002;  // share of echoes lost at random
   bool has_mixed_pixels = true;
-  bool has_weak_echoes = true;  // false: every surface in range returns an echo
+  // The echo of a beam that straddles an edge may lie in between the two surfaces, across gaps up
+  // to this and with this probability.
+  float in_between_reach_m = 3.0f;
+  double in_between_chance = 0.1;
+  bool straddles_rings = false;  // beams straddle edges above and below as well
+  double laser_bias_std_m = 0.0;
+  double grazing_bias_m = 0.0;      // times 1/cos(incidence) - 1, at most 4 cm
+  double beam_table_std_rad = 0.0;  // errors of each laser's elevation and azimuth
+  bool has_weak_echoes = true;      // false: every surface in range returns an echo
   std::vector<Dust> dust;
 };
 
@@ -71,14 +79,25 @@ class LidarSimulator {
                 Echoes& echoes) const;
   void AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column, std::size_t beam,
                 SimulatedSweep& sweep) const;
-  float StraddledRange(const Echoes& echoes, std::size_t index, std::uint64_t bits) const;
+  // A neighbour of an echo, and how much of the spacing to it the beam's half width is.
+  struct Neighbour {
+    const Hit* hit = nullptr;
+    double spacing_rad = 0.0;
+    double half_width_rad = 0.0;
+  };
+  float StraddledRange(const Echoes& echoes, std::size_t index, std::size_t beam,
+                       std::uint64_t key) const;
+  float StraddledRange(const Hit& hit, const Neighbour& other, double edge_at, double chance) const;
 
   LidarSetup setup_;
   const Scene* scene_;
   const Trajectory* trajectory_;
-  std::vector<Vector3> column_directions_;  // each beam's, when the column's heading is 0
-  std::vector<std::size_t> firing_order_;   // beams sorted by firing time
-  double weakest_echo_ = 0.0;               // strength at which half of the echoes are lost
+  // Each beam's direction when the column's heading is 0, true and as the beam table says.
+  std::vector<Vector3> column_directions_;
+  std::vector<Vector3> table_directions_;
+  std::vector<double> laser_bias_m_;
+  std::vector<std::size_t> firing_order_;  // beams sorted by firing time
+  double weakest_echo_ = 0.0;              // strength at which half of the echoes are lost
 };
 
 }  // namespace lio::sim

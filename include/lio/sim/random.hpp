@@ -33,7 +33,17 @@ constexpr double UnitInterval(std::uint64_t bits) {
 
 // Names what a key's draws are used for, so that one purpose's numbers do not change with the
 // number of another purpose's draws.
-enum class Purpose : std::uint64_t { kWorld, kTraffic, kMotion, kImu, kLidar, kFault, kMount };
+enum class Purpose : std::uint64_t {
+  kWorld,
+  kTraffic,
+  kMotion,
+  kImu,
+  kLidar,
+  kFault,
+  kMount,
+  kVibration,
+  kLaser
+};
 
 // Draws a sequence of numbers from one key.
 class Random {

@@ -25,6 +25,7 @@ struct RecordOptions {
   LidarErrors lidar_errors;
   ImuModel imu;
   ImuVariant imu_variant = ImuVariant::kNormal;
+  bool imu_vibrates = false;
   double gravity_mps2 = 9.80665;
   std::vector<Fault> faults;
   std::uint64_t seed = 1;

@@ -10,6 +10,7 @@
 
 #include "lio/base/counters.hpp"
 #include "lio/imu/imu_convention.hpp"
+#include "lio/imu/imu_noise_estimator.hpp"
 #include "lio/stream/stream_event.hpp"
 
 namespace lio {
@@ -55,6 +56,7 @@ class ImuBuffer {
   std::deque<ImuSample> samples_;
   std::optional<ImuSample> mean_before_gap_;  // as sent; while the stream has a gap
   std::optional<Timestamp> frozen_until_;
+  ImuNoiseEstimator noise_;
 };
 
 }  // namespace lio
