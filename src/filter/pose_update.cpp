@@ -78,7 +78,8 @@ void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   ErrorMatrix& P = estimate.cov;
   P.middleRows<6>(kMapPose) *= keep;
   P.middleCols<6>(kMapPose) *= keep;
-  P.bottomRightCorner<6, 6>() += measurement.new_content_share * measurement.blend_cov;
+  P.bottomRightCorner<6, 6>() +=
+      measurement.new_content_share * measurement.blend_cov + measurement.drift_cov;
 }
 
 void MakeMapTheWorld(Estimate& estimate) {

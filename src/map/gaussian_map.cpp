@@ -217,7 +217,10 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
     const bool is_frozen = sums.is_known && sums.num_points >= options_.max_cell_points;
     if (sums.touched != scan_number_) {
       sums.touched = scan_number_;
-      index_.Touch(cell);
+      if (scan_number_ - sums.renewed >= Parameters::kRenewal_scans) {
+        sums.renewed = scan_number_;
+        index_.Touch(cell);
+      }
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;

@@ -24,6 +24,17 @@ Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_
   return cov;
 }
 
+// The drift of the map over `moved_m`. Errors that move with the sensor (biases of lasers, errors of
+// the beam table) bend the map the same way scan after scan, so no number of scans averages them
+// away.
+Matrix6 ShapeDriftCov(double moved_m) {
+  const auto variance = [moved_m](double per_sqrt_m) { return per_sqrt_m * per_sqrt_m * moved_m; };
+  Matrix6 cov = Matrix6::Zero();
+  cov.diagonal() << Vector3::Constant(variance(kScanStep.shape_drift_m_per_sqrt_m)),
+      Vector3::Constant(variance(kScanStep.shape_drift_rad_per_sqrt_m));
+  return cov;
+}
+
 }  // namespace
 
 MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
@@ -56,8 +67,11 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
   event.measurement.cov = filter.registration_cov_scale * outcome.match.cov +
                           DeskewCov(*outcome.sweep, history, settings.gyro_density);
   event.measurement.cov *= settings.alike_factor;
-  event.measurement.new_content_share = settings.grows_map ? outcome.match.new_content_share : 0.0;
-  event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
+  if (settings.grows_map) {
+    event.measurement.new_content_share = outcome.match.new_content_share;
+    event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
+    event.measurement.drift_cov = ShapeDriftCov(settings.moved_m);
+  }
   event.is_clock_set = outcome.is_clock_set;
   event.force = settings.force;
   UpdateResult update;

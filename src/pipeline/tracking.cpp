@@ -107,6 +107,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   settings.gyro_density = context_.options.rig.imu.gyro_noise_density;
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
+  settings.moved_m = keyframes_.MovedSince_m(outcome.match.T_map_imu);
   settings.force =
       outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
   const EventOutcome fused =

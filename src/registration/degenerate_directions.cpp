@@ -3,11 +3,52 @@
 #include "lio/registration/degenerate_directions.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <cmath>
+#include <limits>
 
 #include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
+namespace {
+
+// How many directions have less information than the threshold times what noise induces, and an
+// orthonormal basis whose first columns span them. The ratio's extremes are the generalised
+// eigenvalues of the two matrices: eigenvectors of the information alone mix a degenerate direction
+// with another one of the same information.
+struct Subspaces {
+  int num_degenerate = 0;
+  Matrix6 basis = Matrix6::Identity();
+};
+
+Subspaces FindSubspaces(const Matrix6& information, const Matrix6& noise) {
+  constexpr double kRegularization = 1e-12;
+  const double floor = kRegularization * information.trace() + std::numeric_limits<double>::min();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> ratios(
+      information, noise + floor * Matrix6::Identity());
+  Subspaces found;
+  while (found.num_degenerate < 6 && !(ratios.eigenvalues()[found.num_degenerate] >
+                                       DegeneracyParameters::kMinInformationRatio)) {
+    ++found.num_degenerate;
+  }
+  // The eigenvectors ascend with the ratio; those of the degenerate directions come first.
+  const Eigen::HouseholderQR<Matrix6> qr(ratios.eigenvectors());
+  found.basis = qr.householderQ();
+  return found;
+}
+
+// Fills eigenvalues and directions of the information within a subspace, from column `at` on.
+void SplitWithin(const Matrix6& information, const Matrix6& basis, int begin, int count,
+                 DirectionSplit& split) {
+  if (count == 0) return;
+  const Eigen::MatrixXd part = basis.middleCols(begin, count);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(part.transpose() * information * part);
+  split.eigenvalues.segment(begin, count) = eigen.eigenvalues();
+  split.directions.middleCols(begin, count) = part * eigen.eigenvectors();
+}
+
+}  // namespace
+
 DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information) {
   DirectionSplit split;
   const double rotation = information.bottomRightCorner<3, 3>().trace();
@@ -16,16 +57,10 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   const Matrix6 scaled = inverse_scale.asDiagonal() * information * inverse_scale.asDiagonal();
   const Matrix6 noise = inverse_scale.asDiagonal() * noise_information * inverse_scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-  split.eigenvalues = eigen.eigenvalues();
-  split.directions = eigen.eigenvectors();
-  for (int i = 0; i < 6; ++i) {
-    const Vector6 v = split.directions.col(i);
-    const bool is_observable =
-        split.eigenvalues[i] > 0 &&
-        split.eigenvalues[i] > DegeneracyParameters::kMinInformationRatio * v.dot(noise * v);
-    if (!is_observable) split.degenerate_mask |= 1u << i;
-  }
+  const Subspaces found = FindSubspaces(scaled, noise);
+  SplitWithin(scaled, found.basis, 0, found.num_degenerate, split);
+  SplitWithin(scaled, found.basis, found.num_degenerate, 6 - found.num_degenerate, split);
+  split.degenerate_mask = (1u << found.num_degenerate) - 1u;
   return split;
 }
 

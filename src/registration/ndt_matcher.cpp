@@ -44,6 +44,7 @@ class CommonRadius {
                            std::max(0.0, rotation_var) * kLever_m * kLever_m),
                  Correspondence::kMaxStd_m));
   }
+  [[nodiscard]] double std_m() const { return std_m_; }
   [[nodiscard]] float variance() const { return static_cast<float>(std_m_ * std_m_); }
   void Shrink() { Set(Correspondence::kShrink * std_m_); }
   [[nodiscard]] bool IsExhausted() const { return std_m_ == 0.0; }
@@ -60,7 +61,7 @@ NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
     : options_(options), workers_(num_threads), map_(options) {}
 
 void NdtMatcher::Clear() {
-  map_ = GaussianMap(options_);
+  map_ = MultiResolutionMap(options_);
 }
 
 void NdtMatcher::SetUp(const Vector3& up_map) {
@@ -80,9 +81,10 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
 }
 
 void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                           bool with_vertical) {
+                           double radius_m, bool with_vertical) {
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
+  const std::size_t finest = map_.LevelFor(radius_m);
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   workers_.ForEachBlock(points.size(), [&](const Block& block) {
     std::array<Vector3, Workers::kBlockSize> points_grid;
@@ -91,7 +93,7 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
     for (std::size_t i = 0; i < count; ++i) {
       points_grid[i] = rotation * points[block.begin + i].cast<double>() + T_grid_imu.translation;
     }
-    map_.FindAll({points_grid.data(), count}, hits);
+    map_.FindAll({points_grid.data(), count}, finest, hits);
     for (std::size_t i = 0; i < count; ++i) {
       pairs_[block.begin + i] = PairOf(hits[i], with_vertical);
     }
@@ -114,7 +116,6 @@ void NdtMatcher::CountByCell() {
 NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_vertical) const {
   if (hit.cell == GaussianMap::kNoCell) return {};
   const SurfacePatch& patch = map_.patch(hit.cell);
-  if (patch.thickness_var <= 0.f) return {};
   if (patch.kind == SurfacePatch::Kind::kVertical && !with_vertical) return {};
   return {hit.cell, hit.local - patch.mean};
 }
@@ -163,7 +164,9 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
                          const Eigen::Vector3f& point, const Eigen::Matrix3f& to_imu,
                          MatchSums& sums, PointScore* score) {
   if (patch.kind == SurfacePatch::Kind::kPlane) {
-    const float noise_information = term.rows[0].weight * patch.thickness_var / patch.num_points;
+    constexpr float kAlikeVar_m2 = Parameters::kAlikeStd_m * Parameters::kAlikeStd_m;
+    const float noise_information =
+        term.rows[0].weight * (patch.thickness_var / patch.num_points + kAlikeVar_m2);
     sums.noise_information.Add(JacobianRow(point, to_imu * patch.tangent1_per_std),
                                noise_information);
     sums.noise_information.Add(JacobianRow(point, to_imu * patch.tangent2_per_std),
@@ -234,7 +237,7 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   counted_at_.reset();
-  Associate(input.points_imu, T_grid_imu, !IsTranslationWellConstrained(input));
+  Associate(input.points_imu, T_grid_imu, 0.0, !IsTranslationWellConstrained(input));
   scores_.resize(input.points_imu.size());
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
@@ -261,7 +264,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   counted_at_.reset();
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
-    Associate(input.points_imu, pose, !IsTranslationWellConstrained(input));
+    Associate(input.points_imu, pose, radius.std_m(), !IsTranslationWellConstrained(input));
     const MatchSums sums = Linearize(input.points_imu, pose, radius.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);

@@ -122,7 +122,9 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   FindCandidates(sweep, result.num_nonfinite);
   ChoosePoints(sweep);
   result.points.reserve(choices_.size());
+  mixed_pixels_.Load(sweep);
   for (const Chosen& chosen : SortedChoice(sweep)) {
+    if (mixed_pixels_.IsMixed(chosen.index)) continue;
     const LidarPoint& point = sweep.points[chosen.index];
     result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
   }

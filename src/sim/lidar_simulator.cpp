@@ -190,25 +190,25 @@ SimulatedSweep LidarSimulator::Sweep(std::int64_t index) const {
   return sweep;
 }
 
-float LidarSimulator::StraddledRange(const Hit& hit, const Neighbour& other, double edge_at,
-                                     double chance) const {
-  if (!std::isfinite(other.hit->range_m)) return hit.range_m;
+LidarSimulator::Echo LidarSimulator::Straddle(const Hit& hit, const Neighbour& other,
+                                              double edge_at, double chance) const {
+  if (!std::isfinite(other.hit->range_m)) return {hit.range_m, false};
   const double depth = other.half_width_rad / other.spacing_rad;
   const float gap = other.hit->range_m - hit.range_m;
   const float slope =
       hit.range_m * static_cast<float>(other.spacing_rad) / std::max(0.1f, hit.cos_incidence);
-  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return hit.range_m;
+  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return {hit.range_m, false};
   const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
   if (std::abs(gap) < kMergedEchoes_m || (std::abs(gap) < setup_.errors.in_between_reach_m &&
                                           chance < setup_.errors.in_between_chance)) {
-    return hit.range_m + share * gap;
+    return {hit.range_m + share * gap, true};
   }
-  return gap < 0.0f && share > 0.3f ? other.hit->range_m : hit.range_m;
+  return {gap < 0.0f && share > 0.3f ? other.hit->range_m : hit.range_m, false};
 }
 
 // Only one side of each direction can be straddled; the half width of the beam decides how often.
-float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index, std::size_t beam,
-                                     std::uint64_t key) const {
+LidarSimulator::Echo LidarSimulator::Straddle(const Echoes& echoes, std::size_t index,
+                                              std::size_t beam, std::uint64_t key) const {
   const LidarModel& model = setup_.model;
   const Hit& hit = echoes.hits[index];
   const std::size_t stride = model.beams.size();
@@ -222,19 +222,19 @@ float LidarSimulator::StraddledRange(const Echoes& echoes, std::size_t index, st
     const Neighbour column{&echoes.hits[next ? index + stride : index - stride],
                            kTurn * model.rotation_hz * model.column_period_s,
                            0.5 * model.beam_width_horizontal_rad};
-    const float range_m = StraddledRange(hit, column, edge_at(across.a), across.b);
-    if (range_m != hit.range_m) return range_m;
+    const Echo echo = Straddle(hit, column, edge_at(across.a), across.b);
+    if (echo.range_m != hit.range_m) return echo;
   }
-  if (!setup_.errors.straddles_rings) return hit.range_m;
+  if (!setup_.errors.straddles_rings) return {hit.range_m, false};
   const Pair along = Halves(MixBits(key + 6));
   const bool above = along.a < 0.5;
-  if (above ? beam + 1 >= stride : beam == 0) return hit.range_m;
+  if (above ? beam + 1 >= stride : beam == 0) return {hit.range_m, false};
   const std::size_t other = above ? beam + 1 : beam - 1;
   const Neighbour ring{
       &echoes.hits[above ? index + 1 : index - 1],
       std::max(1e-6, std::abs(model.beams[other].elevation_rad - model.beams[beam].elevation_rad)),
       0.5 * model.beam_width_vertical_rad};
-  return StraddledRange(hit, ring, edge_at(along.a), along.b);
+  return Straddle(hit, ring, edge_at(along.a), along.b);
 }
 
 void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column,
@@ -249,6 +249,7 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
   const double t_s = ColumnTime(columns.first + column) + model.beams[beam].fire_time_s;
   const Pair chance = Halves(MixBits(key + 1));
   double range_m = hit.range_m;
+  bool is_in_between = false;
   double backscatter = 0.0;
   double std_scale = errors.noise_scale;
   if (hit.object != Hit::kNothing) {
@@ -257,7 +258,11 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
     const double weakness_sq = weakness * weakness;
     const bool seen = !errors.has_weak_echoes || chance.a * (1.0 + weakness_sq * weakness_sq) < 1.0;
     if (!seen || chance.b < errors.dropout_ratio) hit.object = Hit::kNothing;
-    if (errors.has_mixed_pixels) range_m = StraddledRange(echoes, index, beam, key);
+    if (errors.has_mixed_pixels) {
+      const Echo echo = Straddle(echoes, index, beam, key);
+      range_m = echo.range_m;
+      is_in_between = echo.is_in_between;
+    }
     const double grazing = 1.0 / std::max(0.05f, hit.cos_incidence) - 1.0;
     range_m += std::min(errors.grazing_bias_m * grazing, kMaxGrazingBias_m) + laser_bias_m_[beam];
     const double slant = std::min(grazing, 6.0);
@@ -290,6 +295,7 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
       std::max<std::int64_t>(0, std::llround(t_s * 1e9) - sweep.begin_ns));
   point.intensity = IntensityOf(backscatter * (0.95 + 0.1 * Halves(MixBits(key + 5)).a));
   point.ring = static_cast<std::uint16_t>(beam);
+  sweep.num_in_between += is_in_between ? 1 : 0;
   sweep.points.push_back(point);
   sweep.objects.push_back(hit.object);
 }

@@ -115,6 +115,7 @@ class Recording {
   void AddSweep(const SimulatedSweep& sweep, std::int64_t index) {
     stats_.num_sweeps += 1;
     stats_.num_rays += sweep.num_rays;
+    stats_.num_in_between += sweep.num_in_between;
     stats_.num_points += static_cast<std::int64_t>(sweep.points.size());
     for (ScanChunk& chunk : SplitSweep(sweep, index)) {
       const std::uint32_t last_ns = chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns;

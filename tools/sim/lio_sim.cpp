@@ -165,6 +165,9 @@ void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options
               scenario.name.c_str(), scenario.duration_s, static_cast<long long>(stats.num_sweeps),
               options.lidar.name.c_str(), mega_rays, 1e-6 * static_cast<double>(stats.num_points),
               static_cast<long long>(stats.num_imu));
+  std::printf("%.2f %% of the points lie between two surfaces (mixed pixels)\n",
+              100.0 * static_cast<double>(stats.num_in_between) /
+                  static_cast<double>(std::max<std::int64_t>(1, stats.num_points)));
   std::printf("%.1f s on %d thread%s: %.2f M rays/s, %.2f in a second of CPU time\n", spent.wall_s,
               options.num_threads, options.num_threads == 1 ? "" : "s", mega_rays / spent.wall_s,
               mega_rays / spent.cpu_s);

@@ -69,6 +69,8 @@ class GaussianMap {
   // max_cells, those without new points for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
+  // The cells of the points of the last Insert(), kNoCell where a point was out of range.
+  std::span<const std::int32_t> inserted_cells() const { return cells_; }
 
   std::size_t num_cells() const { return index_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
@@ -87,6 +89,7 @@ class GaussianMap {
     std::int32_t num_points = 0;
     std::int32_t fitted_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
+    std::uint32_t renewed = 0;   // number of the scan that made it the youngest in the index
     bool is_known = false;       // the points show a plane or a vertical structure
   };
 

@@ -30,12 +30,25 @@ struct GaussianMapParameters {
   static constexpr double kMinVerticalStd_m = 0.06;
   // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
   // filled cell changes little with each point. Chosen.
-  static constexpr double kRefitGrowth = 1.1;
+  static constexpr double kRefitGrowth = 1.3;
+  // A cell that is seen counts as the youngest again after this many scans: the order by age needs
+  // no more than a second. Chosen.
+  static constexpr std::uint32_t kRenewal_scans = 10;
   // So many points ahead, memory is asked for before it is needed. Chosen; no effect on results.
   static constexpr std::size_t kPrefetchDistance = 16;
   // The search for cells beyond the map's range passes over all cells in this many scans. Chosen:
   // it spreads the cost, and cells stay a few seconds longer than they must.
   static constexpr std::size_t kFarCellsWalk_scans = 64;
+};
+
+// Levels of cells of half the size each.
+struct MultiResolutionParameters {
+  // Cells of the finer levels farther away than this many of their edges are dropped: the beams of
+  // spinning lidars are 0.35 deg and more apart, and a cell there has one ring at most.
+  static constexpr double kReach_edges = 120.0;
+  // A level serves a guess that may be off by this share of its cells' edge, one standard
+  // deviation: most points then lie in their own cell.
+  static constexpr double kMaxOff_edges = 0.25;
 };
 
 // Between a surface and the beams that saw it: docs/experiments/grazing_incidence.md.

@@ -6,7 +6,8 @@
 namespace lio {
 
 struct NdtOptions {
-  double voxel_m = 1.0;       // edge of a map cell; larger is coarser and catches from farther
+  double voxel_m = 1.0;       // edge of the largest cells; larger catches from farther
+  int num_levels = 2;         // resolutions; each level's cells are half as large as the next one's
   int min_cell_points = 6;    // a cell with fewer points does not count
   int max_cell_points = 100;  // a cell with as many is frozen
   int max_iterations = 12;

@@ -148,8 +148,10 @@ void VisitFields(Visitor& visit, MaybeConst<ReduceOptions> auto& o) {
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
-  visit("voxel_m", o.voxel_m, "edge of a map cell; larger is coarser, catches from farther [m]",
+  visit("voxel_m", o.voxel_m, "edge of the largest map cells; larger catches from farther [m]",
         Range{0.05, 20});
+  visit("num_levels", o.num_levels, "resolutions of the map, each half as large as the next",
+        Range{1, 4});
   visit("min_cell_points", o.min_cell_points, "a cell with fewer points does not count",
         Range{3, 1000});
   visit("max_cell_points", o.max_cell_points, "a cell with as many points is frozen",

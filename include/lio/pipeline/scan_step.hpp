@@ -19,6 +19,12 @@ struct ScanStepParameters {
   // A shift since the last located scan that is less sure than this is beyond what matching
   // reaches: correlative alignment betters the prior.
   double align_prior_from_std_m = 0.7;
+  // Drift of a growing map by errors that move with the sensor, as a random walk over the path: 1
+  // cm in 100 m, a tenth of the drift of the best odometries on real drives
+  // (docs/experiments/field_realism.md).
+  double shape_drift_m_per_sqrt_m = 1e-3;
+  // The same of its rotation: 0.06 deg in 100 m. Beam tables are good to 0.02 deg.
+  double shape_drift_rad_per_sqrt_m = 1e-4;
   // The least time that a prior is taken to have run free, so that rates by it stay finite.
   double min_since_last_fix_s = 0.01;
 };
@@ -35,6 +41,7 @@ struct FusionSettings {
   // Factor on the covariance of matches, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
   bool grows_map = false;  // the scan will be inserted
+  double moved_m = 0.0;    // since the last scan that was inserted at another place
   bool force = false;      // fuse even beyond the gate
 };
 

@@ -26,7 +26,7 @@
 #include <optional>
 
 #include "lio/base/parallel.hpp"
-#include "lio/map/gaussian_map.hpp"
+#include "lio/map/multi_resolution_map.hpp"
 #include "lio/map/ndt_options.hpp"
 #include "lio/registration/intra_sweep_rate_estimator.hpp"
 #include "lio/registration/match_diagnostics.hpp"
@@ -72,7 +72,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     std::int32_t count_number = 0;
   };
 
-  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
+  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, double radius_m,
                  bool with_vertical);
   // Counts each cell's points, in one thread. The counts set weights alone, and are kept while the
   // pose hardly moves.
@@ -95,7 +95,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
 
   NdtOptions options_;
   Workers workers_;
-  GaussianMap map_;
+  MultiResolutionMap map_;
   std::vector<Pair> pairs_;              // of the current iteration, one a point
   Pose paired_at_;                       // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;       // T_grid_imu of the counts by cell

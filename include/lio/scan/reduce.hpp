@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lio/base/voxel_table.hpp"
+#include "lio/scan/mixed_pixels.hpp"
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"
@@ -40,6 +41,7 @@ class ScanReducer final : public SweepReducer {
 
   ReduceOptions options_;
   PointFilter filter_;
+  MixedPixelFinder mixed_pixels_;
   float voxel_m_;
   std::vector<std::uint32_t> candidates_;  // indices of the finite, sampled points in range
   VoxelTable<Choice> choices_;             // by voxel

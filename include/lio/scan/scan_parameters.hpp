@@ -41,10 +41,20 @@ struct LoamFeatureParameters {
   int edge_divisor = 2;
 };
 
+struct MixedPixelParameters {
+  // m, and share of the range. A return must lie so far from both surfaces: five times the range
+  // noise of a spinning lidar (2 cm), and its steps on rough ground.
+  float tolerance_m = 0.1f;
+  float tolerance_per_range = 0.005f;
+  // Cosine of the largest angle to the beams beside it, 1 deg: three beams of a coarse lidar.
+  float min_cos = 0.99985f;
+};
+
 struct ScanParameters {
   ThinningParameters thinning;
   DeskewParameters deskew;
   LoamFeatureParameters loam;
+  MixedPixelParameters mixed_pixels;
 };
 inline constexpr ScanParameters kScanParameters{};
 

@@ -57,6 +57,7 @@ struct SimulatedSweep {
   std::int64_t begin_ns = 0;  // trajectory time at which t_offset_ns = 0
   std::int64_t num_rays = 0;
   std::vector<LidarPoint> points;     // in the order of firing
+  std::int64_t num_in_between = 0;    // points that lie between two surfaces (mixed pixels)
   std::vector<std::int32_t> objects;  // object that each point lies on: see Hit::object
 };
 
@@ -85,9 +86,12 @@ class LidarSimulator {
     double spacing_rad = 0.0;
     double half_width_rad = 0.0;
   };
-  float StraddledRange(const Echoes& echoes, std::size_t index, std::size_t beam,
-                       std::uint64_t key) const;
-  float StraddledRange(const Hit& hit, const Neighbour& other, double edge_at, double chance) const;
+  struct Echo {
+    float range_m = 0.0f;
+    bool is_in_between = false;
+  };
+  Echo Straddle(const Echoes& echoes, std::size_t index, std::size_t beam, std::uint64_t key) const;
+  Echo Straddle(const Hit& hit, const Neighbour& other, double edge_at, double chance) const;
 
   LidarSetup setup_;
   const Scene* scene_;

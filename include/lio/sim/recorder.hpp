@@ -38,6 +38,7 @@ struct RecordStats {
   std::int64_t num_chunks = 0;
   std::int64_t num_rays = 0;
   std::int64_t num_points = 0;
+  std::int64_t num_in_between = 0;  // mixed pixels
 };
 
 // Creates the folder. `progress` is called with the share done, 0..1, and may be empty. Throws

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/map/multi_resolution_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "lio/map/map_parameters.hpp"
+
+namespace lio {
+namespace {
+
+using Parameters = MultiResolutionParameters;
+
+}  // namespace
+
+MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
+  if (options.num_levels < 1) throw std::invalid_argument("MultiResolutionMap: no level");
+  for (int level = 0; level < options.num_levels; ++level) {
+    NdtOptions at_level = options;
+    at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - options.num_levels);
+    if (level + 1 < options.num_levels) {
+      at_level.max_distance_m =
+          std::min(options.max_distance_m, Parameters::kReach_edges * at_level.voxel_m);
+    }
+    levels_.emplace_back(at_level);
+    edges_m_.push_back(at_level.voxel_m);
+  }
+}
+
+std::size_t MultiResolutionMap::LevelFor(double std_m) const {
+  std::size_t level = 0;
+  while (level + 1 < levels_.size() && std_m > Parameters::kMaxOff_edges * edges_m_[level]) ++level;
+  return level;
+}
+
+// A block of points passes through the levels together, those without a surface to the next one.
+struct MultiResolutionMap::Search {
+  std::array<Vector3, Workers::kBlockSize> points;
+  std::array<GaussianMap::Hit, Workers::kBlockSize> hits;
+  std::array<std::size_t, Workers::kBlockSize> index;  // of the points
+  std::size_t num = 0;
+};
+
+void MultiResolutionMap::FindAll(std::span<const Vector3> points_map, std::size_t finest,
+                                 std::span<GaussianMap::Hit> hits) const {
+  Search search;
+  for (std::size_t begin = 0; begin < points_map.size(); begin += Workers::kBlockSize) {
+    search.num = std::min(Workers::kBlockSize, points_map.size() - begin);
+    for (std::size_t i = 0; i < search.num; ++i) {
+      search.points[i] = points_map[begin + i];
+      search.index[i] = begin + i;
+    }
+    for (std::size_t level = finest; level < levels_.size(); ++level) FindIn(level, search, hits);
+  }
+}
+
+void MultiResolutionMap::FindIn(std::size_t level, Search& search,
+                                std::span<GaussianMap::Hit> hits) const {
+  levels_[level].FindAll({search.points.data(), search.num}, search.hits);
+  std::size_t num_left = 0;
+  for (std::size_t i = 0; i < search.num; ++i) {
+    GaussianMap::Hit& hit = hits[search.index[i]];
+    hit = search.hits[i];
+    if (ShowsSurface(level, hit.cell)) {
+      hit.cell = Number(level, hit.cell);
+      continue;
+    }
+    hit.cell = kNoCell;
+    search.points[num_left] = search.points[i];
+    search.index[num_left++] = search.index[i];
+  }
+  search.num = num_left;
+}
+
+void MultiResolutionMap::SetUp(const Vector3& up_map) {
+  for (GaussianMap& level : levels_) level.SetUp(up_map);
+}
+
+void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
+                                const Workers& workers) {
+  left_.assign(points_map.begin(), points_map.end());
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    levels_[level].Insert(left_, sensor_map, workers);
+    const std::span<const std::int32_t> cells = levels_[level].inserted_cells();
+    std::size_t num_left = 0;
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (!ShowsSurface(level, cells[i])) left_[num_left++] = left_[i];
+    }
+    left_.resize(num_left);
+  }
+}
+
+std::size_t MultiResolutionMap::num_cells() const {
+  std::size_t num = 0;
+  for (const GaussianMap& level : levels_) num += level.num_cells();
+  return num;
+}
+
+std::size_t MultiResolutionMap::cell_capacity() const {
+  std::size_t capacity = 0;
+  for (const GaussianMap& level : levels_) capacity = std::max(capacity, level.cell_capacity());
+  return capacity * levels_.size();
+}
+
+std::size_t MultiResolutionMap::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const GaussianMap& level : levels_) bytes += level.memory_bytes();
+  return bytes;
+}
+
+}  // namespace lio
