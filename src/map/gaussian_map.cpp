@@ -142,7 +142,7 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
   if (!is_plane) return false;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
-  patch.normal = normal;
+  patch.normal = normal.dot(sums.view) > 0.f ? Eigen::Vector3f(-normal) : normal;
   patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
   patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
   return true;
@@ -225,6 +225,11 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
     }
     if (is_frozen) continue;
     const Eigen::Vector3f view = (points_map[i] - sensor_map).cast<float>().normalized();
+    const SurfacePatch& patch = patches_[ToIndex(cell)];
+    if (sums.is_known && patch.kind == SurfacePatch::Kind::kPlane &&
+        IsFromBehind(patch.normal, view)) {
+      continue;
+    }
     AddPoint(sums, places_[i].local.cast<double>(), view);
   }
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "lio/map/grazing_incidence.hpp"
 #include "lio/registration/match_loop.hpp"
 #include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/well_constrained_translation.hpp"
@@ -69,6 +70,7 @@ void NdtMatcher::SetUp(const Vector3& up_map) {
 }
 
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
+  sensor_imu_ = scan.sensor_imu;
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   std::vector<Vector3> points_grid(scan.points_imu.size());
@@ -85,6 +87,7 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
   const std::size_t finest = map_.LevelFor(radius_m);
+  const Vector3 sensor_grid = T_grid_imu * sensor_imu_;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   workers_.ForEachBlock(points.size(), [&](const Block& block) {
     std::array<Vector3, Workers::kBlockSize> points_grid;
@@ -95,7 +98,8 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
     }
     map_.FindAll({points_grid.data(), count}, finest, hits);
     for (std::size_t i = 0; i < count; ++i) {
-      pairs_[block.begin + i] = PairOf(hits[i], with_vertical);
+      const Eigen::Vector3f view = (points_grid[i] - sensor_grid).cast<float>();
+      pairs_[block.begin + i] = PairOf(hits[i], view, with_vertical);
     }
   });
   if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
@@ -113,10 +117,15 @@ void NdtMatcher::CountByCell() {
   }
 }
 
-NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, bool with_vertical) const {
+NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view,
+                                    bool with_vertical) const {
   if (hit.cell == GaussianMap::kNoCell) return {};
   const SurfacePatch& patch = map_.patch(hit.cell);
-  if (patch.kind == SurfacePatch::Kind::kVertical && !with_vertical) return {};
+  if (patch.kind == SurfacePatch::Kind::kVertical) {
+    if (!with_vertical) return {};
+  } else if (IsFromBehind(patch.normal, view)) {
+    return {};
+  }
   return {hit.cell, hit.local - patch.mean};
 }
 

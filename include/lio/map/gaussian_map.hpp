@@ -29,9 +29,9 @@ namespace lio {
 // The part of a cell that matching reads: one cache line. Vectors are in the map's frame, `mean`
 // from the voxel's centre.
 struct alignas(64) SurfacePatch {
-  // A plane constrains the pose along `normal`. A vertical structure constrains it in two
-  // horizontal directions: along `normal`, and along tangent1_per_std, which is a direction over
-  // its standard deviation.
+  // A plane constrains the pose along `normal`, which points to the side it was seen from. A
+  // vertical structure constrains it in two horizontal directions: along `normal`, and along
+  // tangent1_per_std, which is a direction over its standard deviation.
   enum class Kind : std::int32_t { kPlane, kVertical } kind = Kind::kPlane;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   float thickness_var = 0.f;  // variance along the normal, floored; 0: the cell does not count

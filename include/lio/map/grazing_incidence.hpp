@@ -18,4 +18,10 @@ namespace lio {
   return !(std::abs(normal.dot(view)) > GrazingIncidenceParameters::kMinSine * view.norm());
 }
 
+// Is a surface whose `normal` points to the side that it was seen from seen from behind? Then it is
+// not the surface that the beam hit: floors have a ceiling below them, and walls a room behind.
+[[nodiscard]] inline bool IsFromBehind(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) {
+  return normal.dot(view) > GrazingIncidenceParameters::kMinSine * view.norm();
+}
+
 }  // namespace lio

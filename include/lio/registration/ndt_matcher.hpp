@@ -82,7 +82,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     const CellCount& count = cell_counts_[static_cast<std::size_t>(cell)];
     return count.count_number == count_number_ ? count.num_points : 1;
   }
-  Pair PairOf(const GaussianMap::Hit& hit, bool with_vertical) const;
+  // `view`: along the beam, in grid axes, of any length.
+  Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
                       float radius_var, std::span<PointScore> scores) const;
@@ -96,12 +97,13 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   NdtOptions options_;
   Workers workers_;
   MultiResolutionMap map_;
-  std::vector<Pair> pairs_;              // of the current iteration, one a point
-  Pose paired_at_;                       // T_grid_imu of the pairs
-  std::optional<Pose> counted_at_;       // T_grid_imu of the counts by cell
-  std::vector<PointScore> scores_;       // of the last match, one a point
-  PoseScores gradients_;                 // by cell
-  std::array<PoseScores, 2> per_metre_;  // by vertical structure, a metre along either direction
+  Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
+  std::vector<Pair> pairs_;               // of the current iteration, one a point
+  Pose paired_at_;                        // T_grid_imu of the pairs
+  std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell
+  std::vector<PointScore> scores_;        // of the last match, one a point
+  PoseScores gradients_;                  // by cell
+  std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // of the last count; older counts are void
