@@ -82,8 +82,12 @@ if [[ ! -s $out/trajectory.tum ]]; then
   cat "$out/liod.log" >&2
   exit 1
 fi
+# The level path is what a user keeps; without gravity there is only the path as it was published.
+path=$out/trajectory_level.tum
+[[ -s $path ]] || path=$out/trajectory.tum
 if [[ -n $truth ]]; then
-  build/bin/lio-eval "$truth" "$out/trajectory.tum" --json "$out/eval.json" --plots "$out" \
+  echo "demo: scoring ${path##*/}"
+  build/bin/lio-eval "$truth" "$path" --json "$out/eval.json" --plots "$out" \
     --map "$out/map.pcd" >"$out/eval.txt"
 else
   echo "demo: this input has no true trajectory: drawing only path and map"

@@ -10,9 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "io/covariance_rows.hpp"
 #include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
+#include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 
 namespace lio {
@@ -24,25 +26,6 @@ constexpr std::array<const char*, kNumStages> kStageNames = {"decode", "reduce",
                                                              "insert", "filter", "total"};
 constexpr std::array<const char*, 6> kMatchStatusNames = {
     "converged", "max_iterations", "too_few_points", "empty_map", "diverged", "degenerate"};
-constexpr std::array<const char*, 6> kPoseErrorNames = {"x", "y", "z", "rx", "ry", "rz"};
-
-std::string CovarianceHeader() {
-  std::string header = "t_s";
-  for (const char* row : kPoseErrorNames) {
-    for (const char* column : kPoseErrorNames) header += fmt::format(",cov_{}_{}", row, column);
-  }
-  return header + "\n";
-}
-
-std::string CovarianceRow(Timestamp stamp, const Matrix6& cov) {
-  std::string text = StampText(stamp);
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 6; ++column) {
-      text += fmt::format(",{:.12e}", cov(row, column));
-    }
-  }
-  return text + "\n";
-}
 
 std::string RegistrationHeader() {
   std::string header =
@@ -126,13 +109,14 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   if (error) {
     throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
   }
-  for (const char* stale : {"stats.json", "map.pcd", "trajectory_base.tum"})
+  for (const char* stale : {"stats.json", "map.pcd", "map.ply", "trajectory_base.tum"})
     std::filesystem::remove(folder / stale, error);
   File options_file = Open("options.yaml");
   options_file.stream << PrintResultOptions(options);
   Close(options_file);
   in_map_ = OpenTrack("");
   in_world_ = OpenTrack("_world");
+  level_.emplace(folder_);
   if (options.rig.T_base_imu) base_ = Open("trajectory_base.tum");
   imu_rate_ = Open("trajectory_imu_rate.tum");
   registration_ = Open("registration.csv");
@@ -165,11 +149,20 @@ void RunWriter::WriteScan(const ScanOutput& output) {
   last_scan_ = nav.stamp;
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
+  level_->Add(*output.filter);
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 
-void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points) {
-  WritePcd(folder_ / "map.pcd", points);
+void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format) {
+  const Eigen::Matrix3f R_level_map = level_->R_level_map().toRotationMatrix().cast<float>();
+  std::vector<Eigen::Vector3f> points_level;
+  points_level.reserve(points_map.size());
+  for (const Eigen::Vector3f& point : points_map) points_level.push_back(R_level_map * point);
+  if (format == MapFormat::kPly) {
+    WritePly(folder_ / "map.ply", points_level);
+  } else {
+    WritePcd(folder_ / "map.pcd", points_level);
+  }
 }
 
 void RunWriter::WriteStats(const RunStats& stats) {
@@ -202,6 +195,7 @@ void RunWriter::Finish(const RunStats& stats) {
   }
   for (File* file : {&imu_rate_, &registration_}) Close(*file);
   if (base_) Close(*base_);
+  level_->Finish();
   WriteStats(stats);
 }
 

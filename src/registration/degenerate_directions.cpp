@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
-#include <limits>
 
 #include "lio/registration/registration_parameters.hpp"
 
@@ -22,11 +21,15 @@ struct Subspaces {
 };
 
 Subspaces FindSubspaces(const Matrix6& information, const Matrix6& noise) {
-  constexpr double kRegularization = 1e-12;
-  const double floor = kRegularization * information.trace() + std::numeric_limits<double>::min();
+  Subspaces found;
+  if (!(information.trace() > 0.0)) {
+    found.num_degenerate = 6;
+    return found;
+  }
+  constexpr double kRegularization = 1e-12;  // noise may be zero along a direction
+  const double floor = kRegularization * information.trace();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> ratios(
       information, noise + floor * Matrix6::Identity());
-  Subspaces found;
   while (found.num_degenerate < 6 && !(ratios.eigenvalues()[found.num_degenerate] >
                                        DegeneracyParameters::kMinInformationRatio)) {
     ++found.num_degenerate;

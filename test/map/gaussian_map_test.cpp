@@ -72,6 +72,25 @@ TEST(GaussianMap, MoreThreadsMakeTheSameMap) {
   }
 }
 
+TEST(GaussianMap, NormalsPointToTheSideThatWasSeen) {
+  for (const double side : {-5.0, 5.0}) {
+    GaussianMap map(TestOptions());
+    map.Insert(PlanePoints(CentreOf(0, 0, 0), Vector3::UnitZ(), 50), Vector3(0.5, 0.5, side));
+    EXPECT_GT(PatchAt(map, CentreOf(0, 0, 0)).normal.z() * side, 0.0);
+  }
+}
+
+// A floor and the ceiling below it share a cell: the floor is no part of the ceiling.
+TEST(GaussianMap, PointsSeenFromBehindASurfaceDoNotChangeIt) {
+  GaussianMap map(TestOptions());
+  map.Insert(PlanePoints({0.5, 0.5, 0.4}, Vector3::UnitZ(), 50), Vector3(0.5, 0.5, -3.0));
+  const SurfacePatch before = PatchAt(map, CentreOf(0, 0, 0));
+  map.Insert(PlanePoints({0.5, 0.5, 0.6}, Vector3::UnitZ(), 50, 2), Vector3(0.5, 0.5, 3.0));
+  const SurfacePatch& after = PatchAt(map, CentreOf(0, 0, 0));
+  EXPECT_EQ(after.mean, before.mean);
+  EXPECT_EQ(after.num_points, before.num_points);
+}
+
 TEST(GaussianMap, PointsAreFoundInTheirVoxelAlone) {
   GaussianMap map(TestOptions());
   map.Insert(std::vector<Vector3>{{0.2, -0.3, 0.9}}, Vector3::Zero());

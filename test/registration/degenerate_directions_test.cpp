@@ -107,6 +107,27 @@ TEST(DegenerateDirections, NoInformationAtAllIsAllDegenerate) {
   EXPECT_TRUE(CovarianceFromScores(split, Matrix6::Identity()).isZero());
 }
 
+// In a tunnel the axis may have as much information by noise as another direction has by the scene.
+// Eigenvectors of the information are then any mixture of the two.
+TEST(DegenerateDirections, ADirectionOfNoiseIsFoundBesideOneOfTheSameInformation) {
+  std::mt19937_64 random(7);
+  Matrix6 noise = SmallNoise();
+  noise(0, 0) = 0.9e4;  // nearly all information along x is noise's
+  for (const double excess : {-10.0, -1e-9, 0.0, 1e-9, 10.0}) {
+    Vector6 information = Vector6::Constant(1e6);
+    information[0] = 1e4;
+    information[1] = 1e4 + excess;
+    const DirectionSplit split = SplitDirections(information.asDiagonal(), noise);
+    ASSERT_EQ(split.num_degenerate(), 1) << excess;
+    const Matrix6 cov = DegenerateCovariance(split);
+    EXPECT_GT(cov(0, 0), 9e3) << excess;
+    EXPECT_LT(cov.diagonal().tail<5>().maxCoeff(), 1.0) << excess;
+    const Vector6 step = StepInObservableDirections(split, Vector6::Constant(1e4));
+    EXPECT_NEAR(step[0], 0.0, 1e-3) << excess;
+    EXPECT_NEAR(step[1], -1.0, 1e-2) << excess;
+  }
+}
+
 TEST(DegenerateDirections, UnitOfRotationsDoesNotMatter) {
   std::mt19937_64 random(6);
   const Matrix6 H = Without(FullInformation(random), Vector6::Unit(0));

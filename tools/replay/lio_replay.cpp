@@ -6,14 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
 #include "lio/io/beam_table.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
-#include "lio/io/ply_file.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/run_writer.hpp"
 #include "lio/pipeline/registration_worker.hpp"
@@ -36,11 +34,12 @@ struct ReplayArguments {
 
 constexpr const char* kDescription =
     "Runs LiDAR-inertial odometry over an LCM log, as fast as the machine goes.\n\n"
-    "Writes into DIR: trajectory.tum (the pose of imu in map, which never turns; one row per "
-    "scan),\n"
-    "covariance.csv, trajectory_world.tum (the pose of imu in world, which is always level),\n"
-    "covariance_world.csv, trajectory_imu_rate.tum, registration.csv, stats.json, options.yaml,\n"
-    "map.pcd with --map, and trajectory_base.tum when the rig has T_base_imu.\n"
+    "Writes into DIR, with one row per scan: trajectory_level.tum (the path as it looks when the\n"
+    "run is over: steady, and level by the last estimate), trajectory.tum (as it was published on\n"
+    "LIO_ODOM_LOCAL: the pose of imu in map, which never turns), trajectory_world.tum (as on\n"
+    "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
+    "registration.csv, stats.json, options.yaml, map.pcd with --map, and trajectory_base.tum when\n"
+    "the rig has T_base_imu.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 
 constexpr const char* kExamples =
@@ -90,15 +89,13 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
 
 // Feeds the estimator and carries its outputs to the files.
 class Replay {
-  using Path = std::filesystem::path;
-
  public:
   Replay(const Options& options, const ReplayArguments& arguments, RunWriter& writer)
       : writer_(writer),
         odometry_(options, ThreadCpuNs),
         worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
         writes_map_(arguments.writes_map),
-        ply_(arguments.map_format == "ply" ? Path(arguments.out) / "map.ply" : Path()),
+        map_format_(arguments.map_format == "ply" ? MapFormat::kPly : MapFormat::kPcd),
         match_lag_(arguments.match_lag) {}
 
   void Run(LogInput& input) {
@@ -168,8 +165,7 @@ class Replay {
   }
 
   void Finish(const LogInput& input, double wall_s) {
-    if (writes_map_ && ply_.empty()) writer_.WriteMap(map_.points_map());
-    if (writes_map_ && !ply_.empty()) WritePly(ply_, map_.points_map());
+    if (writes_map_) writer_.WriteMap(map_.points_map(), map_format_);
     RunStats stats;
     stats.counters = odometry_.counters();
     stats.input = input.counters();
@@ -184,7 +180,7 @@ class Replay {
   RegistrationWorker worker_;
   MapCloud map_;
   bool writes_map_;
-  Path ply_;  // in place of map.pcd; empty: map.pcd
+  MapFormat map_format_;
   int match_lag_;
   std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
@@ -232,7 +228,6 @@ int Main(int argc, char** argv) {
   std::optional<RunWriter> writer;
   try {
     writer.emplace(arguments.out, options);
-    std::filesystem::remove(std::filesystem::path(arguments.out) / "map.ply");  // of a run before
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;

@@ -7,12 +7,14 @@
 //     the error that these poses have in a level world, as the truth is
 //   trajectory_world.tum, covariance_world.csv: the same for imu in world, which is level and is
 //     bent by each correction of the tilt
+//   trajectory_level.tum, covariance_level.csv: the steady path in map, turned once so that it is
+//     level by the last estimate (level_track.hpp); written at the end when gravity is felt
 //   trajectory_base.tum: the poses of base in map, when rig.T_base_imu is given
 //   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
 //   registration.csv: one row per scan: points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times
 //   options.yaml: the effective options without the number of threads
-//   map.pcd: the points of the map, when asked for
+//   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
 // For the same input all but the computing times is the same, byte for byte.
 #pragma once
@@ -27,6 +29,7 @@
 #include <vector>
 
 #include "lio/io/input_decoder.hpp"
+#include "lio/io/level_track.hpp"
 #include "lio/io/quantile_sketch.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -42,6 +45,8 @@ struct RunStats {
   double wall_s = 0.0;
 };
 
+enum class MapFormat { kPcd, kPly };
+
 class RunWriter {
  public:
   // Creates the folder when it is missing and overwrites the files of earlier runs. Throws
@@ -50,7 +55,8 @@ class RunWriter {
 
   // A row that is not later than the one before is left out and counted in stats.json.
   void Write(const Output& output);
-  void WriteMap(std::span<const Eigen::Vector3f> points);
+  // To be called after the last row: the points are turned as the level path is.
+  void WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format = MapFormat::kPcd);
   // Completes all files. Throws std::runtime_error when a file could not be written in full.
   void Finish(const RunStats& stats);
 
@@ -74,6 +80,7 @@ class RunWriter {
   std::filesystem::path folder_;
   Track in_map_;
   Track in_world_;
+  std::optional<LevelTrack> level_;
   std::optional<File> base_;
   File imu_rate_;
   File registration_;

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The path of a run as it looks when the run is over: the steady path in map, turned once, rigidly
+// and about its origin, so that it is level by the last estimate. It keeps its shape, and its
+// height does not drift by the tilt that the start did not know. Written at the end as
+// trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "lio/pipeline/outputs.hpp"
+
+namespace lio {
+
+class LevelTrack {
+ public:
+  // Removes the files of an earlier run. Throws std::runtime_error naming the file when it cannot
+  // be written; so do the others.
+  explicit LevelTrack(const std::filesystem::path& folder);
+
+  void Add(const FilterReport& filter);
+  // From the map's frame to the level one, by the last row; the identity when no gravity was felt.
+  [[nodiscard]] Quaternion R_level_map() const;
+  // Writes the two files, unless nothing levels the path: no gravity was felt.
+  void Finish();
+
+ private:
+  struct Row {
+    std::int64_t stamp_ns = 0;
+    double T_map_imu[7] = {};    // translation, then rotation x y z w
+    double T_world_imu[7] = {};  // likewise
+    double pose_cov[36] = {};    // of T_world_imu
+  };
+
+  static void Put(const Pose& pose, double (&to)[7]);
+  static Pose Get(const double (&from)[7]);
+
+  std::filesystem::path folder_;
+  std::filesystem::path rows_path_;
+  std::fstream rows_;
+  Row last_;
+  bool is_level_known_ = false;
+};
+
+}  // namespace lio

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/level_track.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "io/covariance_rows.hpp"
+#include "lio/io/trajectory_file.hpp"
+
+namespace lio {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kPoses = "trajectory_level.tum";
+constexpr const char* kCovariances = "covariance_level.csv";
+
+std::ofstream OpenText(const fs::path& path) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+  return file;
+}
+
+void Close(std::ofstream& file, const fs::path& path) {
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path.string() + " in full");
+}
+
+// The mean square error of `pose` as an estimate of what `T_world_imu` estimates: its covariance
+// and the square of the known step between the two.
+Matrix6 CovarianceOf(const Pose& pose, const Pose& T_world_imu, const Matrix6& world_cov) {
+  Vector6 step;
+  step << T_world_imu.translation - pose.translation,
+      LogSo3(pose.rotation.conjugate() * T_world_imu.rotation);
+  return world_cov + step * step.transpose();
+}
+
+}  // namespace
+
+LevelTrack::LevelTrack(const fs::path& folder)
+    : folder_(folder), rows_path_(folder / "trajectory_level.rows") {
+  std::error_code error;
+  for (const char* stale : {kPoses, kCovariances}) fs::remove(folder / stale, error);
+  rows_.open(rows_path_, std::ios::binary | std::ios::trunc | std::ios::in | std::ios::out);
+  if (!rows_) throw std::runtime_error("cannot write " + rows_path_.string());
+}
+
+void LevelTrack::Put(const Pose& pose, double (&to)[7]) {
+  std::copy_n(pose.translation.data(), 3, to);
+  std::copy_n(pose.rotation.coeffs().data(), 4, to + 3);
+}
+
+Pose LevelTrack::Get(const double (&from)[7]) {
+  return {Quaternion(from[6], from[3], from[4], from[5]), Vector3(from[0], from[1], from[2])};
+}
+
+void LevelTrack::Add(const FilterReport& filter) {
+  last_.stamp_ns = filter.nav.stamp.ns;
+  Put(filter.nav.T_map_imu, last_.T_map_imu);
+  Put(filter.nav.T_world_imu, last_.T_world_imu);
+  Eigen::Map<Matrix6>(last_.pose_cov) = filter.nav.pose_cov;
+  is_level_known_ = !filter.g_world_mps2.isZero();
+  rows_.write(reinterpret_cast<const char*>(&last_), sizeof last_);
+}
+
+Quaternion LevelTrack::R_level_map() const {
+  if (!is_level_known_) return Quaternion::Identity();
+  const Vector3 up_imu = Get(last_.T_world_imu).rotation.conjugate() * Vector3::UnitZ();
+  const Vector3 up_map = Get(last_.T_map_imu).rotation * up_imu;
+  return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
+}
+
+void LevelTrack::Finish() {
+  rows_.seekg(0);
+  if (is_level_known_) {
+    const Pose T_level_map{R_level_map(), Vector3::Zero()};
+    std::ofstream poses = OpenText(folder_ / kPoses);
+    std::ofstream covariances = OpenText(folder_ / kCovariances);
+    covariances << CovarianceHeader();
+    Row row;
+    while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
+      const Timestamp stamp{row.stamp_ns};
+      const Pose pose = T_level_map * Get(row.T_map_imu);
+      poses << TumRow({stamp, pose}) << '\n';
+      const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
+      covariances << CovarianceRow(stamp, CovarianceOf(pose, Get(row.T_world_imu), world_cov));
+    }
+    Close(poses, folder_ / kPoses);
+    Close(covariances, folder_ / kCovariances);
+  }
+  const bool is_whole = rows_.eof() || !is_level_known_;
+  rows_.close();
+  std::error_code error;
+  fs::remove(rows_path_, error);
+  if (!is_whole) throw std::runtime_error("cannot read " + rows_path_.string());
+}
+
+}  // namespace lio

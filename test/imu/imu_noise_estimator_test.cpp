@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/imu/imu_noise_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+namespace lio {
+namespace {
+
+// Standard deviations of the white noise from sample to sample.
+struct Noise {
+  Vector3 gyro_std_radps = Vector3::Constant(1e-3);
+  Vector3 accel_std_mps2 = Vector3::Constant(0.02);
+};
+
+// Feeds an estimator with white noise on top of a body's own force.
+class NoisyImu {
+ public:
+  explicit NoisyImu(double rate_hz) : step_ns_(std::llround(1e9 / rate_hz)) {}
+
+  // Returns the last sample.
+  ImuSample Run(
+      double seconds, const Noise& noise,
+      const std::function<double(double)>& own_force_mps2 = [](double) { return 0.0; }) {
+    ImuSample sample;
+    const auto num = std::llround(seconds * 1e9 / static_cast<double>(step_ns_));
+    for (std::int64_t i = 0; i < num; ++i) {
+      now_ns_ += step_ns_;
+      sample = {};
+      sample.stamp = {now_ns_};
+      const double own = own_force_mps2(static_cast<double>(now_ns_) * 1e-9);
+      sample.w_imu_radps = noise.gyro_std_radps.cwiseProduct(Draw());
+      sample.f_imu_mps2 = noise.accel_std_mps2.cwiseProduct(Draw()) + Vector3(own, own, 9.8 + own);
+      estimator_.Add(sample);
+    }
+    return sample;
+  }
+  void Pause(double seconds) { now_ns_ += std::llround(seconds * 1e9); }
+  double step_s() const { return static_cast<double>(step_ns_) * 1e-9; }
+  ImuNoiseEstimator& estimator() { return estimator_; }
+
+ private:
+  Vector3 Draw() {
+    std::normal_distribution<double> normal;
+    const double x = normal(random_);
+    const double y = normal(random_);
+    return {x, y, normal(random_)};
+  }
+
+  std::int64_t step_ns_;
+  std::int64_t now_ns_ = 0;
+  std::mt19937_64 random_{7};
+  ImuNoiseEstimator estimator_;
+};
+
+// The largest and the smallest of a few estimates lie within this of the truth: each has some 30
+// degrees of freedom, so 26 % of spread, one sigma.
+constexpr double kSpread = 0.8;
+
+void ExpectNear(const Vector3& psd, const Vector3& std, double step_s) {
+  for (int i = 0; i < 3; ++i) {
+    const double truth = std[i] * std[i] * step_s;
+    EXPECT_GT(psd[i], (1.0 - kSpread) * truth) << i;
+    EXPECT_LT(psd[i], (1.0 + kSpread) * truth) << i;
+  }
+}
+
+TEST(ImuNoiseEstimator, LearnsWhiteNoiseOfEachAxisAtAnyRate) {
+  const Noise noise{{1e-3, 4e-3, 16e-3}, {0.02, 0.1, 0.5}};
+  for (const double rate_hz : {50.0, 100.0, 200.0, 400.0, 1000.0}) {
+    NoisyImu imu(rate_hz);
+    const ImuSample last = imu.Run(10.0, noise);
+    ExpectNear(last.gyro_noise_psd, noise.gyro_std_radps, imu.step_s());
+    ExpectNear(last.accel_noise_psd, noise.accel_std_mps2, imu.step_s());
+  }
+}
+
+TEST(ImuNoiseEstimator, IsRightOnTheMean) {
+  NoisyImu imu(100.0);
+  const Noise noise;
+  double sum = 0.0;
+  imu.Run(5.0, noise);
+  for (int i = 0; i < 100; ++i) sum += imu.Run(3.0, noise).accel_noise_psd.mean();
+  EXPECT_NEAR(sum / 100.0, 0.02 * 0.02 * 0.01, 0.05 * 0.02 * 0.02 * 0.01);
+}
+
+TEST(ImuNoiseEstimator, DoesNotTakeTheBodysOwnMotionForNoise) {
+  const auto swing = [](double hz) {
+    return [hz](double t_s) { return std::sin(2.0 * std::numbers::pi * hz * t_s); };
+  };
+  const Noise noise;
+  // The body's springs at 1.5 Hz and a wheel's hop at 10 Hz, 1 m/s^2 each.
+  for (const double hz : {1.5, 10.0}) {
+    NoisyImu imu(100.0);
+    const ImuSample last = imu.Run(10.0, noise, swing(hz));
+    ExpectNear(last.accel_noise_psd, noise.accel_std_mps2, imu.step_s());
+  }
+}
+
+TEST(ImuNoiseEstimator, FollowsVibrationThatBeginsAndEnds) {
+  NoisyImu imu(100.0);
+  const Noise calm;
+  const Noise shaken{Vector3::Constant(0.015), Vector3::Constant(0.8)};
+  imu.Run(5.0, calm);
+  ExpectNear(imu.Run(3.0, shaken).accel_noise_psd, shaken.accel_std_mps2, imu.step_s());
+  // A mean with a time constant of 1 s forgets a factor of 1600 in 7.4 s.
+  ExpectNear(imu.Run(12.0, calm).accel_noise_psd, calm.accel_std_mps2, imu.step_s());
+}
+
+TEST(ImuNoiseEstimator, KnowsNothingBeforeSevenSamples) {
+  NoisyImu imu(100.0);
+  EXPECT_TRUE(imu.Run(0.06, {}).accel_noise_psd.isZero());
+  EXPECT_GT(imu.Run(0.02, {}).accel_noise_psd.minCoeff(), 0.0);
+}
+
+TEST(ImuNoiseEstimator, AGapIsNoNoise) {
+  NoisyImu imu(100.0);
+  const Noise noise;
+  const auto ramp = [](double t_s) { return 3.0 * t_s; };  // a gap of 1 s is a step of 3 m/s^2
+  for (int i = 0; i < 10; ++i) {
+    imu.Run(1.0, noise, ramp);
+    imu.Pause(1.0);
+  }
+  const ImuSample last = imu.Run(0.05, noise, ramp);
+  ExpectNear(last.accel_noise_psd, noise.accel_std_mps2, imu.step_s());
+}
+
+TEST(ImuNoiseEstimator, SaturatedSamplesTeachNothing) {
+  NoisyImu imu(100.0);
+  const Vector3 before = imu.Run(5.0, {}).accel_noise_psd;
+  ImuSample clipped;
+  clipped.stamp = {6'000'000'000};
+  clipped.f_imu_mps2 = Vector3::Constant(80.0);
+  clipped.is_force_saturated = true;
+  imu.estimator().Add(clipped);
+  EXPECT_EQ(clipped.accel_noise_psd, before);
+}
+
+TEST(ImuNoiseEstimator, LearnsOnAfterAClockWasSetBack) {
+  NoisyImu imu(100.0);
+  const Noise calm;
+  const Noise shaken{Vector3::Constant(0.015), Vector3::Constant(0.8)};
+  const Vector3 before = imu.Run(5.0, calm).accel_noise_psd;
+  imu.Pause(-4.0);
+  imu.estimator().Interrupt();
+  EXPECT_EQ(imu.Run(0.01, calm).accel_noise_psd, before) << "what is known stays";
+  ExpectNear(imu.Run(4.0, shaken).accel_noise_psd, shaken.accel_std_mps2, imu.step_s());
+}
+
+}  // namespace
+}  // namespace lio

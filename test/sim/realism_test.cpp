@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Each effect of the field is measured by switching it on alone.
+#include "lio/sim/realism.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lio/sim/scenario.hpp"
+
+namespace lio::sim {
+namespace {
+
+RecordOptions OptionsOf(Realism realism, const std::vector<std::string>& without = {}) {
+  RecordOptions options;
+  options.lidar = LoadLidarModel("hdl32e");
+  options.imu = LoadImuModel("xsens_mti10");
+  SetRealism(realism, without, options);
+  return options;
+}
+
+// Only this effect of the field, without the errors of the data sheet.
+RecordOptions Only(const std::string& effect) {
+  std::vector<std::string> without = FieldEffects();
+  std::erase(without, effect);
+  RecordOptions options = OptionsOf(Realism::kField, without);
+  options.lidar_errors.noise_scale = 0.0;
+  options.lidar_errors.dropout_ratio = 0.0;
+  options.lidar_errors.has_weak_echoes = false;
+  options.lidar.range_step_m = 0.0;
+  if (effect != "mixed-pixels") options.lidar_errors.has_mixed_pixels = false;
+  return options;
+}
+
+// A closed room of 40 x 30 x 9 m around a sensor at rest.
+World Room() {
+  World world;
+  AddBox(world.fixed, UprightPose({0.0, 0.0, -2.0}, 0.0), {40.0, 30.0, 9.0}, Material::kPlaster);
+  return world;
+}
+
+SimulatedSweep SweepIn(const World& world, const RecordOptions& options) {
+  MotionPlan plan;
+  plan.knots.resize(4);
+  const Trajectory still(plan);
+  const Scene scene(world);
+  return LidarSimulator({options.lidar, Pose::Identity(), options.lidar_errors, 5, 0.0}, scene,
+                        still)
+      .Sweep(0);
+}
+
+// The range of a point less that of the room's surface along the same beam.
+double RangeError(const LidarPoint& point) {
+  const Vector3 p(point.x_m, point.y_m, point.z_m);
+  const double to_surface = std::min(
+      {20.0 / std::abs(p.x()), 15.0 / std::abs(p.y()), p.z() > 0.0 ? 7.0 / p.z() : -2.0 / p.z()});
+  return p.norm() * (1.0 - to_surface);
+}
+
+TEST(Realism, IdealSensorsHaveNoErrors) {
+  const RecordOptions options = OptionsOf(Realism::kIdeal);
+  for (const LidarPoint& point : SweepIn(Room(), options).points) {
+    ASSERT_NEAR(RangeError(point), 0.0, 1e-4);
+  }
+  EXPECT_EQ(options.imu.accel.noise_density, 0.0);
+  EXPECT_EQ(options.imu.gyro.turn_on_bias_std, 0.0);
+  EXPECT_EQ(options.imu.rate_hz, 100.0) << "the rate is the sensor's own";
+}
+
+TEST(Realism, DatasheetHasNoneOfTheFieldsEffects) {
+  const RecordOptions datasheet = OptionsOf(Realism::kDatasheet);
+  const RecordOptions without_all = OptionsOf(Realism::kField, FieldEffects());
+  EXPECT_FALSE(datasheet.imu_vibrates);
+  EXPECT_EQ(datasheet.lidar_errors.laser_bias_std_m, 0.0);
+  EXPECT_EQ(SweepIn(Room(), datasheet).points.size(), SweepIn(Room(), without_all).points.size());
+}
+
+TEST(Realism, AnUnknownEffectIsAnsweredWithTheKnownOnes) {
+  try {
+    OptionsOf(Realism::kField, {"fog"});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("no effect 'fog'"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("laser-bias"));
+  }
+}
+
+TEST(Realism, EachLaserHasItsOwnBias) {
+  std::map<std::uint16_t, std::vector<double>> errors;
+  for (const LidarPoint& point : SweepIn(Room(), Only("laser-bias")).points) {
+    errors[point.ring].push_back(RangeError(point));
+  }
+  double sum_sq = 0.0;
+  for (const auto& [ring, of_ring] : errors) {
+    const auto [low, high] = std::minmax_element(of_ring.begin(), of_ring.end());
+    EXPECT_LT(*high - *low, 2e-4) << "ring " << ring;
+    sum_sq += of_ring.front() * of_ring.front();
+  }
+  EXPECT_EQ(errors.size(), 32u);
+  EXPECT_NEAR(std::sqrt(sum_sq / 32.0), 0.008, 0.004);
+}
+
+TEST(Realism, RangesGrowAtGrazingIncidence) {
+  const std::vector<LidarPoint> points = SweepIn(Room(), Only("grazing-bias")).points;
+  double largest = 0.0;
+  for (const LidarPoint& point : points) {
+    const Vector3 p(point.x_m, point.y_m, point.z_m);
+    const double error = RangeError(point);
+    if (std::abs(p.z() + 2.0) < 0.2 && error > 1e-3) {  // the floor
+      const double cos_incidence = -p.z() / p.norm();
+      EXPECT_NEAR(error, std::min(0.006 * (1.0 / cos_incidence - 1.0), 0.04), 2e-3);
+    }
+    largest = std::max(largest, error);
+  }
+  EXPECT_GT(largest, 0.03);
+  EXPECT_LT(largest, 0.041);
+}
+
+TEST(Realism, TheBeamTableIsOffByItsError) {
+  double sum_sq = 0.0;
+  int num = 0;
+  for (const LidarPoint& point : SweepIn(Room(), Only("beam-table")).points) {
+    if (point.z_m > -1.0f || std::hypot(point.x_m, point.y_m) > 12.0f) continue;  // the floor
+    const double range = std::hypot(point.x_m, point.y_m, point.z_m);
+    // A turned beam meets the floor elsewhere, and is drawn where the table says.
+    const double sine = -point.z_m / range;
+    const double off_rad = (sine * range - 2.0) / (range * std::sqrt(1.0 - sine * sine));
+    sum_sq += off_rad * off_rad;
+    ++num;
+  }
+  ASSERT_GT(num, 1000);
+  EXPECT_NEAR(std::sqrt(sum_sq / num), 3.5e-4, 2e-4);
+}
+
+TEST(Realism, OneToThreePerCentOfAStreetsReturnsAreMixedPixels) {
+  const Scenario street = MakeScenario("street", {1, 10.0, true});
+  const RecordOptions options = OptionsOf(Realism::kField);
+  const Scene scene(street.world);
+  const LidarSimulator lidar(
+      {options.lidar, street.T_imu_lidar, options.lidar_errors, 1, street.begin_s}, scene,
+      *street.trajectory);
+  std::int64_t num = 0;
+  std::size_t of = 0;
+  for (std::int64_t index = 0; index < 90; index += 30) {
+    const SimulatedSweep sweep = lidar.Sweep(index);
+    num += sweep.num_in_between;
+    of += sweep.points.size();
+  }
+  const double share = static_cast<double>(num) / static_cast<double>(of);
+  EXPECT_GT(share, 0.008);
+  EXPECT_LT(share, 0.03);
+}
+
+// The spread of neighbouring samples' differences, where the motion itself is smooth.
+double SpreadOf(const RecordOptions& options, bool of_rate) {
+  const Scenario street = MakeScenario("street", {1, 20.0, true});
+  ImuSetup setup{options.imu, ImuVariant::kNormal, 9.8, options.imu_vibrates, 1};
+  ImuSimulator imu(setup, *street.trajectory);
+  double sum_sq = 0.0;
+  double per_mps = 0.0;
+  int num = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const std::int64_t t_ns = std::llround(street.begin_s * 1e9) + std::int64_t{10'000'000} * i;
+    const SimulatedImu sample = imu.Sample(t_ns);
+    const Vector3 truth = of_rate ? sample.truth.w_imu_radps
+                                  : Vector3(sample.truth.T_world_imu.rotation.conjugate() *
+                                            (sample.truth.a_world_mps2 + Vector3(0, 0, 9.8)));
+    const Vector3 measured = of_rate ? sample.sample.w_imu_radps : sample.sample.f_imu_mps2;
+    const Vector3 bias = of_rate ? sample.gyro_bias_radps : sample.accel_bias_mps2;
+    const double speed = sample.truth.v_world_mps.norm();
+    if (speed < 3.0) continue;
+    sum_sq += (measured - truth - bias).squaredNorm() / 3.0;
+    per_mps += speed * speed;
+    ++num;
+  }
+  EXPECT_GT(num, 500);
+  return std::sqrt(sum_sq / per_mps);
+}
+
+TEST(Realism, VibrationGrowsWithSpeed) {
+  EXPECT_NEAR(SpreadOf(Only("vibration"), false), 0.012, 0.003);
+  EXPECT_LT(SpreadOf(OptionsOf(Realism::kDatasheet), false), 0.003);
+  EXPECT_GT(SpreadOf(Only("vibration"), true), SpreadOf(OptionsOf(Realism::kDatasheet), true));
+}
+
+}  // namespace
+}  // namespace lio::sim
