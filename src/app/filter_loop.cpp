@@ -128,7 +128,9 @@ void FilterLoop::Emit(const ScanOutput& output) {
     to_.board.AddLatency(ms(timing.started_utime - timing.arrived_utime),
                          ms(HostUtime() - timing.started_utime));
   }
-  if (output.filter) EmitClouds(output);
+  if (!output.filter) return;
+  to_.board.SetImuNoise(output.filter->imu_noise);
+  EmitClouds(output);
 }
 
 void FilterLoop::EmitClouds(const ScanOutput& output) {

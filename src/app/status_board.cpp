@@ -63,6 +63,11 @@ void StatusBoard::SetEstimator(const Counters& counters, TrackingStatus state,
   report_.newest_stamp = newest_stamp;
 }
 
+void StatusBoard::SetImuNoise(const ImuNoiseRatios& ratios) {
+  const std::lock_guard lock(mutex_);
+  report_.imu_noise = ratios;
+}
+
 void StatusBoard::SetInput(const InputCounters& counters) {
   const std::lock_guard lock(mutex_);
   report_.input = counters;

@@ -29,6 +29,7 @@ class StatusBoard {
               StatusClocks clocks = {});
 
   void SetEstimator(const Counters& counters, TrackingStatus state, Timestamp newest_stamp);
+  void SetImuNoise(const ImuNoiseRatios& ratios);
   void SetInput(const InputCounters& counters);
   void SetNote(std::string note);
   void CountRefusedCommand();

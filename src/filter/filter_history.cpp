@@ -83,6 +83,7 @@ FilterHistory::FilterHistory(const HistoryOptions& options, const Estimate& star
   node.imu_stamp = start.stamp;
   node.sample = sample;
   node.sample.stamp = start.stamp;
+  node.noise = options.noise.shown;
   node.posterior = start;
   nodes_.push_back(std::move(node));
 }
@@ -123,11 +124,13 @@ bool FilterHistory::IsInGap(Timestamp stamp, std::size_t at) const {
   return SecondsBetween(nodes_[at - 1].imu_stamp, until) > options_.imu_outage.gap_s;
 }
 
-void FilterHistory::StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to,
+void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSample& to,
                            bool is_in_gap) const {
+  const ImuSample& from = before.sample;
   const double dt = SecondsBetween(from.stamp, to.stamp);
   if (dt <= 0) return;
   ProcessNoise noise = options_.noise;
+  noise.shown = before.noise;
   // An error of `std` that is constant for lasts_s has the variance of white noise of this density.
   const auto add = [](double& density, double std, double lasts_s) {
     density = std::hypot(density, std * std::sqrt(lasts_s));
@@ -153,7 +156,8 @@ void FilterHistory::Step(std::size_t at) {
   node.imu_stamp = is_measured ? node.stamp : nodes_[at - 1].imu_stamp;
   node.posterior = nodes_[at - 1].posterior;
   node.inflation = nodes_[at - 1].inflation;
-  StepTo(node.posterior, nodes_[at - 1].sample, node.sample, IsInGap(node.stamp, at));
+  node.noise = nodes_[at - 1].noise;
+  StepTo(node.posterior, nodes_[at - 1], node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
   switch (node.kind) {
     case Kind::kImu:
@@ -167,6 +171,9 @@ void FilterHistory::Step(std::size_t at) {
       break;
     case Kind::kRebase:
       RebaseMapPose(node.posterior);
+      break;
+    case Kind::kNoise:
+      node.noise = node.new_noise;
       break;
   }
 }
@@ -243,11 +250,21 @@ EventOutcome FilterHistory::AddRebase(Timestamp stamp) {
   return EventOutcome::kApplied;
 }
 
+EventOutcome FilterHistory::AddNoise(Timestamp stamp, const ImuNoise& noise) {
+  if (const auto refused = Refuse(stamp, Kind::kNoise)) return *refused;
+  Node node;
+  node.stamp = stamp;
+  node.kind = Kind::kNoise;
+  node.new_noise = noise;
+  Insert(std::move(node));
+  return EventOutcome::kApplied;
+}
+
 Estimate FilterHistory::At(Timestamp stamp) const {
   const std::size_t after = FirstAfter(stamp);
   if (after == 0) return nodes_.front().posterior;
   Estimate estimate = nodes_[after - 1].posterior;
-  StepTo(estimate, nodes_[after - 1].sample, SampleAt(stamp, after), IsInGap(stamp, after));
+  StepTo(estimate, nodes_[after - 1], SampleAt(stamp, after), IsInGap(stamp, after));
   estimate.stamp = stamp;
   return estimate;
 }

@@ -37,14 +37,13 @@ Transition MakeTransition(const Matrix3& R, const InertialIncrement& step,
   return t;
 }
 
-void AddNoise(double dt, const Matrix3& R, const ProcessNoise& noise, const ImuSample& to,
-              Matrix9& cov) {
-  const Matrix3 velocity = dt * R * AccelPsd(noise, to).asDiagonal() * R.transpose();
+void AddNoise(double dt, const Matrix3& R, const ProcessNoise& noise, Matrix9& cov) {
+  const Matrix3 velocity = dt * R * AccelPsd(noise).asDiagonal() * R.transpose();
   cov.block<3, 3>(kP, kP) += dt * dt / 3.0 * velocity;
   cov.block<3, 3>(kP, kV) += 0.5 * dt * velocity;
   cov.block<3, 3>(kV, kP) += 0.5 * dt * velocity;
   cov.block<3, 3>(kV, kV) += velocity;
-  cov.block<3, 3>(kR, kR).diagonal() += dt * GyroPsd(noise, to);
+  cov.block<3, 3>(kR, kR).diagonal() += dt * GyroPsd(noise);
 }
 
 void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& noise,
@@ -55,7 +54,7 @@ void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& nois
   const Transition t = MakeTransition(R, step, by_bias);
   sum.by_bias = t.A * sum.by_bias + t.B;
   sum.cov = t.A * sum.cov * t.A.transpose();
-  AddNoise(step.dt_s, R * step.turn.toRotationMatrix(), noise, to, sum.cov);
+  AddNoise(step.dt_s, R * step.turn.toRotationMatrix(), noise, sum.cov);
   sum.position += step.dt_s * sum.velocity + R * step.position;
   sum.velocity += R * step.velocity;
   sum.rotation = (sum.rotation * step.turn).normalized();

@@ -117,10 +117,10 @@ ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& 
 
 // Adds the noise of one step to the lower triangle of P. White noise of PSD S along the imu's axes
 // adds S dt to the velocity and S dt^3 / 3 to the position.
-void AddNoise(const Step& s, const ProcessNoise& noise, const ImuSample& to, ErrorMatrix& P) {
+void AddNoise(const Step& s, const ProcessNoise& noise, ErrorMatrix& P) {
   const double dt = s.increment.dt_s;
-  const Vector3 gyro = dt * GyroPsd(noise, to);
-  const Vector3 vel = dt * AccelPsd(noise, to);
+  const Vector3 gyro = dt * GyroPsd(noise);
+  const Vector3 vel = dt * AccelPsd(noise);
   const Matrix3 vel_by_world = vel.asDiagonal() * s.R1.transpose();
   const Matrix3 vel_world = s.R1 * vel_by_world;
   P.block<3, 3>(kMapPose, kPos) += dt * dt / 3.0 * vel_by_world;
@@ -142,12 +142,12 @@ void AddNoise(const Step& s, const ProcessNoise& noise, const ImuSample& to, Err
 
 }  // namespace
 
-Vector3 GyroPsd(const ProcessNoise& noise, const ImuSample& sample) {
-  return sample.gyro_noise_psd.cwiseMax(noise.gyro_density * noise.gyro_density);
+Vector3 GyroPsd(const ProcessNoise& noise) {
+  return noise.shown.gyro_psd.cwiseMax(noise.gyro_density * noise.gyro_density);
 }
 
-Vector3 AccelPsd(const ProcessNoise& noise, const ImuSample& sample) {
-  return sample.accel_noise_psd.cwiseMax(noise.accel_density * noise.accel_density);
+Vector3 AccelPsd(const ProcessNoise& noise) {
+  return noise.shown.accel_psd.cwiseMax(noise.accel_density * noise.accel_density);
 }
 
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
@@ -178,7 +178,7 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
   const Step step = MakeStep(before, estimate.state, from, to);
   const ErrorMatrix half = TimesTransitionTransposed(step, estimate.cov);  // P F^T
   estimate.cov = LowerTimesTransitionTransposed(step, half.transpose());   // F P F^T
-  AddNoise(step, noise, to, estimate.cov);
+  AddNoise(step, noise, estimate.cov);
   estimate.cov.triangularView<Eigen::StrictlyUpper>() = estimate.cov.transpose();
 }
 
@@ -201,8 +201,6 @@ ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp st
   sample.stamp = stamp;
   sample.w_imu_radps = a.w_imu_radps + fraction * (b.w_imu_radps - a.w_imu_radps);
   sample.f_imu_mps2 = a.f_imu_mps2 + fraction * (b.f_imu_mps2 - a.f_imu_mps2);
-  sample.gyro_noise_psd = a.gyro_noise_psd.cwiseMax(b.gyro_noise_psd);
-  sample.accel_noise_psd = a.accel_noise_psd.cwiseMax(b.accel_noise_psd);
   sample.is_rate_saturated = a.is_rate_saturated || b.is_rate_saturated;
   sample.is_force_saturated = a.is_force_saturated || b.is_force_saturated;
   return sample;

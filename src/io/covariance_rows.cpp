@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "io/covariance_rows.hpp"
+#include "covariance_rows.hpp"
 
 #include <fmt/format.h>
 

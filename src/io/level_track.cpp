@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "io/covariance_rows.hpp"
+#include "covariance_rows.hpp"
 #include "lio/io/trajectory_file.hpp"
 
 namespace lio {

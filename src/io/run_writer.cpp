@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "io/covariance_rows.hpp"
+#include "covariance_rows.hpp"
 #include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
@@ -32,6 +32,8 @@ std::string RegistrationHeader() {
       "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
       "degenerate_mask";
   for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
+  for (std::size_t i = 0; i < LevelCounts().size(); ++i)
+    header += fmt::format(",matched_level_{}", i);
   header += ",matches";
   for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
   return header + "\n";
@@ -50,17 +52,18 @@ std::string RegistrationRow(const ScanReport& scan) {
   for (const double eigenvalue : scan.information_eigenvalues) {
     row += fmt::format(",{:.9e}", eigenvalue);
   }
+  for (const int num : scan.num_matched_at) row += fmt::format(",{}", num);
   row += fmt::format(",{}", scan.num_matches);
   for (const std::int64_t ns : scan.stage_ns) row += fmt::format(",{:.6f}", Milliseconds(ns));
   return row + "\n";
 }
 
-Json StageStats(const QuantileSketch& times_ms) {
-  if (times_ms.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
-  const auto rounded = [](double ms) { return std::round(ms * 1e6) * 1e-6; };
-  return {{"median", rounded(times_ms.Quantile(0.5))},
-          {"p99", rounded(times_ms.Quantile(0.99))},
-          {"max", rounded(times_ms.max())}};
+Json Summary(const QuantileSketch& values) {
+  if (values.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
+  const auto rounded = [](double value) { return std::round(value * 1e6) * 1e-6; };
+  return {{"median", rounded(values.Quantile(0.5))},
+          {"p99", rounded(values.Quantile(0.99))},
+          {"max", rounded(values.max())}};
 }
 
 Json CounterStats(const Counters& counters) {
@@ -142,6 +145,9 @@ void RunWriter::WriteScan(const ScanOutput& output) {
   }
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
+  const ImuNoiseRatios& noise = output.filter->imu_noise;
+  if (noise.gyro > 0.0) gyro_noise_ratio_.Add(noise.gyro);
+  if (noise.accel > 0.0) accel_noise_ratio_.Add(noise.accel);
   if (last_scan_ && nav.stamp <= *last_scan_) {
     ++num_rows_not_later_;
     return;
@@ -180,8 +186,10 @@ void RunWriter::WriteStats(const RunStats& stats) {
   json["wall_s"] = stats.wall_s;
   json["realtime_factor"] = stats.wall_s > 0 ? stats.log_duration_s / stats.wall_s : 0.0;
   json["rss_peak_mb"] = PeakMemoryMb();
+  json["imu_noise_per_rig"] = {{"gyro", Summary(gyro_noise_ratio_)},
+                               {"accel", Summary(accel_noise_ratio_)}};
   for (std::size_t i = 0; i < kNumStages; ++i) {
-    json["stage_ms"][kStageNames[i]] = StageStats(stage_ms_[i]);
+    json["stage_ms"][kStageNames[i]] = Summary(stage_ms_[i]);
   }
   File file = Open("stats.json");
   file.stream << json.dump(2) << "\n";

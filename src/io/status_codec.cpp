@@ -86,6 +86,8 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   message.cpu_load = report.cpu_load_cores;
   message.rss_mb = report.rss_mb;
   message.map_mb = report.map_mb;
+  message.gyro_noise_ratio = static_cast<float>(report.imu_noise.gyro);
+  message.accel_noise_ratio = static_cast<float>(report.imu_noise.accel);
   message.config_hash = static_cast<std::int64_t>(report.config_hash);
   CopyVersion(version, message.version);
   message.note = report.note;

@@ -14,6 +14,13 @@ namespace {
 
 using Parameters = MultiResolutionParameters;
 
+// Cells of half the size are four times as many on the same surfaces.
+int ShareOfCells(int level, const NdtOptions& options) {
+  double sum = 0.0;
+  for (int i = 0; i < options.num_levels; ++i) sum += std::ldexp(1.0, -2 * i);
+  return std::max(1, static_cast<int>(options.max_cells * std::ldexp(1.0, -2 * level) / sum));
+}
+
 }  // namespace
 
 MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
@@ -21,6 +28,7 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
   for (int level = 0; level < options.num_levels; ++level) {
     NdtOptions at_level = options;
     at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - options.num_levels);
+    at_level.max_cells = ShareOfCells(level, options);
     if (level + 1 < options.num_levels) {
       at_level.max_distance_m =
           std::min(options.max_distance_m, Parameters::kReach_edges * at_level.voxel_m);

@@ -9,11 +9,11 @@
 namespace lio {
 
 inline HistoryOptions MakeHistoryOptions(const Options& options, double nis_limit,
-                                         const Vector3& g_world) {
+                                         const Vector3& g_world, const ImuNoise& shown) {
   const ImuRig& imu = options.rig.imu;
   HistoryOptions history;
   history.noise = {imu.gyro_noise_density, imu.accel_noise_density, imu.gyro_bias_walk_density,
-                   imu.accel_bias_walk_density};
+                   imu.accel_bias_walk_density, shown};
   history.g_world = g_world;
   history.span_s = options.filter.history_s;
   history.nis_limit = nis_limit;

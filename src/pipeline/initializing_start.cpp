@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "lio/filter/preintegration.hpp"
@@ -21,6 +22,13 @@ std::string NameOfUnits(ImuUnits units) {
 
 std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
+}
+
+// Raises the densities to the noise that the samples show on the noisiest axis.
+void RaiseTo(const ImuNoise& shown, ImuRig& imu) {
+  imu.gyro_noise_density = std::max(imu.gyro_noise_density, std::sqrt(shown.gyro_psd.maxCoeff()));
+  imu.accel_noise_density =
+      std::max(imu.accel_noise_density, std::sqrt(shown.accel_psd.maxCoeff()));
 }
 
 // Tells the user what to configure for messages of the convention that was found.
@@ -182,7 +190,9 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   } else if (auto rejection = CheckGravity(*has_gravity, seen, stamp)) {
     return rejection;
   } else {
-    moving = StartMoving(samples, poses, begin, context_.options.rig, *has_gravity);
+    Rig rig = context_.options.rig;
+    RaiseTo(imu.NoiseAt(stamp), rig.imu);
+    moving = StartMoving(samples, poses, begin, rig, *has_gravity);
   }
   if (moving.start) return StartFrom(*moving.start, 0, false);
   context_.outputs.NotifyWaiting(stamp, "no start in motion yet: " + moving.why_not);

@@ -111,7 +111,7 @@ class Odometry::Impl {
             clock_,   counters_,
             outputs_, stream_,
             sweeps_,  convention_,
-            clocks_};
+            clocks_,  imu_noise_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
   bool IsIdle() const { return !in_flight_ && sweeps_.size() <= NextSweepOf(*mode_); }
@@ -216,6 +216,7 @@ class Odometry::Impl {
   SensorStream stream_;
   std::deque<SweepPtr> sweeps_;
   ImuConventionMonitor convention_;
+  ImuNoiseWatch imu_noise_;
   ClockOffsetFollower clocks_;
   std::unique_ptr<Mode> mode_;
   SweepPtr in_flight_;          // the sweep whose job is out

@@ -24,8 +24,8 @@ Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_
   return cov;
 }
 
-// The drift of the map over `moved_m`. Errors that move with the sensor (biases of lasers, errors of
-// the beam table) bend the map the same way scan after scan, so no number of scans averages them
+// The drift of the map over `moved_m`. Errors that move with the sensor (biases of lasers, errors
+// of the beam table) bend the map the same way scan after scan, so no number of scans averages them
 // away.
 Matrix6 ShapeDriftCov(double moved_m) {
   const auto variance = [moved_m](double per_sqrt_m) { return per_sqrt_m * per_sqrt_m * moved_m; };
@@ -87,6 +87,7 @@ ScanReport MakeScanReport(const MatchOutcome& outcome) {
   report.num_raw = static_cast<int>(outcome.sweep->points.size());
   report.num_used = outcome.num_used;
   report.num_matched = outcome.match.num_matched;
+  report.num_matched_at = outcome.match.num_matched_at;
   report.num_matches = outcome.num_matches;
   report.iterations = outcome.match.iterations;
   report.status = outcome.match.status;

@@ -16,7 +16,8 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
     : context_(context),
       handover_(std::move(handover)),
       g_world_(start.g_world),
-      history_(MakeHistoryOptions(context.options, context.nis_limit, start.g_world),
+      history_(MakeHistoryOptions(context.options, context.nis_limit, start.g_world,
+                                  context.stream.imu().NoiseAt(start.estimate.stamp)),
                start.estimate, SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
       zero_velocity_(context.options.rig.imu, is_at_rest) {
@@ -73,6 +74,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const Timestamp end = outcome.sweep->end;
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  (void)history_.AddNoise(end, context_.stream.imu().NoiseAt(end));  // too old: it was so before
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused);
@@ -91,8 +93,11 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
         MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);
   }
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
-  context_.outputs.Add(
-      ScanOutput{MakeFilterReport(history_.At(end), report, MakeReportContext()), report});
+  FilterReport filter = MakeFilterReport(history_.At(end), report, MakeReportContext());
+  if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
+    context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
+  }
+  context_.outputs.Add(ScanOutput{std::move(filter), report});
   context_.sweeps.pop_front();
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(EarliestOf(*sweeps.front())));

@@ -31,7 +31,8 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
       estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * g_world_;
   ImuSample end = coast;
   end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
-  const HistoryOptions history = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_);
+  const HistoryOptions history = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
+                                                    context_.stream.imu().NoiseAt(first));
   ProcessNoise noise = history.noise;
   noise.accel_density = history.imu_outage.gap_accel_std_mps2 * std::sqrt(unknown_s);
   noise.gyro_density = history.imu_outage.gap_gyro_std_radps * std::sqrt(unknown_s);

@@ -52,15 +52,20 @@ void SplitWithin(const Matrix6& information, const Matrix6& basis, int begin, in
 
 }  // namespace
 
-DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information) {
+DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information,
+                               const Matrix6& sure_information) {
   DirectionSplit split;
   const double rotation = information.bottomRightCorner<3, 3>().trace();
   const double translation = information.topLeftCorner<3, 3>().trace();
   if (translation > 0 && rotation > 0) split.metres_per_rad = std::sqrt(rotation / translation);
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
-  const Matrix6 scaled = inverse_scale.asDiagonal() * information * inverse_scale.asDiagonal();
-  const Matrix6 noise = inverse_scale.asDiagonal() * noise_information * inverse_scale.asDiagonal();
-  const Subspaces found = FindSubspaces(scaled, noise);
+  const auto in_metres = [&](const Matrix6& matrix) -> Matrix6 {
+    return inverse_scale.asDiagonal() * matrix * inverse_scale.asDiagonal();
+  };
+  const Matrix6 scaled = in_metres(information);
+  constexpr double kMoreForSure = DegeneracyParameters::kMinInformationRatio - 1.0;
+  const Subspaces found = FindSubspaces(scaled + kMoreForSure * in_metres(sure_information),
+                                        in_metres(noise_information));
   SplitWithin(scaled, found.basis, 0, found.num_degenerate, split);
   SplitWithin(scaled, found.basis, found.num_degenerate, 6 - found.num_degenerate, split);
   split.degenerate_mask = (1u << found.num_degenerate) - 1u;

@@ -21,6 +21,7 @@ Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
 void MatchSums::operator+=(const MatchSums& other) {
   information += other.information;
   noise_information += other.noise_information;
+  sure_information += other.sure_information;
   gradient += other.gradient;
   weight_sum += other.weight_sum;
   residual_sq_sum += other.residual_sq_sum;
@@ -34,7 +35,8 @@ double MatchSums::curvature_ratio() const {
 }
 
 DirectionSplit SplitDirections(const MatchSums& sums) {
-  return SplitDirections(sums.information.Full(), sums.noise_information.Full());
+  return SplitDirections(sums.information.Full(), sums.noise_information.Full(),
+                         sums.sure_information.Full());
 }
 
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {

@@ -186,6 +186,8 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
   for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
     const NdtRow& row = term.rows[i];
     const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
+    if (patch.kind == SurfacePatch::Kind::kVertical)
+      sums.sure_information.Add(jacobian, row.weight);
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
     if (score != nullptr) score->rows[i] = {gradient, jacobian, row.distance, row.weight};
   }
@@ -251,6 +253,9 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (scores_[i].num_rows > 0) ++result.num_matched_at[map_.LevelOf(pairs_[i].cell)];
+  }
   result.num_in_map =
       static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
         return pair.cell != GaussianMap::kNoCell;

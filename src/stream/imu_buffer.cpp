@@ -3,6 +3,7 @@
 #include "lio/stream/imu_buffer.hpp"
 
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/imu/imu_noise_estimator.hpp"
 #include "lio/imu/start_state.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
@@ -31,9 +32,8 @@ bool ImuBuffer::Keep(const ImuSample& sent, bool is_made_up, std::vector<ImuRead
   const Timestamp oldest = sent_.back().stamp - Duration::FromSeconds(kStream.imu_buffer_s);
   while (sent_.front().stamp < oldest) sent_.pop_front();
   while (!samples_.empty() && samples_.front().stamp < oldest) samples_.pop_front();
-  std::optional<ImuSample> sample = Read(sent);
+  const std::optional<ImuSample> sample = Read(sent);
   if (!sample) return true;
-  if (!is_made_up) noise_.Add(*sample);
   InsertByStamp(samples_, *sample);
   ready.push_back({*sample, is_made_up});
   return true;
@@ -80,16 +80,16 @@ void ImuBuffer::FreezeUpTo(Timestamp stamp, std::vector<ImuReady>& ready) {
   }
 }
 
+ImuNoise ImuBuffer::NoiseAt(Timestamp stamp) const {
+  return EstimateNoise(Between(stamp - Duration::FromSeconds(kImuNoise.window_s), stamp));
+}
+
 void ImuBuffer::SetConvention(const ImuConvention& convention) {
   counters_->num_imu_out_of_range -= std::ssize(sent_) - std::ssize(samples_);
   samples_.clear();
-  noise_ = {};
   convention_ = convention;
   for (const ImuSample& sent : sent_) {
-    if (std::optional<ImuSample> sample = Read(sent)) {
-      noise_.Add(*sample);
-      samples_.push_back(*sample);
-    }
+    if (const std::optional<ImuSample> sample = Read(sent)) samples_.push_back(*sample);
   }
 }
 
@@ -98,7 +98,6 @@ void ImuBuffer::Clear() {
   samples_.clear();
   mean_before_gap_.reset();
   frozen_until_.reset();
-  noise_.Interrupt();
 }
 
 }  // namespace lio

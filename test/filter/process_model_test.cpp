@@ -120,39 +120,40 @@ TEST(ProcessModel, PropagateAppliesTheTransitionAndAddsNoise) {
   EXPECT_TRUE((added.diagonal().array() > 0).all()) << added.diagonal().transpose();
 }
 
-// The noise that a sample brings along is per axis of the imu; it turns into world with it.
-TEST(ProcessModel, NoiseOfASampleCountsPerAxisAndAtLeastAsTheRigSays) {
+// The noise that the sensor shows is per axis of the imu; it turns into world with it.
+TEST(ProcessModel, NoiseThatTheSensorShowsCountsPerAxisAndAtLeastAsTheRigSays) {
   std::mt19937_64 random(4);
-  StepCase step = RandomStep(random, 0.01);
+  const StepCase step = RandomStep(random, 0.01);
   const ProcessNoise rig = TestNoise();
-  const auto added_by = [&](const ImuSample& to) {
+  const auto added_by = [&](const ProcessNoise& noise) {
     Estimate estimate;
     estimate.stamp = step.from.stamp;
     estimate.state = step.before;
     Estimate without = estimate;
-    Propagate(estimate, step.from, to, rig, kGravity);
+    Propagate(estimate, step.from, step.to, noise, kGravity);
     Propagate(without, step.from, step.to, ProcessNoise{}, kGravity);
     return ErrorMatrix(estimate.cov - without.cov);
   };
-  const ErrorMatrix by_rig = added_by(step.to);
+  const ErrorMatrix by_rig = added_by(rig);
 
-  ImuSample calmer = step.to;
-  calmer.accel_noise_psd = Vector3::Constant(0.5 * rig.accel_density * rig.accel_density);
-  calmer.gyro_noise_psd = Vector3::Constant(0.5 * rig.gyro_density * rig.gyro_density);
+  ProcessNoise calmer = rig;
+  calmer.shown.accel_psd = Vector3::Constant(0.5 * rig.accel_density * rig.accel_density);
+  calmer.shown.gyro_psd = Vector3::Constant(0.5 * rig.gyro_density * rig.gyro_density);
   EXPECT_EQ(added_by(calmer), by_rig);
 
-  ImuSample shaken = step.to;
-  shaken.accel_noise_psd = Vector3(0.1, 0.4, 0.9);
-  shaken.gyro_noise_psd = Vector3(0.01, 0.02, 0.03);
-  const ErrorMatrix by_sample = added_by(shaken);
+  ProcessNoise noise = rig;
+  ImuNoise& shaken = noise.shown;
+  shaken.accel_psd = Vector3(0.1, 0.4, 0.9);
+  shaken.gyro_psd = Vector3(0.01, 0.02, 0.03);
+  const ErrorMatrix by_sample = added_by(noise);
   const NavState after = PropagateState(step.before, step.from, step.to, kGravity);
   const Matrix3 R = after.T_world_imu.rotation.toRotationMatrix();
-  const Matrix3 velocity_cov = 0.01 * R * shaken.accel_noise_psd.asDiagonal() * R.transpose();
+  const Matrix3 velocity_cov = 0.01 * R * shaken.accel_psd.asDiagonal() * R.transpose();
   EXPECT_LT((by_sample.block<3, 3>(kVel, kVel) - velocity_cov).norm(), 1e-12);
   EXPECT_LT((by_sample.block<3, 3>(kPos, kPos) - 1e-4 / 3.0 * velocity_cov).norm(), 1e-12);
   EXPECT_LT((by_sample.block<3, 3>(kPos, kVel) - 0.005 * velocity_cov).norm(), 1e-12);
   const Vector3 turn_var = by_sample.block<3, 3>(kRot, kRot).diagonal();
-  EXPECT_LT((turn_var - 0.01 * shaken.gyro_noise_psd).norm(), 1e-12);
+  EXPECT_LT((turn_var - 0.01 * shaken.gyro_psd).norm(), 1e-12);
   // Both poses take the same increment: the map's errors are those of the world, seen from imu.
   const Matrix3 map_var = by_sample.block<3, 3>(kMapPose, kMapPose);
   EXPECT_LT((R * map_var * R.transpose() - by_sample.block<3, 3>(kPos, kPos)).norm(), 1e-12);

@@ -130,7 +130,9 @@ TEST_F(RunWriterTest, ARowSaysHowManyFullMatchesItTook) {
   WriteRun(scan);
   const auto rows = Lines(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_THAT(rows[0], HasSubstr(",information_eigenvalue_5,matches,decode_ms,"));
+  EXPECT_THAT(rows[0],
+              HasSubstr(",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
+                        "matched_level_3,matches,decode_ms,"));
   EXPECT_THAT(rows[1], HasSubstr(",3,0.000000,"));
 }
 

@@ -50,7 +50,7 @@ class ModeBench {
             nullptr,  counters,
             outputs_, stream_,
             sweeps,   convention_,
-            clocks_};
+            clocks_,  imu_noise_};
   }
 
   // Units that the messages are sent in, per SI unit.
@@ -148,6 +148,7 @@ class ModeBench {
   OutputQueue outputs_;
   SensorStream stream_;
   ImuConventionMonitor convention_;
+  ImuNoiseWatch imu_noise_;
   ClockOffsetFollower clocks_;
   std::int32_t num_sweeps_ = 0;
   Pose T_map_world_;

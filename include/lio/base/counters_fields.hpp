@@ -30,7 +30,7 @@ inline constexpr std::array kCounterFields = std::to_array<CounterField>({
     {"num_imu_out_of_range", &Counters::num_imu_out_of_range,
      "inertial samples refused: a value or a stamp that no sensor sends"},
     {"num_imu_clipped", &Counters::num_imu_clipped,
-     "inertial samples with an axis at the end of its range (saturation); they are used"},
+     "inertial samples used although an axis is at the end of its range"},
     {"num_imu_gaps", &Counters::num_imu_gaps, "gaps in the stream of inertial samples"},
     {"num_chunks", &Counters::num_chunks, "chunks of scans that arrived"},
     {"num_chunks_duplicate", &Counters::num_chunks_duplicate,

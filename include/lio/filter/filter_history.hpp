@@ -75,6 +75,8 @@ class FilterHistory {
   [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
   // The map is begun anew at the pose of `stamp`: the error of T_map_imu is zero there.
   [[nodiscard]] EventOutcome AddRebase(Timestamp stamp);
+  // From `stamp` on the sensor shows this noise.
+  [[nodiscard]] EventOutcome AddNoise(Timestamp stamp, const ImuNoise& noise);
 
   // Keeps events from `stamp` on, and the one before them, even when they leave the window, because
   // a scan of that time is still to come. Without a value only the window is kept.
@@ -90,7 +92,7 @@ class FilterHistory {
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
  private:
-  enum class Kind { kImu, kPose, kZeroVelocity, kRebase };
+  enum class Kind { kImu, kPose, kZeroVelocity, kRebase, kNoise };
   struct Node {
     Timestamp stamp;
     Timestamp imu_stamp;  // of the last measured sample up to here
@@ -99,6 +101,8 @@ class FilterHistory {
     PoseEvent pose;
     double zero_velocity_var = 0.0;  // (m/s)^2
     UpdateResult update;
+    ImuNoise new_noise;             // of kNoise
+    ImuNoise noise;                 // shown after the event
     CovarianceInflation inflation;  // after the event
     Estimate posterior;
   };
@@ -108,7 +112,8 @@ class FilterHistory {
   void Replay(std::size_t from);
   void Step(std::size_t at);
   void Fuse(Node& node) const;  // a pose
-  void StepTo(Estimate& estimate, const ImuSample& from, const ImuSample& to, bool is_in_gap) const;
+  // `before`: the node that the step begins at.
+  void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, bool is_in_gap) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
   bool IsInGap(Timestamp stamp, std::size_t at) const;
   // The sample at `stamp`, interpolated between the node before index `at` and the first measured

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
+#include "lio/sensor/imu_noise.hpp"
 #include "lio/sensor/imu_sample.hpp"
 
 namespace lio {
@@ -19,12 +20,13 @@ struct ProcessNoise {
   double accel_density = 0.0;
   double gyro_bias_walk_density = 0.0;
   double accel_bias_walk_density = 0.0;
+  // The noise that the sensor shows; the densities above are its lower bounds.
+  ImuNoise shown = {};
 };
 
-// The power spectral density of the white noise of a sample, per axis: what the sensor shows, and
-// at least what `noise` says. Units: those of the densities, squared.
-Vector3 GyroPsd(const ProcessNoise& noise, const ImuSample& sample);
-Vector3 AccelPsd(const ProcessNoise& noise, const ImuSample& sample);
+// The power spectral densities that the filter counts on, per axis of imu.
+Vector3 GyroPsd(const ProcessNoise& noise);
+Vector3 AccelPsd(const ProcessNoise& noise);
 
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world);

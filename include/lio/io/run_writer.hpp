@@ -12,7 +12,7 @@
 //   trajectory_base.tum: the poses of base in map, when rig.T_base_imu is given
 //   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
 //   registration.csv: one row per scan: points, residual, information, status, stage times
-//   stats.json: counts, speed, memory, stage times
+//   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
@@ -88,6 +88,8 @@ class RunWriter {
   std::optional<Timestamp> last_imu_rate_;
   std::int64_t num_rows_not_later_ = 0;
   std::array<QuantileSketch, kNumStages> stage_ms_;
+  QuantileSketch gyro_noise_ratio_;  // ImuNoiseRatios, at each scan
+  QuantileSketch accel_noise_ratio_;
 };
 
 }  // namespace lio

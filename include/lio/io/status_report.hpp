@@ -40,6 +40,7 @@ struct StatusReport {
   float cpu_load_cores = 0.0F;            // over the last second
   float rss_mb = 0.0F;
   float map_mb = 0.0F;
+  ImuNoiseRatios imu_noise;
   std::uint64_t config_hash = 0;
   std::string note;  // the last notice
 };

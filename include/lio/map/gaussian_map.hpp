@@ -89,7 +89,6 @@ class GaussianMap {
     std::int32_t num_points = 0;
     std::int32_t fitted_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
-    std::uint32_t renewed = 0;   // number of the scan that made it the youngest in the index
     bool is_known = false;       // the points show a plane or a vertical structure
   };
 
@@ -103,7 +102,7 @@ class GaussianMap {
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
-  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, const Vector3& mean, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;

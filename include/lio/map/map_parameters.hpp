@@ -25,15 +25,15 @@ struct GaussianMapParameters {
   // A vertical structure's larger horizontal standard deviation over the voxel's edge, at most: a
   // wider one is cut off by the cell's sides.
   static constexpr double kMaxVerticalWidthPerVoxel = 0.2;
+  // A vertical structure's mean is at least this many of its standard deviations from the cell's
+  // sides, in both level directions: a piece cut off by two sides is at 1.73 from them.
+  static constexpr double kFreeSides = 2.5;
   // Floor of a vertical structure's horizontal standard deviation [m]: the side from which a trunk
   // is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
   // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
   // filled cell changes little with each point. Chosen.
   static constexpr double kRefitGrowth = 1.3;
-  // A cell that is seen counts as the youngest again after this many scans: the order by age needs
-  // no more than a second. Chosen.
-  static constexpr std::uint32_t kRenewal_scans = 10;
   // So many points ahead, memory is asked for before it is needed. Chosen; no effect on results.
   static constexpr std::size_t kPrefetchDistance = 16;
   // The search for cells beyond the map's range passes over all cells in this many scans. Chosen:

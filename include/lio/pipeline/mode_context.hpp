@@ -9,6 +9,7 @@
 #include "lio/base/counters.hpp"
 #include "lio/pipeline/clock_offset_follower.hpp"
 #include "lio/pipeline/imu_convention_monitor.hpp"
+#include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/output_queue.hpp"
 #include "lio/stream/sensor_stream.hpp"
@@ -27,6 +28,7 @@ struct ModeContext {
   std::deque<SweepPtr>& sweeps;
   ImuConventionMonitor& convention;
   ClockOffsetFollower& clocks;
+  ImuNoiseWatch& imu_noise;
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 };

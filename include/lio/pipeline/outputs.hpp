@@ -12,6 +12,7 @@
 #include "lio/base/counters.hpp"
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
+#include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/registration/match_status.hpp"
 
 namespace lio {
@@ -69,9 +70,10 @@ struct FilterReport {
   // zero unless it is estimated.
   double clock_offset_s = 0.0;
   double clock_offset_std_s = 0.0;
-  double nis = 0.0;     // normalised innovation squared of the last update
-  int nis_dof = 0;      // 0: no update
-  Eigen::MatrixXd cov;  // that of the pose and velocity in `nav`
+  ImuNoiseRatios imu_noise;  // zero where it is not known
+  double nis = 0.0;          // normalised innovation squared of the last update
+  int nis_dof = 0;           // 0: no update
+  Eigen::MatrixXd cov;       // that of the pose and velocity in `nav`
 };
 
 enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };
@@ -84,7 +86,8 @@ struct ScanReport {
   std::int64_t scan_seq = 0;
   int num_raw = 0;
   int num_used = 0;
-  int num_matched = 0;  // points
+  int num_matched = 0;           // points
+  LevelCounts num_matched_at{};  // of them by level of the map, finest first; method ndt
   int num_matches = 0;  // full matches against the map, of guesses and after another deskew
   int iterations = 0;   // of the last match
   MatchStatus status = MatchStatus::kConverged;

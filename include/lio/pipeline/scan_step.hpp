@@ -23,8 +23,8 @@ struct ScanStepParameters {
   // cm in 100 m, a tenth of the drift of the best odometries on real drives
   // (docs/experiments/field_realism.md).
   double shape_drift_m_per_sqrt_m = 1e-3;
-  // The same of its rotation: 0.06 deg in 100 m. Beam tables are good to 0.02 deg.
-  double shape_drift_rad_per_sqrt_m = 1e-4;
+  // The same of its rotation: 0.03 deg in 100 m. Beam tables are good to 0.02 deg.
+  double shape_drift_rad_per_sqrt_m = 5e-5;
   // The least time that a prior is taken to have run free, so that rates by it stay finite.
   double min_since_last_fix_s = 0.01;
 };

@@ -29,9 +29,11 @@ struct DirectionSplit {
 };
 
 // `information`: the Hessian of the cost, right error. `noise_information`: the part of it that the
-// noise of the map's normals induces by itself.
+// noise of the map's normals induces by itself. `sure_information`: the part of it that this noise
+// does not induce; it needs no margin above the noise.
 [[nodiscard]] DirectionSplit SplitDirections(const Matrix6& information,
-                                             const Matrix6& noise_information);
+                                             const Matrix6& noise_information,
+                                             const Matrix6& sure_information = Matrix6::Zero());
 
 // The Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
 [[nodiscard]] Vector6 StepInObservableDirections(const DirectionSplit& split,

@@ -3,6 +3,8 @@
 // How a match of a scan against the map ended.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace lio {
@@ -15,5 +17,9 @@ enum class MatchStatus : std::int8_t {
   kDiverged = 4,
   kDegenerate = 5,  // converged, with degenerate directions
 };
+
+// A count for each level of a map of several resolutions, finest first.
+inline constexpr std::size_t kMaxMapLevels = 4;
+using LevelCounts = std::array<int, kMaxMapLevels>;
 
 }  // namespace lio

@@ -76,6 +76,7 @@ struct MatchSums {
 
   TermSum information;
   TermSum noise_information;  // the part that the noise of the map's normals induces by itself
+  TermSum sure_information;   // the part that no noise of normals induces: of vertical structures
   Vector6 gradient = Vector6::Zero();
   double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
   double residual_sq_sum = 0.0;  // weighted so [m^2]

@@ -55,6 +55,7 @@ struct [[nodiscard]] MatchResult {
   Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   int num_matched = 0;
+  LevelCounts num_matched_at{};  // by level of the map, finest first; method ndt
   // Points where the map has a surface, near or far from it; 0 where the method does not tell.
   int num_in_map = 0;
   int iterations = 0;

@@ -12,10 +12,6 @@ struct ImuSample {
   Timestamp stamp;
   Vector3 w_imu_radps = Vector3::Zero();  // angular rate of imu against an inertial frame, in imu
   Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
-  // Power spectral density of the white noise that the sensor shows around this sample, per axis;
-  // zero where it is not known. Learned by imu/imu_noise_estimator.hpp.
-  Vector3 gyro_noise_psd = Vector3::Zero();   // (rad/s)^2/Hz
-  Vector3 accel_noise_psd = Vector3::Zero();  // (m/s^2)^2/Hz
   bool is_rate_saturated = false;   // an axis is at the end of its range: the true rate is larger
   bool is_force_saturated = false;  // likewise for the force
 };

@@ -10,7 +10,7 @@
 
 #include "lio/base/counters.hpp"
 #include "lio/imu/imu_convention.hpp"
-#include "lio/imu/imu_noise_estimator.hpp"
+#include "lio/sensor/imu_noise.hpp"
 #include "lio/stream/stream_event.hpp"
 
 namespace lio {
@@ -43,6 +43,9 @@ class ImuBuffer {
   // The samples() from the one stamp to the other, both included.
   [[nodiscard]] std::vector<ImuSample> Between(Timestamp from, Timestamp to) const;
   [[nodiscard]] std::optional<Timestamp> newest() const;
+  // The noise that the samples show, as known at the last freeze not after `stamp`: late samples
+  // and the order of arrival do not change it.
+  [[nodiscard]] ImuNoise NoiseAt(Timestamp stamp) const;
 
  private:
   bool Keep(const ImuSample& sent, bool is_made_up, std::vector<ImuReady>& ready);
@@ -56,7 +59,6 @@ class ImuBuffer {
   std::deque<ImuSample> samples_;
   std::optional<ImuSample> mean_before_gap_;  // as sent; while the stream has a gap
   std::optional<Timestamp> frozen_until_;
-  ImuNoiseEstimator noise_;
 };
 
 }  // namespace lio

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Tells the user when the IMU is much noisier than the rig says: mostly vibration, seldom a wrong
+// entry. The filter uses what the samples show either way (imu/imu_noise_estimator.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lio/sensor/imu_noise.hpp"
+#include "lio/sensor/rig.hpp"
+
+namespace lio {
+
+// How many times the noise density that the samples show is that of the rig, on the noisiest axis;
+// zero where it is not known.
+struct ImuNoiseRatios {
+  double gyro = 0.0;
+  double accel = 0.0;
+};
+[[nodiscard]] ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig);
+
+struct ImuNoiseWatchParameters {
+  double min_ratio = 3.0;     // less is within what data sheets leave open. Chosen
+  double tell_again = 3.0;    // said again when it has grown by so much. Chosen
+  int min_scans_in_row = 20;  // two seconds: a kerb is no vibration. Chosen
+};
+
+inline constexpr ImuNoiseWatchParameters kImuNoiseWatch;
+
+class ImuNoiseWatch {
+ public:
+  // Takes the ratios at a scan; returns what to announce.
+  [[nodiscard]] std::optional<std::string> Add(const ImuNoiseRatios& ratios);
+
+ private:
+  struct Sensor {
+    double told = 0.0;        // the ratio that was announced last
+    double least_lately = 0;  // of the scans in a row that are much noisier than was told
+    int num_in_row = 0;
+  };
+  static bool IsNews(double ratio, Sensor& sensor);
+
+  Sensor gyro_;
+  Sensor accel_;
+};
+
+}  // namespace lio

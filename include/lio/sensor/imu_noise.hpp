@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The white noise of an IMU as power spectral densities, per axis of imu: densities squared. Zero
+// where it is not known.
+#pragma once
+
+#include "lio/base/rotation.hpp"
+
+namespace lio {
+
+struct ImuNoise {
+  Vector3 gyro_psd = Vector3::Zero();   // (rad/s)^2/Hz
+  Vector3 accel_psd = Vector3::Zero();  // (m/s^2)^2/Hz
+};
+
+}  // namespace lio
