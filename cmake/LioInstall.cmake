@@ -21,6 +21,7 @@ set(LIO_PUBLIC_HEADERS
   lio/registration/match_status.hpp
   lio/scan/loam_feature_options.hpp
   lio/scan/reduce_options.hpp
+  lio/sensor/imu_noise.hpp
   lio/sensor/imu_sample.hpp
   lio/sensor/lidar_sweep.hpp
   lio/sensor/rig.hpp

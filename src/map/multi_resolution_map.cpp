@@ -89,16 +89,7 @@ void MultiResolutionMap::SetUp(const Vector3& up_map) {
 
 void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
                                 const Workers& workers) {
-  left_.assign(points_map.begin(), points_map.end());
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
-    levels_[level].Insert(left_, sensor_map, workers);
-    const std::span<const std::int32_t> cells = levels_[level].inserted_cells();
-    std::size_t num_left = 0;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (!ShowsSurface(level, cells[i])) left_[num_left++] = left_[i];
-    }
-    left_.resize(num_left);
-  }
+  for (GaussianMap& level : levels_) level.Insert(points_map, sensor_map, workers);
 }
 
 std::size_t MultiResolutionMap::num_cells() const {

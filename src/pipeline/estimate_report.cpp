@@ -7,6 +7,7 @@
 #include "lio/filter/published_estimate.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/base_motion.hpp"
+#include "lio/pipeline/imu_noise_watch.hpp"
 
 namespace lio {
 namespace {

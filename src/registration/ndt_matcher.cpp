@@ -86,7 +86,7 @@ void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& 
                            double radius_m, bool with_vertical) {
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
-  const std::size_t finest = map_.LevelFor(radius_m);
+  const std::size_t finest = std::max(map_.LevelFor(radius_m), finest_level_);
   const Vector3 sensor_grid = T_grid_imu * sensor_imu_;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   workers_.ForEachBlock(points.size(), [&](const Block& block) {
@@ -276,6 +276,9 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
   counted_at_.reset();
+  // A guess that may be far off is followed by large cells to the end: small ones hold points that
+  // are half a cell off elsewhere, and a place is then not found again.
+  finest_level_ = input.is_far_off ? map_.num_levels() - 1 : 0;
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
     Associate(input.points_imu, pose, radius.std_m(), !IsTranslationWellConstrained(input));

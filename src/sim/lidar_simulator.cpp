@@ -42,6 +42,17 @@ Vector3 Direction(double elevation_rad, double azimuth_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
+// Returns the point at a range along `direction`, which is turned to the column's heading.
+LidarPoint PointAt(double range_m, double heading_rad, const Vector3& direction) {
+  const double c = std::cos(heading_rad);
+  const double s = std::sin(heading_rad);
+  LidarPoint point;
+  point.x_m = static_cast<float>(range_m * (c * direction.x() - s * direction.y()));
+  point.y_m = static_cast<float>(range_m * (s * direction.x() + c * direction.y()));
+  point.z_m = static_cast<float>(range_m * direction.z());
+  return point;
+}
+
 // Returns the strength of the light that comes back from a surface at 1 m.
 double Backscatter(const MaterialTraits& traits, double cos_incidence) {
   double strength = traits.reflectivity * std::sqrt(cos_incidence);
@@ -283,14 +294,7 @@ void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std:
     range_m = model.range_step_m * std::round(range_m / model.range_step_m);
   }
   if (range_m < model.min_range_m || range_m > model.max_range_m) return;
-  const double heading = echoes.headings_rad[in_sweep];
-  const double c = std::cos(heading);
-  const double s = std::sin(heading);
-  const Vector3& d = table_directions_[beam];
-  LidarPoint point;
-  point.x_m = static_cast<float>(range_m * (c * d.x() - s * d.y()));
-  point.y_m = static_cast<float>(range_m * (s * d.x() + c * d.y()));
-  point.z_m = static_cast<float>(range_m * d.z());
+  LidarPoint point = PointAt(range_m, echoes.headings_rad[in_sweep], table_directions_[beam]);
   point.t_offset_ns = static_cast<std::uint32_t>(
       std::max<std::int64_t>(0, std::llround(t_s * 1e9) - sweep.begin_ns));
   point.intensity = IntensityOf(backscatter * (0.95 + 0.1 * Halves(MixBits(key + 5)).a));

@@ -7,7 +7,8 @@ import unittest
 
 import support
 
-DRIVE = ("suburb", "--duration", "10", "--lidar", "vlp16", "--moving-start", "--imu-variant")
+DRIVE = ("suburb", "--duration", "10", "--lidar", "vlp16", "--moving-start", "--realism",
+         "datasheet", "--imu-variant")
 NAMES = {"in-g": "accelerometer in g, gyro in rad/s",
          "in-deg": "accelerometer in m/s^2, gyro in deg/s",
          "in-g-and-deg": "accelerometer in g, gyro in deg/s",

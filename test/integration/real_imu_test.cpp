@@ -26,7 +26,7 @@ constexpr int kNumSeeds = 10;
 constexpr double kGivenAccelDensity = 2.0e-3;  // from the data's description
 // The densities are from the innovations and from the force against the true motion:
 // docs/consistency.md.
-constexpr ProcessNoise kMeasuredNoise{.gyro_density = 3e-4,
+const ProcessNoise kMeasuredNoise{.gyro_density = 3e-4,
                                       .accel_density = 0.03,
                                       .gyro_bias_walk_density = 7e-5,
                                       .accel_bias_walk_density = 3e-4};

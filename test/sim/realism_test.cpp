@@ -56,9 +56,10 @@ SimulatedSweep SweepIn(const World& world, const RecordOptions& options) {
 // The range of a point less that of the room's surface along the same beam.
 double RangeError(const LidarPoint& point) {
   const Vector3 p(point.x_m, point.y_m, point.z_m);
-  const double to_surface = std::min(
-      {20.0 / std::abs(p.x()), 15.0 / std::abs(p.y()), p.z() > 0.0 ? 7.0 / p.z() : -2.0 / p.z()});
-  return p.norm() * (1.0 - to_surface);
+  const double height_m = p.z() > 0.0 ? 7.0 : 2.0;
+  const double of_the_way =
+      std::max({std::abs(p.x()) / 20.0, std::abs(p.y()) / 15.0, std::abs(p.z()) / height_m});
+  return p.norm() * (1.0 - 1.0 / of_the_way);
 }
 
 TEST(Realism, IdealSensorsHaveNoErrors) {

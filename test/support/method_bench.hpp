@@ -26,8 +26,6 @@ inline Options MethodOptions(MatchMethod method) {
   options.pipeline.method = method;
   options.pipeline.use_imu = false;
   options.rig.lidar.min_range_m = 1.0;
-  options.reduce.target_points = 5000;  // the density that the contract's bounds are for
-  options.reduce.match_points = 2500;
   return options;
 }
 

@@ -68,6 +68,27 @@ Examples:
 )";
 }
 
+void AddErrors(CLI::App& app, Arguments& arguments) {
+  const std::map<std::string, sim::Realism> grades = {{"ideal", sim::Realism::kIdeal},
+                                                      {"datasheet", sim::Realism::kDatasheet},
+                                                      {"field", sim::Realism::kField}};
+  app.add_option("--realism", arguments.realism,
+                 "errors of the sensors: ideal (none), datasheet (as data sheets state them),\n"
+                 "field (and those a sensor has on a vehicle)")
+      ->transform(CLI::CheckedTransformer(grades).description(""))
+      ->default_str("field")
+      ->type_name("NAME");
+  app.add_option("--without", arguments.without,
+                 "effect of the field that is left out; can be given several times: " +
+                     CLI::detail::join(sim::FieldEffects(), ", "))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--fault", arguments.faults,
+                 "fault to simulate, as KIND:KEY=VALUE,...; can be given several times; see below")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
       {"normal", sim::ImuVariant::kNormal},
@@ -109,24 +130,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--moving-start", arguments.starts_moving,
                "begin the log in motion instead of at rest");
-  const std::map<std::string, sim::Realism> grades = {{"ideal", sim::Realism::kIdeal},
-                                                      {"datasheet", sim::Realism::kDatasheet},
-                                                      {"field", sim::Realism::kField}};
-  app.add_option("--realism", arguments.realism,
-                 "errors of the sensors: ideal (none), datasheet (as data sheets state them),\n"
-                 "field (and those a sensor has on a vehicle)")
-      ->transform(CLI::CheckedTransformer(grades).description(""))
-      ->default_str("field")
-      ->type_name("NAME");
-  app.add_option("--without", arguments.without,
-                 "effect of the field that is left out; can be given several times: " +
-                     CLI::detail::join(sim::FieldEffects(), ", "))
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--fault", arguments.faults,
-                 "fault to simulate, as KIND:KEY=VALUE,...; can be given several times; see below")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  AddErrors(app, arguments);
   app.add_option("--threads", arguments.num_threads,
                  "number of threads; the files do not depend on it")
       ->capture_default_str()

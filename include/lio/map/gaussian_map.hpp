@@ -69,8 +69,6 @@ class GaussianMap {
   // max_cells, those without new points for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
-  // The cells of the points of the last Insert(), kNoCell where a point was out of range.
-  std::span<const std::int32_t> inserted_cells() const { return cells_; }
 
   std::size_t num_cells() const { return index_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.

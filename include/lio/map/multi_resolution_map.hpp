@@ -42,8 +42,7 @@ class MultiResolutionMap {
   }
 
   void SetUp(const Vector3& up_map);
-  // Adds a scan taken from `sensor_map`. A point goes on to the next level while its cell shows no
-  // surface.
+  // Adds a scan taken from `sensor_map`, to all levels.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
 
@@ -68,7 +67,6 @@ class MultiResolutionMap {
 
   std::vector<GaussianMap> levels_;  // finest first
   std::vector<double> edges_m_;
-  std::vector<Vector3> left_;  // scratch of Insert
 };
 
 }  // namespace lio

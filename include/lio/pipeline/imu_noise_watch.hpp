@@ -12,12 +12,6 @@
 
 namespace lio {
 
-// How many times the noise density that the samples show is that of the rig, on the noisiest axis;
-// zero where it is not known.
-struct ImuNoiseRatios {
-  double gyro = 0.0;
-  double accel = 0.0;
-};
 [[nodiscard]] ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig);
 
 struct ImuNoiseWatchParameters {

@@ -12,8 +12,8 @@
 #include "lio/base/counters.hpp"
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
-#include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/registration/match_status.hpp"
+#include "lio/sensor/imu_noise.hpp"
 
 namespace lio {
 

@@ -98,6 +98,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   Workers workers_;
   MultiResolutionMap map_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
+  std::size_t finest_level_ = 0;          // of the match
   std::vector<Pair> pairs_;               // of the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell

@@ -10,8 +10,8 @@ struct ReduceOptions {
   double voxel_m = 0.3;      // edge of the thinning grid for the first scan
   double min_voxel_m = 0.1;  // the edge then adapts from scan to scan between these two ...
   double max_voxel_m = 1.0;
-  int target_points = 3500;  // ... to leave about this many points, which the map is made of
-  int match_points = 1750;   // about this many of them are matched
+  int target_points = 5000;  // ... to leave about this many points, which the map is made of
+  int match_points = 2500;   // about this many of them are matched
 };
 
 }  // namespace lio

@@ -13,4 +13,11 @@ struct ImuNoise {
   Vector3 accel_psd = Vector3::Zero();  // (m/s^2)^2/Hz
 };
 
+// How many times the noise density that the samples show is that of the rig, on the noisiest axis;
+// zero where it is not known.
+struct ImuNoiseRatios {
+  double gyro = 0.0;
+  double accel = 0.0;
+};
+
 }  // namespace lio
