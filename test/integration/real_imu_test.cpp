@@ -27,9 +27,9 @@ constexpr double kGivenAccelDensity = 2.0e-3;  // from the data's description
 // The densities are from the innovations and from the force against the true motion:
 // docs/consistency.md.
 const ProcessNoise kMeasuredNoise{.gyro_density = 3e-4,
-                                      .accel_density = 0.03,
-                                      .gyro_bias_walk_density = 7e-5,
-                                      .accel_bias_walk_density = 3e-4};
+                                  .accel_density = 0.03,
+                                  .gyro_bias_walk_density = 7e-5,
+                                  .accel_bias_walk_density = 3e-4};
 // A larger fourth difference of the true positions means that the truth jumps: 50 ms of motion
 // leave half a millimetre.
 constexpr double kTruthJump_m = 0.005;
