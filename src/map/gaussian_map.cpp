@@ -21,16 +21,10 @@ bool IsInRange(const Vector3& scaled) {
   return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
 }
 
-// From a point in a cube around the origin to the nearer side along `direction`, to and fro.
-double DistanceToSide(const Vector3& from, const Vector3& direction, double half_edge) {
-  const auto room = half_edge - from.array().abs();
-  return (room / direction.array().abs().max(1e-9)).minCoeff();
-}
-
 }  // namespace
 
-GaussianMap::GaussianMap(const NdtOptions& options)
-    : options_(options), inverse_voxel_(1.0 / options.voxel_m) {
+GaussianMap::GaussianMap(const NdtOptions& options, bool finds_vertical)
+    : options_(options), finds_vertical_(finds_vertical), inverse_voxel_(1.0 / options.voxel_m) {
   if (!(options.voxel_m > 0) || options.min_cell_points < 3 ||
       options.max_cell_points <= options.min_cell_points || options.max_cells < 1) {
     throw std::invalid_argument("GaussianMap: voxel_m, cell points or max_cells out of range");
@@ -128,7 +122,7 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
-  sums.is_known = FitPlane(cov, sums, patch) || FitVertical(cov, sums.mean, patch);
+  sums.is_known = FitPlane(cov, sums, patch) || (finds_vertical_ && FitVertical(cov, patch));
   if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
@@ -155,9 +149,8 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
 }
 
 // A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
-// It must be narrow and stand free of the cell's sides: a corner of the cell that a wall cuts off
-// is narrow and tall, too, and where it lies along the wall is the grid's doing.
-bool GaussianMap::FitVertical(const Matrix3& cov, const Vector3& mean, SurfacePatch& patch) const {
+// It must be narrow: one that fills the cell is cut off by the cell's sides.
+bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   const double min_height = Parameters::kMinHeightPerVoxel * options_.voxel_m;
   if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
   const Vector3 level1 = up_map_.unitOrthogonal();
@@ -171,10 +164,6 @@ bool GaussianMap::FitVertical(const Matrix3& cov, const Vector3& mean, SurfacePa
   const Eigen::Vector2d variance =
       eigen.eigenvalues().cwiseMax(Parameters::kMinVerticalStd_m * Parameters::kMinVerticalStd_m);
   const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
-  for (int i = 0; i < 2; ++i) {
-    const double free_m = Parameters::kFreeSides * std::sqrt(std::max(0.0, eigen.eigenvalues()[i]));
-    if (DistanceToSide(mean, axes.col(i), 0.5 * options_.voxel_m) < free_m) return false;
-  }
   patch.kind = SurfacePatch::Kind::kVertical;
   patch.thickness_var = static_cast<float>(variance[0]);
   patch.normal = axes.col(0).cast<float>();

@@ -28,12 +28,14 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
   for (int level = 0; level < options.num_levels; ++level) {
     NdtOptions at_level = options;
     at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - options.num_levels);
+    // A small cell's corner that a wall cuts off is as narrow and tall as a post.
+    const bool is_coarsest = level + 1 == options.num_levels;
     at_level.max_cells = ShareOfCells(level, options);
-    if (level + 1 < options.num_levels) {
+    if (!is_coarsest) {
       at_level.max_distance_m =
           std::min(options.max_distance_m, Parameters::kReach_edges * at_level.voxel_m);
     }
-    levels_.emplace_back(at_level);
+    levels_.emplace_back(at_level, is_coarsest);
     edges_m_.push_back(at_level.voxel_m);
   }
 }

@@ -45,8 +45,9 @@ class GaussianMap {
  public:
   static constexpr std::int32_t kNoCell = VoxelIndex::kNone;
 
-  // Throws std::invalid_argument when an option is out of its range.
-  explicit GaussianMap(const NdtOptions& options);
+  // `finds_vertical`: do cells show vertical structures, too, and not planes alone? Throws
+  // std::invalid_argument when an option is out of its range.
+  explicit GaussianMap(const NdtOptions& options, bool finds_vertical = true);
 
   struct Hit {
     std::int32_t cell = kNoCell;  // index for patch(); kNoCell where the map is empty
@@ -100,12 +101,13 @@ class GaussianMap {
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
-  bool FitVertical(const Matrix3& cov, const Vector3& mean, SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
   NdtOptions options_;
+  bool finds_vertical_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
   VoxelIndex index_;  // of cells

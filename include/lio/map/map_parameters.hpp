@@ -25,10 +25,6 @@ struct GaussianMapParameters {
   // A vertical structure's larger horizontal standard deviation over the voxel's edge, at most: a
   // wider one is cut off by the cell's sides.
   static constexpr double kMaxVerticalWidthPerVoxel = 0.2;
-  // A vertical structure's mean is at least this many of its standard deviations from the cell's
-  // sides, in both level directions: a piece cut off by two sides is at 1.73 from them. 2.2 takes
-  // pieces of a wall for posts, 2.5 leaves out posts beside a motorway.
-  static constexpr double kFreeSides = 2.3;
   // Floor of a vertical structure's horizontal standard deviation [m]: the side from which a trunk
   // is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
