@@ -57,7 +57,7 @@ void SetRealism(Realism realism, const std::vector<std::string>& without, Record
   for (const std::string& name : without) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     std::string known;
-    for (const std::string& effect : names) known += " " + effect;
+    for (const std::string& effect : names) known.append(" ").append(effect);
     throw std::invalid_argument("no effect '" + name + "'; there are:" + known);
   }
   if (realism == Realism::kIdeal) MakeIdeal(options);
