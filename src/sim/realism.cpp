@@ -56,9 +56,10 @@ void SetRealism(Realism realism, const std::vector<std::string>& without, Record
   const std::vector<std::string> names = FieldEffects();
   for (const std::string& name : without) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    std::string known;
-    for (const std::string& effect : names) known.append(" ").append(effect);
-    throw std::invalid_argument("no effect '" + name + "'; there are:" + known);
+    std::string message("no effect '");
+    message.append(name).append("'; there are:");
+    for (const std::string& effect : names) message.append(" ").append(effect);
+    throw std::invalid_argument(message);
   }
   if (realism == Realism::kIdeal) MakeIdeal(options);
   if (realism != Realism::kField) return;
