@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "covariance_rows.hpp"
+#include "lio/io/output_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 
 namespace lio {
@@ -14,17 +15,6 @@ namespace {
 
 constexpr const char* kPoses = "trajectory_level.tum";
 constexpr const char* kCovariances = "covariance_level.csv";
-
-std::ofstream OpenText(const fs::path& path) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (!file) throw std::runtime_error("cannot write " + path.string());
-  return file;
-}
-
-void Close(std::ofstream& file, const fs::path& path) {
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path.string() + " in full");
-}
 
 // The mean square error of `pose` as an estimate of what `T_world_imu` estimates: its covariance
 // and the square of the known step between the two.
@@ -71,22 +61,24 @@ Quaternion LevelTrack::R_level_map() const {
 }
 
 void LevelTrack::Finish() {
-  rows_.seekg(0);
+  rows_.seekg(0);  // writes what is left in the stream's buffer
+  if (!rows_) throw std::runtime_error("cannot write " + rows_path_.string() + " in full");
   if (is_level_known_) {
     const Pose T_level_map{R_level_map(), Vector3::Zero()};
-    std::ofstream poses = OpenText(folder_ / kPoses);
-    std::ofstream covariances = OpenText(folder_ / kCovariances);
-    covariances << CovarianceHeader();
+    OutputFile poses = OpenOutput(folder_ / kPoses);
+    OutputFile covariances = OpenOutput(folder_ / kCovariances);
+    covariances.stream << CovarianceHeader();
     Row row;
     while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
       const Timestamp stamp{row.stamp_ns};
       const Pose pose = T_level_map * Get(row.T_map_imu);
-      poses << TumRow({stamp, pose}) << '\n';
+      poses.stream << TumRow({stamp, pose}) << '\n';
       const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
-      covariances << CovarianceRow(stamp, CovarianceOf(pose, Get(row.T_world_imu), world_cov));
+      covariances.stream << CovarianceRow(stamp,
+                                          CovarianceOf(pose, Get(row.T_world_imu), world_cov));
     }
-    Close(poses, folder_ / kPoses);
-    Close(covariances, folder_ / kCovariances);
+    Close(poses);
+    Close(covariances);
   }
   const bool is_whole = rows_.eof() || !is_level_known_;
   rows_.close();

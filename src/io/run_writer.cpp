@@ -82,15 +82,9 @@ double PeakMemoryMb() {
 
 }  // namespace
 
-RunWriter::File RunWriter::Open(const std::string& name) const {
-  File file{folder_ / name, {}};
-  file.stream.open(file.path, std::ios::binary | std::ios::trunc);
-  if (!file.stream) throw std::runtime_error("cannot write " + file.path.string());
-  return file;
-}
-
 RunWriter::Track RunWriter::OpenTrack(const std::string& frame) const {
-  Track track{Open("trajectory" + frame + ".tum"), Open("covariance" + frame + ".csv")};
+  Track track{OpenOutput(folder_ / ("trajectory" + frame + ".tum")),
+              OpenOutput(folder_ / ("covariance" + frame + ".csv"))};
   track.covariances.stream << CovarianceHeader();
   return track;
 }
@@ -98,11 +92,6 @@ RunWriter::Track RunWriter::OpenTrack(const std::string& frame) const {
 void RunWriter::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
   track.poses.stream << TumRow(pose) << '\n';
   track.covariances.stream << CovarianceRow(pose.stamp, cov);
-}
-
-void RunWriter::Close(File& file) {
-  file.stream.close();
-  if (!file.stream) throw std::runtime_error("cannot write " + file.path.string() + " in full");
 }
 
 RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options)
@@ -114,15 +103,15 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   }
   for (const char* stale : {"stats.json", "map.pcd", "map.ply", "trajectory_base.tum"})
     std::filesystem::remove(folder / stale, error);
-  File options_file = Open("options.yaml");
+  OutputFile options_file = OpenOutput(folder_ / "options.yaml");
   options_file.stream << PrintResultOptions(options);
   Close(options_file);
   in_map_ = OpenTrack("");
   in_world_ = OpenTrack("_world");
   level_.emplace(folder_);
-  if (options.rig.T_base_imu) base_ = Open("trajectory_base.tum");
-  imu_rate_ = Open("trajectory_imu_rate.tum");
-  registration_ = Open("registration.csv");
+  if (options.rig.T_base_imu) base_ = OpenOutput(folder_ / "trajectory_base.tum");
+  imu_rate_ = OpenOutput(folder_ / "trajectory_imu_rate.tum");
+  registration_ = OpenOutput(folder_ / "registration.csv");
   registration_.stream << RegistrationHeader();
 }
 
@@ -191,7 +180,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
   for (std::size_t i = 0; i < kNumStages; ++i) {
     json["stage_ms"][kStageNames[i]] = Summary(stage_ms_[i]);
   }
-  File file = Open("stats.json");
+  OutputFile file = OpenOutput(folder_ / "stats.json");
   file.stream << json.dump(2) << "\n";
   Close(file);
 }
@@ -201,7 +190,7 @@ void RunWriter::Finish(const RunStats& stats) {
     Close(track->poses);
     Close(track->covariances);
   }
-  for (File* file : {&imu_rate_, &registration_}) Close(*file);
+  for (OutputFile* file : {&imu_rate_, &registration_}) Close(*file);
   if (base_) Close(*base_);
   level_->Finish();
   WriteStats(stats);

@@ -24,7 +24,9 @@ int ShareOfCells(int level, const NdtOptions& options) {
 }  // namespace
 
 MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
-  if (options.num_levels < 1) throw std::invalid_argument("MultiResolutionMap: no level");
+  if (options.num_levels < 1 || options.num_levels > static_cast<int>(kMaxMapLevels)) {
+    throw std::invalid_argument("MultiResolutionMap: num_levels out of range");
+  }
   for (int level = 0; level < options.num_levels; ++level) {
     NdtOptions at_level = options;
     at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - options.num_levels);

@@ -7,7 +7,6 @@
 #include "lio/filter/published_estimate.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/base_motion.hpp"
-#include "lio/pipeline/imu_noise_watch.hpp"
 
 namespace lio {
 namespace {
@@ -66,9 +65,6 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.g_world_mps2 = context.g_world;
   filter.clock_offset_s = context.clocks.total_s();
   filter.clock_offset_std_s = context.clocks.std_s();
-  if (context.imu != nullptr) {
-    filter.imu_noise = NoiseRatiosOf(context.imu->NoiseAt(report.stamp), context.options.rig.imu);
-  }
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov;

@@ -74,7 +74,9 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const Timestamp end = outcome.sweep->end;
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
-  (void)history_.AddNoise(end, context_.stream.imu().NoiseAt(end));  // too old: it was so before
+  // A scan that comes too late for the filter's window comes too late to set its noise.
+  const ImuNoise noise = context_.stream.imu().NoiseAt(end);
+  (void)history_.AddNoise(end, noise);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused);
@@ -94,6 +96,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   }
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   FilterReport filter = MakeFilterReport(history_.At(end), report, MakeReportContext());
+  filter.imu_noise = NoiseRatiosOf(noise, context_.options.rig.imu);
   if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }

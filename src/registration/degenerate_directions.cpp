@@ -40,7 +40,8 @@ Subspaces FindSubspaces(const Matrix6& information, const Matrix6& noise) {
   return found;
 }
 
-// Fills eigenvalues and directions of the information within a subspace, from column `at` on.
+// Fills eigenvalues and directions of the information within the subspace of `count` columns of
+// the basis from `begin` on.
 void SplitWithin(const Matrix6& information, const Matrix6& basis, int begin, int count,
                  DirectionSplit& split) {
   if (count == 0) return;

@@ -82,11 +82,12 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   map_.Insert(points_grid, T_grid_imu * scan.sensor_imu, workers_);
 }
 
-void NdtMatcher::Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                           double radius_m, bool with_vertical) {
+void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m) {
+  const std::span<const Eigen::Vector3f> points = input.points_imu;
+  const bool with_vertical = !IsTranslationWellConstrained(input);
+  const std::size_t finest = FinestLevel(input, radius_m);
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
-  const std::size_t finest = std::max(map_.LevelFor(radius_m), finest_level_);
   const Vector3 sensor_grid = T_grid_imu * sensor_imu_;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   workers_.ForEachBlock(points.size(), [&](const Block& block) {
@@ -248,7 +249,7 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
 
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   counted_at_.reset();
-  Associate(input.points_imu, T_grid_imu, 0.0, !IsTranslationWellConstrained(input));
+  Associate(input, T_grid_imu, 0.0);
   scores_.resize(input.points_imu.size());
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
@@ -276,12 +277,9 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
   counted_at_.reset();
-  // A guess that may be far off is followed by large cells to the end: small ones hold points that
-  // are half a cell off elsewhere, and a place is then not found again.
-  finest_level_ = input.is_far_off ? map_.num_levels() - 1 : 0;
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
-    Associate(input.points_imu, pose, radius.std_m(), !IsTranslationWellConstrained(input));
+    Associate(input, pose, radius.std_m());
     const MatchSums sums = Linearize(input.points_imu, pose, radius.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);

@@ -285,6 +285,28 @@ TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   }
 }
 
+// Noise counts from its own stamp on, whether it was known then or later.
+TEST(FilterHistory, NoiseThatTheSensorShowsCountsFromItsStampOn) {
+  const ImuNoise shaken{Vector3::Constant(0.01), Vector3(1.0, 2.0, 3.0)};
+  FilterHistory plain = StartedHistory();
+  AddImuUpTo(plain, 1.0);
+  FilterHistory in_order = StartedHistory();
+  AddImuUpTo(in_order, 0.5);
+  EXPECT_EQ(in_order.AddNoise(StampAt(0.5), shaken), EventOutcome::kApplied);
+  AddImuUpTo(in_order, 1.0);
+  FilterHistory late = StartedHistory();
+  AddImuUpTo(late, 1.0);
+  EXPECT_EQ(late.AddNoise(StampAt(0.5), shaken), EventOutcome::kApplied);
+
+  EXPECT_LT((late.head().cov - in_order.head().cov).norm(), 1e-9);
+  EXPECT_LT((late.At(StampAt(0.5)).cov - plain.At(StampAt(0.5)).cov).norm(), 1e-9);
+  const ErrorMatrix added = late.head().cov - plain.head().cov;
+  EXPECT_NEAR((added.block<3, 3>(kRot, kRot).trace()), 3 * 0.5 * 0.01, 0.05 * 3 * 0.5 * 0.01);
+  EXPECT_GT((added.block<3, 3>(kVel, kVel).trace()), 0.9 * 0.5 * 6.0);
+  EXPECT_EQ(late.AddNoise(StampAt(0.5), shaken), EventOutcome::kDuplicate);
+  EXPECT_EQ(late.AddNoise(StampAt(-0.1), shaken), EventOutcome::kBeforeStart);
+}
+
 TEST(FilterHistory, CovarianceStaysPositiveOverALongRun) {
   FilterHistory history = StartedHistory();
   std::mt19937_64 random(7);

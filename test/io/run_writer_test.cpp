@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -225,6 +227,31 @@ TEST_F(RunWriterTest, WithoutScansStageTimesAreNull) {
   RunWriter writer(out_, Options{});
   writer.Finish({});
   EXPECT_TRUE(Stats()["stage_ms"]["total"]["median"].is_null());
+}
+
+TEST_F(RunWriterTest, StatsHaveTheNoiseOfTheImuWhereItIsKnown) {
+  ScanOutput scan = Scan(kStamp);
+  scan.filter->imu_noise.accel = 9.0;
+  WriteRun(scan);
+  EXPECT_EQ(Stats()["imu_noise_per_rig"]["accel"]["median"], 9.0);
+  EXPECT_TRUE(Stats()["imu_noise_per_rig"]["gyro"]["median"].is_null());
+}
+
+TEST_F(RunWriterTest, TheMapIsTurnedAsTheLevelPathIs) {
+  ScanOutput scan = Scan(kStamp);
+  scan.filter->g_world_mps2 = Vector3(0, 0, -9.8);
+  scan.filter->nav.T_map_imu.rotation = ExpSo3(Vector3(M_PI / 2, 0, 0));  // map's z is along -y
+  RunWriter writer(out_, Options{});
+  writer.Write(scan);
+  writer.WriteMap(std::vector<Eigen::Vector3f>{{1, 2, 3}}, MapFormat::kPly);
+  writer.Finish({});
+  EXPECT_TRUE(std::filesystem::exists(out_ / "trajectory_level.tum"));
+  EXPECT_FALSE(std::filesystem::exists(out_ / "map.pcd"));
+  const std::string map = test::ReadText(out_ / "map.ply");
+  EXPECT_THAT(map, HasSubstr("element vertex 1"));
+  Eigen::Vector3f point;
+  std::memcpy(point.data(), map.data() + map.size() - sizeof(point), sizeof(point));
+  EXPECT_LT((point - Eigen::Vector3f(1, 3, -2)).norm(), 1e-5) << point.transpose();
 }
 
 TEST_F(RunWriterTest, OptionsAreThoseThatWereUsed) {

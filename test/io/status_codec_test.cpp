@@ -84,6 +84,14 @@ TEST(StatusCodec, TheTypeHasTheFieldListsCountsInItsOrder) {
   EXPECT_EQ(CountsOfTheType(), listed);
 }
 
+TEST(StatusCodec, NoiseOfTheImuArrives) {
+  StatusReport report;
+  report.imu_noise = {.gyro = 2.5, .accel = 9.0};
+  const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
+  EXPECT_EQ(message.gyro_noise_ratio, 2.5F);
+  EXPECT_EQ(message.accel_noise_ratio, 9.0F);
+}
+
 TEST(StatusCodec, NegativeAndLargeCountsArriveUnchanged) {
   StatusReport report;
   report.counters.num_imu = -2;

@@ -39,9 +39,11 @@ GaussianMap::Hit FindOne(const MultiResolutionMap& map, const Vector3& point, st
   return hit;
 }
 
-TEST(MultiResolutionMap, RefusesNoLevel) {
+TEST(MultiResolutionMap, RefusesNoLevelAndMoreThanAreCounted) {
   NdtOptions options = TwoLevels();
   options.num_levels = 0;
+  EXPECT_THROW(MultiResolutionMap{options}, std::invalid_argument);
+  options.num_levels = static_cast<int>(kMaxMapLevels) + 1;
   EXPECT_THROW(MultiResolutionMap{options}, std::invalid_argument);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// What is said in the course of so many scans, joined.
+// Returns all that is said in the course of so many scans.
 std::string Said(ImuNoiseWatch& watch, const ImuNoiseRatios& ratios, int num_scans) {
   std::string said;
   for (int i = 0; i < num_scans; ++i) said += watch.Add(ratios).value_or("");

@@ -90,6 +90,26 @@ TEST(ImuBuffer, LateSampleIsPutInItsPlaceWithoutABridge) {
   EXPECT_EQ(buffer.imu.newest(), StampAt(0.1));
 }
 
+TEST(ImuBuffer, NoiseIsThatOfTheSecondBeforeAndDoesNotDependOnTheOrderOfArrival) {
+  Buffer in_order;
+  Buffer disordered;
+  const auto reading = [](int i) {  // calm for a second, then shaken
+    const double rate = i < 100 ? 0.0 : (i % 2 == 0 ? 0.1 : -0.1);
+    return Reading(0.01 * i, Vector3(rate, 0, 0));
+  };
+  for (int i = 0; i < 220; ++i) in_order.Add(reading(i));
+  for (int i = 0; i < 220; i += 2) {
+    disordered.Add(reading(i + 1));
+    disordered.Add(reading(i));
+  }
+  EXPECT_TRUE(in_order.imu.NoiseAt(StampAt(0.99)).gyro_psd.isZero(1e-12));
+  const Vector3 shaken = in_order.imu.NoiseAt(StampAt(2.1)).gyro_psd;
+  // The sixth difference of an alternating signal is 64 times its amplitude.
+  EXPECT_NEAR(shaken.x(), 0.01 * 6.4 * 6.4 / 924.0, 1e-9);
+  EXPECT_EQ(disordered.imu.NoiseAt(StampAt(2.1)).gyro_psd, shaken);
+  EXPECT_TRUE(in_order.imu.NoiseAt(StampAt(-5.0)).gyro_psd.isZero());
+}
+
 TEST(ImuBuffer, SamplesOfASlowImuAreNotBridged) {
   Buffer buffer;
   buffer.Add(Reading(0.0));

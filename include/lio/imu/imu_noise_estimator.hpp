@@ -22,7 +22,7 @@ namespace lio {
 struct ImuNoiseParameters {
   double window_s = 1.0;  // samples to look at: 30 degrees of freedom at 100 Hz
   double max_rate_hz = 100.0;
-  // Neighbours are this many mean steps apart. Beyond that samples are missing or made up.
+  // Neighbours are this many mean steps apart. Beyond that samples are missing or made up. Chosen.
   double min_step_ratio = 0.4;
   double max_step_ratio = 1.8;
 };

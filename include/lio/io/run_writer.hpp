@@ -21,7 +21,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +29,7 @@
 
 #include "lio/io/input_decoder.hpp"
 #include "lio/io/level_track.hpp"
+#include "lio/io/output_file.hpp"
 #include "lio/io/quantile_sketch.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
@@ -61,19 +61,12 @@ class RunWriter {
   void Finish(const RunStats& stats);
 
  private:
-  struct File {
-    std::filesystem::path path;
-    std::ofstream stream;
-  };
-
   struct Track {  // poses and their covariances
-    File poses, covariances;
+    OutputFile poses, covariances;
   };
 
-  File Open(const std::string& name) const;
   Track OpenTrack(const std::string& frame) const;
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
-  static void Close(File& file);
   void WriteScan(const ScanOutput& output);
   void WriteStats(const RunStats& stats);
 
@@ -81,9 +74,9 @@ class RunWriter {
   Track in_map_;
   Track in_world_;
   std::optional<LevelTrack> level_;
-  std::optional<File> base_;
-  File imu_rate_;
-  File registration_;
+  std::optional<OutputFile> base_;
+  OutputFile imu_rate_;
+  OutputFile registration_;
   std::optional<Timestamp> last_scan_;
   std::optional<Timestamp> last_imu_rate_;
   std::int64_t num_rows_not_later_ = 0;

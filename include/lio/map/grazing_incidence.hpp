@@ -18,8 +18,9 @@ namespace lio {
   return !(std::abs(normal.dot(view)) > GrazingIncidenceParameters::kMinSine * view.norm());
 }
 
-// Is a surface whose `normal` points to the side that it was seen from seen from behind? Then it is
-// not the surface that the beam hit: floors have a ceiling below them, and walls a room behind.
+// Does the beam come from the other side than the beams that saw the surface before, to which
+// `normal` points? Then it hit another surface: floors have a ceiling below them, walls a room
+// behind.
 [[nodiscard]] inline bool IsFromBehind(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) {
   return normal.dot(view) > GrazingIncidenceParameters::kMinSine * view.norm();
 }

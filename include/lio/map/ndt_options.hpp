@@ -3,7 +3,11 @@
 // Configuration of the normal-distributions map and of its matcher.
 #pragma once
 
+#include <cstddef>
+
 namespace lio {
+
+inline constexpr std::size_t kMaxMapLevels = 4;
 
 struct NdtOptions {
   double voxel_m = 1.0;       // edge of the largest cells; larger catches from farther

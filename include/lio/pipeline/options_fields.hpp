@@ -151,7 +151,7 @@ void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
   visit("voxel_m", o.voxel_m, "edge of the largest map cells; larger catches from farther [m]",
         Range{0.05, 20});
   visit("num_levels", o.num_levels, "resolutions of the map, each half as large as the next",
-        Range{1, 4});
+        Range{1, kMaxMapLevels});
   visit("min_cell_points", o.min_cell_points, "a cell with fewer points does not count",
         Range{3, 1000});
   visit("max_cell_points", o.max_cell_points, "a cell with as many points is frozen",

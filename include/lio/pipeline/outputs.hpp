@@ -93,7 +93,7 @@ struct ScanReport {
   MatchStatus status = MatchStatus::kConverged;
   bool fused = false;
   double residual_rms_m = 0.0;
-  Vector6 information_eigenvalues = Vector6::Zero();  // ascending
+  Vector6 information_eigenvalues = Vector6::Zero();  // those of weak directions first
   unsigned degenerate_mask = 0;                       // bit i: eigenvalue i is a weak direction
   double nis = 0.0;
   StageTimes stage_ns{};

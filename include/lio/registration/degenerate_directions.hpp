@@ -6,7 +6,8 @@
 // are then restricted to the observable directions. Source: Zhang, Kaess, Singh, "On Degeneracy of
 // Optimization-based State Estimation Problems", ICRA 2016, for the eigenvectors of the information
 // and the projected step (solution remapping). Differences: rotations are scaled to metres first,
-// and the threshold is the noise-induced information of each direction and no tuned eigenvalue.
+// the threshold is the noise-induced information of each direction and no tuned eigenvalue, and the
+// degenerate directions are generalised eigenvectors of information and noise.
 #pragma once
 
 #include "lio/base/pose.hpp"
@@ -14,8 +15,10 @@
 namespace lio {
 
 struct DirectionSplit {
-  double metres_per_rad = 1.0;               // scales rotations to the size of translations
-  Vector6 eigenvalues = Vector6::Zero();     // of the scaled information, ascending
+  double metres_per_rad = 1.0;  // scales rotations to the size of translations
+  // Eigenvalues of the scaled information: those of degenerate directions first, either part
+  // ascends.
+  Vector6 eigenvalues = Vector6::Zero();
   Matrix6 directions = Matrix6::Identity();  // columns, scaled coordinates
   unsigned degenerate_mask = 0;              // bit i: direction i is degenerate
 

@@ -4,8 +4,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
+
+#include "lio/map/ndt_options.hpp"
 
 namespace lio {
 
@@ -19,7 +20,6 @@ enum class MatchStatus : std::int8_t {
 };
 
 // A count for each level of a map of several resolutions, finest first.
-inline constexpr std::size_t kMaxMapLevels = 4;
 using LevelCounts = std::array<int, kMaxMapLevels>;
 
 }  // namespace lio

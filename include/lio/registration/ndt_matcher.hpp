@@ -72,8 +72,13 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     std::int32_t count_number = 0;
   };
 
-  void Associate(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu, double radius_m,
-                 bool with_vertical);
+  // The finest level for a correspondence radius. A guess that may be far off is followed by large
+  // cells to the end: small ones hold points that are half a cell off elsewhere, and a place is
+  // then not found again.
+  [[nodiscard]] std::size_t FinestLevel(const MatchInput& input, double radius_m) const {
+    return input.is_far_off ? map_.num_levels() - 1 : map_.LevelFor(radius_m);
+  }
+  void Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m);
   // Counts each cell's points, in one thread. The counts set weights alone, and are kept while the
   // pose hardly moves.
   void CountByCell();
@@ -98,7 +103,6 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   Workers workers_;
   MultiResolutionMap map_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
-  std::size_t finest_level_ = 0;          // of the match
   std::vector<Pair> pairs_;               // of the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell

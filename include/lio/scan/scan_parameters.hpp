@@ -43,7 +43,7 @@ struct LoamFeatureParameters {
 
 struct MixedPixelParameters {
   // m, and share of the range. A return must lie so far from both surfaces: five times the range
-  // noise of a spinning lidar (2 cm), and its steps on rough ground.
+  // noise of a spinning lidar (2 cm), and, chosen, 5 mm a metre for rough ground.
   float tolerance_m = 0.1f;
   float tolerance_per_range = 0.005f;
   // Cosine of the largest angle to the beams beside it, 1 deg: three beams of a coarse lidar.

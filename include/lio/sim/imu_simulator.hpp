@@ -9,8 +9,7 @@
 // A sample of white noise n has sigma density / sqrt(dt), and a random walk steps by density
 // sqrt(dt). The bias b is turn-on bias + random walk + a first-order Gauss-Markov process (bias
 // instability). M is I + scale and misalignment errors. Vibration of a moving body adds white noise
-// that grows with its speed. The Earth's rotation (15 deg/h) is left
-// out.
+// that grows with its speed. The Earth's rotation (15 deg/h) is left out.
 #pragma once
 
 #include <cstdint>

@@ -43,8 +43,8 @@ class ImuBuffer {
   // The samples() from the one stamp to the other, both included.
   [[nodiscard]] std::vector<ImuSample> Between(Timestamp from, Timestamp to) const;
   [[nodiscard]] std::optional<Timestamp> newest() const;
-  // The noise that the samples show, as known at the last freeze not after `stamp`: late samples
-  // and the order of arrival do not change it.
+  // The noise that the samples of the second before `stamp` show; zero where they are too few. Up
+  // to a frozen stamp neither late samples nor the order of arrival change it.
   [[nodiscard]] ImuNoise NoiseAt(Timestamp stamp) const;
 
  private:
