@@ -51,7 +51,7 @@ MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
   MatchJob job;
   job.T_any_imu = history.Trajectory(sweep->start, sweep->end);
   job.prior.T_map_imu = predicted.state.T_map_imu;
-  job.prior.cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.prior.cov = predicted.cov.block<6, 6>(kMapPose, kMapPose);
   job.refines_deskew = true;
   if (last_found_) {
     job.prior.since_last_fix_s =

@@ -13,6 +13,8 @@ NavState BoxPlus(const NavState& state, const ErrorVector& error) {
   result.gyro_bias = state.gyro_bias + error.segment<3>(kGyroBias);
   result.accel_bias = state.accel_bias + error.segment<3>(kAccelBias);
   result.T_map_imu = state.T_map_imu * ExpSe3(error.segment<6>(kMapPose));
+  result.R_world_map_start =
+      (ExpSo3(error.segment<3>(kMapStart)) * state.R_world_map_start).normalized();
   return result;
 }
 
@@ -21,7 +23,8 @@ ErrorVector BoxMinus(const NavState& a, const NavState& b) {
   error << a.T_world_imu.translation - b.T_world_imu.translation,
       LogSo3(b.T_world_imu.rotation.conjugate() * a.T_world_imu.rotation),
       a.v_world_imu - b.v_world_imu, a.gyro_bias - b.gyro_bias, a.accel_bias - b.accel_bias,
-      LogSe3(b.T_map_imu.Inverse() * a.T_map_imu);
+      LogSe3(b.T_map_imu.Inverse() * a.T_map_imu),
+      LogSo3(a.R_world_map_start * b.R_world_map_start.conjugate());
   return error;
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "lio/filter/map_bend.hpp"
+
 namespace lio {
 namespace {
 
@@ -18,15 +20,18 @@ void Apply(Estimate& estimate, const Eigen::Matrix<double, kRows, kStateDim>& H,
   const ErrorVector error = K * residual;
   estimate.state = BoxPlus(estimate.state, error);
 
-  // Errors are now relative to the new nominal rotation and map pose.
+  // Errors are now relative to the new nominal rotations and map pose.
   const Matrix3 reset_rotation = RightJacobianSo3(error.segment<3>(kRot));
   const Matrix6 reset_map = LeftJacobianSe3(-error.segment<6>(kMapPose));
+  const Matrix3 reset_start = RightJacobianSo3(-error.segment<3>(kMapStart));  // a left error
   ErrorMatrix cov = joseph;
   cov.middleRows<3>(kRot) = reset_rotation * joseph.middleRows<3>(kRot);
   cov.middleRows<6>(kMapPose) = reset_map * joseph.middleRows<6>(kMapPose);
+  cov.middleRows<3>(kMapStart) = reset_start * joseph.middleRows<3>(kMapStart);
   const ErrorMatrix half = cov;
   cov.middleCols<3>(kRot) = half.middleCols<3>(kRot) * reset_rotation.transpose();
   cov.middleCols<6>(kMapPose) = half.middleCols<6>(kMapPose) * reset_map.transpose();
+  cov.middleCols<3>(kMapStart) = half.middleCols<3>(kMapStart) * reset_start.transpose();
   estimate.cov = 0.5 * (cov + cov.transpose());
 }
 
@@ -78,8 +83,11 @@ void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   ErrorMatrix& P = estimate.cov;
   P.middleRows<6>(kMapPose) *= keep;
   P.middleCols<6>(kMapPose) *= keep;
-  P.bottomRightCorner<6, 6>() +=
+  P.block<6, 6>(kMapPose, kMapPose) +=
       measurement.new_content_share * measurement.blend_cov + measurement.drift_cov;
+  if (measurement.is_level) {
+    estimate.state.T_map_imu = LevelMapPose(estimate.state, measurement.new_content_share);
+  }
 }
 
 void MakeMapTheWorld(Estimate& estimate) {

@@ -19,8 +19,9 @@ namespace {
 //   velocity         e_vel + R0 w
 //   map translation  dR^T (e_mt + d x (e_rot - e_mr) + dt R0^T e_vel + u)
 //   map rotation     dR^T e_mr + turn_by_gyro e_gyro
-// The map pose takes the same increment D = T0^-1 T1 as the world pose, whose own error is that of
-// T1 less that of T0 carried through D.
+// The errors of the biases and of the map's start stay as they are. The map pose takes the same
+// increment D = T0^-1 T1 as the world pose, whose own error is that of T1 less that of T0 carried
+// through D.
 struct Step {
   InertialIncrement increment;
   IncrementByBias by_bias;
@@ -98,6 +99,7 @@ ErrorMatrix TimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
   out.middleCols<6>(kGyroBias) = X.middleCols<6>(kGyroBias);
   out.middleCols<3>(kMapPose) = columns.MapTranslation();
   out.middleCols<3>(kMapPose + 3) = columns.MapRotation();
+  out.middleCols<3>(kMapStart) = X.middleCols<3>(kMapStart);
   return out;
 }
 
@@ -110,8 +112,11 @@ ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& 
   constexpr int kRows = kStateDim - kGyroBias;
   out.block<kRows, 6>(kGyroBias, kGyroBias) = X.block<kRows, 6>(kGyroBias, kGyroBias);
   constexpr int kMapRotation = kMapPose + 3;
-  out.block<6, 3>(kMapPose, kMapPose) = Columns<kMapPose>(step, X).MapTranslation();
-  out.block<3, 3>(kMapRotation, kMapRotation) = Columns<kMapRotation>(step, X).MapRotation();
+  out.block<kStateDim - kMapPose, 3>(kMapPose, kMapPose) =
+      Columns<kMapPose>(step, X).MapTranslation();
+  out.block<kStateDim - kMapRotation, 3>(kMapRotation, kMapRotation) =
+      Columns<kMapRotation>(step, X).MapRotation();
+  out.block<3, 3>(kMapStart, kMapStart) = X.block<3, 3>(kMapStart, kMapStart);
   return out;
 }
 

@@ -45,7 +45,7 @@ NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
     nav.w_imu_radps += SampleAt(context.imu->samples(), estimate.stamp).w_imu_radps;
   }
   nav.T_map_imu = estimate.state.T_map_imu;
-  nav.map_pose_cov = estimate.cov.bottomRightCorner<6, 6>();
+  nav.map_pose_cov = estimate.cov.block<6, 6>(kMapPose, kMapPose);
   if (const auto& T_base_imu = context.options.rig.T_base_imu) {
     nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp, context), *T_base_imu);
   }
@@ -67,7 +67,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.clock_offset_std_s = context.clocks.std_s();
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
-  filter.cov = estimate.cov;
+  filter.cov = estimate.cov.topLeftCorner<kMapStart, kMapStart>();
   filter.cov.topLeftCorner<kAccelBias, kAccelBias>() =
       InPublishedWorld(estimate, context.g_world).cov;
   return filter;

@@ -44,7 +44,7 @@ MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
   job.sweep = sweep;
   job.T_any_imu = history.Trajectory(sweep->start, sweep->end);
   job.prior.T_map_imu = predicted.state.T_map_imu;
-  job.prior.cov = predicted.cov.bottomRightCorner<6, 6>();
+  job.prior.cov = predicted.cov.block<6, 6>(kMapPose, kMapPose);
   const double turn_var = job.prior.cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   job.refines_deskew = turn_var > kScanStep.unsure_turn_rad * kScanStep.unsure_turn_rad;
   Track track;
@@ -71,6 +71,7 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
     event.measurement.new_content_share = outcome.match.new_content_share;
     event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
     event.measurement.drift_cov = ShapeDriftCov(settings.moved_m);
+    event.measurement.is_level = settings.is_level;
   }
   event.is_clock_set = outcome.is_clock_set;
   event.force = settings.force;

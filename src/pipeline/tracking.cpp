@@ -4,12 +4,22 @@
 
 #include <utility>
 
+#include "lio/filter/map_bend.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/estimate_report.hpp"
 #include "lio/pipeline/scan_step.hpp"
 #include "pipeline/history_options.hpp"
 
 namespace lio {
+
+namespace {
+
+Estimate WithMapStart(Estimate estimate) {
+  MarkMapStart(estimate);
+  return estimate;
+}
+
+}  // namespace
 
 Tracking::Tracking(const ModeContext& context, Handover handover, const StartState& start,
                    bool is_at_rest)
@@ -18,7 +28,8 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
       g_world_(start.g_world),
       history_(MakeHistoryOptions(context.options, context.nis_limit, start.g_world,
                                   context.stream.imu().NoiseAt(start.estimate.stamp)),
-               start.estimate, SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
+               WithMapStart(start.estimate),
+               SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
       zero_velocity_(context.options.rig.imu, is_at_rest) {
   history_.KeepFrom(start.estimate.stamp - context_.stream.clock_margin());
@@ -115,6 +126,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   settings.gyro_density = context_.options.rig.imu.gyro_noise_density;
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
+  settings.is_level = FeelsGravity();
   settings.moved_m = keyframes_.MovedSince_m(outcome.match.T_map_imu);
   settings.force =
       outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
@@ -148,7 +160,8 @@ void Tracking::GrowMap(const MatchOutcome& outcome, const ScanReport& report, bo
     ++context_.counters.num_scans_late;
   }
   if (!begins_map && !(report.fused && is_keyframe)) return;
-  insert.T_map_imu = history_.At(middle).state.T_map_imu;
+  const NavState state = history_.At(middle).state;
+  insert.T_map_imu = begins_map || !FeelsGravity() ? state.T_map_imu : LevelMapPose(state, 1.0);
   keyframes_.Accept(*insert.T_map_imu);
 }
 

@@ -83,7 +83,11 @@ class Run {
     filter_.stamp = drive_.samples[0].stamp;
     // The truth is filter (+) error, so the filter begins at the truth (+) an error of the opposite
     // sign.
-    filter_.state = BoxPlus(truth_, DrawFrom(filter_.cov, random_));
+    using MovingCov = Eigen::Matrix<double, kMapStart, kMapStart>;
+    ErrorVector error = ErrorVector::Zero();
+    error.head<kMapStart>() =
+        DrawFrom<kMapStart>(MovingCov(filter_.cov.topLeftCorner<kMapStart, kMapStart>()), random_);
+    filter_.state = BoxPlus(truth_, error);
     filter_.state.T_map_imu = filter_.state.T_world_imu;
     truth_.T_map_imu = filter_.state.T_map_imu;
     if (options_.belief == Belief::kAbsolute) BelieveAbsolute();
@@ -95,7 +99,7 @@ class Run {
   void BelieveAbsolute() {
     truth_.T_map_imu = truth_.T_world_imu;
     Eigen::Matrix<double, kStateDim, kStateDim> tie = ErrorMatrix::Identity();
-    tie.bottomRightCorner<6, 6>().setZero();
+    tie.block<6, 6>(kMapPose, kMapPose).setZero();
     const Matrix3 R = filter_.state.T_world_imu.rotation.toRotationMatrix();
     tie.block<3, 3>(kMapPose, kPos) = R.transpose();
     tie.block<3, 3>(kMapPose + 3, kRot) = Matrix3::Identity();
@@ -133,7 +137,7 @@ class Run {
     const double told = options_.told_registration_ratio;
     measurement.cov = told * told * registration_cov_;
     const Vector6 residual = LogSe3(filter_.state.T_map_imu.Inverse() * measurement.T_map_imu);
-    const Matrix6 S = filter_.cov.bottomRightCorner<6, 6>() + measurement.cov;
+    const Matrix6 S = filter_.cov.block<6, 6>(kMapPose, kMapPose) + measurement.cov;
     const Vector6 whitened = S.llt().matrixL().solve(residual);
     (void)FusePose(filter_, measurement, kNoGate);
     if (is_coupled) CoupleMap();

@@ -86,7 +86,7 @@ TEST(FilterHistory, NeesIsInItsBandWithWhiteNoiseOnAFixedMap) {
   std::vector<Block> blocks = {{"position", kPos, 3},       {"rotation", kRot, 3},
                                {"pose", kPos, 6},           {"velocity", kVel, 3},
                                {"gyro bias", kGyroBias, 3}, {"accel bias", kAccelBias, 3},
-                               {"map pose", kMapPose, 6},   {"all", kPos, kStateDim}};
+                               {"map pose", kMapPose, 6},   {"all", kPos, kMapStart}};
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
     const TruthRun run = RunWithNoise(seed, 8.0);
     const ErrorVector error = BoxMinus(run.truth, run.estimate.state);

@@ -36,7 +36,7 @@ inline Estimate StartEstimate() {
   estimate.state.v_world_imu = truth.v_world_imu;
   ErrorVector std;
   std << Vector3::Constant(0.01), Vector3::Constant(0.01), Vector3::Constant(0.1),
-      Vector3::Constant(5e-3), Vector3::Constant(0.05), Vector6::Zero();
+      Vector3::Constant(5e-3), Vector3::Constant(0.05), Vector6::Zero(), Vector3::Zero();
   estimate.cov = std.cwiseAbs2().asDiagonal();
   return estimate;
 }

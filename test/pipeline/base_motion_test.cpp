@@ -35,7 +35,7 @@ struct Case {
 
   BaseMotion Motion(const NavState& of, double rate_var = 0.0) const {
     NavOutput nav = NavOf(of);
-    nav.map_pose_cov = cov.bottomRightCorner<6, 6>();
+    nav.map_pose_cov = cov.block<6, 6>(kMapPose, kMapPose);
     return MoveToBase(nav, cov.topLeftCorner<kAccelBias, kAccelBias>(), rate_var, T_base_imu);
   }
 

@@ -44,7 +44,7 @@ FilterHistory Driving(const Unknown& unknown, double nis_limit = kNever) {
   start.cov.block<3, 3>(kVel, kVel) = unknown.velocity_mps.cwiseAbs2().asDiagonal();
   start.cov.block<3, 3>(kGyroBias, kGyroBias) =
       unknown.gyro_bias_radps * unknown.gyro_bias_radps * Matrix3::Identity();
-  start.cov.bottomRightCorner<3, 3>() =
+  start.cov.block<3, 3>(kMapPose + 3, kMapPose + 3) =
       unknown.rotation_rad * unknown.rotation_rad * Matrix3::Identity();
   ImuSample sample{start.stamp, Vector3::Zero(), -options.g_world};
   FilterHistory history(options, start, sample);

@@ -28,6 +28,7 @@ inline NavState RandomState(std::mt19937_64& random) {
   state.v_world_imu = RandomVector<3>(random);
   state.gyro_bias = 0.01 * RandomVector<3>(random);
   state.accel_bias = 0.1 * RandomVector<3>(random);
+  state.R_world_map_start = ExpSo3(RandomVector<3>(random));
   return state;
 }
 

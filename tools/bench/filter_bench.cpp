@@ -37,7 +37,7 @@ Estimate Start() {
   estimate.stamp = At(0);
   estimate.state.v_world_imu = {8, 1, 0};
   estimate.cov.diagonal().setConstant(1e-4);
-  estimate.cov.bottomRightCorner<6, 6>().setZero();
+  estimate.cov.block<6, 6>(kMapPose, kMapPose).setZero();
   return estimate;
 }
 

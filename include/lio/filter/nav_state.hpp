@@ -7,12 +7,13 @@
 // Two poses: T_world_imu is levelled by gravity and is the output in world; T_map_imu is what
 // registration measures. docs/filter.md says why both are needed.
 //
-// Error state, 21 numbers, true = nominal (+) error:
+// Error state, 24 numbers, true = nominal (+) error:
 //   position       p_true = p + dp                 m, world
 //   rotation       R_true = R Exp(dtheta)          rad, right (local)
 //   velocity       v_true = v + dv                 m/s, world
 //   gyro bias, accel bias                          rad/s, m/s^2, added
 //   map pose       M_true = M ExpSe3(mu)           [m; rad], right (local)
+//   map's start    D_true = Exp(ddelta) D          rad, world (left), D = R_world_map_start
 // Gravity is the vector g_world = (0, 0, -g): an accelerometer at rest measures -R^T g_world.
 #pragma once
 
@@ -28,8 +29,9 @@ inline constexpr int kRot = 3;
 inline constexpr int kVel = 6;
 inline constexpr int kGyroBias = 9;
 inline constexpr int kAccelBias = 12;
-inline constexpr int kMapPose = 15;  // translation, then rotation
-inline constexpr int kStateDim = 21;
+inline constexpr int kMapPose = 15;   // translation, then rotation
+inline constexpr int kMapStart = 21;  // the rotation between world and map at the map's start
+inline constexpr int kStateDim = 24;
 
 using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
 // Covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
@@ -42,6 +44,7 @@ struct NavState {
   Vector3 gyro_bias = Vector3::Zero();    // rad/s
   Vector3 accel_bias = Vector3::Zero();   // m/s^2
   Pose T_map_imu;
+  Quaternion R_world_map_start = Quaternion::Identity();  // map_bend.hpp
 };
 
 // state (+) error, by the conventions above.

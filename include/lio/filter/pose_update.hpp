@@ -22,6 +22,7 @@ struct PoseMeasurement {
   double new_content_share = 0.0;       // 0..1, share of the matched map that this scan brings
   Matrix6 blend_cov = Matrix6::Zero();  // covariance added per share of new content
   Matrix6 drift_cov = Matrix6::Zero();  // covariance added besides, when there is new content
+  bool is_level = false;                // the scan is inserted at LevelMapPose (map_bend.hpp)
 };
 
 struct UpdateResult {
@@ -39,7 +40,9 @@ struct UpdateResult {
 // exceeds `nis_limit`. Only the result's fused and nis are set; nis has 3 degrees of freedom.
 [[nodiscard]] UpdateResult FuseZeroVelocity(Estimate& estimate, double variance, double nis_limit);
 
-// Blends the map pose after insertion. Call when the scan is inserted at the estimate's T_map_imu.
+// Blends the map pose after insertion. Call when the scan is inserted at the estimate's T_map_imu,
+// or at LevelMapPose of it when measurement.is_level; the map pose then takes its share of the
+// turn.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
 // Makes the map's frame the world's, for absolute poses, such as those of motion capture or of a

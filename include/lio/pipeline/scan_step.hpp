@@ -41,6 +41,7 @@ struct FusionSettings {
   // Factor on the covariance of matches, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
   bool grows_map = false;  // the scan will be inserted
+  bool is_level = false;   // ... level, with the map's bend taken back (map_bend.hpp)
   double moved_m = 0.0;    // since the last scan that was inserted at another place
   bool force = false;      // fuse even beyond the gate
 };

@@ -48,6 +48,7 @@ class Tracking {
   Timestamp begin() const { return history_.start_stamp(); }
 
  private:
+  bool FeelsGravity() const { return !g_world_.isZero(); }
   bool IsAfterClockStep(const Sweep& sweep) const;
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
