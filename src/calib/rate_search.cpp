@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "lio/calib/calibration_parameters.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
 
 constexpr double kGridStep_s = kCalibrationParameters.search.grid_step_s;
 constexpr double kFineStep_s = kCalibrationParameters.search.fine_step_s;
-constexpr double kMaxSampleGap_s = kCalibrationParameters.turns.max_sample_gap_s;
 constexpr int kMinTurns = kCalibrationParameters.search.min_turns;
 
 }  // namespace
@@ -28,7 +28,7 @@ RateSearch::RateSearch(std::span<const ImuSample> samples, std::span<const Lidar
     if (i > 0) {
       const double step_s = t_s - t_s_.back();
       sum.angle += 0.5 * step_s * (samples[i - 1].w_imu_radps + samples[i].w_imu_radps);
-      if (step_s > kMaxSampleGap_s) ++sum.num_gaps;
+      if (samples[i].stamp - samples[i - 1].stamp > kImuGap.unmeasured) ++sum.num_gaps;
     }
     t_s_.push_back(t_s);
     sums_.push_back(sum);
@@ -40,7 +40,7 @@ bool RateSearch::SumAt(double t_s, Sum& sum) const {
   if (after == t_s_.begin() || after == t_s_.end()) return false;
   const auto i = static_cast<std::size_t>(after - t_s_.begin());
   const double step_s = t_s_[i] - t_s_[i - 1];
-  if (step_s > kMaxSampleGap_s) return false;
+  if (sums_[i].num_gaps != sums_[i - 1].num_gaps) return false;
   const double fraction = (t_s - t_s_[i - 1]) / step_s;
   sum.angle = sums_[i - 1].angle + fraction * (sums_[i].angle - sums_[i - 1].angle);
   sum.num_gaps = sums_[i].num_gaps;

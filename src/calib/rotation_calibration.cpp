@@ -12,6 +12,7 @@
 #include "calib/turn_fit.hpp"
 #include "lio/calib/calibration_parameters.hpp"
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
@@ -43,7 +44,7 @@ bool IsCovered(std::span<const ImuSample> samples, Timestamp from, Timestamp to)
   auto at = FirstNotBefore(samples, from);
   if (at == samples.begin()) return false;
   for (; at != samples.end(); ++at) {
-    if (SecondsBetween(std::prev(at)->stamp, at->stamp) > kSelection.max_sample_gap_s) return false;
+    if (at->stamp - std::prev(at)->stamp > kImuGap.unmeasured) return false;
     if (at->stamp >= to) return true;
   }
   return false;

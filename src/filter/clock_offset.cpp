@@ -9,6 +9,7 @@
 #include "lio/base/chi_square.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
@@ -43,7 +44,7 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
   if (last_ && scan.stamp > last_->stamp) Update(scan);
   Follow();
   last_ = scan;
-  const Timestamp begin = scan.stamp - Duration::FromSeconds(kParameters.max_turn_s);
+  const Timestamp begin = scan.stamp - kScanGap.unrelated;
   while (!samples_.empty() && samples_.front().stamp < begin) samples_.pop_front();
 }
 
@@ -52,7 +53,7 @@ void ClockOffset::Update(const Scan& scan) {
   var_s2_ =
       std::min(var_s2_ + kParameters.walk_s_per_sqrt_s * kParameters.walk_s_per_sqrt_s * span_s,
                kParameters.max_std_s * kParameters.max_std_s);
-  if (span_s > kParameters.max_turn_s || samples_.size() < 3) return;
+  if (scan.stamp - last_->stamp > kScanGap.unrelated || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
   ProcessNoise noise;
   noise.gyro_density = imu_.gyro_noise_density;

@@ -121,7 +121,7 @@ bool FilterHistory::IsInGap(Timestamp stamp, std::size_t at) const {
   const auto next =
       std::find_if(nodes_.begin() + static_cast<std::ptrdiff_t>(at), nodes_.end(), is_measured);
   const Timestamp until = next == nodes_.end() ? stamp : next->stamp;
-  return SecondsBetween(nodes_[at - 1].imu_stamp, until) > options_.imu_outage.gap_s;
+  return until - nodes_[at - 1].imu_stamp >= options_.imu_outage.gap;
 }
 
 void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSample& to,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/sensor/gap.hpp"
+
 namespace lio {
 namespace {
 
@@ -62,7 +64,7 @@ void MotionEvidence::AddPose(const StampedPose& T_map_imu, std::span<const ImuSa
   step.map = map_;
   step.from = *last;
   step.to = T_map_imu;
-  if (step.span_s() > kParameters.max_step_s || step.span_s() <= 0.0) {
+  if (step.to.stamp - step.from.stamp > kScanGap.unrelated || step.span_s() <= 0.0) {
     ++map_;  // the poses before and after are not joined
     return;
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "imu/alignment.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
@@ -26,15 +27,15 @@ std::string DataProblem(std::span<const ImuSample> samples, std::span<const Matc
     return fmt::format("{:.2f} s of motion, {:.2f} needed", span_s, kParameters.min_span_s);
   }
   Timestamp last = from;
-  double gap_s = 0.0;
+  Duration gap;
   for (const ImuSample& sample : samples) {
     if (sample.stamp <= from || last >= poses.back().stamp) continue;
-    gap_s = std::max(gap_s, SecondsBetween(last, sample.stamp));
+    gap = std::max(gap, sample.stamp - last);
     last = sample.stamp;
   }
-  gap_s = std::max(gap_s, SecondsBetween(last, poses.back().stamp));
-  if (gap_s > kParameters.max_imu_gap_s) {
-    return fmt::format("inertial samples are missing for {:.2f} s", gap_s);
+  gap = std::max(gap, poses.back().stamp - last);
+  if (gap > kImuGap.unmeasured) {
+    return fmt::format("inertial samples are missing for {:.2f} s", gap.Seconds());
   }
   return {};
 }

@@ -3,6 +3,8 @@
 #include "lio/pipeline/constant_velocity_tracker.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace lio {
 namespace {
@@ -19,7 +21,7 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   history.span_s = options.span_s;
   history.nis_limit = options.nis_limit;
   history.max_inflation.translation = 1.0;  // the alignment judges that
-  history.imu_outage.gap_s = 1e9;           // its samples never have a gap
+  history.imu_outage.gap = Duration{std::numeric_limits<std::int64_t>::max()};  // never
   return history;
 }
 

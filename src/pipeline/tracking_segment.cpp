@@ -7,9 +7,15 @@
 #include <cmath>
 
 #include "lio/pipeline/tracking.hpp"
+#include "lio/sensor/gap.hpp"
 #include "pipeline/history_options.hpp"
 
 namespace lio {
+namespace {
+
+constexpr double kMaxUnknown_s = kImuGap.unknown.Seconds();
+
+}  // namespace
 
 // After a long gap or a step of the clock the state goes on from where it was, unsure of what
 // happened in between, at the new time. Where a clock was set, messages went on meanwhile.
@@ -20,9 +26,8 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   const Timestamp first = segment.first.stamp;
   Estimate estimate = history_.head();
   const double jump_s = SecondsBetween(estimate.stamp, first);
-  const bool is_gap = segment.step == Step::kGap && jump_s >= 0.0 && jump_s < kTracking.max_gap_s;
-  double unknown_s =
-      is_gap ? jump_s : std::clamp(jump_s, kTracking.clock_set_s, kTracking.max_gap_s);
+  const bool is_gap = segment.step == Step::kGap && jump_s >= 0.0 && jump_s < kMaxUnknown_s;
+  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kTracking.clock_set_s, kMaxUnknown_s);
   if (segment.step == Step::kSetRight) unknown_s = kTracking.clock_set_s;
   ImuSample coast;  // straight on, without turning
   coast.stamp = estimate.stamp;

@@ -8,6 +8,7 @@
 
 #include "lio/base/chi_square.hpp"
 #include "lio/imu/start_state.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
@@ -77,7 +78,7 @@ Line FitLine(const std::deque<ZeroVelocityScan>& scans) {
 }  // namespace
 
 void ZeroVelocityDetector::Add(ZeroVelocityScan scan) {
-  if (!scans_.empty() && SecondsBetween(scans_.back().stamp, scan.stamp) > kMaxGap_s) Forget();
+  if (!scans_.empty() && scan.stamp - scans_.back().stamp > kScanGap.unrelated) Forget();
   const Timestamp begin = scan.stamp - Duration::FromSeconds(kWindow_s);
   scans_.push_back(std::move(scan));
   while (scans_.size() > 1 && scans_[1].stamp <= begin) scans_.pop_front();

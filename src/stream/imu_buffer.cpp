@@ -5,6 +5,7 @@
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/imu_noise_estimator.hpp"
 #include "lio/imu/start_state.hpp"
+#include "lio/sensor/gap.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
 namespace lio {
@@ -49,7 +50,7 @@ std::optional<ImuSample> ImuBuffer::Read(const ImuSample& sent) {
 // Across a gap neither the last sample holds nor a line to the next one: a walker's steps would be
 // taken for a turn and a push. The mean of the time before holds.
 void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
-  if (!sent_.empty() && SecondsBetween(sent_.back().stamp, stamp) > kStream.imu_gap_s) {
+  if (!sent_.empty() && stamp - sent_.back().stamp >= kImuGap.bridged) {
     for (const Timestamp at : {sent_.back().stamp + kStream.gap_edge, stamp - kStream.gap_edge}) {
       AddMadeUp(at, ready);
     }

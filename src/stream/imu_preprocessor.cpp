@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/sensor/gap.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
 namespace lio {
@@ -34,7 +35,7 @@ bool ImuPreprocessor::IsSane(const ImuSample& sample) {
 }
 
 bool ImuPreprocessor::IsFar(Timestamp stamp) const {
-  return Abs(stamp - *newest_) > kImuPreprocessor.segment_gap;
+  return Abs(stamp - *newest_) > kImuGap.segment;
 }
 
 double ImuPreprocessor::MeanStep_s() const {
@@ -48,7 +49,7 @@ double ImuPreprocessor::ClockStepTo_s(Timestamp stamp) const {
 }
 
 bool ImuPreprocessor::IsBehindHole(Timestamp stamp) const {
-  return stamp - *newest_ > kImuPreprocessor.confirmed_gap;
+  return stamp - *newest_ > kImuGap.confirmed;
 }
 
 bool ImuPreprocessor::MayBeSetRight(Timestamp stamp) const {
@@ -137,15 +138,14 @@ void ImuPreprocessor::ShiftBy(Duration shift) {
 void ImuPreprocessor::Accept(const ImuSample& sample) {
   InsertByStamp(recent_, sample);
   if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
-  while (*newest_ - recent_.front().stamp > kImuPreprocessor.segment_gap) recent_.pop_front();
+  while (*newest_ - recent_.front().stamp > kImuGap.segment) recent_.pop_front();
 }
 
 ImuPreprocessor::Result ImuPreprocessor::Add(const ImuSample& sample) {
   ++counters_->num_imu;
   if (!IsSane(sample)) return {};
   Result result;
-  if (!suspects_.empty() &&
-      Abs(sample.stamp - suspects_.back().stamp) > kImuPreprocessor.same_segment) {
+  if (!suspects_.empty() && Abs(sample.stamp - suspects_.back().stamp) > kImuGap.confirmed) {
     result.accepted = Release();
   }
   if (!IsSuspect(sample)) {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "lio/sensor/gap.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
 namespace lio {
@@ -19,7 +20,7 @@ void ScanGate::Add(Sweep sweep) {
 }
 
 void ScanGate::Accept(Sweep sweep) {
-  if (last_end_ && sweep.start - *last_end_ > kScanGate.scan_gap) {
+  if (last_end_ && sweep.start - *last_end_ > kScanGap.missing) {
     ++counters_->num_scan_gaps;
     // Stamps that step ahead of the inertial stream do not make that silent.
     if (imu_silent_at_) imu_silent_at_ = *imu_silent_at_ + (sweep.start - *last_end_);
@@ -84,7 +85,7 @@ SweepPtr ScanGate::Open(std::optional<Timestamp> newest_imu) {
   if (waiting_.empty() || !newest_imu) return nullptr;
   if (*newest_imu >= waiting_.front()->end) return Force();
   if (!imu_silent_at_) imu_silent_at_ = waiting_.front()->start;
-  if (waiting_.back()->end - *imu_silent_at_ <= kScanGate.imu_silence) return nullptr;
+  if (waiting_.back()->end - *imu_silent_at_ <= kImuGap.segment) return nullptr;
   ++counters_->num_scans_without_imu;
   return Force();
 }

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "lio/sensor/gap.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
@@ -46,7 +47,7 @@ void SensorStream::JudgeBy(const Message& message) {
     return;
   }
   const Timestamp stamp = message.sample.stamp + imu_clock_shift_;
-  if (stamp > step_.newest_examined && stamp - step_.newest_examined < kStream.stray) {
+  if (stamp > step_.newest_examined && stamp - step_.newest_examined < kImuGap.confirmed) {
     step_.newest_examined = stamp;
   }
   const Duration waited = step_.newest_examined - step_.result.accepted.back().stamp;
@@ -57,7 +58,7 @@ void SensorStream::JudgeBy(const Message& message) {
 // were or, where samples were missing meanwhile, where the lidar says.
 void SensorStream::ShiftImuClock(Timestamp after_by_lidar) {
   const Timestamp after = step_.result.accepted.front().stamp;
-  const bool was_missing = after_by_lidar - step_.result.before > kStream.missing_at_step;
+  const bool was_missing = after_by_lidar - step_.result.before > kImuGap.bridged;
   Duration shift = Duration::FromSeconds(-step_.result.clock_step_s);
   if (was_missing) shift = after_by_lidar - after;
   if (step_.result.undoes_hole) shift = {};

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "lio/sensor/gap.hpp"
 #include "support/motion.hpp"
 
 namespace lio {
@@ -117,7 +118,17 @@ TEST(ImuBuffer, SamplesOfASlowImuAreNotBridged) {
   EXPECT_EQ(buffer.Add(Reading(0.3)).size(), 3u);
 }
 
-// Of a walker's steps the last sample tells nothing, nor does what was 1.1 s before.
+TEST(ImuBuffer, GapBeginsAtItsVeryNanosecond) {
+  Buffer buffer;
+  ImuSample sample = Reading(0.0);
+  buffer.Add(sample);
+  sample.stamp = sample.stamp + kImuGap.bridged - Duration{1};
+  EXPECT_EQ(buffer.Add(sample).size(), 1u);
+  sample.stamp = sample.stamp + kImuGap.bridged;
+  EXPECT_EQ(buffer.Add(sample).size(), 3u);
+}
+
+// The last sample tells nothing about a walker's steps, nor does what was 1.1 s before.
 TEST(ImuBuffer, GapIsBridgedByTheMeanOfTheTimeBefore) {
   Buffer buffer;
   const auto stride = [](int i) { return Vector3(i % 2 == 0 ? 0.4 : -0.2, 0.01 * i, 0); };

@@ -24,9 +24,6 @@ struct ScanPosesParameters {
 struct TurnSelectionParameters {
   // A turn longer than this times the median spans a missing sweep. Between 1 and 2, half way.
   double max_span_ratio = 1.5;
-  // s. A longer step between inertial samples is a hole: turns across it are left out. Chosen: five
-  // samples at 100 Hz.
-  double max_sample_gap_s = 0.05;
   // s. Samples are needed so far beyond a turn, because the least squares may move the offset by
   // about that much.
   double offset_margin_s = 0.02;

@@ -6,6 +6,8 @@
 // value marked "chosen" has no measurement behind it.
 #pragma once
 
+#include "lio/sensor/gap.hpp"
+
 namespace lio {
 
 // NIS-based covariance inflation of poses from registration (docs/filter.md, Measurement).
@@ -35,8 +37,8 @@ struct ForcedUpdateParameters {
 
 // Process noise added where inertial samples are missing or saturated.
 struct ImuOutageParameters {
-  // s. A longer step between samples is a gap. Chosen: three samples at 100 Hz, six at 200 Hz.
-  double gap_s = 0.03;
+  // Samples that are farther apart have a gap between them.
+  Duration gap = kImuGap.sparse;
   // Unknown acceleration (m/s^2) and rate (rad/s) in a gap, 1 sigma: those of a walking person
   // (simulated campus walk; docs/filter.md, Propagation).
   double gap_accel_std_mps2 = 3.0;
@@ -55,8 +57,6 @@ struct ClockOffsetParameters {
   // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
   // finds larger offsets.
   double max_offset_s = 0.05;
-  // s. Longer turns, across lost scans, are left out. Chosen: three sweeps at 10 Hz.
-  double max_turn_s = 0.35;
   // rad/s. Turns whose rate changes less are left out. Chosen above the vibration of a car's body;
   // a smaller value lets vibration move the estimate on a straight road.
   double min_rate_change_radps = 0.05;

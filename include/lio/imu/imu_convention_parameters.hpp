@@ -14,8 +14,6 @@ namespace lio {
 
 // Poses and samples that are kept, and how well they agree under the right convention.
 struct MotionEvidenceParameters {
-  // s. A longer step between poses is left out: it skipped too many sweeps. Chosen: four at 10 Hz.
-  double max_step_s = 0.45;
   // Steps that are kept: 10 s at 10 Hz. Chosen; more costs time and takes longer to forget.
   std::size_t max_steps = 100;
   // m, rad. Motion over the last ten steps from which the body counts as moving. Chosen.

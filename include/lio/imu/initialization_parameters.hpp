@@ -39,8 +39,6 @@ struct MovingStartParameters {
   // accelerometer's bias undetermined; more delays the first pose.
   std::size_t min_poses = 8;
   double min_span_s = 1.0;
-  // s. Longest hole in the inertial samples. Chosen: one sweep at 10 Hz.
-  double max_imu_gap_s = 0.1;
   // Error of scan matching beyond its own covariance, 1 sigma: scans deskewed by a constant
   // velocity, and a map that has only just begun. Chosen with the simulator's starts in motion.
   double pose_std_m = 0.02;

@@ -19,9 +19,6 @@
 namespace lio {
 
 struct TrackingParameters {
-  // A longer gap between segments may as well be a clock that was set: the doubt about the motion
-  // meanwhile is that of so long a time.
-  double max_gap_s = 3.0;
   // Samples of at most this time may be missing at a moment when a clock was set.
   double clock_set_s = 0.1;
 };

@@ -10,7 +10,7 @@
 //   - rate and force spread by no more than their noise and an idling engine,
 //   - mean rate and force are those of rest, as surely as the filter knows tilt and biases.
 // A scan that is not held in every direction begins the window anew, since along a tunnel the lidar
-// says nothing, and so does one that comes more than kMaxGap_s after the last that was matched.
+// says nothing, and so does one that comes after a gap in the matched scans (kScanGap).
 //
 // After a start at rest the window counts as full from the first scan on. What goes undetected is a
 // creep of about kMaxShift_m / kWindow_s that begins without being felt.
@@ -37,7 +37,6 @@ class ZeroVelocityDetector {
   static constexpr double kWindow_s = 1.5;
   static constexpr double kMaxShift_m = 0.02;
   static constexpr double kMaxScatter_m = 0.05;
-  static constexpr double kMaxGap_s = 0.5;  // between two matched scans
 
   explicit ZeroVelocityDetector(const ImuRig& imu) : imu_(imu) {}
 

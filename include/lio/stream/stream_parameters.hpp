@@ -10,10 +10,8 @@
 namespace lio {
 
 struct StreamParameters {
-  // A gap: samples of an IMU of 10 Hz and more are nearer than this to each other. What the sensor
-  // did in a longer one is taken from the mean of the time before.
-  double imu_gap_s = 0.15;
-  // The mean spans both steps of a walker (1.8 steps a second): over one alone the body turns.
+  // The mean of the time before stands in for a gap (kImuGap.bridged). It spans both steps of a
+  // walker (1.8 steps a second): over one alone the body turns.
   double mean_before_gap_s = 1.1;
   // Made-up samples stand this far from the measured ones at both edges of a gap.
   Duration gap_edge{1'000'000};
@@ -33,10 +31,6 @@ struct StreamParameters {
   Duration wait_for_lidar{1'000'000'000};
   // The same as a count of messages, where stamps do not advance.
   std::size_t max_judged_messages = 3000;
-  // A held sample that is this far ahead of the others tells no time: its stamp is wrong.
-  Duration stray{200'000'000};
-  // Samples are missing at a step of the inertial clock that is this long by the lidar's clock.
-  Duration missing_at_step{150'000'000};
   // Messages that wait while a match is out, at most: two minutes of a 400 Hz IMU. More are
   // dropped, newest first, and counted.
   std::size_t max_waiting_messages = 65536;
@@ -46,15 +40,10 @@ inline constexpr StreamParameters kStream;
 
 // The bounds on an inertial sample before anything is integrated (imu_preprocessor.hpp).
 struct ImuPreprocessorParameters {
-  double max_force_mps2 = 2000.0;  // beyond any accelerometer (200 g)
-  // A longer step in stamps begins a new segment, whatever follows: the filter's own models of a
-  // gap end there.
-  Duration segment_gap{1'000'000'000};
-  Duration jitter{80'000'000};          // a shorter step back is none: drivers deliver in bursts
-  double hole_in_mean_steps = 1.5;      // a sample is missing from here on
-  Duration same_segment{200'000'000};   // suspects that are farther apart belong to no one segment
-  Duration confirmed_gap{200'000'000};  // a gap so long must be confirmed by the samples after it
-  std::size_t confirmations = 5;        // a stray stamp does not come five times in a row
+  double max_force_mps2 = 2000.0;   // beyond any accelerometer (200 g)
+  Duration jitter{80'000'000};      // a shorter step back is none: drivers deliver in bursts
+  double hole_in_mean_steps = 1.5;  // a sample is missing from here on
+  std::size_t confirmations = 5;    // a stray stamp does not come five times in a row
   // A clock that is set right steps forward by as much as it had gone back, but for so much, and no
   // more than this share of it.
   double max_set_right_error_s = 0.1;
@@ -95,12 +84,10 @@ inline constexpr ScanAssemblerParameters kScanAssembler;
 
 // When sweeps leave for matching (scan_gate.hpp).
 struct ScanGateParameters {
-  Duration imu_silence{1'000'000'000};  // the lidar goes on without the IMU after this
-  Duration scan_gap{250'000'000};       // two sweeps of a 10 Hz lidar are missing
-  double max_wait_s = 5.0;              // for inertial samples that come late
-  Duration far_ahead{2'000'000'000};    // a longer step forward may be a wrong stamp
-  Duration bears_out{500'000'000};      // no second wrong stamp comes so near to the first
-  int max_late_in_a_row = 5;            // then the lidar's clock has moved back for good
+  double max_wait_s = 5.0;            // for inertial samples that come late
+  Duration far_ahead{2'000'000'000};  // a longer step forward may be a wrong stamp
+  Duration bears_out{500'000'000};    // no second wrong stamp comes so near to the first
+  int max_late_in_a_row = 5;          // then the lidar's clock has moved back for good
 };
 inline constexpr ScanGateParameters kScanGate;
 
