@@ -52,7 +52,7 @@ GaussianMap::Place GaussianMap::PlaceOf(const Vector3& point_map) const {
 
 GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
   const Place place = PlaceOf(point_map);
-  return {index_.Find(place.key), place.local};
+  return {voxels_.Find(place.key), place.local};
 }
 
 void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const {
@@ -61,30 +61,19 @@ void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hi
     const std::size_t count = std::min(Parameters::kPrefetchDistance, points_map.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       places[i] = PlaceOf(points_map[begin + i]);
-      index_.Prefetch(places[i].key);
+      voxels_.Prefetch(places[i].key);
     }
     for (std::size_t i = 0; i < count; ++i) {
       Hit& hit = hits[begin + i];
-      hit = {index_.Find(places[i].key), places[i].local};
-      if (hit.cell != kNoCell) __builtin_prefetch(&patches_[ToIndex(hit.cell)]);
+      hit = {voxels_.Find(places[i].key), places[i].local};
+      if (hit.cell != kNoCell) __builtin_prefetch(&patch(hit.cell));
     }
   }
 }
 
-std::int32_t GaussianMap::FindOrAdd(VoxelKey key) {
-  const VoxelIndex::Added added = index_.FindOrAdd(key);
-  if (added.is_new) {
-    sums_.resize(index_.capacity());
-    patches_.resize(index_.capacity());
-    sums_[ToIndex(added.voxel)] = {};
-    patches_[ToIndex(added.voxel)] = {};
-  }
-  return added.voxel;
-}
-
 void GaussianMap::Remove(std::int32_t cell) {
-  index_.Remove(cell);
-  patches_[ToIndex(cell)] = {};
+  voxels_.Remove(cell);
+  voxels_.Of<SurfacePatch>(cell) = {};
 }
 
 // Welford's update. A full cell that shows neither a plane nor a vertical structure forgets slowly
@@ -111,8 +100,8 @@ void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector
 }
 
 void GaussianMap::UpdatePatch(std::int32_t cell) {
-  Sums& sums = sums_[ToIndex(cell)];
-  SurfacePatch& patch = patches_[ToIndex(cell)];
+  Sums& sums = voxels_.Of<Sums>(cell);
+  SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
   patch.mean = sums.mean.cast<float>();
   patch.num_points = static_cast<float>(sums.num_points);
   if (sums.num_points < options_.min_cell_points) return;
@@ -176,9 +165,9 @@ void GaussianMap::FindCells() {
   cells_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (i + Parameters::kPrefetchDistance < places_.size())
-      index_.Prefetch(places_[i + Parameters::kPrefetchDistance].key);
+      voxels_.Prefetch(places_[i + Parameters::kPrefetchDistance].key);
     const VoxelKey key = places_[i].key;
-    cells_.push_back(key == kNoVoxel ? kNoCell : FindOrAdd(key));
+    cells_.push_back(key == kNoVoxel ? kNoCell : voxels_.FindOrAdd(key).voxel);
   }
 }
 
@@ -193,14 +182,14 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
   workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
   });
-  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(index_.oldest());
+  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(voxels_.oldest());
   DropFarCells(sensor_map);
 }
 
 // Fetches the sums that AddPoints() will change.
 void GaussianMap::Prefetch(std::int32_t cell) const {
   if (cell == kNoCell) return;
-  const auto* sums = reinterpret_cast<const char*>(&sums_[ToIndex(cell)]);
+  const auto* sums = reinterpret_cast<const char*>(&voxels_.Of<Sums>(cell));
   __builtin_prefetch(sums);
   __builtin_prefetch(sums + sizeof(Sums) - 1);
 }
@@ -213,16 +202,16 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
       Prefetch(cells_[i + Parameters::kPrefetchDistance]);
     const std::int32_t cell = cells_[i];
     if (cell == kNoCell) continue;
-    Sums& sums = sums_[ToIndex(cell)];
+    Sums& sums = voxels_.Of<Sums>(cell);
     const bool is_frozen = sums.is_known && sums.num_points >= options_.max_cell_points;
     if (sums.touched != scan_number_) {
       sums.touched = scan_number_;
-      index_.Touch(cell);
+      voxels_.Touch(cell);
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;
     const Eigen::Vector3f view = (points_map[i] - sensor_map).cast<float>().normalized();
-    const SurfacePatch& patch = patches_[ToIndex(cell)];
+    const SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
     if (sums.is_known && patch.kind == SurfacePatch::Kind::kPlane &&
         IsFromBehind(patch.normal, view)) {
       continue;
@@ -232,20 +221,15 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
 }
 
 void GaussianMap::DropFarCells(const Vector3& sensor_map) {
-  if (sums_.empty()) return;
-  const std::size_t num_to_visit = sums_.size() / Parameters::kFarCellsWalk_scans + 1;
+  if (cell_capacity() == 0) return;
+  const std::size_t num_to_visit = cell_capacity() / Parameters::kFarCellsWalk_scans + 1;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::size_t i = 0; i < num_to_visit; ++i) {
-    if (++sweep_position_ >= sums_.size()) sweep_position_ = 0;
+    if (++sweep_position_ >= cell_capacity()) sweep_position_ = 0;
     const auto cell = static_cast<std::int32_t>(sweep_position_);
-    if (!index_.IsUsed(cell)) continue;
-    if ((CentreOf(index_.key(cell)) - sensor_map).squaredNorm() > limit_sq) Remove(cell);
+    if (!voxels_.IsUsed(cell)) continue;
+    if ((CentreOf(voxels_.key(cell)) - sensor_map).squaredNorm() > limit_sq) Remove(cell);
   }
-}
-
-std::size_t GaussianMap::memory_bytes() const {
-  return index_.memory_bytes() + patches_.capacity() * sizeof(SurfacePatch) +
-         sums_.capacity() * sizeof(Sums);
 }
 
 }  // namespace lio

@@ -18,16 +18,14 @@ std::int32_t Cell(float coordinate) {
 }  // namespace
 
 void RingGrid::Clear() {
-  index_.Clear();
-  first_.clear();
+  voxels_.Clear();
   points_.clear();
 }
 
 void RingGrid::Add(const Eigen::Vector3f& point, std::uint16_t ring) {
-  const auto added = index_.FindOrAdd(PackVoxel(
+  const auto added = voxels_.FindOrAdd(PackVoxel(
       Cell(point.x() / kVoxel_m), Cell(point.y() / kVoxel_m), Cell(point.z() / kVoxel_m)));
-  if (added.is_new) first_.push_back(-1);
-  std::int32_t& first = first_[static_cast<std::size_t>(added.voxel)];
+  std::int32_t& first = voxels_.Of<Chain>(added.voxel).first;
   points_.push_back({point, first, ring});
   first = static_cast<std::int32_t>(points_.size()) - 1;
 }
@@ -39,9 +37,9 @@ void RingGrid::ForEachNear(const Eigen::Vector3f& query, float radius_m, const V
     return VoxelCell{along(query.x()), along(query.y()), along(query.z())};
   };
   ForEachVoxel(cells_at(-radius_m), cells_at(radius_m), [&](auto x, auto y, auto z) {
-    const std::int32_t voxel = index_.Find(PackVoxel(x, y, z));
+    const std::int32_t voxel = voxels_.Find(PackVoxel(x, y, z));
     if (voxel == VoxelIndex::kNone) return;
-    std::int32_t i = first_[static_cast<std::size_t>(voxel)];
+    std::int32_t i = voxels_.Of<Chain>(voxel).first;
     for (; i >= 0; i = points_[static_cast<std::size_t>(i)].next) {
       visit(i, voxel, points_[static_cast<std::size_t>(i)]);
     }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lio/base/rotation.hpp"
-#include "lio/base/voxel_index.hpp"
+#include "lio/base/voxel_map.hpp"
 #include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
@@ -39,7 +39,7 @@ class RingGrid {
     return points_[static_cast<std::size_t>(i)].position;
   }
   // Upper bound of the numbers of parts.
-  std::size_t num_parts() const { return first_.size(); }
+  std::size_t num_parts() const { return voxels_.capacity(); }
 
  private:
   static constexpr float kVoxel_m = LoamScanParameters::kGridVoxel_m;
@@ -51,8 +51,10 @@ class RingGrid {
   template <class Visit>
   void ForEachNear(const Eigen::Vector3f& query, float radius_m, const Visit& visit) const;
 
-  VoxelIndex index_;
-  std::vector<std::int32_t> first_;  // point by voxel
+  struct Chain {
+    std::int32_t first = -1;  // point
+  };
+  VoxelMap<Chain> voxels_;
   std::vector<Point> points_;
 };
 

@@ -28,9 +28,8 @@ std::size_t ScanNormals::LevelOf(float range_m) const {
 
 void ScanNormals::AddTo(Level& level, const Eigen::Vector3f& point) {
   const VoxelCell cell = CellAt(point, 1.f / level.voxel_m);
-  const VoxelIndex::Added added = level.index.FindOrAdd(PackVoxel(cell[0], cell[1], cell[2]));
-  if (added.is_new) level.moments.emplace_back();
-  Moments& m = level.moments[static_cast<std::size_t>(added.voxel)];
+  const auto added = level.voxels.FindOrAdd(PackVoxel(cell[0], cell[1], cell[2]));
+  Moments& m = level.voxels.Of<Moments>(added.voxel);
   const Vector3 p = point.cast<double>();
   m.count += 1.0;
   m.x += p.x();
@@ -49,8 +48,7 @@ void ScanNormals::SetScan(std::span<const Eigen::Vector3f> points) {
   for (Level& level : levels_) {
     level.voxel_m = voxel_m;
     level.max_range_m = voxel_m / static_cast<float>(options_.shape_voxel_rad);
-    level.index.Clear();
-    level.moments.clear();
+    level.voxels.Clear();
     voxel_m *= 2.f;
   }
   for (const Eigen::Vector3f& point : points) {
@@ -72,9 +70,9 @@ PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
   Moments sum;
   const VoxelCell centre = CellAt(point, 1.f / level.voxel_m);
   const auto add = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::int32_t voxel = level.index.Find(PackVoxel(x, y, z));
+    const std::int32_t voxel = level.voxels.Find(PackVoxel(x, y, z));
     if (voxel == VoxelIndex::kNone) return;
-    const Moments& m = level.moments[static_cast<std::size_t>(voxel)];
+    const Moments& m = level.voxels.Of<Moments>(voxel);
     sum.count += m.count;
     sum.x += m.x;
     sum.y += m.y;

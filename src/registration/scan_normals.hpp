@@ -7,9 +7,8 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
-#include "lio/base/voxel_index.hpp"
+#include "lio/base/voxel_map.hpp"
 #include "lio/map/point_with_normal.hpp"
 #include "lio/registration/gicp_options.hpp"
 #include "lio/registration/registration_parameters.hpp"
@@ -34,8 +33,7 @@ class ScanNormals {
   struct Level {
     float voxel_m = 0.f;
     float max_range_m = 0.f;
-    VoxelIndex index;
-    std::vector<Moments> moments;
+    VoxelMap<Moments> voxels;
   };
   static constexpr std::size_t kNumLevels = ScanNormalParameters::kNumLevels;
 

@@ -21,7 +21,7 @@
 
 #include "lio/base/parallel.hpp"
 #include "lio/base/rotation.hpp"
-#include "lio/base/voxel_index.hpp"
+#include "lio/base/voxel_map.hpp"
 #include "lio/map/ndt_options.hpp"
 
 namespace lio {
@@ -56,11 +56,10 @@ class GaussianMap {
   [[nodiscard]] Hit Find(const Vector3& point_map) const;
   // hits[i] = Find(points_map[i]) for all of them, several times faster: memory is fetched ahead.
   void FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const;
-  const SurfacePatch& patch(std::int32_t cell) const { return patches_[ToIndex(cell)]; }
+  const SurfacePatch& patch(std::int32_t cell) const { return voxels_.Of<SurfacePatch>(cell); }
   [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
-    const SurfacePatch& patch = patches_[ToIndex(cell)];
-    return patch.thickness_var > 0.f &&
-           patch.num_points >= static_cast<float>(options_.max_cell_points);
+    return patch(cell).thickness_var > 0.f &&
+           patch(cell).num_points >= static_cast<float>(options_.max_cell_points);
   }
 
   // The vertical's direction in the map's frame, of any length.
@@ -71,10 +70,10 @@ class GaussianMap {
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
 
-  std::size_t num_cells() const { return index_.size(); }
+  std::size_t num_cells() const { return voxels_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
-  std::size_t cell_capacity() const { return patches_.size(); }
-  std::size_t memory_bytes() const;
+  std::size_t cell_capacity() const { return voxels_.capacity(); }
+  std::size_t memory_bytes() const { return voxels_.memory_bytes(); }
 
  private:
   struct Place {
@@ -91,9 +90,7 @@ class GaussianMap {
     bool is_known = false;       // the points show a plane or a vertical structure
   };
 
-  static std::size_t ToIndex(std::int32_t cell) { return static_cast<std::size_t>(cell); }
   Place PlaceOf(const Vector3& point_map) const;
-  std::int32_t FindOrAdd(VoxelKey key);
   // Finds or makes each place's cell.
   void FindCells();
   void AddPoints(std::span<const Vector3> points_map, const Vector3& sensor_map);
@@ -110,9 +107,7 @@ class GaussianMap {
   bool finds_vertical_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
-  VoxelIndex index_;  // of cells
-  std::vector<SurfacePatch> patches_;
-  std::vector<Sums> sums_;
+  VoxelMap<SurfacePatch, Sums> voxels_;
   // Scratch of Insert.
   std::vector<Place> places_;
   std::vector<std::int32_t> cells_;  // of the places

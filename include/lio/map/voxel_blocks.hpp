@@ -10,10 +10,9 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <vector>
 
 #include "lio/base/rotation.hpp"
-#include "lio/base/voxel_index.hpp"
+#include "lio/base/voxel_map.hpp"
 
 namespace lio {
 
@@ -54,30 +53,24 @@ class VoxelBlocks {
 
   // The number of the block around a voxel, kNone where there is none.
   [[nodiscard]] std::int32_t Find(const VoxelCell& voxel) const {
-    return index_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
+    return blocks_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
   }
   // A new block is empty, and the last touched.
   VoxelIndex::Added FindOrAdd(const VoxelCell& voxel) {
     const VoxelCell at = BlockOf(voxel);
-    const VoxelIndex::Added added = index_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
-    if (blocks_.size() < index_.capacity()) blocks_.resize(index_.capacity());
-    if (added.is_new) {
-      block(added.voxel).occupied = 0;
-      block(added.voxel).at = at;
-    }
+    const VoxelIndex::Added added = blocks_.FindOrAdd(PackVoxel(at[0], at[1], at[2]));
+    if (added.is_new) block(added.voxel).at = at;
     return added;
   }
-  void Touch(std::int32_t number) { index_.Touch(number); }
+  void Touch(std::int32_t number) { blocks_.Touch(number); }
   void Remove(std::int32_t number) {
     block(number).occupied = 0;
-    index_.Remove(number);
+    blocks_.Remove(number);
   }
 
-  [[nodiscard]] Block& block(std::int32_t number) {
-    return blocks_[static_cast<std::size_t>(number)];
-  }
+  [[nodiscard]] Block& block(std::int32_t number) { return blocks_.template Of<Block>(number); }
   [[nodiscard]] const Block& block(std::int32_t number) const {
-    return blocks_[static_cast<std::size_t>(number)];
+    return blocks_.template Of<Block>(number);
   }
   [[nodiscard]] Vector3 CornerOf(const Block& block) const {
     return kBlockEdge * voxel_m_ * Vector3(block.at[0], block.at[1], block.at[2]);
@@ -87,26 +80,23 @@ class VoxelBlocks {
   template <class Visit>
   void ForEachBlock(const VoxelCell& low, const VoxelCell& high, const Visit& visit) const {
     ForEachVoxel(BlockOf(low), BlockOf(high), [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-      const std::int32_t number = index_.Find(PackVoxel(x, y, z));
+      const std::int32_t number = blocks_.Find(PackVoxel(x, y, z));
       if (number != kNone) visit(number, block(number));
     });
   }
 
-  [[nodiscard]] bool IsUsed(std::int32_t number) const { return index_.IsUsed(number); }
+  [[nodiscard]] bool IsUsed(std::int32_t number) const { return blocks_.IsUsed(number); }
   // The block that was touched longest ago, kNone when there is none.
-  [[nodiscard]] std::int32_t oldest() const { return index_.oldest(); }
+  [[nodiscard]] std::int32_t oldest() const { return blocks_.oldest(); }
   // Upper bound of the numbers.
-  [[nodiscard]] std::size_t capacity() const { return blocks_.size(); }
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return index_.memory_bytes() + blocks_.capacity() * sizeof(Block);
-  }
+  [[nodiscard]] std::size_t capacity() const { return blocks_.capacity(); }
+  [[nodiscard]] std::size_t memory_bytes() const { return blocks_.memory_bytes(); }
 
  private:
   double voxel_m_;
   double inverse_voxel_;
   int margin_;
-  VoxelIndex index_;
-  std::vector<Block> blocks_;
+  VoxelMap<Block> blocks_;
 };
 
 }  // namespace lio

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The one hashed container of voxels and what they hold. The contents are its user's policy:
+// Gaussian cells, blocks of means or of points of keyframes, moments, chains of points. Each type
+// of content has an array of its own beside VoxelIndex, so that a search that reads one does not
+// fetch the others.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "lio/base/voxel_index.hpp"
+
+namespace lio {
+
+template <class... Contents>
+class VoxelMap : private VoxelIndex {
+ public:
+  using VoxelIndex::Added;
+  using VoxelIndex::capacity;
+  using VoxelIndex::Find;
+  using VoxelIndex::IsUsed;
+  using VoxelIndex::key;
+  using VoxelIndex::kNone;
+  using VoxelIndex::oldest;
+  using VoxelIndex::Prefetch;
+  using VoxelIndex::Remove;
+  using VoxelIndex::size;
+  using VoxelIndex::Touch;
+
+  // As VoxelIndex::FindOrAdd; a new voxel holds Content{} of each type. It invalidates references.
+  Added FindOrAdd(VoxelKey key) {
+    const Added added = VoxelIndex::FindOrAdd(key);
+    if (added.is_new) (Renew(std::get<std::vector<Contents>>(contents_), added.voxel), ...);
+    return added;
+  }
+  // The content of a number below capacity(); that of a removed voxel is what was left there.
+  template <class Content>
+  [[nodiscard]] Content& Of(std::int32_t voxel) {
+    return std::get<std::vector<Content>>(contents_)[static_cast<std::size_t>(voxel)];
+  }
+  template <class Content>
+  [[nodiscard]] const Content& Of(std::int32_t voxel) const {
+    return std::get<std::vector<Content>>(contents_)[static_cast<std::size_t>(voxel)];
+  }
+  // Keeps the memory of the contents.
+  void Clear() {
+    VoxelIndex::Clear();
+    (std::get<std::vector<Contents>>(contents_).clear(), ...);
+  }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return VoxelIndex::memory_bytes() +
+           (... + (std::get<std::vector<Contents>>(contents_).capacity() * sizeof(Contents)));
+  }
+
+ private:
+  // Numbers are given one after the other, or anew.
+  template <class Content>
+  static void Renew(std::vector<Content>& contents, std::int32_t voxel) {
+    const auto at = static_cast<std::size_t>(voxel);
+    if (at == contents.size()) {
+      contents.emplace_back();
+    } else {
+      contents[at] = Content{};
+    }
+  }
+
+  std::tuple<std::vector<Contents>...> contents_;  // by number
+};
+
+}  // namespace lio
