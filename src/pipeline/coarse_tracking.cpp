@@ -21,8 +21,8 @@ Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig) {
   return std::abs(up.dot(axis)) > kMaxLean ? up : axis;
 }
 
-void AdvanceTo(const Sweep& sweep, ConstantVelocityTracker& tracker,
-               std::optional<Timestamp>& last_located) {
+void FollowClockBack(const Sweep& sweep, ConstantVelocityTracker& tracker,
+                     std::optional<Timestamp>& last_located) {
   if (sweep.end <= tracker.history().head().stamp) {
     tracker.SetClock(sweep.start);
     last_located = sweep.start;

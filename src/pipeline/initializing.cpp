@@ -27,7 +27,7 @@ MatchJob Initializing::MakeJob(const SweepPtr& sweep) {
   if (is_first) {
     BeginTrack(*sweep);
   } else {
-    AdvanceTo(*sweep, *tracker_, handover_.last_located);
+    FollowClockBack(*sweep, *tracker_, handover_.last_located);
   }
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp <= sweep->end) tracker_->AddRate(sample);

@@ -22,7 +22,7 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   if (is_first) {
     BeginTrack(*sweep);
   } else {
-    AdvanceTo(*sweep, *tracker_, handover_.last_located);
+    FollowClockBack(*sweep, *tracker_, handover_.last_located);
   }
   tracker_->AdvanceTo(sweep->end);
   MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);

@@ -85,19 +85,19 @@ TEST(MeanUp, BelievesForcesThatLeanBy45DegreesAtMost) {
   EXPECT_LT((MeanUp(Forces(leans_by(0.81)), {}) - Vector3::UnitZ()).norm(), 1e-12);
 }
 
-TEST(AdvanceTo, LeavesATrackThatTheSweepFollows) {
+TEST(FollowClockBack, LeavesATrackThatTheSweepFollows) {
   ConstantVelocityTracker tracker = TrackerFrom(1.0);
   std::optional<Timestamp> last_located = StampAt(0.95);
-  AdvanceTo(*SweepFrom(1.0), tracker, last_located);
+  FollowClockBack(*SweepFrom(1.0), tracker, last_located);
   EXPECT_EQ(tracker.history().head().stamp, StampAt(1.0));
   EXPECT_EQ(last_located, StampAt(0.95));
 }
 
-TEST(AdvanceTo, GoesOnAtTheSweepWhereStampsWentBack) {
+TEST(FollowClockBack, GoesOnAtTheSweepWhereStampsWentBack) {
   for (const double start_s : {0.5, 1.9}) {  // the second one ends at the newest event
     ConstantVelocityTracker tracker = TrackerFrom(2.0);
     std::optional<Timestamp> last_located = StampAt(1.95);
-    AdvanceTo(*SweepFrom(start_s), tracker, last_located);
+    FollowClockBack(*SweepFrom(start_s), tracker, last_located);
     EXPECT_EQ(tracker.history().head().stamp, StampAt(start_s));
     EXPECT_EQ(last_located, StampAt(start_s));
   }

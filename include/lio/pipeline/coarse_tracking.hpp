@@ -19,10 +19,10 @@ namespace lio {
 // anywhere: then along the lidar's axis.
 [[nodiscard]] Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig);
 
-// Advances the tracker to the sweep's end. A sweep that lies before its newest event means that
-// stamps went back: the tracker goes on at that time, and so does `last_located`.
-void AdvanceTo(const Sweep& sweep, ConstantVelocityTracker& tracker,
-               std::optional<Timestamp>& last_located);
+// A sweep that ends before the tracker's newest event means that stamps went back: the tracker goes
+// on at the sweep's start, and `last_located` moves there. Changes nothing for a later sweep.
+void FollowClockBack(const Sweep& sweep, ConstantVelocityTracker& tracker,
+                     std::optional<Timestamp>& last_located);
 
 // A tracking job by the constant-velocity model: the deskew is refined, and degenerate directions
 // are held by bird's-eye views.
