@@ -22,29 +22,54 @@ int NumGrown(KeyframePolicy& policy, const Pose& pose, int num) {
   return num_grown;
 }
 
-TEST(KeyframePolicy, StandstillGrowsTheMapAFewTimesOnly) {
+TEST(KeyframePolicy, StandstillGrowsTheMapFourTimesOnly) {
   KeyframePolicy policy;
-  const int num_grown = NumGrown(policy, At(0.0), 1000);
-  EXPECT_GE(num_grown, 2);
-  EXPECT_LE(num_grown, 6);
+  EXPECT_EQ(NumGrown(policy, At(0.0), 1000), 4);
 }
 
-TEST(KeyframePolicy, MovingOnGrowsItAgain) {
+TEST(KeyframePolicy, MovingOnGrowsItFourTimesAgain) {
   KeyframePolicy policy;
-  NumGrown(policy, At(0.0), 100);
-  EXPECT_FALSE(policy.IsKeyframe(At(0.1)));
-  EXPECT_TRUE(policy.IsKeyframe(At(0.3)));
-  EXPECT_TRUE(policy.IsKeyframe(At(0.0, 0.05)));
+  for (const double x_m : {0.0, 0.3, 0.0}) {
+    EXPECT_EQ(NumGrown(policy, At(x_m), 100), 4) << x_m;
+  }
+}
+
+// Motion counts from the last place, whatever that is: 20 cm in any direction, or 0.03 rad.
+TEST(KeyframePolicy, OtherSurfacesAreSeenAfter20CentimetresOr30Milliradians) {
+  KeyframePolicy policy;
+  const Pose here = At(50.0, 1.0);
+  NumGrown(policy, here, 100);
+  const auto is_keyframe_after = [&](const Vector3& shift_m, const Vector3& turn_rad) {
+    return policy.IsKeyframe(here * Pose{ExpSo3(turn_rad), shift_m});
+  };
+  for (const int axis : {0, 1, 2}) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3 along = sign * Vector3::Unit(axis);
+      EXPECT_FALSE(is_keyframe_after(0.199 * along, Vector3::Zero())) << along;
+      EXPECT_TRUE(is_keyframe_after(0.201 * along, Vector3::Zero())) << along;
+      EXPECT_FALSE(is_keyframe_after(Vector3::Zero(), 0.0299 * along)) << along;
+      EXPECT_TRUE(is_keyframe_after(Vector3::Zero(), 0.0301 * along)) << along;
+    }
+  }
 }
 
 TEST(KeyframePolicy, CreepingGrowsItByTheWayNotByTheTime) {
   KeyframePolicy policy;
   int num_grown = 0;
-  for (int i = 0; i < 1000; ++i) {  // 1 mm a scan, a metre in all
-    num_grown += NumGrown(policy, At(0.001 * i), 1);
+  for (int i = 0; i < 1000; ++i) {  // 1.5 mm a scan
+    num_grown += NumGrown(policy, At(0.0015 * i), 1);
   }
-  EXPECT_GE(num_grown, 5);
-  EXPECT_LE(num_grown, 30);
+  EXPECT_EQ(num_grown, 4 * 8);  // at 0 and after each 134th scan, the first one beyond 20 cm
+}
+
+TEST(KeyframePolicy, DistanceIsFromTheLastPlaceThatWasMovedTo) {
+  KeyframePolicy policy;
+  EXPECT_EQ(policy.MovedSince_m(At(3.0)), 0.0);
+  policy.Accept(At(1.0));
+  policy.Accept(At(1.1));
+  EXPECT_DOUBLE_EQ(policy.MovedSince_m(At(1.5)), 0.5);
+  policy.Accept(At(1.5));
+  EXPECT_EQ(policy.MovedSince_m(At(1.5)), 0.0);
 }
 
 TEST(KeyframePolicy, AskingChangesNothing) {
@@ -56,7 +81,8 @@ TEST(KeyframePolicy, ResetBeginsAnew) {
   KeyframePolicy policy;
   NumGrown(policy, At(0.0), 100);
   policy.Reset();
-  EXPECT_TRUE(policy.IsKeyframe(At(0.0)));
+  EXPECT_EQ(policy.MovedSince_m(At(3.0)), 0.0);
+  EXPECT_EQ(NumGrown(policy, At(0.0), 100), 4);
 }
 
 }  // namespace

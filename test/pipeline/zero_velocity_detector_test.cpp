@@ -156,5 +156,94 @@ TEST(ZeroVelocityDetector, ForgettingBeginsTheWindowAnew) {
   EXPECT_FALSE(standstill.Judge(KnownState(), kGravityWorld));
 }
 
+// Judges two seconds in which rate and force were the same all the time.
+bool HoldsAt(const Estimate& estimate, const Vector3& w_imu_radps, const Vector3& f_imu_mps2) {
+  ZeroVelocityDetector standstill(Rig());
+  for (int k = 0; k < kEnough; ++k) {
+    std::vector<ImuSample> samples;
+    for (int i = 0; i < 10; ++i) {
+      const Timestamp stamp = Timestamp{} + Duration::FromSeconds(kScan_s * k + 0.01 * i);
+      samples.push_back({stamp, w_imu_radps, f_imu_mps2});
+    }
+    standstill.Add({samples[5].stamp, Vector3::Zero(), samples});
+  }
+  return standstill.Judge(estimate, kGravityWorld);
+}
+
+const Vector3 kNoRate = Vector3::Zero();
+const Vector3 kUpForce = -kGravityWorld;
+
+TEST(ZeroVelocityDetector, KnownGyroBiasIsNoTurn) {
+  const Vector3 bias(0.01, -0.02, 0.03);
+  Estimate estimate = KnownState();
+  EXPECT_FALSE(HoldsAt(estimate, bias, kUpForce));
+  estimate.state.gyro_bias = bias;
+  EXPECT_TRUE(HoldsAt(estimate, bias, kUpForce));
+  EXPECT_FALSE(HoldsAt(estimate, -bias, kUpForce));
+}
+
+TEST(ZeroVelocityDetector, TurnMayBeTheGyroBiasWhileThatIsUnknown) {
+  Estimate estimate = KnownState();
+  EXPECT_FALSE(HoldsAt(estimate, Vector3(0, 0, 0.02), kUpForce));
+  estimate.cov(kGyroBias + 2, kGyroBias + 2) = 1e-4;
+  EXPECT_TRUE(HoldsAt(estimate, Vector3(0, 0, 0.02), kUpForce));
+  EXPECT_FALSE(HoldsAt(estimate, Vector3(0, 0.02, 0), kUpForce)) << "that axis is known";
+}
+
+TEST(ZeroVelocityDetector, KnownAccelerometerBiasIsNoAcceleration) {
+  const Vector3 bias(0.1, -0.2, 0.3);
+  Estimate estimate = KnownState();
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, kUpForce + bias));
+  estimate.state.accel_bias = bias;
+  EXPECT_TRUE(HoldsAt(estimate, kNoRate, kUpForce + bias));
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, kUpForce - bias));
+}
+
+TEST(ZeroVelocityDetector, AccelerationMayBeTheBiasWhileThatIsUnknown) {
+  Estimate estimate = KnownState();
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, kUpForce + Vector3(0, 0, 0.2)));
+  estimate.cov(kAccelBias + 2, kAccelBias + 2) = 0.01;
+  EXPECT_TRUE(HoldsAt(estimate, kNoRate, kUpForce + Vector3(0, 0, 0.2)));
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, kUpForce + Vector3(0, 0.2, 0))) << "that axis is known";
+}
+
+TEST(ZeroVelocityDetector, GravityIsThatOfTheTiltedBody) {
+  const Quaternion R_world_imu = ExpSo3(Vector3(0.1, -0.2, 1.0));
+  const Vector3 f_imu_mps2 = R_world_imu.conjugate() * kUpForce;
+  Estimate estimate = KnownState();
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, f_imu_mps2));
+  estimate.state.T_world_imu.rotation = R_world_imu;
+  EXPECT_TRUE(HoldsAt(estimate, kNoRate, f_imu_mps2));
+  EXPECT_FALSE(HoldsAt(estimate, kNoRate, R_world_imu * kUpForce));
+}
+
+// An error of 0.02 rad in roll turns 0.2 m/s^2 of gravity into the imu's y axis; one in yaw, none.
+TEST(ZeroVelocityDetector, AccelerationMayBeGravityWhileTheTiltIsUnknown) {
+  const Vector3 f_imu_mps2 = ExpSo3(Vector3(-0.02, 0, 0)) * kUpForce;
+  const auto holds_with_unknown = [&](int axis) {
+    Estimate estimate = KnownState();
+    estimate.cov(kRot + axis, kRot + axis) = 4e-4;
+    return HoldsAt(estimate, kNoRate, f_imu_mps2);
+  };
+  EXPECT_FALSE(HoldsAt(KnownState(), kNoRate, f_imu_mps2));
+  EXPECT_TRUE(holds_with_unknown(0));
+  EXPECT_FALSE(holds_with_unknown(1));
+  EXPECT_FALSE(holds_with_unknown(2));
+}
+
+// After a start at rest the bias hides in the tilt: an error of either alone would show.
+TEST(ZeroVelocityDetector, TiltAndBiasThatCancelExplainNoAcceleration) {
+  constexpr double kTiltVar = 4e-4;
+  const Vector3 f_imu_mps2 = kUpForce + Vector3(0, 0.2, 0);
+  for (const double sign : {-1.0, 1.0}) {  // -1: f = -R^T g + bias stays the same
+    Estimate estimate = KnownState();
+    estimate.cov(kRot, kRot) += kTiltVar;
+    estimate.cov(kAccelBias + 1, kAccelBias + 1) += kTiltVar * test::kGravity * test::kGravity;
+    estimate.cov(kRot, kAccelBias + 1) = sign * kTiltVar * test::kGravity;
+    estimate.cov(kAccelBias + 1, kRot) = sign * kTiltVar * test::kGravity;
+    EXPECT_EQ(HoldsAt(estimate, kNoRate, f_imu_mps2), sign > 0) << sign;
+  }
+}
+
 }  // namespace
 }  // namespace lio
