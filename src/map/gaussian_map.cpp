@@ -182,7 +182,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
   workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
   });
-  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) Remove(voxels_.oldest());
+  DropOldCells();
   DropFarCells(sensor_map);
 }
 
@@ -205,8 +205,8 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
     Sums& sums = voxels_.Of<Sums>(cell);
     const bool is_frozen = sums.is_known && sums.num_points >= options_.max_cell_points;
     if (sums.touched != scan_number_) {
+      if (sums.touched == 0) sums.listed = scan_number_;
       sums.touched = scan_number_;
-      voxels_.Touch(cell);
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;
@@ -217,6 +217,22 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
       continue;
     }
     AddPoint(sums, places_[i].local.cast<double>(), view);
+  }
+}
+
+// Drops the cells that were touched longest ago. Touching a cell only notes the scan: to keep all
+// cells in order would cost a tenth of the insertion. A cell whose turn comes though it was touched
+// since then is put last.
+void GaussianMap::DropOldCells() {
+  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) {
+    const std::int32_t cell = voxels_.oldest();
+    Sums& sums = voxels_.Of<Sums>(cell);
+    if (sums.listed == sums.touched) {
+      Remove(cell);
+    } else {
+      sums.listed = sums.touched;
+      voxels_.Touch(cell);
+    }
   }
 }
 

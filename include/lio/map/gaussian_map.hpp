@@ -87,6 +87,7 @@ class GaussianMap {
     std::int32_t num_points = 0;
     std::int32_t fitted_at = 0;  // num_points when the patch was last computed
     std::uint32_t touched = 0;   // number of the last scan that added to it
+    std::uint32_t listed = 0;    // ... when the cell was put last in the order of age
     bool is_known = false;       // the points show a plane or a vertical structure
   };
 
@@ -100,6 +101,7 @@ class GaussianMap {
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
+  void DropOldCells();
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
