@@ -80,7 +80,9 @@ void ClockOffset::Update(const Scan& scan) {
 }
 
 void ClockOffset::Follow() {
-  if (std_s() > kParameters.known_std_s) return;
+  const bool is_known = std_s() <= kParameters.known_std_s;
+  const bool is_sure = std::abs(offset_s_ - move_by_s_) > kParameters.sure_sigmas * std_s();
+  if (!is_known && !is_sure) return;
   move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kParameters.max_step_s, kParameters.max_step_s);
 }
 

@@ -107,6 +107,20 @@ TEST(ClockOffset, StampsAreMovedSlowly) {
   EXPECT_NEAR(last_s, 0.03, 1e-3);
 }
 
+// Three standard deviations off is off for sure, however unsure by how much.
+TEST(ClockOffset, StampsAreMovedAsSoonAsTheyAreOffForSure) {
+  for (const double offset_s : {0.03, 0.0}) {
+    ClockOffset clock(Rig());
+    Drive drive{test::WalkMotion(), offset_s};
+    bool moved_while_unsure = false;
+    for (int k = 0; k < 40; ++k) {
+      drive.Run(clock, k, k + 1);
+      moved_while_unsure |= clock.move_by_s() != 0.0 && clock.std_s() > 2e-3;
+    }
+    EXPECT_EQ(moved_while_unsure, offset_s != 0.0) << offset_s;
+  }
+}
+
 TEST(ClockOffset, ATurnAcrossALostScanIsLeftOut) {
   ClockOffset clock(Rig());
   Drive drive{test::WalkMotion()};

@@ -174,20 +174,24 @@ class ReferenceMap {
     ++scan_;
     for (const Vector3& point : points) {
       const VoxelKey key = KeyOf(point);
-      const auto found = cells_.find(key);
-      if (found != cells_.end()) {
-        ++found->second.num_points;
-        if (found->second.scan == scan_) continue;
-        by_time_.erase(found->second.at);
-      } else {
-        cells_[key].num_points = 1;
-      }
-      cells_[key].scan = scan_;
-      cells_[key].at = by_time_.insert(by_time_.end(), key);
+      const auto [found, is_new] = cells_.try_emplace(key);
+      Cell& cell = found->second;
+      ++cell.num_points;
+      cell.scan = scan_;
+      if (!is_new) continue;
+      cell.listed = scan_;
+      by_age_.push_back(key);
     }
     while (cells_.size() > max_cells_) {
-      cells_.erase(by_time_.front());
-      by_time_.pop_front();
+      const VoxelKey key = by_age_.front();
+      by_age_.pop_front();
+      Cell& cell = cells_[key];
+      if (cell.listed == cell.scan) {
+        cells_.erase(key);
+      } else {  // added to since its turn was set: it is put last
+        cell.listed = cell.scan;
+        by_age_.push_back(key);
+      }
     }
   }
   std::size_t size() const { return cells_.size(); }
@@ -205,16 +209,16 @@ class ReferenceMap {
   struct Cell {
     int num_points = 0;
     int scan = 0;
-    std::list<VoxelKey>::iterator at;
+    int listed = 0;  // scan when the cell was last put in the order of age
   };
   std::size_t max_cells_;
   int scan_ = 0;
   std::unordered_map<VoxelKey, Cell> cells_;
-  std::list<VoxelKey> by_time_;  // least recently added to first
+  std::list<VoxelKey> by_age_;
 };
 
-// Random scans over a small block of voxels hold far more than fits: the cells added to last must
-// remain, each under its own key, after any number of removals from the hash table.
+// Random scans over a small block of voxels hold far more than fits: those that the reference keeps
+// must remain, each under its own key, after any number of removals from the hash table.
 TEST(GaussianMap, EvictionAgreesWithAReferenceMap) {
   test::CheckProperty([] {
     const auto max_cells = *rc::gen::inRange(1, 400);

@@ -48,7 +48,7 @@ class ClockOffset {
   double offset_s() const { return offset_s_; }  // the estimate of d
   double std_s() const;                          // its standard deviation
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
-  // scan, once the standard deviation is below 2 ms.
+  // scan, once the standard deviation is below 2 ms or the correction is off by three of them.
   double move_by_s() const { return move_by_s_; }
 
  private:
