@@ -166,8 +166,11 @@ void FilterHistory::Step(std::size_t at) {
       Fuse(node);
       break;
     case Kind::kZeroVelocity:
-      node.update = FuseZeroVelocity(node.posterior, node.zero_velocity_var,
-                                     options_.zero_velocity_nis_limit);
+      node.update =
+          FuseZeroVelocity(node.posterior, node.velocity_var, options_.zero_velocity_nis_limit);
+      break;
+    case Kind::kVelocity:
+      SetVelocity(node.v_imu_mps, node.velocity_var * Matrix3::Identity(), node.posterior);
       break;
     case Kind::kRebase:
       RebaseMapPose(node.posterior);
@@ -181,7 +184,9 @@ void FilterHistory::Step(std::size_t at) {
 void FilterHistory::Fuse(Node& node) const {
   PoseMeasurement measurement = node.pose.measurement;
   measurement.cov = Inflated(measurement.cov, node.inflation);
-  if (node.pose.is_clock_set) {
+  if (node.pose.replaces_motion) {
+    MoveTo(measurement.T_map_imu, node.posterior);
+  } else if (node.pose.is_clock_set) {
     TakeBackMotion(ResidualOf(measurement, node.posterior), node.posterior);
   }
   node.update = FusePose(node.posterior, measurement, options_.nis_limit);
@@ -236,9 +241,21 @@ EventOutcome FilterHistory::AddZeroVelocity(Timestamp stamp, double variance) {
   Node node;
   node.stamp = stamp;
   node.kind = Kind::kZeroVelocity;
-  node.zero_velocity_var = variance;
+  node.velocity_var = variance;
   const bool is_fused = nodes_[Insert(std::move(node))].update.fused;
   return is_fused ? EventOutcome::kApplied : EventOutcome::kGated;
+}
+
+EventOutcome FilterHistory::AddVelocity(Timestamp stamp, const Vector3& v_imu_mps,
+                                        double variance) {
+  if (const auto refused = Refuse(stamp, Kind::kVelocity)) return *refused;
+  Node node;
+  node.stamp = stamp;
+  node.kind = Kind::kVelocity;
+  node.v_imu_mps = v_imu_mps;
+  node.velocity_var = variance;
+  Insert(std::move(node));
+  return EventOutcome::kApplied;
 }
 
 EventOutcome FilterHistory::AddRebase(Timestamp stamp) {

@@ -5,10 +5,10 @@
 //
 // An event that comes late is inserted at its own stamp and all later events are replayed, so the
 // result does not depend on the order of arrival. Events of equal stamp are ordered by kind:
-// inertial samples, poses, zero velocities, rebases. Frames, units and error conventions:
-// nav_state.hpp. Equations: docs/filter.md; Sola, arXiv 1711.02508. Failures are values of
-// EventOutcome; nothing throws. Cost: one event at the end is one propagation step; a late event
-// replays those after it.
+// inertial samples, poses, zero velocities, velocities, rebases. Frames, units and error
+// conventions: nav_state.hpp. Equations: docs/filter.md; Sola, arXiv 1711.02508. Failures are
+// values of EventOutcome; nothing throws. Cost: one event at the end is one propagation step; a
+// late event replays those after it.
 #pragma once
 
 #include <deque>
@@ -60,6 +60,8 @@ struct PoseEvent {
   bool force = false;
   // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
   bool is_clock_set = false;
+  // Nothing is known of the motion before the pose: the estimate is moved to it first (MoveTo).
+  bool replaces_motion = false;
 };
 
 class FilterHistory {
@@ -73,6 +75,9 @@ class FilterHistory {
                                      UpdateResult* result = nullptr);
   // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. Gated like poses.
   [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
+  // Forgets the velocity for one that is known in imu, with `variance` per axis, (m/s)^2.
+  [[nodiscard]] EventOutcome AddVelocity(Timestamp stamp, const Vector3& v_imu_mps,
+                                         double variance);
   // The map is begun anew at the pose of `stamp`: the error of T_map_imu is zero there.
   [[nodiscard]] EventOutcome AddRebase(Timestamp stamp);
   // From `stamp` on the sensor shows this noise.
@@ -92,14 +97,15 @@ class FilterHistory {
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
  private:
-  enum class Kind { kImu, kPose, kZeroVelocity, kRebase, kNoise };
+  enum class Kind { kImu, kPose, kZeroVelocity, kVelocity, kRebase, kNoise };
   struct Node {
     Timestamp stamp;
     Timestamp imu_stamp;  // of the last measured sample up to here
     Kind kind = Kind::kImu;
     ImuSample sample;  // measured, or interpolated at the stamp of another event
     PoseEvent pose;
-    double zero_velocity_var = 0.0;  // (m/s)^2
+    double velocity_var = 0.0;  // (m/s)^2; of both kinds of velocities
+    Vector3 v_imu_mps = Vector3::Zero();
     UpdateResult update;
     ImuNoise new_noise;             // of kNoise
     ImuNoise noise;                 // shown after the event

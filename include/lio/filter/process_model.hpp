@@ -46,6 +46,18 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
 void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
                        const Vector3& velocity_var_imu);
 
+// The same with a motion of any covariance in imu.
+void AddUnseenMotion(Estimate& estimate, const Matrix6& motion_cov_imu);
+
+// Forgets the velocity for one that is known in imu, with `cov_world` besides: an error of the
+// rotation turns it along.
+void SetVelocity(const Vector3& v_imu_mps, const Matrix3& cov_world, Estimate& estimate);
+
+// Moves the body to where it is in map, as if both poses had been propagated by the exact increment
+// D = T_map_imu_old^-1 T_map_imu; its velocity turns along. For a body whose place was lost, before
+// its pose is fused: the residual is then zero, whatever the distance and the turn.
+void MoveTo(const Pose& T_map_imu, Estimate& estimate);
+
 // The sample at `stamp` by linear interpolation, constant beyond both ends; saturated when either
 // is.
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp);
