@@ -3,6 +3,7 @@
 #include "lio/pipeline/health.hpp"
 
 #include <bit>
+#include <utility>
 
 namespace lio {
 
@@ -44,6 +45,11 @@ Health::Verdict Health::AddScan(Timestamp sweep_end, const MatchResult& match, i
   verdict.is_newly_lost = status == TrackingStatus::kLost && status_ != TrackingStatus::kLost;
   status_ = status;
   return verdict;
+}
+
+bool Health::AddGap(Timestamp until) {
+  const bool was_lost = std::exchange(status_, Judge(until, {}, false)) == TrackingStatus::kLost;
+  return status_ == TrackingStatus::kLost && !was_lost;
 }
 
 TrackingStatus Health::Judge(Timestamp sweep_end, const MatchResult& match, bool is_located) const {

@@ -54,7 +54,7 @@ void Tracking::PublishAtImuRate() {
 }
 
 ReportContext Tracking::MakeReportContext() const {
-  return {context_.options,       g_world_,       handover_.last_seq, health_.status(),
+  return {context_.options,       g_world_,       handover_.last_seq, status(),
           &context_.stream.imu(), context_.clocks};
 }
 
@@ -73,7 +73,9 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   const NavState& predicted = history_.At(sweep->middle()).state;
   job.prior.up_map = predicted.T_map_imu.rotation *
                      (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
-  if (handover_.last_located && IsAfterClockStep(*sweep)) {
+  if (outage_.is_lost()) {
+    SetTaskAfterOutage(job);
+  } else if (handover_.last_located && IsAfterClockStep(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
   }
@@ -83,17 +85,25 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
 std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
   const std::int64_t begin_ns = context_.NowNs();
   const Timestamp end = outcome.sweep->end;
-  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu);
   // A scan that comes too late for the filter's window comes too late to set its noise.
   const ImuNoise noise = context_.stream.imu().NoiseAt(end);
   (void)history_.AddNoise(end, noise);
+  if (outage_.stage() == OutageRecovery::Stage::kFindVelocity) {
+    AddScanAfterOutage(outcome, false);
+    Publish(outcome, MakeScanReport(outcome), noise, begin_ns);
+    return std::nullopt;
+  }
+  const bool is_sought = outage_.stage() == OutageRecovery::Stage::kSeek ||
+                         outage_.stage() == OutageRecovery::Stage::kCheck;
+  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  const bool is_keyframe = !is_sought && keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
-  GrowMap(outcome, report, is_keyframe, verdict.rebases_map, insert);
+  GrowMap(outcome, report, is_keyframe, verdict.rebases_map && !is_sought, insert);
+  AddScanAfterOutage(outcome, report.fused);
   if (report.fused || starts_map) {
     handover_.last_fused = end;
     handover_.last_located = outcome.sweep->middle();
@@ -105,6 +115,14 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
     handover_.last_fix =
         MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);
   }
+  Publish(outcome, report, noise, begin_ns);
+  return JudgeSelf(end, verdict.restarts);
+}
+
+// Gives the scan's row and takes it off the queue.
+void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
+                       std::int64_t begin_ns) {
+  const Timestamp end = outcome.sweep->end;
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   FilterReport filter = MakeFilterReport(history_.At(end), report, MakeReportContext());
   filter.imu_noise = NoiseRatiosOf(noise, context_.options.rig.imu);
@@ -115,7 +133,6 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   context_.sweeps.pop_front();
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(EarliestOf(*sweeps.front())));
-  return JudgeSelf(end, verdict.restarts);
 }
 
 ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
@@ -128,6 +145,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   settings.grows_map = is_keyframe;
   settings.is_level = FeelsGravity();
   settings.moved_m = keyframes_.MovedSince_m(outcome.match.T_map_imu);
+  settings.replaces_motion = outage_.stage() == OutageRecovery::Stage::kSeek;
   settings.force =
       outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
   const EventOutcome fused =

@@ -15,51 +15,67 @@ namespace {
 
 constexpr double kMaxUnknown_s = kImuGap.unknown.Seconds();
 
-}  // namespace
+// Where a clock was set, messages went on meanwhile.
+double UnknownAtSetClock_s(ImuPreprocessor::Step step, double jump_s) {
+  if (step == ImuPreprocessor::Step::kSetRight) return kTracking.clock_set_s;
+  return std::clamp(jump_s, kTracking.clock_set_s, kMaxUnknown_s);
+}
 
-// After a long gap or a step of the clock the state goes on from where it was, unsure of what
-// happened in between, at the new time. Where a clock was set, messages went on meanwhile.
-void Tracking::StartSegment(const SegmentStarts& segment) {
-  using Step = ImuPreprocessor::Step;
-  context_.sweeps.clear();
-  ++context_.counters.num_restarts;
-  const Timestamp first = segment.first.stamp;
-  Estimate estimate = history_.head();
-  const double jump_s = SecondsBetween(estimate.stamp, first);
-  const bool is_gap = segment.step == Step::kGap && jump_s >= 0.0 && jump_s < kMaxUnknown_s;
-  double unknown_s = is_gap ? jump_s : std::clamp(jump_s, kTracking.clock_set_s, kMaxUnknown_s);
-  if (segment.step == Step::kSetRight) unknown_s = kTracking.clock_set_s;
-  ImuSample coast;  // straight on, without turning
+// Straight on for so long, without turning, as unsure as after a gap of the samples.
+Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& options) {
+  if (unknown_s <= 0.0) return estimate;
+  ImuSample coast;
   coast.stamp = estimate.stamp;
   coast.w_imu_radps = estimate.state.gyro_bias;
   coast.f_imu_mps2 =
-      estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * g_world_;
+      estimate.state.accel_bias - estimate.state.T_world_imu.rotation.conjugate() * options.g_world;
   ImuSample end = coast;
   end.stamp = coast.stamp + Duration::FromSeconds(unknown_s);
-  const HistoryOptions history = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
+  ProcessNoise noise = options.noise;
+  noise.accel_density = options.imu_outage.gap_accel_std_mps2 * std::sqrt(unknown_s);
+  noise.gyro_density = options.imu_outage.gap_gyro_std_radps * std::sqrt(unknown_s);
+  Propagate(estimate, coast, end, noise, options.g_world);
+  return estimate;
+}
+
+}  // namespace
+
+// After a gap or a step of the clock the state goes on from where it was, unsure of what happened
+// in between, at the new time.
+void Tracking::StartSegment(const SegmentStarts& segment) {
+  context_.sweeps.clear();
+  ++context_.counters.num_restarts;
+  const Timestamp first = segment.first.stamp;
+  const Estimate before = history_.head();
+  const double jump_s = SecondsBetween(before.stamp, first);
+  const bool is_gap = segment.step == ImuPreprocessor::Step::kGap && jump_s >= 0.0;
+  const HistoryOptions options = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
                                                     context_.stream.imu().NoiseAt(first));
-  ProcessNoise noise = history.noise;
-  noise.accel_density = history.imu_outage.gap_accel_std_mps2 * std::sqrt(unknown_s);
-  noise.gyro_density = history.imu_outage.gap_gyro_std_radps * std::sqrt(unknown_s);
-  const NavState before = estimate.state;
-  if (unknown_s > 0.0) Propagate(estimate, coast, end, noise, g_world_);
   handover_.clock_step.reset();
+  handover_.last_published.reset();
+  zero_velocity_.Forget();
+  if (is_gap) handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  if (is_gap && jump_s >= kMaxUnknown_s) {
+    history_ = FilterHistory(options, AcrossOutage(before, first), segment.first);
+    BeginOutage(before, first);
+    return;
+  }
+  const double unknown_s = is_gap ? jump_s : UnknownAtSetClock_s(segment.step, jump_s);
+  Estimate estimate = Coasted(before, unknown_s, options);
+  context_.outputs.Notify(
+      first, Notice::Severity::kWarning,
+      fmt::format("the IMU's stamps jumped by {:.3f} s: the state is carried over", jump_s));
   if (is_gap) {
-    handover_.clock_step = {{coast.stamp, first}, before.T_map_imu};
+    if (health_.AddGap(first)) NotifyLost(first, context_.outputs);
   } else {
-    estimate.state = before;
+    estimate.state = before.state;
     const Duration by = Duration::FromSeconds(jump_s - unknown_s);
     handover_.ShiftTimesBy(by);
     health_.ShiftTimesBy(by);
     context_.clocks.Interrupt();
   }
   estimate.stamp = first;
-  history_ = FilterHistory(history, estimate, segment.first);
-  zero_velocity_.Forget();
-  handover_.last_published.reset();
-  context_.outputs.Notify(
-      first, Notice::Severity::kWarning,
-      fmt::format("the IMU's stamps jumped by {:.3f} s: the state is carried over", jump_s));
+  history_ = FilterHistory(options, estimate, segment.first);
 }
 
 void Tracking::TakeClockStep(const AmbiguousClockStep& step) {
@@ -83,7 +99,7 @@ std::optional<Pose> Tracking::PoseIfClockSet(const Sweep& sweep,
 
 void Tracking::SettleClockStep(const MatchOutcome& outcome) {
   if (!IsAfterClockStep(*outcome.sweep)) return;
-  if (outcome.is_clock_set) {
+  if (outcome.is_clock_set && !outage_.is_lost()) {
     const ClockStep& stamps = handover_.clock_step->stamps;
     ++context_.counters.num_clock_jumps;
     context_.outputs.Notify(

@@ -235,5 +235,14 @@ TEST_F(HealthTest, AClockThatWasSetDoesNotLoseTheWay) {
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
 }
 
+TEST_F(HealthTest, GapOfTwoSecondsLosesTheWayOnce) {
+  Health health = With(true);
+  EXPECT_FALSE(health.AddGap(At(11.5)));
+  EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
+  EXPECT_TRUE(health.AddGap(At(12.0)));
+  EXPECT_EQ(health.status(), TrackingStatus::kLost);
+  EXPECT_FALSE(health.AddGap(At(13.0)));
+}
+
 }  // namespace
 }  // namespace lio

@@ -56,6 +56,9 @@ class Health {
   [[nodiscard]] Verdict AddScan(Timestamp sweep_end, const MatchResult& match, int num_points,
                                 bool is_fused);
 
+  // No scan came up to `until`. True: newly lost.
+  [[nodiscard]] bool AddGap(Timestamp until);
+
   TrackingStatus status() const { return status_; }
   std::optional<Timestamp> last_fused() const { return last_fused_; }
   int num_unmatched_in_a_row() const { return num_unmatched_in_a_row_; }

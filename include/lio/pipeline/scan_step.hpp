@@ -40,10 +40,11 @@ struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
   // Factor on the covariance of matches, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
-  bool grows_map = false;  // the scan will be inserted
-  bool is_level = false;   // ... level, with the map's bend taken back (map_bend.hpp)
-  double moved_m = 0.0;    // since the last scan that was inserted at another place
-  bool force = false;      // fuse even beyond the gate
+  bool grows_map = false;        // the scan will be inserted
+  bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
+  double moved_m = 0.0;          // since the last scan that was inserted at another place
+  bool force = false;            // fuse even beyond the gate
+  bool replaces_motion = false;  // nothing is known of the motion since the last fused scan
 };
 
 // Fuses a usable match at the sweep's middle. The measurement's covariance is that of the match and

@@ -13,6 +13,7 @@
 #include "lio/pipeline/health.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "lio/pipeline/mode_context.hpp"
+#include "lio/pipeline/outage.hpp"
 #include "lio/pipeline/transition.hpp"
 #include "lio/pipeline/zero_velocity_updater.hpp"
 
@@ -41,11 +42,20 @@ class Tracking {
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
 
-  TrackingStatus status() const { return health_.status(); }
+  TrackingStatus status() const {
+    return outage_.is_lost() ? TrackingStatus::kLost : health_.status();
+  }
   Timestamp begin() const { return history_.start_stamp(); }
 
  private:
   bool FeelsGravity() const { return !g_world_.isZero(); }
+  void BeginOutage(const Estimate& before, Timestamp first);
+  void SetTaskAfterOutage(MatchJob& job) const;
+  void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
+  void TakeVelocity(const MatchOutcome& outcome);
+  void NotifyFound(Timestamp end);
+  void ForgetPlace(Timestamp end);
+  void LeaveMap(Timestamp stamp);
   bool IsAfterClockStep(const Sweep& sweep) const;
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
@@ -53,6 +63,8 @@ class Tracking {
   void UpdateBesides(const MatchOutcome& outcome, bool is_fused);
   void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
                bool rebases_map, InsertTask& insert);
+  void Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
+               std::int64_t begin_ns);
   std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
   Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
   void PublishAtImuRate();
@@ -66,6 +78,7 @@ class Tracking {
   Health health_;
   KeyframePolicy keyframes_;
   ZeroVelocityUpdater zero_velocity_;
+  OutageRecovery outage_;
   bool is_first_scan_ = true;
 };
 

@@ -12,7 +12,7 @@
 //     200 ms   confirmed   it is counted as num_imu_gaps, once the  stream/imu_preprocessor
 //                          samples after it bear the stamps out
 //     1 s      segment     the state is carried over by itself      pipeline/tracking_segment
-//     3 s      unknown     it is as uncertain as a clock step       pipeline/tracking_segment
+//     3 s      unknown     an outage: the place is sought again     pipeline/tracking_segment
 //
 //   scans apart by
 //     250 ms   missing     it is counted as num_scan_gaps           stream/scan_gate
@@ -40,8 +40,9 @@ struct ImuGapParameters {
   // about as far as matching searches (CorrespondenceParameters::kMaxStd_m). A lidar goes on
   // without a unit that has been silent for so long.
   Duration segment{1'000'000'000};
-  // The doubt about the motion does not grow beyond that of so long a time. Chosen: after 3 s it is
-  // 13 m, where the place has to be sought anyway.
+  // A longer one is an outage (pipeline/outage.hpp): the doubt about the motion is 13 m by then, and
+  // the place is sought. At a clock step the doubt does not grow beyond that of so long a time.
+  // Chosen.
   Duration unknown{3'000'000'000};
 };
 inline constexpr ImuGapParameters kImuGap;

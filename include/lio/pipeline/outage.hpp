@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// An outage: stamps of all sensors went forth by seconds. Either nothing was received meanwhile (a
+// suspended host, a switch) and the body moved unseen, or the clocks were set and it did not. The
+// stamps are the same, so the covariance holds both, and the estimator is lost until scans tell:
+//
+//   kSeek           the scan is sought near the old place and where the motion before leads to
+//   kCheck          the scans after it must match as well as those before the outage did
+//   kFindVelocity   found nowhere: the map is cleared, bird's-eye views give the velocity
+//   kBeginMap       the next scan begins a new map, at the predicted pose
+//   kConfirm        until a scan has matched it
+#pragma once
+
+#include <cstdint>
+
+#include "lio/filter/nav_state.hpp"
+#include "lio/pipeline/match_job.hpp"
+
+namespace lio {
+
+struct OutageParameters {
+  // Who stood or crawled before may go on as fast as this: a runner, a car that drives off. Chosen.
+  double min_speed_mps = 5.0;
+  // A road climbs by at most this in its length: the steepest residential streets of cities do.
+  double slope = 0.2;
+  // Change of roll and pitch, 1 sigma: that slope, halved as it is seldom met.
+  double tilt_std_rad = 0.1;
+  // The turn rate while unseen, 1 sigma: that of a gap (ImuOutageParameters), ...
+  double turn_rate_std_radps = 0.5;
+  // ... but a yaw that is anywhere has pi / sqrt(3), as a uniform distribution.
+  double max_yaw_std_rad = 1.8138;
+  // Nothing is known of the velocity: a vehicle in a city (as ConstantVelocityParameters).
+  double velocity_std_mps = 15.0;
+  // Beyond this standard deviation, numbers in double precision would leave too few digits for the
+  // millimetres of the next match: 1e8 m^2 beside 1e-6 m^2.
+  double max_std_m = 1e4;
+  // Scans that are sought before the map is given up: with three for the velocity, less than a
+  // second passes at 10 Hz. Chosen.
+  int max_scans_sought = 4;
+  // The scan that is found is matched with large cells, which any ground and any wall fit. Those
+  // after it must match as many points, and as many in the finest cells, as this share of the
+  // number before the outage: 0.7 and more at the right place, 0.53 and 0.05 at most on a motorway
+  // 138 m off (docs/experiments/outages.md).
+  double min_share_matched = 0.6;
+  int num_checks = 2;         // scans that must; chosen
+  int max_scans_checked = 4;  // among so many; chosen
+  double stayed_m = 2.0;      // found nearer to the old place than this, it stayed there; chosen
+  int max_scans_for_velocity = 8;  // then the new map begins without; as InitializingParameters
+  double found_velocity_std_mps = 1.5;  // by bird's-eye views; as ConstantVelocityParameters
+};
+
+inline constexpr OutageParameters kOutage;
+
+// The state at `now`, driven on as before, with a covariance that holds a body that stopped, that
+// drove on or turned, and clocks that were set.
+[[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);
+
+class OutageRecovery {
+ public:
+  enum class Stage : std::int8_t { kNone, kSeek, kCheck, kFindVelocity, kBeginMap, kConfirm };
+
+  // A scan that was fused while nothing is lost: what later ones are compared with.
+  void NoteMatch(const MatchResult& match) { last_match_ = match; }
+  // Where the scene did not hold all directions, no search is believed: a new map begins at once.
+  void Begin(const Estimate& before);
+  Stage stage() const { return stage_; }
+  bool is_lost() const { return stage_ != Stage::kNone; }
+  // The next scan is the first one of the stage.
+  bool is_first() const { return num_scans_ == 0; }
+  // A scan of the present stage was dealt with. `sees_enough`: it has points to be found by.
+  void AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
+
+  const Estimate& before() const { return before_; }
+  // Where a scan was found, from where the body was before.
+  double moved_m() const { return moved_m_; }
+
+ private:
+  void Enter(Stage stage);
+  bool MatchesAsBefore(const MatchResult& match) const;
+
+  Stage stage_ = Stage::kNone;
+  int num_scans_ = 0;  // of the stage
+  int num_checked_ = 0;
+  MatchResult last_match_;
+  Estimate before_;
+  double moved_m_ = 0.0;
+};
+
+}  // namespace lio

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The way back from an outage, while tracking.
+#include <fmt/format.h>
+
+#include "lio/filter/sample_lookup.hpp"
+#include "lio/pipeline/tracking.hpp"
+#include "pipeline/history_options.hpp"
+
+namespace lio {
+
+using OutageStage = OutageRecovery::Stage;
+
+// Nothing is known of the motion until a scan tells.
+void Tracking::BeginOutage(const Estimate& before, Timestamp first) {
+  outage_.Begin(before);
+  (void)health_.AddGap(first);
+  context_.clocks.Interrupt();
+  context_.outputs.Notify(
+      first, Notice::Severity::kWarning,
+      fmt::format("lost: by their stamps nothing came of all sensors for {:.3f} s, or their clocks "
+                  "were set; scans tell whether the body has moved",
+                  SecondsBetween(before.stamp, first)));
+  if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
+}
+
+void Tracking::SetTaskAfterOutage(MatchJob& job) const {
+  if (outage_.stage() == OutageStage::kSeek) {
+    job.task = Relocalize{
+        Track{}, {SearchRegion::kObservable, PoseIfClockSet(*job.sweep, job.prior.T_map_imu)}};
+  } else if (outage_.stage() == OutageStage::kFindVelocity) {
+    job.task = FindVelocity{};
+    if (outage_.is_first()) job.map_action = MapAction::kClear;
+  } else if (outage_.stage() == OutageStage::kBeginMap) {
+    job.task = Track{};
+    job.map_action = MapAction::kClear;
+  }
+}
+
+void Tracking::AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused) {
+  if (!outage_.is_lost()) {
+    if (is_fused) outage_.NoteMatch(outcome.match);
+    return;
+  }
+  const OutageStage before = outage_.stage();
+  outage_.AddScan(outcome, is_fused, outcome.num_used >= kHealth.min_points);
+  if (before == OutageStage::kFindVelocity && outcome.v_map_imu_mps) TakeVelocity(outcome);
+  if (outage_.stage() == before) return;
+  const Timestamp end = outcome.sweep->end;
+  if (before == OutageStage::kCheck && outage_.stage() == OutageStage::kNone) {
+    NotifyFound(end);
+  } else if (outage_.stage() == OutageStage::kFindVelocity) {
+    if (before == OutageStage::kCheck) ForgetPlace(end);
+    LeaveMap(end);
+  }
+}
+
+// The velocity is given in the axes of the prior.
+void Tracking::TakeVelocity(const MatchOutcome& outcome) {
+  constexpr double kVar = kOutage.found_velocity_std_mps * kOutage.found_velocity_std_mps;
+  const Vector3 v_imu_mps = outcome.match.T_map_imu.rotation.conjugate() * *outcome.v_map_imu_mps;
+  if (history_.AddVelocity(outcome.sweep->middle(), v_imu_mps, kVar) != EventOutcome::kApplied) {
+    ++context_.counters.num_scans_late;
+  }
+}
+
+void Tracking::NotifyFound(Timestamp end) {
+  const double moved_m = outage_.moved_m();
+  const char* why = moved_m < kOutage.stayed_m ? ": the body stayed there, or clocks were set" : "";
+  context_.outputs.Notify(
+      end, Notice::Severity::kWarning,
+      fmt::format("found again in the map, {:.1f} m from where it was{}", moved_m, why));
+}
+
+// The scans after the one that was found contradict it.
+void Tracking::ForgetPlace(Timestamp end) {
+  const auto& samples = context_.stream.imu().samples();
+  history_ = FilterHistory(MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
+                                              context_.stream.imu().NoiseAt(end)),
+                           AcrossOutage(outage_.before(), end), SampleAt(samples, end));
+  for (const ImuSample& sample : samples) {
+    if (sample.stamp > end) (void)history_.AddImu(sample);
+  }
+}
+
+// The map is of no use any more: a new one begins with the next scans.
+void Tracking::LeaveMap(Timestamp stamp) {
+  handover_.clock_step.reset();
+  handover_.last_located.reset();
+  keyframes_.Reset();
+  context_.convention.BeginMap(stamp);
+  context_.outputs.Notify(
+      stamp, Notice::Severity::kWarning,
+      "the place is not found in the map, so a new map begins in the same world; "
+      "the covariance says how sure its place there is");
+}
+
+}  // namespace lio

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/outage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/motion.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+using Stage = OutageRecovery::Stage;
+
+// Ten metres a second along y, heading there, and sure of all of it.
+Estimate Driving() {
+  Estimate estimate;
+  estimate.stamp = StampAt(20.0);
+  estimate.state.T_world_imu = {ExpSo3(Vector3(0, 0, std::numbers::pi / 2)), Vector3(3, 4, 5)};
+  estimate.state.T_map_imu = {Quaternion::Identity(), Vector3(1, 0, 0)};
+  estimate.state.v_world_imu = Vector3(0, 10, 0);
+  estimate.cov.diagonal().setConstant(1e-4);
+  return estimate;
+}
+
+double Nees(const Estimate& estimate, const Vector3& truth_world) {
+  const Vector3 error = truth_world - estimate.state.T_world_imu.translation;
+  return error.dot(estimate.cov.block<3, 3>(kPos, kPos).ldlt().solve(error)) / 3.0;
+}
+
+MatchOutcome Scan(int num_matched, int num_in_finest_cells) {
+  MatchOutcome outcome;
+  outcome.match.status = MatchStatus::kConverged;
+  outcome.match.num_matched = num_matched;
+  outcome.match.num_matched_at[0] = num_in_finest_cells;
+  return outcome;
+}
+
+OutageRecovery Begun(unsigned degenerate_mask = 0) {
+  OutageRecovery recovery;
+  MatchResult before = Scan(1000, 500).match;
+  before.degenerate_mask = degenerate_mask;
+  recovery.NoteMatch(before);
+  recovery.Begin(Driving());
+  return recovery;
+}
+
+TEST(AcrossOutage, DrivesOnInWorldAndInMapAlike) {
+  const Estimate after = AcrossOutage(Driving(), StampAt(25.0));
+  EXPECT_EQ(after.stamp, StampAt(25.0));
+  EXPECT_NEAR((after.state.T_world_imu.translation - Vector3(3, 54, 5)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((after.state.T_map_imu.translation - Vector3(51, 0, 0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((after.state.v_world_imu - Vector3(0, 10, 0)).norm(), 0.0, 1e-9);
+}
+
+TEST(AcrossOutage, CovarianceHoldsWhoeverStoppedDroveOnFasterOrTurned) {
+  const Estimate after = AcrossOutage(Driving(), StampAt(25.0));
+  for (const Vector3& truth : {Vector3(3, 4, 5), Vector3(3, 54, 5), Vector3(3, 90, 9),
+                               Vector3(53, 4, 5), Vector3(-40, 30, 0)}) {
+    EXPECT_LT(Nees(after, truth), 1.5) << truth.transpose();
+  }
+}
+
+TEST(AcrossOutage, WhoStoodMayHaveDrivenOff) {
+  Estimate standing = Driving();
+  standing.state.v_world_imu.setZero();
+  const Estimate after = AcrossOutage(standing, StampAt(30.0));
+  EXPECT_LT(Nees(after, Vector3(3, 54, 5)), 1.5);
+  EXPECT_GT(after.cov(kVel, kVel), 100.0);
+}
+
+TEST(AcrossOutage, YawMayBeAnyAndTiltIsThatOfRoads) {
+  const Estimate after = AcrossOutage(Driving(), StampAt(60.0));
+  EXPECT_NEAR(std::sqrt(after.cov(kRot + 2, kRot + 2)), std::numbers::pi / std::sqrt(3.0), 0.01);
+  EXPECT_NEAR(std::sqrt(after.cov(kRot, kRot)), 0.1, 0.01);
+}
+
+TEST(AcrossOutage, YearsLeaveACovarianceThatCanBeFused) {
+  const Estimate after = AcrossOutage(Driving(), StampAt(1e9));
+  EXPECT_LT(after.state.T_world_imu.translation.norm(), 400.0);  // no longer than 30 s on
+  EXPECT_LT(after.cov.diagonal().maxCoeff(), 2e8);
+}
+
+TEST(OutageRecovery, NothingIsLostBeforeAnOutage) {
+  EXPECT_FALSE(OutageRecovery().is_lost());
+}
+
+TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
+  OutageRecovery recovery = Begun();
+  EXPECT_EQ(recovery.stage(), Stage::kSeek);
+  recovery.AddScan(Scan(1000, 0), true, true);
+  EXPECT_EQ(recovery.stage(), Stage::kCheck);
+  recovery.AddScan(Scan(700, 400), true, true);
+  EXPECT_TRUE(recovery.is_lost());
+  recovery.AddScan(Scan(700, 400), true, true);
+  EXPECT_FALSE(recovery.is_lost());
+}
+
+TEST(OutageRecovery, PlaceThatFitsLargeCellsAloneIsGivenUp) {
+  OutageRecovery recovery = Begun();
+  recovery.AddScan(Scan(1000, 0), true, true);
+  for (int i = 0; i < kOutage.max_scans_checked; ++i) {
+    EXPECT_EQ(recovery.stage(), Stage::kCheck);
+    recovery.AddScan(Scan(900, 20), true, true);
+  }
+  EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
+}
+
+TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
+  OutageRecovery recovery = Begun();
+  for (int i = 0; i < kOutage.max_scans_sought; ++i) recovery.AddScan(Scan(0, 0), false, true);
+  EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
+  EXPECT_TRUE(recovery.is_first());
+  recovery.AddScan({}, false, true);
+  EXPECT_FALSE(recovery.is_first());
+  MatchOutcome with_velocity;
+  with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
+  recovery.AddScan(with_velocity, false, true);
+  EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
+  MatchOutcome first_of_map;
+  first_of_map.match.status = MatchStatus::kEmptyMap;
+  recovery.AddScan(first_of_map, false, true);
+  EXPECT_EQ(recovery.stage(), Stage::kConfirm);
+  recovery.AddScan(Scan(300, 100), true, true);
+  EXPECT_FALSE(recovery.is_lost());
+}
+
+TEST(OutageRecovery, MapBeginsWithoutAVelocityWhereNoneIsClear) {
+  OutageRecovery recovery = Begun();
+  for (int i = 0; i < kOutage.max_scans_sought + kOutage.max_scans_for_velocity; ++i) {
+    recovery.AddScan({}, false, true);
+  }
+  EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
+}
+
+TEST(OutageRecovery, ScansThatSeeNothingEndNoSearch) {
+  OutageRecovery recovery = Begun();
+  for (int i = 0; i < 100; ++i) recovery.AddScan(Scan(0, 0), false, false);
+  EXPECT_EQ(recovery.stage(), Stage::kSeek);
+}
+
+TEST(OutageRecovery, NoSearchIsBelievedWhereTheSceneHeldOneDirectionLess) {
+  EXPECT_EQ(Begun(1U).stage(), Stage::kFindVelocity);
+}
+
+}  // namespace
+}  // namespace lio
