@@ -206,6 +206,11 @@ void AddUnseenMotion(Estimate& estimate, const Matrix6& motion_cov_imu) {
   estimate.cov += effect * motion_cov_imu * effect.transpose();
 }
 
+void ForgetBiases(Estimate& estimate) {
+  estimate.cov.middleRows<6>(kGyroBias).setZero();
+  estimate.cov.middleCols<6>(kGyroBias).setZero();
+}
+
 // R Exp(dtheta) u = R u - R [u]x dtheta.
 void SetVelocity(const Vector3& v_imu_mps, const Matrix3& cov_world, Estimate& estimate) {
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();

@@ -25,7 +25,20 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   return history;
 }
 
+// Its samples read no force, so there is no bias of one; that of the gyro is the turn rate.
+Estimate GoOnFrom(Estimate estimate, const Vector3& gyro_bias) {
+  constexpr double kStd = kConstantVelocity.known_turn_rate_std_radps;
+  ForgetBiases(estimate);
+  estimate.state.gyro_bias = gyro_bias;
+  estimate.state.accel_bias.setZero();
+  estimate.cov.block<3, 3>(kGyroBias, kGyroBias) = kStd * kStd * Matrix3::Identity();
+  return estimate;
+}
+
 Estimate Start(Timestamp start, const TrackerOptions& options) {
+  if (options.goes_on_from) {
+    return GoOnFrom(*options.goes_on_from, options.seed.motion.value_or(NavState{}).gyro_bias);
+  }
   Estimate estimate;
   estimate.stamp = start;
   const bool is_known = options.seed.motion.has_value();

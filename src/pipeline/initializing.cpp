@@ -154,7 +154,13 @@ std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segmen
   return Transition{.trigger = Trigger::kRetry, .handover = std::move(handover)};
 }
 
-std::optional<Transition> Initializing::TakeImu(const ImuAppeared& /*event*/) {
+std::optional<Transition> Initializing::TakeImuAbsent() const {
+  return tracker_ ? std::optional(Retry()) : std::nullopt;
+}
+
+std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
+  context_.outputs.Notify(event.first, Notice::Severity::kWarning,
+                          "inertial samples have come: initialization begins again, with them");
   Handover handover = handover_;
   if (handover.origin == Handover::Origin::kLostLidar) {
     handover.origin = Handover::Origin::kLidar;

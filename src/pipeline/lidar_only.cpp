@@ -5,29 +5,37 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/filter/process_model.hpp"
 #include "lio/pipeline/coarse_tracking.hpp"
 #include "lio/pipeline/estimate_report.hpp"
 #include "lio/pipeline/scan_step.hpp"
 
 namespace lio {
 
-LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed)
+LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
+                     std::optional<StartState> inertial)
     : context_(context),
       handover_(std::move(handover)),
       seed_(seed),
-      health_(false, TrackingStatus::kInit, handover_.last_fused, context.counters) {}
+      health_(false, TrackingStatus::kInit, handover_.last_fused, context.counters),
+      inertial_(std::move(inertial)) {
+  handover_.keeps_map = false;
+  if (inertial_) g_world_ = inertial_->g_world;
+}
 
 MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   const bool is_first = !tracker_;
-  if (is_first) {
+  if (is_first && inertial_) {
+    GoOn();
+  } else if (is_first) {
     BeginTrack(*sweep);
   } else {
     FollowClockBack(*sweep, *tracker_, handover_.last_located);
   }
   tracker_->AdvanceTo(sweep->end);
   MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
-  if (num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
-  if (is_first) job.map_action = MapAction::kClear;
+  if (!inertial_ && num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
+  if (!inertial_ && is_first) job.map_action = MapAction::kClear;
   if (handover_.last_located) {
     job.task = Relocalize{std::get<Track>(job.task), {SearchRegion::kAnywhere, {}}};
   }
@@ -47,6 +55,19 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());
   context_.convention.BeginMap(sweep.start);
   up_map_ = options.T_world_start.rotation * MeanUp({}, context_.options.rig);
+}
+
+// The world and the map are the inertial filter's.
+void LidarOnly::GoOn() {
+  TrackerOptions options;
+  options.span_s = context_.options.filter.history_s;
+  options.nis_limit = context_.nis_limit;
+  options.seed = seed_;
+  options.goes_on_from = inertial_->estimate;
+  tracker_.emplace(inertial_->estimate.stamp, options);
+  handover_.origin = Handover::Origin::kLidar;
+  const NavState& state = inertial_->estimate.state;
+  up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
 // The new map begins where the motion before and after the scans that were not located leads.
@@ -98,13 +119,14 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   handover_.last_fused = health_.last_fused();
   if (verdict.is_newly_lost) NotifyLost(outcome.sweep->end, context_.outputs);
   if (report.fused && is_place_sure) {
-    handover_.last_fix = MakeFix(middle, estimate, Vector3::Zero());
+    handover_.last_fix = MakeFix(middle, estimate, g_world_);
   }
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
   context_.sweeps.pop_front();
-  if (!verdict.restarts) return std::nullopt;
-  return RestartWhenLost(outcome.sweep->end);
+  if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
+  if (is_imu_back_ && report.fused && is_place_sure) return ReturnToImu(outcome);
+  return std::nullopt;
 }
 
 ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
@@ -126,8 +148,8 @@ void LidarOnly::Publish(const MatchOutcome& outcome, const ScanReport& report) {
   const Estimate at_end = report.fused
                               ? tracker_->AtEnd(outcome.sweep->middle(), end, outcome.turn_rate)
                               : tracker_->history().At(end);
-  const ReportContext context{context_.options, Vector3::Zero(), handover_.last_seq,
-                              health_.status(), nullptr,         context_.clocks};
+  const ReportContext context{context_.options, g_world_, handover_.last_seq,
+                              health_.status(), nullptr,  context_.clocks};
   context_.outputs.Add(ScanOutput{MakeFilterReport(at_end, report, context), report});
 }
 
@@ -143,11 +165,42 @@ Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {
   return {.trigger = Trigger::kLost, .handover = std::move(handover)};
 }
 
-Transition LidarOnly::TakeImu(const ImuAppeared& /*event*/) const {
+std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
+  if (inertial_ && tracker_) {
+    is_imu_back_ = true;
+    context_.outputs.Notify(event.first, Notice::Severity::kWarning,
+                            "inertial samples come again: the next scan that matches goes on with "
+                            "them");
+    return std::nullopt;
+  }
+  context_.outputs.Notify(event.first, Notice::Severity::kWarning,
+                          "inertial samples have come: initialization begins again, with them");
   Handover handover = handover_;
   handover.origin = Handover::Origin::kLidar;
   handover.is_map_by_lidar = true;
-  return {.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+  return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+}
+
+// The pose and the velocity are the scan's; biases are as before, but an IMU that was off may have
+// others.
+Transition LidarOnly::ReturnToImu(const MatchOutcome& outcome) const {
+  const ImuRig& imu = context_.options.rig.imu;
+  StartState start = *inertial_;
+  const NavState before = start.estimate.state;
+  start.estimate = tracker_->history().At(outcome.sweep->middle());
+  start.estimate.state.gyro_bias = before.gyro_bias;
+  start.estimate.state.accel_bias = before.accel_bias;
+  ForgetBiases(start.estimate);
+  const auto set = [&](int at, double std) {
+    start.estimate.cov.diagonal().segment<3>(at).setConstant(std * std);
+  };
+  set(kGyroBias, imu.gyro_bias_std_radps);
+  set(kAccelBias, imu.accel_bias_std_mps2);
+  Handover handover = handover_;
+  handover.origin = Handover::Origin::kInertial;
+  handover.keeps_map = true;
+  return {
+      .trigger = Trigger::kImuReturned, .handover = std::move(handover), .start = std::move(start)};
 }
 
 }  // namespace lio

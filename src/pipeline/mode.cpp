@@ -28,8 +28,9 @@ std::string_view NameOf(ModeKind kind) {
 }
 
 std::string_view NameOf(Trigger trigger) {
-  constexpr std::array<std::string_view, 7> kNames{
-      "started", "no IMU", "retry", "contradicted", "lost", "convention doubted", "IMU appeared"};
+  constexpr std::array<std::string_view, 9> kNames{
+      "started",      "no IMU",     "retry",       "contradicted", "lost", "convention doubted",
+      "IMU appeared", "IMU absent", "IMU returned"};
   return kNames.at(static_cast<std::size_t>(trigger));
 }
 
@@ -46,7 +47,8 @@ Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& conte
       return Tracking(context, std::move(transition.handover), transition.start.value(),
                       transition.is_at_rest);
     case ModeKind::kLidarOnly:
-      return LidarOnly(context, std::move(transition.handover), transition.seed);
+      return LidarOnly(context, std::move(transition.handover), transition.seed,
+                       std::move(transition.start));
     case ModeKind::kRejected:
       break;
   }

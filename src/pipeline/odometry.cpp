@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/pipeline/odometry.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -92,6 +93,8 @@ class Odometry::Impl {
   void ShedLoad() {
     const std::size_t first = NextSweepOf(*mode_) + (in_flight_ ? 1 : 0);
     auto limit = static_cast<std::size_t>(options_.pipeline.max_queued_scans);
+    num_freed_at_once_ = std::min(num_freed_at_once_, sweeps_.size());
+    limit += num_freed_at_once_;
     if (KindOf(*mode_) == ModeKind::kInitializing) limit += kMaxLookedBackOn;
     while (sweeps_.size() > limit + first) {
       sweeps_.erase(sweeps_.begin() + static_cast<std::ptrdiff_t>(first));
@@ -117,16 +120,20 @@ class Odometry::Impl {
   bool IsIdle() const { return !in_flight_ && sweeps_.size() <= NextSweepOf(*mode_); }
 
   void ConsumeEvents() {
+    std::size_t num_freed = 0;
     while (const std::optional<StreamEvent> event = stream_.Next(IsIdle())) {
+      if (std::holds_alternative<SweepReady>(*event)) ++num_freed;
       GoOn(std::visit([&](const auto& content) { return Consume(content); }, *event));
     }
+    if (num_freed > 1) num_freed_at_once_ += num_freed;
   }
 
   // Changes the mode where that is asked for.
   void GoOn(Next transition) {
     if (transition) {
       if (transition->trigger != Trigger::kStarted && transition->trigger != Trigger::kNoImu &&
-          transition->trigger != Trigger::kRetry && transition->trigger != Trigger::kContradicted) {
+          transition->trigger != Trigger::kRetry && transition->trigger != Trigger::kContradicted &&
+          transition->trigger != Trigger::kImuReturned) {
         ++counters_.num_restarts;
       }
       mode_ = std::make_unique<Mode>(BuildNext(*mode_, std::move(*transition), MakeContext()));
@@ -168,14 +175,17 @@ class Odometry::Impl {
     clocks_.Stop();
     outputs_.Notify(event.stamp, Notice::Severity::kWarning,
                     event.evidence + ": lidar-only odometry");
-    return std::nullopt;
+    if (const auto* tracking = std::get_if<Tracking>(mode_.get())) {
+      return tracking->TakeImuAbsent(event);
+    }
+    if (auto* lidar_only = std::get_if<LidarOnly>(mode_.get())) lidar_only->TakeImuAbsent();
+    const auto* initializing = std::get_if<Initializing>(mode_.get());
+    return initializing ? initializing->TakeImuAbsent() : std::nullopt;
   }
   Next Consume(const ImuAppeared& event) {
     sweeps_.clear();
     clocks_.Restart();
-    outputs_.Notify(event.first, Notice::Severity::kWarning,
-                    "inertial samples have come: initialization begins again, with them");
-    if (const auto* lidar_only = std::get_if<LidarOnly>(mode_.get())) {
+    if (auto* lidar_only = std::get_if<LidarOnly>(mode_.get())) {
       return lidar_only->TakeImu(event);
     }
     auto* initializing = std::get_if<Initializing>(mode_.get());
@@ -219,7 +229,9 @@ class Odometry::Impl {
   ImuNoiseWatch imu_noise_;
   ClockOffsetFollower clocks_;
   std::unique_ptr<Mode> mode_;
-  SweepPtr in_flight_;          // the sweep whose job is out
+  SweepPtr in_flight_;  // the sweep whose job is out
+  // Sweeps in the queue that one message set free together, as after a gap of the inertial stream.
+  std::size_t num_freed_at_once_ = 0;
   std::int64_t filter_ns_ = 0;  // CPU time of the filter since the last job
 };
 

@@ -31,7 +31,8 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
                WithMapStart(start.estimate),
                SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
-      zero_velocity_(context.options.rig.imu, is_at_rest) {
+      zero_velocity_(context.options.rig.imu, is_at_rest),
+      is_first_scan_(!std::exchange(handover_.keeps_map, false)) {
   history_.KeepFrom(start.estimate.stamp - context_.stream.clock_margin());
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
@@ -204,6 +205,19 @@ Transition Tracking::Restart(Trigger trigger, Timestamp stamp, const std::string
   Handover handover = handover_;
   handover.origin = Handover::Origin::kInertial;
   return {.trigger = trigger, .handover = std::move(handover)};
+}
+
+Transition Tracking::TakeImuAbsent(const ImuAbsent& event) const {
+  Transition transition{.trigger = Trigger::kImuAbsent, .handover = handover_};
+  if (is_first_scan_) return transition;  // there is no map yet
+  transition.handover.keeps_map = true;
+  StartState known;
+  known.estimate = history_.At(event.begin);
+  known.g_world = g_world_;
+  transition.seed.motion = known.estimate.state;
+  transition.seed.motion->gyro_bias -= event.w_imu_radps;
+  transition.start = std::move(known);
+  return transition;
 }
 
 }  // namespace lio

@@ -85,9 +85,12 @@ SweepPtr ScanGate::Open(std::optional<Timestamp> newest_imu) {
   if (waiting_.empty() || !newest_imu) return nullptr;
   if (*newest_imu >= waiting_.front()->end) return Force();
   if (!imu_silent_at_) imu_silent_at_ = waiting_.front()->start;
-  if (waiting_.back()->end - *imu_silent_at_ <= kImuGap.segment) return nullptr;
-  ++counters_->num_scans_without_imu;
-  return Force();
+  return nullptr;
+}
+
+bool ScanGate::IsImuSilent() const {
+  return imu_silent_at_ && !waiting_.empty() &&
+         waiting_.back()->end - *imu_silent_at_ > kImuGap.segment;
 }
 
 SweepPtr ScanGate::Force() {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/stream/stream_parameters.hpp"
 
 namespace lio {
@@ -94,6 +95,11 @@ bool SensorStream::Advance(bool is_idle) {
   if (state_ == State::kWaitingForIdle) {
     if (!is_idle) return false;
     StartSegment();
+    return true;
+  }
+  if (state_ == State::kLosingImu) {
+    if (!is_idle) return false;
+    LoseImu();
     return true;
   }
   if (state_ == State::kJudgingStep) {
@@ -210,12 +216,27 @@ void SensorStream::OpenGate() {
   std::optional<Timestamp> passed = newest;
   if (passed) *passed = *passed - clock_margin();
   while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
+  if (gate_.IsImuSilent() && life_ != Life::kClosed) state_ = State::kLosingImu;
   if (passed && !gate_.empty()) NotifyIfClocksApart(*passed, gate_.oldest().start);
 }
 
 void SensorStream::GoLidarOnly(const std::string& evidence) {
   has_imu_ = false;
-  events_.emplace_back(ImuAbsent{gate_.oldest().end, evidence});
+  const Sweep& first = gate_.oldest();
+  ImuAbsent absent{first.end, evidence, first.start};
+  if (!imu_.samples().empty()) {
+    absent.w_imu_radps = SampleAt(imu_.samples(), first.start).w_imu_radps;
+  }
+  events_.emplace_back(std::move(absent));
+}
+
+// The samples have ended; the sweeps since then go on without.
+void SensorStream::LoseImu() {
+  state_ = State::kFlowing;
+  GoLidarOnly("no inertial samples come any more");
+  imu_.Clear();
+  late_imu_.clear();
+  OpenGate();
 }
 
 bool SensorStream::NotifyIfClocksApart(Timestamp imu, Timestamp lidar) {

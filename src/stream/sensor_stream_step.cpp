@@ -111,7 +111,9 @@ void SensorStream::StartSegment() {
 // An IMU that comes up after the lidar. A stray sample is none, and neither is one by another
 // clock.
 void SensorStream::TakeLateImu(const ImuSample& sample) {
-  const ImuPreprocessor::Result result = preprocessor_.Add(sample);
+  ImuSample shifted = sample;
+  shifted.stamp = sample.stamp + imu_clock_shift_;
+  const ImuPreprocessor::Result result = preprocessor_.Add(shifted);
   if (result.step != Step::kNone) late_imu_.clear();
   for (const ImuSample& accepted : result.accepted) {
     const bool is_apart = NotifyIfClocksApart(accepted.stamp, newest_chunk_);

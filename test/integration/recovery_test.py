@@ -70,6 +70,19 @@ class Recovery(unittest.TestCase):
             self.assertLess(ape_m, 0.02, "was 1.1 m and more")
             self.assertEqual(stats["num_restarts"], 0)
 
+    # Nothing is received for five seconds of walking. The walk is found again in the map.
+    def test_an_outage_of_both_sensors_is_survived(self):
+        _, stats = self.run_with("imu_gap:start=15,duration=5", "1",
+                                 also="lidar_gap:start=15,duration=5")
+        self.assertEqual(stats["num_restarts"], 1)
+        self.assertLess(self.end_error_m, 0.3)
+
+    def test_an_imu_that_dies_leaves_the_lidar_and_is_used_again(self):
+        ape_m, stats = self.run_with("imu_gap:start=10,duration=10", "1")
+        self.assertEqual(stats["num_restarts"], 1)
+        self.assertEqual(stats["num_scans_without_imu"], 0)
+        self.assertLess(ape_m, 0.1, "was 9.6 m")
+
     def test_a_gyro_that_clips_is_helped_by_the_scans(self):
         ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
         self.assertGreater(stats["num_imu_clipped"], 100)

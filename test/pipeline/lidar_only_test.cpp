@@ -30,10 +30,11 @@ MotionSeed Ahead(double speed_mps) {
 
 // Runs the mode along a straight road, from second 0.
 struct LidarOnlyBench {
-  explicit LidarOnlyBench(double speed_mps = kSpeed_mps, Handover handover = {})
+  explicit LidarOnlyBench(double speed_mps = kSpeed_mps, Handover handover = {},
+                          std::optional<StartState> inertial = std::nullopt)
       : motion(Straight(speed_mps)),
         bench(WithoutImu()),
-        mode(bench.context(), std::move(handover), Ahead(speed_mps)) {}
+        mode(bench.context(), std::move(handover), Ahead(speed_mps), std::move(inertial)) {}
 
   MatchJob NextJob() {
     const SweepPtr sweep = bench.AddSweep(sweep_start_s);
@@ -175,7 +176,7 @@ TEST(LidarOnly, RelocalizedScanIsFusedButGrowsNoMapAndIsNoFix) {
   ASSERT_FALSE(b.Finish(found));
   EXPECT_FALSE(b.insert.T_map_imu);
   EXPECT_TRUE(b.bench.Take<ScanOutput>().back().scan.fused);
-  EXPECT_EQ(b.mode.TakeImu({StampAt(2.0)}).handover.last_fix.stamp, StampAt(0.95));
+  EXPECT_EQ(b.mode.TakeImu({StampAt(2.0)})->handover.last_fix.stamp, StampAt(0.95));
 }
 
 TEST(LidarOnly, BeginsAfterALossWhereTheMotionBeforeItLeads) {
@@ -207,11 +208,69 @@ TEST(LidarOnly, WithoutALossItBeginsAtTheOrigin) {
 TEST(LidarOnly, ImuThatAppearsGetsTheWorldAndTheMap) {
   LidarOnlyBench b;
   ASSERT_FALSE(b.Match(10));
-  const Transition transition = b.mode.TakeImu({StampAt(1.0)});
-  EXPECT_EQ(transition.trigger, Trigger::kImuAppeared);
-  EXPECT_EQ(transition.handover.origin, Origin::kLidar);
-  EXPECT_TRUE(transition.handover.is_map_by_lidar);
-  EXPECT_NEAR(transition.handover.last_fix.T_map_imu.translation.x(), 0.95 * kSpeed_mps, 0.05);
+  const auto transition = b.mode.TakeImu({StampAt(1.0)});
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kImuAppeared);
+  EXPECT_EQ(transition->handover.origin, Origin::kLidar);
+  EXPECT_TRUE(transition->handover.is_map_by_lidar);
+  EXPECT_NEAR(transition->handover.last_fix.T_map_imu.translation.x(), 0.95 * kSpeed_mps, 0.05);
+}
+
+// What the inertial filter knew at second 0: the map has drifted from the world by two metres.
+StartState Inertial() {
+  StartState start;
+  start.g_world = Vector3(0, 0, -9.81);
+  start.estimate.stamp = StampAt(0.0);
+  NavState& state = start.estimate.state;
+  state.T_map_imu.translation = Vector3(0, 2, 0);
+  state.v_world_imu = Vector3(kSpeed_mps, 0, 0);
+  state.gyro_bias = Vector3(0.01, 0.02, 0.03);
+  state.accel_bias = Vector3(0.1, 0.2, 0.3);
+  start.estimate.cov.diagonal().setConstant(1e-4);
+  return start;
+}
+
+TEST(LidarOnly, GoesOnInTheWorldAndTheMapOfTheInertialFilter) {
+  LidarOnlyBench b(kSpeed_mps, {}, Inertial());
+  const MatchJob first = b.NextJob();
+  EXPECT_EQ(first.map_action, MapAction::kKeep);
+  EXPECT_NEAR(first.prior.T_map_imu.translation.x(), 0.05 * kSpeed_mps, 0.01);
+  EXPECT_NEAR(first.prior.T_map_imu.translation.y(), 2.0, 0.01);
+  MatchOutcome found = b.bench.Matched(first, b.motion);
+  found.match.T_map_imu.translation.y() = 2.0;
+  ASSERT_FALSE(b.Finish(found));
+  const FilterReport report = *b.bench.Take<ScanOutput>().back().filter;
+  EXPECT_NEAR(report.nav.T_world_imu.translation.y(), 0.0, 0.01);
+  EXPECT_NEAR(report.nav.T_map_imu.translation.y(), 2.0, 0.01);
+  EXPECT_EQ(report.g_world_mps2, Inertial().g_world);
+}
+
+TEST(LidarOnly, ScanThatMatchesGoesBackToTheImuWithItsBiases) {
+  LidarOnlyBench b(kSpeed_mps, {}, Inertial());
+  b.motion = [](double t_s) { return Pose{Quaternion::Identity(), Vector3(8.0 * t_s, 2, 0)}; };
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.mode.TakeImu({StampAt(0.4)}));
+  ASSERT_FALSE(b.Miss());  // nor does the first one that is found again
+  ASSERT_FALSE(b.Match());
+  const auto transition = b.Match();
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kImuReturned);
+  EXPECT_TRUE(transition->handover.keeps_map);
+  ASSERT_TRUE(transition->start);
+  const Estimate& start = transition->start->estimate;
+  EXPECT_EQ(start.stamp, StampAt(0.75));
+  EXPECT_NEAR(start.state.T_map_imu.translation.x(), 0.75 * kSpeed_mps, 0.05);
+  EXPECT_EQ(start.state.gyro_bias, Inertial().estimate.state.gyro_bias);
+  EXPECT_EQ(start.state.accel_bias, Inertial().estimate.state.accel_bias);
+  EXPECT_GT(start.cov(kAccelBias, kAccelBias), 0.0);
+}
+
+TEST(LidarOnly, ImuThatFallsSilentAgainIsNotGoneBackTo) {
+  LidarOnlyBench b(kSpeed_mps, {}, Inertial());
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.mode.TakeImu({StampAt(0.4)}));
+  b.mode.TakeImuAbsent();
+  EXPECT_FALSE(b.Match(5));
 }
 
 }  // namespace

@@ -253,5 +253,37 @@ TEST(Tracking, ASampleFromBeforeItsHistoryIsCountedAsLate) {
   EXPECT_EQ(track.bench.counters.num_imu_late, 1);
 }
 
+TEST(Tracking, WithoutTheImuItHandsOverWhatTheFilterKnew) {
+  TrackingBench b(Winding());
+  ASSERT_FALSE(b.Match(15));
+  ImuAbsent absent{StampAt(1.5), "no samples", StampAt(1.4)};
+  absent.w_imu_radps = Vector3(0, 0, 0.3);
+  const Transition transition = b.mode.TakeImuAbsent(absent);
+  EXPECT_EQ(transition.trigger, Trigger::kImuAbsent);
+  EXPECT_TRUE(transition.handover.keeps_map);
+  ASSERT_TRUE(transition.start);
+  EXPECT_EQ(transition.start->estimate.stamp, StampAt(1.4));
+  EXPECT_LT(transition.start->g_world.z(), -9.0);
+  const Pose truth = b.motion(1.4);
+  EXPECT_NEAR(LogSe3(truth.Inverse() * transition.start->estimate.state.T_world_imu).norm(), 0.0,
+              0.05);
+  ASSERT_TRUE(transition.seed.motion);
+  EXPECT_NEAR(transition.seed.motion->gyro_bias.z(), -0.3, 0.01);  // the turn rate, negative
+}
+
+TEST(Tracking, WithoutAMapThereIsNothingToGoOnIn) {
+  TrackingBench b(Straight(kSpeed_mps));
+  const Transition transition = b.mode.TakeImuAbsent({StampAt(0.2), "no samples", StampAt(0.1)});
+  EXPECT_FALSE(transition.handover.keeps_map);
+  EXPECT_FALSE(transition.start);
+}
+
+TEST(Tracking, MapThatIsKeptIsNotCleared) {
+  Handover handover;
+  handover.keeps_map = true;
+  TrackingBench b(Straight(kSpeed_mps), Options{}, handover);
+  EXPECT_EQ(b.NextJob().map_action, MapAction::kKeep);
+}
+
 }  // namespace
 }  // namespace lio

@@ -150,16 +150,36 @@ TEST(SensorStream, SensorsOfDifferentClocksAreTold) {
   }
 }
 
-TEST(SensorStream, LidarGoesOnWhenTheImuFallsSilent) {
+TEST(SensorStream, LidarGoesOnAloneWhenTheImuFallsSilent) {
   StreamRun run;
   run.Feed(Silenced(Sensors(0.0, 4.0), Sensor::kImu, 1.0, 4.0));
-  EXPECT_GT(run.SweepStarts().back(), StampAt(2.6)) << "no sweep waits for much over a second";
-  EXPECT_GT(run.counters.num_scans_without_imu, 0);
+  EXPECT_FALSE(run.stream.has_imu());
+  EXPECT_EQ(run.SweepStarts().back(), StampAt(3.8)) << "sweeps do not wait any more";
+  const Texts lines = Lines(run.events);
+  const auto absent = std::find(lines.begin(), lines.end(), "absent 1.090");
+  ASSERT_NE(absent, lines.end());
+  EXPECT_EQ(*std::next(absent), "sweep 1.000");
   run.Finish();
   EXPECT_EQ(run.SweepStarts().size(), 39u);
-  const std::vector<ImuReady> samples = run.Of<ImuReady>();
-  EXPECT_TRUE(samples.back().is_made_up);
-  EXPECT_EQ(samples.back().sample.stamp, StampAt(3.89)) << "the end of the last sweep";
+  for (const ImuReady& ready : run.Of<ImuReady>()) EXPECT_FALSE(ready.is_made_up);
+}
+
+TEST(SensorStream, LidarGoesOnAloneOnlyOnceTheSweepsBeforeAreMatched) {
+  StreamRun run;
+  run.Feed(Silenced(Sensors(0.0, 3.0), Sensor::kImu, 1.0, 3.0), false);
+  EXPECT_TRUE(run.Of<ImuAbsent>().empty());
+  run.Drain();
+  EXPECT_EQ(run.Of<ImuAbsent>().size(), 1u);
+}
+
+TEST(SensorStream, ImuThatComesAgainAppears) {
+  StreamRun run;
+  run.Feed(Silenced(Sensors(0.0, 5.0), Sensor::kImu, 1.0, 3.0));
+  EXPECT_EQ(run.Of<ImuAbsent>().size(), 1u);
+  ASSERT_EQ(run.Of<ImuAppeared>().size(), 1u);
+  EXPECT_EQ(run.Of<ImuAppeared>().front().first, StampAt(3.0));
+  EXPECT_TRUE(run.stream.has_imu());
+  EXPECT_EQ(run.SweepStarts().size(), 49u) << "no sweep is lost on either way";
 }
 
 TEST(SensorStream, LogWithoutImuGoesOnWithTheLidarAlone) {

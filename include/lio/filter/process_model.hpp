@@ -53,6 +53,9 @@ void AddUnseenMotion(Estimate& estimate, const Matrix6& motion_cov_imu);
 // rotation turns it along.
 void SetVelocity(const Vector3& v_imu_mps, const Matrix3& cov_world, Estimate& estimate);
 
+// The biases become free of errors, and of correlations with all else.
+void ForgetBiases(Estimate& estimate);
+
 // Moves the body to where it is in map, as if both poses had been propagated by the exact increment
 // D = T_map_imu_old^-1 T_map_imu; its velocity turns along. For a body whose place was lost, before
 // its pose is fused: the residual is then zero, whatever the distance and the turn.

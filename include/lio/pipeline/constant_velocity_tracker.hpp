@@ -57,6 +57,9 @@ struct TrackerOptions {
   // The track and its map begin at this pose; the covariance is that of the pose in the world.
   Pose T_world_start;
   Matrix6 start_cov = Matrix6::Zero();
+  // Goes on from this estimate instead, in world and in map, with the turn rate of the seed's
+  // motion.
+  std::optional<Estimate> goes_on_from = {};
 };
 
 class ConstantVelocityTracker {

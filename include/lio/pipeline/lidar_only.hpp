@@ -24,18 +24,24 @@ inline constexpr LidarOnlyParameters kLidarOnly;
 class LidarOnly {
  public:
   // Begins with the first sweep, along the seed's motion; after a loss at the handover's last fix.
-  LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed);
+  // `inertial`: what the inertial filter knew, where this mode goes on in its world and its map.
+  LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
+            std::optional<StartState> inertial = std::nullopt);
 
   std::size_t next_sweep() const { return 0; }
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
-  [[nodiscard]] Transition TakeImu(const ImuAppeared& event) const;
+  // Where the inertial filter was followed without a loss, the next scan that is found goes back to
+  // it; else the start begins anew.
+  [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
+  void TakeImuAbsent() { is_imu_back_ = false; }
 
   TrackingStatus status() const { return health_.status(); }
 
  private:
   void BeginTrack(const Sweep& sweep);
+  void GoOn();
   void StartAtLastFix(Timestamp start, TrackerOptions& options) const;
   // A scan grows the map where its place is beyond doubt: in the first one that was located after
   // some that were not, it is not yet.
@@ -43,6 +49,7 @@ class LidarOnly {
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   Transition RestartWhenLost(Timestamp sweep_end) const;
+  Transition ReturnToImu(const MatchOutcome& outcome) const;
 
   ModeContext context_;
   Handover handover_;
@@ -52,6 +59,9 @@ class LidarOnly {
   std::optional<ConstantVelocityTracker> tracker_;  // from the first sweep on
   Vector3 up_map_ = Vector3::UnitZ();               // roughly
   int num_scans_ = 0;                               // that have been tracked
+  std::optional<StartState> inertial_;              // of the filter that this mode goes on from
+  Vector3 g_world_ = Vector3::Zero();               // its gravity, which levelled the world
+  bool is_imu_back_ = false;
 };
 
 }  // namespace lio

@@ -3,7 +3,8 @@
 // The mode that this program is for: the error-state filter propagates with the IMU and fuses the
 // pose of each scan, matched against the map. Zero-velocity updates, the clock-offset filter and
 // the watch on the IMU convention stand beside it. A gap of the inertial stream or a step of its
-// clock is carried over; a state that is lost, or contradicted by matching, ends the mode.
+// clock is carried over; a state that is lost, or contradicted by matching, and samples that come
+// no more end the mode.
 #pragma once
 
 #include <optional>
@@ -28,7 +29,8 @@ inline constexpr TrackingParameters kTracking;
 
 class Tracking {
  public:
-  // Begins at start.estimate with the samples in the stream's buffer.
+  // Begins at start.estimate with the samples in the stream's buffer, in an empty map unless the
+  // handover says that the map is kept.
   Tracking(const ModeContext& context, Handover handover, const StartState& start, bool is_at_rest);
 
   void AddImu(const ImuReady& event);
@@ -36,6 +38,9 @@ class Tracking {
   void TakeClockStep(const AmbiguousClockStep& step);
   // Carries the state over a gap or a step of the clock, unsure of what happened in between.
   void StartSegment(const SegmentStarts& segment);
+
+  // Goes on without the IMU, in the same world and map.
+  [[nodiscard]] Transition TakeImuAbsent(const ImuAbsent& event) const;
 
   std::size_t next_sweep() const { return 0; }
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep) const;
@@ -79,7 +84,7 @@ class Tracking {
   KeyframePolicy keyframes_;
   ZeroVelocityUpdater zero_velocity_;
   OutageRecovery outage_;
-  bool is_first_scan_ = true;
+  bool is_first_scan_;  // of an empty map
 };
 
 }  // namespace lio

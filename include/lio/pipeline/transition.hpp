@@ -25,6 +25,8 @@ enum class Trigger : std::int8_t {
   kLost,               // scans that see enough match nowhere
   kConventionDoubted,  // matching and IMU contradict each other
   kImuAppeared,        // inertial samples have come, after the lidar
+  kImuAbsent,          // no inertial samples come any more
+  kImuReturned,        // they come again, and the way was not lost meanwhile
 };
 
 struct TransitionRule {
@@ -41,6 +43,8 @@ inline constexpr std::array kTransitions{
     TransitionRule{ModeKind::kInitializing, Trigger::kImuAppeared, ModeKind::kInitializing},
     TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing},
     TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kTracking, Trigger::kImuAbsent, ModeKind::kLidarOnly},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuReturned, ModeKind::kTracking},
     TransitionRule{ModeKind::kLidarOnly, Trigger::kLost, ModeKind::kInitializing},
     TransitionRule{ModeKind::kLidarOnly, Trigger::kImuAppeared, ModeKind::kInitializing},
 };
@@ -60,9 +64,10 @@ std::string_view NameOf(Trigger trigger);
 struct Transition {
   Trigger trigger = Trigger::kRetry;
   Handover handover = {};
-  std::optional<StartState> start = std::nullopt;  // kStarted
-  bool is_at_rest = false;                         // kStarted: from a rest
-  MotionSeed seed = {};                            // kNoImu
+  // kStarted, kImuReturned; kImuAbsent: what the filter knew, biases and gravity included.
+  std::optional<StartState> start = std::nullopt;
+  bool is_at_rest = false;  // kStarted: from a rest
+  MotionSeed seed = {};     // kNoImu, kImuAbsent
   std::optional<Timestamp> initializing_since =
       std::nullopt;  // kRetry: the first sweep of the first try
 };

@@ -22,10 +22,11 @@ class ScanGate {
   // whose stamp is far ahead is held until the next one bears it out.
   void Add(Sweep sweep);
 
-  // The oldest sweep if the inertial stream, whose newest stamp is given, has passed its end, or
-  // has not moved for too long while the lidar went on. Absent: nothing is ready. Call it after
-  // every message.
+  // The oldest sweep if the inertial stream, whose newest stamp is given, has passed its end.
+  // Absent: nothing is ready. Call it after every message.
   SweepPtr Open(std::optional<Timestamp> newest_imu);
+  // Has the inertial stream not moved for too long while the lidar went on?
+  [[nodiscard]] bool IsImuSilent() const;
   // The oldest sweep whatever the inertial stream says.
   SweepPtr Force();
   // No more sweeps come: lets in the one that is held.

@@ -72,6 +72,7 @@ class SensorStream {
     kFlowing,
     kJudgingStep,     // the inertial clock stepped; did the lidar's as well?
     kWaitingForIdle,  // the step is judged; sweeps before it are being matched
+    kLosingImu,       // likewise, before lidar-only odometry begins
   };
 
   enum class Life {
@@ -104,6 +105,7 @@ class SensorStream {
   void Admit(SweepPtr sweep);
   bool NotifyIfClocksApart(Timestamp imu, Timestamp lidar);
   void GoLidarOnly(const std::string& evidence);
+  void LoseImu();
   void CloseAll();
 
   // Steps of the inertial clock: sensor_stream_step.cpp.

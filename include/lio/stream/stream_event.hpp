@@ -40,13 +40,16 @@ struct AmbiguousClockStep {
   ClockStep stamps;
 };
 
-// No inertial samples come: lidar-only odometry from here on.
+// No inertial samples come, or none come any more: lidar-only odometry from here on. All sweeps
+// that samples cover have been matched.
 struct ImuAbsent {
-  Timestamp stamp;
+  Timestamp stamp;  // end of the first sweep that follows
   std::string evidence;
+  Timestamp begin;                        // of that sweep
+  Vector3 w_imu_radps = Vector3::Zero();  // the last rate that is known there
 };
 
-// After ImuAbsent inertial samples have come, the first of them at this time.
+// After ImuAbsent inertial samples have come, or come again, the first of them at this time.
 struct ImuAppeared {
   Timestamp first;
 };
