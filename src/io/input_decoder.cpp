@@ -35,6 +35,7 @@ bool InputDecoder::Accept(DecodeStatus status) {
 bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
   std::int32_t seq = 0;
   if (!Accept(DecodeImu(bytes, sample, seq))) return false;
+  sample.seq = seq;
   // The difference is modulo 2^32, so that a sequence that wraps has no gap. A step back comes from
   // a driver that started again or from a reordered sample, a step of thousands from another
   // driver; neither tells how many samples were lost.

@@ -44,7 +44,7 @@ void SensorStream::AddImu(const ImuSample& sample) {
     ++counters_->num_imu;
     return;
   }
-  Enqueue({sample, std::nullopt, 0});
+  if (!RefuseForeign(sample)) Enqueue({sample, std::nullopt, 0});
 }
 
 void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
@@ -52,8 +52,40 @@ void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
     ++counters_->num_chunks;
     return;
   }
+  if (RefuseForeign(chunk)) return;
   chunk.stamp = chunk.stamp + Duration::FromSeconds(options_.lidar_clock_offset_s);
   Enqueue({{}, std::move(chunk), decode_ns});
+}
+
+bool SensorStream::RefuseForeign(const ImuSample& sample) {
+  if (!imu_senders_.IsForeign(sample.seq, sample.stamp)) return false;
+  ++counters_->num_imu;
+  if (counters_->num_imu_foreign++ == 0) {
+    Notify(sample.stamp, Notice::Severity::kWarning,
+           fmt::format("two senders of inertial samples on one channel: the one that came first is "
+                       "kept (its number is now {}), the other refused (number {}); give each a "
+                       "channel prefix of its own",
+                       static_cast<std::int32_t>(imu_senders_.kept_seq()), sample.seq));
+  }
+  return true;
+}
+
+// Another lidar is taken once the first one has been silent for a second.
+bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
+  const bool is_kept = !lidar_ || lidar_->sensor_id == chunk.sensor_id ||
+                       Abs(chunk.stamp - lidar_->newest) > kClockStep.silence;
+  if (is_kept) {
+    lidar_ = {chunk.sensor_id, chunk.stamp};
+    return false;
+  }
+  ++counters_->num_chunks;
+  if (counters_->num_chunks_foreign++ == 0) {
+    Notify(chunk.stamp, Notice::Severity::kWarning,
+           fmt::format("two lidars on one channel: sensor_id {} came first and is kept, sensor_id "
+                       "{} is refused; give each a channel prefix of its own",
+                       int{lidar_->sensor_id}, int{chunk.sensor_id}));
+  }
+  return true;
 }
 
 // While a match is out, only so many messages wait behind a step: newer ones are dropped and
@@ -230,9 +262,12 @@ void SensorStream::GoLidarOnly(const std::string& evidence) {
   events_.emplace_back(std::move(absent));
 }
 
-// The samples have ended; the sweeps since then go on without.
+// The samples have ended; the sweeps since then go on without. Samples that come later are none
+// that follow these, so that no pause is taken for a clock that was set.
 void SensorStream::LoseImu() {
   state_ = State::kFlowing;
+  ++counters_->num_imu_gaps;
+  preprocessor_ = ImuPreprocessor(*counters_, MaxRateSent(options_.units));
   GoLidarOnly("no inertial samples come any more");
   imu_.Clear();
   late_imu_.clear();

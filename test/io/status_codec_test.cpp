@@ -56,7 +56,9 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
                                           message.gated,
                                           message.standstills,
                                           message.clock_jumps,
-                                          message.restarts};
+                                          message.restarts,
+                                          message.imu_foreign,
+                                          message.chunks_foreign};
   EXPECT_EQ(arrived, std::set<std::int64_t>(values.begin(), values.end()));
   EXPECT_EQ(message.gated, report.counters.num_gated);
   EXPECT_EQ(message.chunks_bad, report.counters.num_chunks_bad);

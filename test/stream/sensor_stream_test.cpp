@@ -270,6 +270,41 @@ TEST(SensorStream, RejectDropsEventsThatWereNotTaken) {
   EXPECT_FALSE(run.stream.Next(true).has_value());
 }
 
+TEST(SensorStream, SecondLidarIsRefusedCountedAndNamedOnce) {
+  StreamRun run;
+  SensorMessages messages;
+  for (const SensorMessage& message : Sensors(0.0, 1.0)) {
+    messages.push_back(message);
+    if (!message.chunk) continue;
+    messages.push_back(message);
+    messages.back().chunk->sensor_id = 3;
+  }
+  run.Feed(messages);
+  EXPECT_EQ(run.SweepStarts().size(), 9u);
+  EXPECT_EQ(run.counters.num_chunks_foreign, 9);
+  ASSERT_EQ(run.Of<Notice>().size(), 1u);
+  EXPECT_NE(run.Of<Notice>().front().text.find("sensor_id 3 is refused"), std::string::npos);
+}
+
+TEST(SensorStream, SecondImuIsRefusedCountedAndNamedOnce) {
+  StreamRun run;
+  SensorMessages messages;
+  std::int32_t seq = 0;
+  for (SensorMessage message : Sensors(0.0, 1.0)) {
+    message.sample.seq = ++seq;
+    messages.push_back(message);
+    if (message.chunk) continue;
+    message.sample.seq += 5000;
+    message.sample.stamp = message.sample.stamp + Duration{2'000'000};
+    messages.push_back(message);
+  }
+  run.Feed(messages);
+  EXPECT_GT(run.counters.num_imu_foreign, 90);
+  EXPECT_EQ(run.counters.num_imu, 200);
+  ASSERT_EQ(run.Of<Notice>().size(), 1u);
+  EXPECT_NE(run.Of<Notice>().front().text.find("two senders"), std::string::npos);
+}
+
 TEST(SensorStream, SaturatedGyroIsMarkedCountedAndToldOnce) {
   StreamRun run;
   for (int i = 0; i < 30; ++i) {

@@ -59,6 +59,10 @@ inline constexpr std::array kCounterFields = std::to_array<CounterField>({
      "zero-velocity updates: sweeps taken at rest; not a loss"},
     {"num_clock_jumps", &Counters::num_clock_jumps, "clock steps of a sensor"},
     {"num_restarts", &Counters::num_restarts, "times that the estimator started again"},
+    {"num_imu_foreign", &Counters::num_imu_foreign,
+     "inertial samples refused: of a second sender on the channel"},
+    {"num_chunks_foreign", &Counters::num_chunks_foreign,
+     "chunks refused: of a second lidar on the channel"},
 });
 static_assert(kCounterFields.size() * sizeof(std::int64_t) == sizeof(Counters),
               "a counter has no line in kCounterFields");

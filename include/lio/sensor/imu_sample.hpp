@@ -3,6 +3,8 @@
 // One inertial sample: angular rate and specific force in the imu frame, SI units.
 #pragma once
 
+#include <cstdint>
+
 #include "lio/base/rotation.hpp"
 #include "lio/base/time.hpp"
 
@@ -14,6 +16,7 @@ struct ImuSample {
   Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
   bool is_rate_saturated = false;   // an axis is at the end of its range: the true rate is larger
   bool is_force_saturated = false;  // likewise for the force
+  std::int32_t seq = 0;  // the sender's number: one more for each sample, where it counts
 };
 
 }  // namespace lio

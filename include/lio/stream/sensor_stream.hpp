@@ -26,6 +26,7 @@
 #include "lio/stream/saturation_detector.hpp"
 #include "lio/stream/scan_assembler.hpp"
 #include "lio/stream/scan_gate.hpp"
+#include "lio/stream/sender_watch.hpp"
 #include "lio/stream/stream_event.hpp"
 
 namespace lio {
@@ -87,6 +88,8 @@ class SensorStream {
     Timestamp newest_examined;       // of the inertial samples since the step
   };
 
+  bool RefuseForeign(const ImuSample& sample);
+  bool RefuseForeign(const ScanChunk& chunk);
   void Enqueue(Message message);
   bool Advance(bool is_idle);
   void Process(Message message);
@@ -124,6 +127,13 @@ class SensorStream {
   State state_ = State::kFlowing;
   std::deque<Message> inbox_;  // not processed yet
   std::deque<StreamEvent> events_;
+  // The lidar that came first, and its newest chunk.
+  struct Lidar {
+    std::int8_t sensor_id = 0;
+    Timestamp newest;
+  };
+  SenderWatch imu_senders_;
+  std::optional<Lidar> lidar_;
   ImuPreprocessor preprocessor_;
   SaturationDetector saturation_;
   ImuBuffer imu_;
