@@ -223,8 +223,8 @@ void SetVelocity(const Vector3& v_imu_mps, const Matrix3& cov_world, Estimate& e
   estimate.state.v_world_imu = R * v_imu_mps;
 }
 
-// With D = (C, t): p' = p + R t has the error dp - R [t]x dtheta, R' = R C has C^T dtheta, v' = R C
-// R^T v has that of v, turned, and M' = M D has Ad(D^-1) mu.
+// The increment is D = (C, t). Position p' = p + R t has the error dp - R [t]x dtheta, rotation R'
+// = R C has C^T dtheta, velocity R C R^T v has that of v, turned, and M' = M D has Ad(D^-1) mu.
 void MoveTo(const Pose& T_map_imu, Estimate& estimate) {
   NavState& state = estimate.state;
   const Pose D = state.T_map_imu.Inverse() * T_map_imu;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxUnknown_s = kImuGap.unknown.Seconds();
 
-// Where a clock was set, messages went on meanwhile.
+// Messages went on while a clock was set.
 double UnknownAtSetClock_s(ImuPreprocessor::Step step, double jump_s) {
   if (step == ImuPreprocessor::Step::kSetRight) return kTracking.clock_set_s;
   return std::clamp(jump_s, kTracking.clock_set_s, kMaxUnknown_s);

@@ -176,17 +176,6 @@ TEST(TrackingSegment, UnmatchedScanSettlesNothing) {
   EXPECT_TRUE(task->search.T_map_imu_alternative);
 }
 
-TEST(TrackingSegment, LostAtOnceAfterAnOutage) {
-  AfterOneSecond b;
-  b.StartSegment(6.0, Step::kGap);
-  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
-  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
-  const MatchJob job = b.NextJob();
-  EXPECT_NEAR(XOf(job), 6.05 * kSpeed_mps, 0.5);
-  EXPECT_GT(StdOf(job), 5.0 * kSpeed_mps - 1.0);
-  EXPECT_TRUE(std::get<Relocalize>(job.task).search.T_map_imu_alternative);
-}
-
 TEST(TrackingSegment, UnseenForTwoSecondsItIsLostUntilAScanMatches) {
   AfterOneSecond b;
   b.StartSegment(2.5, Step::kGap);
@@ -195,47 +184,6 @@ TEST(TrackingSegment, UnseenForTwoSecondsItIsLostUntilAScanMatches) {
   EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
   ASSERT_FALSE(b.Match());
   EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
-}
-
-TEST(TrackingSegment, FoundAfterAnOutageItIsOkOnceTwoMoreScansMatch) {
-  AfterOneSecond b;
-  b.StartSegment(6.0, Step::kGap);
-  b.motion = [](double t_s) { return Straight(kSpeed_mps)(t_s - 2.0); };  // it has waited
-  MatchOutcome found = b.bench.Matched(b.NextJob(), b.motion);
-  found.is_relocalized = true;
-  ASSERT_FALSE(b.Finish(found));
-  EXPECT_FALSE(b.insert.T_map_imu);
-  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
-  ASSERT_FALSE(b.Match(2));
-  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
-  const MatchJob next = b.NextJob();
-  EXPECT_NEAR(XOf(next), (6.35 - 2.0) * kSpeed_mps, 0.2);
-  EXPECT_LT(StdOf(next), 0.5);
-}
-
-TEST(TrackingSegment, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
-  AfterOneSecond b;
-  b.StartSegment(6.0, Step::kGap);
-  ASSERT_FALSE(b.Miss(kOutage.max_scans_sought));
-  const MatchJob first = b.NextJob();
-  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
-  EXPECT_EQ(first.map_action, MapAction::kClear);
-  MatchOutcome seen = b.bench.Unmatched(first);
-  seen.match.status = MatchStatus::kEmptyMap;
-  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
-  ASSERT_FALSE(b.Finish(seen));
-  EXPECT_FALSE(b.insert.T_map_imu);
-  const MatchJob begin = b.NextJob();
-  EXPECT_EQ(begin.map_action, MapAction::kClear);
-  ASSERT_FALSE(b.Finish(b.bench.Matched(begin, b.motion)));
-  EXPECT_TRUE(b.insert.T_map_imu);
-  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
-  ASSERT_FALSE(b.Match());
-  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
-  const FilterReport report = *b.bench.Take<ScanOutput>().back().filter;
-  EXPECT_GT(std::sqrt(report.nav.pose_cov(0, 0)), 30.0);
-  EXPECT_LT(std::sqrt(report.nav.map_pose_cov(0, 0)), 1.0);
-  EXPECT_NEAR(report.nav.v_world_imu_mps.x(), kSpeed_mps, 0.5);
 }
 
 }  // namespace

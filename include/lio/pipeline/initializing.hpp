@@ -66,7 +66,7 @@ class Initializing {
                                                     InsertTask& insert);
   [[nodiscard]] std::optional<Transition> StartSegment(const SegmentStarts& segment);
   [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
-  // What was tracked with a gyro is of no use without it.
+  // A track by the rates of a gyro is of no use without it.
   [[nodiscard]] std::optional<Transition> TakeImuAbsent() const;
   // No more sweeps come: without an IMU what is known of the motion must do.
   [[nodiscard]] std::optional<Transition> EndStream();

@@ -32,8 +32,8 @@ class LidarOnly {
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
-  // Where the inertial filter was followed without a loss, the next scan that is found goes back to
-  // it; else the start begins anew.
+  // The next scan that is found goes back to the inertial filter, if the way was not lost since it
+  // ended; else the start begins anew.
   [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
   void TakeImuAbsent() { is_imu_back_ = false; }
 

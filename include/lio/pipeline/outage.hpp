@@ -61,7 +61,7 @@ class OutageRecovery {
 
   // A scan that was fused while nothing is lost: what later ones are compared with.
   void NoteMatch(const MatchResult& match) { last_match_ = match; }
-  // Where the scene did not hold all directions, no search is believed: a new map begins at once.
+  // No search is believed in a scene that did not hold all directions: a new map begins at once.
   void Begin(const Estimate& before);
   Stage stage() const { return stage_; }
   bool is_lost() const { return stage_ != Stage::kNone; }
@@ -71,7 +71,7 @@ class OutageRecovery {
   void AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
-  // Where a scan was found, from where the body was before.
+  // The distance of the scan that was found from where the body was before.
   double moved_m() const { return moved_m_; }
 
  private:

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The way back from an outage, while tracking.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lio/pipeline/tracking.hpp"
+#include "support/tracking_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::ExactSample;
+using test::StampAt;
+using test::Straight;
+using test::TrackingBench;
+
+using Step = ImuPreprocessor::Step;
+
+constexpr double kSpeed_mps = 8.0;
+
+// Straight ahead, one second of it tracked; then an outage begins.
+struct AfterOneSecond : TrackingBench {
+  AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
+
+  void StartSegment(double first_s, Step step) {
+    mode.StartSegment({ExactSample(motion, first_s), step, StampAt(1.0)});
+    GoOnAt(first_s);
+  }
+};
+
+double XOf(const MatchJob& job) {
+  return job.prior.T_map_imu.translation.x();
+}
+double StdOf(const MatchJob& job) {
+  return std::sqrt(job.prior.cov(0, 0));
+}
+
+TEST(TrackingOutage, LostAtOnceAfterAnOutage) {
+  AfterOneSecond b;
+  b.StartSegment(6.0, Step::kGap);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+  const MatchJob job = b.NextJob();
+  EXPECT_NEAR(XOf(job), 6.05 * kSpeed_mps, 0.5);
+  EXPECT_GT(StdOf(job), 5.0 * kSpeed_mps - 1.0);
+  EXPECT_TRUE(std::get<Relocalize>(job.task).search.T_map_imu_alternative);
+}
+
+TEST(TrackingOutage, FoundAfterAnOutageItIsOkOnceTwoMoreScansMatch) {
+  AfterOneSecond b;
+  b.StartSegment(6.0, Step::kGap);
+  b.motion = [](double t_s) { return Straight(kSpeed_mps)(t_s - 2.0); };  // it has waited
+  MatchOutcome found = b.bench.Matched(b.NextJob(), b.motion);
+  found.is_relocalized = true;
+  ASSERT_FALSE(b.Finish(found));
+  EXPECT_FALSE(b.insert.T_map_imu);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  ASSERT_FALSE(b.Match(2));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+  const MatchJob next = b.NextJob();
+  EXPECT_NEAR(XOf(next), (6.35 - 2.0) * kSpeed_mps, 0.2);
+  EXPECT_LT(StdOf(next), 0.5);
+}
+
+TEST(TrackingOutage, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
+  AfterOneSecond b;
+  b.StartSegment(6.0, Step::kGap);
+  ASSERT_FALSE(b.Miss(kOutage.max_scans_sought));
+  const MatchJob first = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
+  EXPECT_EQ(first.map_action, MapAction::kClear);
+  MatchOutcome seen = b.bench.Unmatched(first);
+  seen.match.status = MatchStatus::kEmptyMap;
+  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
+  ASSERT_FALSE(b.Finish(seen));
+  EXPECT_FALSE(b.insert.T_map_imu);
+  const MatchJob begin = b.NextJob();
+  EXPECT_EQ(begin.map_action, MapAction::kClear);
+  ASSERT_FALSE(b.Finish(b.bench.Matched(begin, b.motion)));
+  EXPECT_TRUE(b.insert.T_map_imu);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  ASSERT_FALSE(b.Match());
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+  const FilterReport report = *b.bench.Take<ScanOutput>().back().filter;
+  EXPECT_GT(std::sqrt(report.nav.pose_cov(0, 0)), 30.0);
+  EXPECT_LT(std::sqrt(report.nav.map_pose_cov(0, 0)), 1.0);
+  EXPECT_NEAR(report.nav.v_world_imu_mps.x(), kSpeed_mps, 0.5);
+}
+
+TEST(TrackingOutage, PlaceThatLaterScansContradictIsGivenUpWithItsCertainty) {
+  AfterOneSecond b;
+  b.StartSegment(6.0, Step::kGap);
+  MatchOutcome found = b.bench.Matched(b.NextJob(), b.motion);
+  found.is_relocalized = true;
+  ASSERT_FALSE(b.Finish(found));
+  ASSERT_FALSE(b.Miss(kOutage.max_scans_checked));
+  const MatchJob next = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(next.task));
+  EXPECT_GT(StdOf(next), 30.0);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+}
+
+}  // namespace
+}  // namespace lio
