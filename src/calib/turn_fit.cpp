@@ -3,7 +3,6 @@
 #include "calib/turn_fit.hpp"
 
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
 
 #include <algorithm>
 #include <array>
@@ -24,31 +23,9 @@ constexpr TurnFitParameters kParameters = kCalibrationParameters.fit;
 // [rad, right], gyro bias [rad/s].
 constexpr int kNumCommon = 7;
 
-template <class T>
-using Quat = std::array<T, 4>;  // w x y z, as Ceres has it
-
-template <class T>
-Quat<T> Exp(const T* rotation) {
-  const Eigen::Quaternion<T> q = so3::Exp<T>(Eigen::Map<const so3::Vec3<T>>(rotation));
-  return {q.w(), q.x(), q.y(), q.z()};
-}
-
-template <class T>
-Quat<T> Times(const Quat<T>& a, const Quat<T>& b) {
-  Quat<T> q;
-  ceres::QuaternionProduct(a.data(), b.data(), q.data());
-  return q;
-}
-
-template <class T>
-Quat<T> Constant(const Quaternion& q) {
-  return {T(q.w()), T(q.x()), T(q.y()), T(q.z())};
-}
-
-template <class T>
-Quat<T> Inverse(const Quat<T>& q) {
-  return {q[0], -q[1], -q[2], -q[3]};
-}
+using so3::Exp;
+using so3::Log;
+using so3::Vec3;
 
 // A turn by gyro at the offset of the round, with its derivatives.
 struct GyroTurn {
@@ -79,24 +56,20 @@ struct TurnError {
 
   template <class T>
   bool operator()(const T* common, const T* own_from, const T* own_to, T* residual) const {
+    using Quat = Eigen::Quaternion<T>;
+    using ConstVec3 = Eigen::Map<const Vec3<T>>;
     const T& shift_s = common[0];
-    const T* bias = common + 4;
-    std::array<T, 3> before, by_bias, after, minus_own;
-    for (int i = 0; i < 3; ++i) {
-      before[i] = -shift_s * (gyro.rate_from[i] - bias[i]);
-      after[i] = shift_s * (gyro.rate_to[i] - bias[i]);
-      by_bias[i] = gyro.by_bias(i, 0) * bias[0] + gyro.by_bias(i, 1) * bias[1] +
-                   gyro.by_bias(i, 2) * bias[2];
-      minus_own[i] = -own_from[i];
-    }
-    const Quat<T> turn_imu = Times(Times(Exp(before.data()), Constant<T>(gyro.turn)),
-                                   Times(Exp(by_bias.data()), Exp(after.data())));
-    const Quat<T> R = Times(Constant<T>(R_imu_lidar), Exp(common + 1));
-    const Quat<T> turn_lidar = Times(Inverse(R), Times(turn_imu, R));
-    const Quat<T> expected = Times(Exp(minus_own.data()), Times(turn_lidar, Exp(own_to)));
-    const Quat<T> error = Times(Inverse(Constant<T>(R_from_to)), expected);
-    ceres::QuaternionToAngleAxis(error.data(), residual);
-    for (int i = 0; i < 3; ++i) residual[i] /= std_rad;
+    const Vec3<T> bias = ConstVec3(common + 4);
+    const Vec3<T> before = -shift_s * (gyro.rate_from.template cast<T>() - bias);
+    const Vec3<T> after = shift_s * (gyro.rate_to.template cast<T>() - bias);
+    const Vec3<T> by_bias = gyro.by_bias.template cast<T>() * bias;
+    const Quat turn_imu =
+        Exp<T>(before) * gyro.turn.template cast<T>() * (Exp<T>(by_bias) * Exp<T>(after));
+    const Quat R = R_imu_lidar.template cast<T>() * Exp<T>(ConstVec3(common + 1));
+    const Quat turn_lidar = R.conjugate() * (turn_imu * R);
+    const Quat expected = Exp<T>(-ConstVec3(own_from)) * (turn_lidar * Exp<T>(ConstVec3(own_to)));
+    const Quat error = R_from_to.conjugate().template cast<T>() * expected;
+    Eigen::Map<Vec3<T>>{residual} = Log<T>(error) / T(std_rad);
     return true;
   }
 
