@@ -81,6 +81,8 @@ fi
 
 [[ $with_build == yes ]] || exit 0
 
+# Clones and work trees in other folders share their objects, if ccache is installed.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 preset=${LIO_PRESET:-$([[ ${CI:-} == true ]] && echo ci || echo release)}
 jobs=${LIO_JOBS:-$(nproc)}
 # Tests once asked for stay in the build folder; a plain set-up then leaves them alone.

@@ -27,6 +27,8 @@ case ${1:-} in
   --fast | --asan | --tsan) part=${1#--} && shift ;;
 esac
 jobs=${LIO_JOBS:-$(nproc)}
+# Objects of ccache do not depend on the folder of the tree, as in tools/setup.sh.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 
 # run_shards PROGRAM: its tests in as many processes as there are jobs.
 run_shards() {
