@@ -11,7 +11,7 @@ The checks of form, those that fail fastest first:
   licence tags, length of files
   tools/lint/tests.py   every source has its test (docs/testing.md)
   tools/lint/layers.py  includes between folders follow tools/lint/layers.txt, as design.md draws it
-  tools/lint/names.py   no two types of one name, which the linker would mix up
+  tools/lint/names.py   no two types or inline variables of one name, which the linker would mix up
   tools/lint/sizes.py   20 data members a class, 60 lines a function (exceptions: sizes.txt)
   tools/lint/prose.py   width of docs, comments that have a subject
   clang-format, and clang-tidy over src/ (the checks and why others are off: .clang-tidy)

@@ -16,7 +16,7 @@
 namespace lio {
 namespace {
 
-using test::kImuStep_s;
+using test::kTumbleStep_s;
 using test::PoseAt;
 using test::SampleAt;
 using test::StampAt;
@@ -48,7 +48,7 @@ TruthRun RunWithNoise(unsigned seed, double seconds) {
 
   const auto measured = [&](double t_s) {
     ImuSample sample = SampleAt(t_s);
-    const double white = 1.0 / std::sqrt(kImuStep_s);
+    const double white = 1.0 / std::sqrt(kTumbleStep_s);
     sample.w_imu_radps +=
         truth.gyro_bias + noise.gyro_density * white * test::RandomVector<3>(random);
     sample.f_imu_mps2 +=
@@ -56,12 +56,12 @@ TruthRun RunWithNoise(unsigned seed, double seconds) {
     return sample;
   };
   FilterHistory history(options, start, measured(0.0));
-  const auto num_steps = static_cast<int>(std::lround(seconds / kImuStep_s));
+  const auto num_steps = static_cast<int>(std::lround(seconds / kTumbleStep_s));
   for (int i = 1; i <= num_steps; ++i) {
-    const double walk = std::sqrt(kImuStep_s);
+    const double walk = std::sqrt(kTumbleStep_s);
     truth.gyro_bias += noise.gyro_bias_walk_density * walk * test::RandomVector<3>(random);
     truth.accel_bias += noise.accel_bias_walk_density * walk * test::RandomVector<3>(random);
-    const double t_s = i * kImuStep_s;
+    const double t_s = i * kTumbleStep_s;
     EXPECT_EQ(history.AddImu(measured(t_s)), EventOutcome::kApplied);
     if (i % 5 != 0) continue;
     PoseEvent event = PoseAt(t_s, Vector6::Zero(), kPoseStd);

@@ -15,7 +15,7 @@ namespace lio {
 namespace {
 
 using test::Difference;
-using test::kImuStep_s;
+using test::kTumbleStep_s;
 using test::PoseAt;
 using test::SampleAt;
 using test::StampAt;
@@ -50,7 +50,7 @@ std::vector<Event> RandomEvents() {
   std::vector<Event> events;
   for (int i = 1; i <= 75; ++i) {
     const bool is_lost = *rc::gen::inRange(0, 10) == 9;
-    if (!is_lost) events.push_back({Kind::kImu, i * kImuStep_s, {}});
+    if (!is_lost) events.push_back({Kind::kImu, i * kTumbleStep_s, {}});
   }
   const auto pose_stamps_ms = *rc::gen::unique<std::vector<int>>(rc::gen::inRange(1, 1501));
   for (const int stamp_ms : pose_stamps_ms) {

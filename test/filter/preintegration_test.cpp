@@ -19,7 +19,7 @@ using test::SmoothMotion;
 using test::WalkMotion;
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
-const Vector3 kG(0, 0, -test::kGravity);
+const Vector3 kG(0, 0, -test::kGravity_mps2);
 
 Timestamp At(double t_s) {
   return Timestamp{} + Duration::FromSeconds(t_s);

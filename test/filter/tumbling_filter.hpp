@@ -11,7 +11,7 @@
 
 namespace lio::test {
 
-inline constexpr double kImuStep_s = 0.02;
+inline constexpr double kTumbleStep_s = 0.02;
 
 inline HistoryOptions TestOptions() {
   HistoryOptions options;
@@ -56,7 +56,7 @@ inline PoseEvent PoseAt(double t_s, const Vector6& error = Vector6::Zero(), doub
   return event;
 }
 
-inline void AddImuUpTo(FilterHistory& history, double to_s, double step_s = kImuStep_s) {
+inline void AddImuUpTo(FilterHistory& history, double to_s, double step_s = kTumbleStep_s) {
   const double from_s = SecondsOf(history.head().stamp);
   const auto num_steps = static_cast<int>(std::lround((to_s - from_s) / step_s));
   for (int i = 1; i <= num_steps; ++i) (void)history.AddImu(SampleAt(from_s + i * step_s));

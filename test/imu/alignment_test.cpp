@@ -55,7 +55,7 @@ struct Window {
   void TakeGravityOut(std::vector<ImuSample>& samples) const {
     for (ImuSample& sample : samples) {
       const Pose T_world_imu = motion.At(SecondsBetween(At(0), sample.stamp)).T_world_imu;
-      sample.f_imu_mps2 -= T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity);
+      sample.f_imu_mps2 -= T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity_mps2);
     }
   }
   // The start is degrees and metres per second off, and the biases are unknown.
@@ -85,7 +85,7 @@ double RotationError(const WindowState& a, const WindowState& b) {
 }
 
 TEST(Alignment, ExactPosesGiveBackTheMotion) {
-  const Window window(test::kGravity);
+  const Window window(test::kGravity_mps2);
   const AlignmentResult result = Align(window.terms, window.Guess());
   ASSERT_TRUE(result.converged);
   ASSERT_EQ(result.solution.states.size(), 21u);
@@ -100,7 +100,7 @@ TEST(Alignment, ExactPosesGiveBackTheMotion) {
   // The car's motion barely separates tilt and accelerometer bias; their sum is more certain.
   EXPECT_LT((result.solution.up_any - window.truth.up_any).norm(), 1e-2);
   const auto force_at_rest = [](const Alignment& at) -> Vector3 {
-    return at.states[0].R_any_imu.conjugate() * (test::kGravity * at.up_any) + at.biases.accel;
+    return at.states[0].R_any_imu.conjugate() * (test::kGravity_mps2 * at.up_any) + at.biases.accel;
   };
   EXPECT_LT((force_at_rest(result.solution) - force_at_rest(window.truth)).norm(), 0.02);
   ASSERT_EQ(result.pose_residual_sq.size(), 20u);
@@ -118,7 +118,7 @@ TEST(Alignment, WithoutGravityTheVerticalStaysAsItWasGuessed) {
 }
 
 TEST(Alignment, OneWrongPosePullsLittleAndHasALargeResidual) {
-  Window window(test::kGravity);
+  Window window(test::kGravity_mps2);
   window.poses[9].T_any_imu.translation += Vector3(3, 0, 0);
   window.terms.poses = window.poses;
   const AlignmentResult result = Align(window.terms, window.Guess());
@@ -132,7 +132,7 @@ TEST(Alignment, OneWrongPosePullsLittleAndHasALargeResidual) {
 
 // With every standard deviation halved, the covariance falls to a quarter.
 TEST(Alignment, CovarianceFollowsTheNoise) {
-  Window window(test::kGravity);
+  Window window(test::kGravity_mps2);
   const AlignmentResult plain = Align(window.terms, window.truth);
   for (MatchedPose& pose : window.poses) pose.cov *= 0.25;
   for (Preintegration& motion : window.terms.motions) motion.cov *= 0.25;
@@ -147,7 +147,7 @@ TEST(Alignment, CovarianceFollowsTheNoise) {
 }
 
 TEST(Alignment, CovarianceIsSymmetricPositiveAndFlatAlongTheVertical) {
-  const Window window(test::kGravity);
+  const Window window(test::kGravity_mps2);
   const AlignmentResult result = Align(window.terms, window.Guess());
   EXPECT_LT((result.cov - result.cov.transpose()).cwiseAbs().maxCoeff(),
             1e-9 * result.cov.cwiseAbs().maxCoeff());

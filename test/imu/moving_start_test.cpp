@@ -222,7 +222,7 @@ TEST(MovingStart, WithoutGravityFindsVelocityAndKeepsRollAndPitchAtZero) {
   for (ImuSample& sample : c.samples) {
     const double t = SecondsBetween(At(0), sample.stamp);
     sample.f_imu_mps2 -=
-        setup.motion.At(t).T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity);
+        setup.motion.At(t).T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity_mps2);
   }
   const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), false);
   ASSERT_TRUE(result.start) << result.why_not;
@@ -250,7 +250,7 @@ TEST(MovingStart, RefusesAnImuThatIsTurnedAgainstTheLidar) {
 TEST(MovingStart, RefusesForcesInUnitsOfG) {
   std::mt19937_64 random(9);
   Case c = MakeCase({}, random);
-  for (ImuSample& sample : c.samples) sample.f_imu_mps2 /= test::kGravity;
+  for (ImuSample& sample : c.samples) sample.f_imu_mps2 /= test::kGravity_mps2;
   const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
   EXPECT_FALSE(result.start);
   EXPECT_NE(result.why_not, "");

@@ -61,11 +61,12 @@ TEST(LcmBus, FaultsAreSaidOnce) {
 }
 
 TEST(LcmBus, WithoutAFreeDescriptorTheErrorSaysWhereTheReasonIs) {
+  const auto open = [] { static_cast<void>(OpenLcmBus("nonsense://somewhere")); };
+  std::string words = WordsOf(open);  // UBSan shall know the error's class (descriptor_limit.hpp)
   testing::internal::CaptureStderr();
-  std::string words;
   {
     const test::NoFreeDescriptors none;
-    words = WordsOf([] { static_cast<void>(OpenLcmBus("nonsense://somewhere")); });
+    words = WordsOf(open);
   }
   EXPECT_THAT(words, AllOf(HasSubstr("LCM cannot open nonsense://somewhere (its reason went to "
                                      "stderr, dup: Too many open files)"),

@@ -29,7 +29,7 @@ Estimate KnownState() {
   return estimate;
 }
 
-const Vector3 kGravityWorld(0, 0, -test::kGravity);
+const Vector3 kGravityWorld(0, 0, -test::kGravity_mps2);
 
 // Returns the k-th scan and the IMU samples of a moving body; the lidar may see another motion.
 ZeroVelocityScan ScanOf(int k, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
@@ -238,9 +238,10 @@ TEST(ZeroVelocityDetector, TiltAndBiasThatCancelExplainNoAcceleration) {
   for (const double sign : {-1.0, 1.0}) {  // -1: f = -R^T g + bias stays the same
     Estimate estimate = KnownState();
     estimate.cov(kRot, kRot) += kTiltVar;
-    estimate.cov(kAccelBias + 1, kAccelBias + 1) += kTiltVar * test::kGravity * test::kGravity;
-    estimate.cov(kRot, kAccelBias + 1) = sign * kTiltVar * test::kGravity;
-    estimate.cov(kAccelBias + 1, kRot) = sign * kTiltVar * test::kGravity;
+    estimate.cov(kAccelBias + 1, kAccelBias + 1) +=
+        kTiltVar * test::kGravity_mps2 * test::kGravity_mps2;
+    estimate.cov(kRot, kAccelBias + 1) = sign * kTiltVar * test::kGravity_mps2;
+    estimate.cov(kAccelBias + 1, kRot) = sign * kTiltVar * test::kGravity_mps2;
     EXPECT_EQ(HoldsAt(estimate, kNoRate, f_imu_mps2), sign > 0) << sign;
   }
 }

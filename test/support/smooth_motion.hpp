@@ -74,7 +74,7 @@ struct ImuErrors {
   double accel_density = 0.0;
 };
 
-inline constexpr double kGravity = 9.80665;
+inline constexpr double kGravity_mps2 = 9.80665;
 
 inline Vector3 NormalVector(std::mt19937_64& random, double std) {
   std::normal_distribution<double> normal(0.0, std);
@@ -98,7 +98,7 @@ inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s,
     sample.w_imu_radps =
         point.w_imu + errors.gyro_bias + NormalVector(random, errors.gyro_density * to_sample);
     sample.f_imu_mps2 =
-        point.T_world_imu.rotation.conjugate() * (point.a_world + Vector3(0, 0, kGravity)) +
+        point.T_world_imu.rotation.conjugate() * (point.a_world + Vector3(0, 0, kGravity_mps2)) +
         errors.accel_bias + NormalVector(random, errors.accel_density * to_sample);
     samples.push_back(sample);
   }
