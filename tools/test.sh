@@ -7,12 +7,11 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/test.sh [--fast | --asan | --tsan] [CTEST_ARGUMENT...]
-Sets up, with what only tests need, and runs all tests by ctest; then the fuzz tests under the
-address and undefined-behaviour sanitizers. Tests that need the real data look for it in LIO_DATA,
-else in ../shared/data, and are reported as skipped without it.
+Sets up, with what only tests need, and runs all tests by ctest; then those of fuzz, io and app
+under the address and undefined-behaviour sanitizers. Tests that need the real data look for it
+in LIO_DATA, else in ../shared/data, and are reported as skipped without it.
   --fast  without the sanitizers
-  --asan  only the tests of fuzz, core, io and app, under the address and undefined-behaviour
-          sanitizers (build-asan/)
+  --asan  only the latter, and those of core (build-asan/)
   --tsan  only the tests of app, under the thread sanitizer (build-tsan/)
 The sanitizers build with clang++, a second compiler beside g++.
 Environment: LIO_JOBS      parallel compilers and tests (one a core)
@@ -83,7 +82,7 @@ else
   tools/setup.sh --test-packages
 fi
 case $part in
-  all) run_asan lio_fuzz_test ;;
-  asan) run_asan lio_fuzz_test lio_core_test lio_io_test lio_app_test ;;
+  all) run_asan lio_fuzz_test lio_io_test lio_app_test ;;
+  asan) run_asan lio_fuzz_test lio_io_test lio_app_test lio_core_test ;;
   tsan) run_tsan ;;
 esac
