@@ -142,7 +142,7 @@ RotationCalibrationResult CalibrateRotation(std::span<const ImuSample> samples,
     return result;
   }
   result.why_not = FitProblem(found, options);
-  if (result.why_not.empty()) result.found = found;
+  result.found = found;
   return result;
 }
 

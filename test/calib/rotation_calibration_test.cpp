@@ -109,7 +109,7 @@ TEST(RotationCalibration, RefusesTurnsAboutOneAxisAlone) {
   for (const double sweep_std_rad : {0.0, 1e-3}) {
     const RotationCalibrationResult result =
         Calibrate(Record(TurnAboutZ, 20.0, sweep_std_rad, 2e-4));
-    EXPECT_FALSE(result.found);
+    EXPECT_FALSE(result.is_sure());
     EXPECT_THAT(result.why_not, HasSubstr("too little motion"));
   }
 }

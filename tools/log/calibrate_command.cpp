@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -22,8 +23,10 @@ namespace {
 constexpr const char* kAboutCalibrate =
     "Estimates the clock offset and the rotation between lidar and IMU, with standard deviations:\n"
     "those that make the rotations of lidar-only odometry agree with the gyro's. The log needs\n"
-    "motion; half a minute of walking with turns about all axes is enough. The program refuses\n"
-    "when the motion does not determine the offset to 1 ms and the rotation to 0.2 deg. The\n"
+    "motion; half a minute of walking with turns about all axes is enough. What was found is "
+    "always\n"
+    "printed; it is not written with --rig, and the program ends with 5, when the motion does not\n"
+    "determine the offset to 1 ms and the rotation to 0.2 deg. The\n"
     "translation is not estimated: it is taken from rig.T_imu_lidar of the configuration, whose\n"
     "rotation is not used.\n\n"
     "Example:\n"
@@ -117,7 +120,9 @@ void Print(const RotationCalibration& found, const Options& options, const Pass&
       "{:.4f} {:.4f} deg about the lidar's axes)\n",
       q.w(), q.x(), q.y(), q.z(), std_deg.x(), std_deg.y(), std_deg.z());
   if (const auto change_deg = ChangeDeg(found, options)) {
-    fmt::print("          this is {:.3f} deg from the configuration's rotation\n", *change_deg);
+    const double std_deg_total = std::max(1e-9, std_deg.norm());
+    fmt::print("          this is {:.3f} deg from the configuration's rotation, {:.1f} sigma\n",
+               *change_deg, *change_deg / std_deg_total);
   }
   fmt::print("gyro:     bias [{:.5f}, {:.5f}, {:.5f}] rad/s\n", bias.x(), bias.y(), bias.z());
   fmt::print(
@@ -134,10 +139,13 @@ void WriteText(const std::string& file, const std::string& text) {
   if (!stream) throw std::runtime_error(file + ": cannot be written");
 }
 
-void WriteJson(const std::string& file, const RotationCalibration& found, const Options& options) {
+void WriteJson(const std::string& file, const RotationCalibrationResult& result,
+               const Options& options) {
+  const RotationCalibration& found = *result.found;
   const auto list = [](const Vector3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   const Quaternion& q = found.R_imu_lidar;
   nlohmann::ordered_json json;
+  json["is_sure"] = result.is_sure();
   json["offset_s"] = found.offset_s;
   json["offset_std_s"] = found.offset_std_s;
   json["rotation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
@@ -261,7 +269,8 @@ int RunCalibrate(const CalibrateArguments& arguments) {
                                          result.why_not, pass.sweeps.size(), pass.num_unmatched));
   }
   Print(*result.found, options, pass);
-  if (!arguments.json_file.empty()) WriteJson(arguments.json_file, *result.found, options);
+  if (!arguments.json_file.empty()) WriteJson(arguments.json_file, result, options);
+  if (!result.is_sure()) return Refuse(arguments, "not sure: " + result.why_not);
   if (!arguments.rig_file.empty()) {
     WriteRig(arguments.rig_file, *result.found, *options.rig.T_imu_lidar);
   }

@@ -9,8 +9,8 @@
 // own, which the turns before and after it share with opposite signs; a turn also errs by gyro
 // noise and the map's drift. Both standard deviations are estimated from the residuals. Output:
 // estimates with covariance, scaled up when residuals are larger than the model expects. Failure:
-// no result but a reason, when lidar and gyro do not agree or the motion does not determine
-// everything. Nothing throws.
+// no result but a reason when lidar and gyro do not agree, a result with a reason when the motion
+// does not determine everything. Nothing throws.
 // Cost: about 0.3 s for a minute at 10 Hz and 100 Hz.
 // Sources: rotation from vectors: Kabsch, Acta Cryst. 1976 (Wahba's problem); preintegration:
 // Forster et al., TRO 2017. Method and figures: docs/calibration.md; constants:
@@ -34,7 +34,7 @@ struct SweepRotation {
 
 struct RotationCalibrationOptions {
   double max_offset_s = 0.5;  // the search covers +- this
-  // A result with larger standard deviations is refused: the motion does not determine it.
+  // A result with larger standard deviations is not sure: the motion does not determine it.
   double max_offset_std_s = 1e-3;
   double max_rotation_std_rad = 0.2 * 0.017453292519943295;
 };
@@ -55,8 +55,10 @@ struct RotationCalibration {
 };
 
 struct RotationCalibrationResult {
-  std::optional<RotationCalibration> found;
-  std::string why_not;  // names the remedy
+  std::optional<RotationCalibration> found;  // sure or not
+  std::string why_not;  // why nothing was found or is not sure, with the remedy; empty when sure
+
+  [[nodiscard]] bool is_sure() const { return found && why_not.empty(); }
 };
 
 // `samples` and `sweeps` ascend in time, each by its own clock. Turns across a missing sweep or
