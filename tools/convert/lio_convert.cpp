@@ -9,6 +9,7 @@
 #include "lio/convert/kitti_raw.hpp"
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/progress_bar.hpp"
 
@@ -42,12 +43,14 @@ constexpr const char* kAboutOdometry =
     "Convert a KITTI odometry sequence: velodyne/, times.txt, calib.txt. The poses (default\n"
     "../../poses/NN.txt) are converted from the camera's frame to the lidar's.";
 
-// No output may replace the recording.
+// No output may replace the recording, and results or logs need not be converted.
 void Guard(const std::filesystem::path& input,
            const std::vector<std::optional<std::filesystem::path>>& outputs) {
   for (const auto& output : outputs) {
     if (output) lio::RefuseToOverwrite(input, *output);
   }
+  const std::string why = lio::WhyNoRecording(input);
+  if (!why.empty()) throw lio::InputError(why);
 }
 
 // Shows a progress bar while `convert` runs, then its summary; the exit code says whether something

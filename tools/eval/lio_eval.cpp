@@ -9,6 +9,7 @@
 #include "lio/eval/evaluation.hpp"
 #include "lio/eval/report.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "plot_runner.hpp"
 
@@ -84,6 +85,9 @@ int Run(const Arguments& arguments) {
   try {
     for (const std::string& file : {arguments.truth, arguments.estimate}) {
       if (!arguments.json.empty()) RefuseToOverwrite(file, arguments.json);
+      if (const std::string why = WhyNoTrajectory(file); !why.empty()) {
+        return Fail(kExitUnusableInput, why);
+      }
     }
     const Trajectory truth = ReadTrajectory(arguments.truth);
     const Trajectory estimate = ReadTrajectory(arguments.estimate);

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Recognises recordings and results by their content, so that a program that is given a wrong kind
+// of file can name the right command.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lio {
+
+enum class FileKind : std::int8_t {
+  kOther,
+  kLcmLog,
+  kRosBag,     // of ROS 1 or 2, a file or a folder
+  kMcap,       // a bag of ROS 2 as MCAP
+  kKittiRaw,   // the folder of a drive
+  kRunFolder,  // the results of lio-replay or of liod --out
+};
+
+[[nodiscard]] FileKind KindOf(const std::filesystem::path& path);
+
+// One line that says what `path` is and which command takes it; empty for logs and for kOther.
+[[nodiscard]] std::string WhyNoLog(const std::filesystem::path& path);
+// The same for what is no trajectory; empty for kOther.
+[[nodiscard]] std::string WhyNoTrajectory(const std::filesystem::path& path);
+// The same for what need not be converted; empty for all but logs and results.
+[[nodiscard]] std::string WhyNoRecording(const std::filesystem::path& path);
+
+}  // namespace lio

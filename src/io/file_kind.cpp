@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/file_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string_view>
+
+namespace lio {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string FirstBytes(const fs::path& file) {
+  constexpr std::size_t kLongestMagic = 16;
+  std::string bytes(kLongestMagic, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+FileKind KindOfFile(const fs::path& file) {
+  using namespace std::string_view_literals;
+  const std::string bytes = FirstBytes(file);
+  if (bytes.starts_with("\xED\xA1\xDA\x01"sv)) return FileKind::kLcmLog;
+  if (bytes.starts_with("#ROSBAG V2.0"sv)) return FileKind::kRosBag;
+  if (bytes.starts_with("SQLite format 3"sv)) return FileKind::kRosBag;
+  if (bytes.starts_with("\x89MCAP0\r\n"sv)) return FileKind::kMcap;
+  return FileKind::kOther;
+}
+
+FileKind KindOfFolder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "velodyne_points", error)) return FileKind::kKittiRaw;
+  if (fs::exists(folder / "trajectory.tum", error)) return FileKind::kRunFolder;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string extension = entry.path().extension();
+    if (extension == ".mcap") return FileKind::kMcap;
+    if (extension == ".db3" || extension == ".bag") return FileKind::kRosBag;
+  }
+  return FileKind::kOther;
+}
+
+std::string ConvertWith(const fs::path& path, std::string_view what, std::string_view command) {
+  return fmt::format("{} is {}: convert it first with 'lio-convert {} {} OUT.lcm'", path.string(),
+                     what, command, path.string());
+}
+
+std::string ReplayIt(const fs::path& path) {
+  return fmt::format(
+      "{0} is an LCM log: replay it with 'lio-replay --config RIG.yaml {0} --out DIR'",
+      path.string());
+}
+
+std::string TakeItsTrajectory(const fs::path& path) {
+  const char* name =
+      fs::exists(path / "trajectory_level.tum") ? "trajectory_level.tum" : "trajectory.tum";
+  return fmt::format("{} is the folder of a run: its path is {}", path.string(),
+                     (path / name).string());
+}
+
+}  // namespace
+
+FileKind KindOf(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return KindOfFolder(path);
+  return fs::is_regular_file(path, error) ? KindOfFile(path) : FileKind::kOther;
+}
+
+std::string WhyNoLog(const fs::path& path) {
+  switch (KindOf(path)) {
+    case FileKind::kRosBag:
+      return ConvertWith(path, "a ROS bag", "rosbag");
+    case FileKind::kMcap:
+      return path.string() +
+             " is an MCAP bag: convert it with 'ros2 bag convert' to sqlite3, then "
+             "with 'lio-convert rosbag'";
+    case FileKind::kKittiRaw:
+      return ConvertWith(path, "a KITTI raw drive", "kitti-raw");
+    case FileKind::kRunFolder:
+      return TakeItsTrajectory(path);
+    case FileKind::kLcmLog:
+    case FileKind::kOther:
+      return {};
+  }
+  return {};
+}
+
+std::string WhyNoTrajectory(const fs::path& path) {
+  return KindOf(path) == FileKind::kLcmLog ? ReplayIt(path) : WhyNoLog(path);
+}
+
+std::string WhyNoRecording(const fs::path& path) {
+  const FileKind kind = KindOf(path);
+  if (kind == FileKind::kLcmLog) return ReplayIt(path);
+  return kind == FileKind::kRunFolder ? TakeItsTrajectory(path) : std::string();
+}
+
+}  // namespace lio
