@@ -25,7 +25,8 @@ set(LIO_PUBLIC_HEADERS
   lio/sensor/imu_sample.hpp
   lio/sensor/lidar_sweep.hpp
   lio/sensor/rig.hpp
-  lio/sensor/scan_chunk.hpp)
+  lio/sensor/scan_chunk.hpp
+  lio/verdict/verdict.hpp)
 
 include(CMakePackageConfigHelpers)
 

@@ -6,8 +6,19 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <sstream>
+
+#include "lio/io/verdict_report.hpp"
 
 namespace lio {
+namespace {
+
+void Tell(const Verdict& verdict) {
+  std::istringstream lines(VerdictSummary(verdict));
+  for (std::string line; std::getline(lines, line);) spdlog::info("{}", line);
+}
+
+}  // namespace
 
 bool IsOver(const LiveRunner& runner) {
   return runner.has_ended() || runner.fault().has_value();
@@ -26,7 +37,11 @@ ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url) {
     spdlog::error("{}{}; the run ends here, please report this fault", *fault, unfinished);
     return kExitInternalFault;
   }
-  if (!is_connection_lost) return kExitDone;
+  if (runner.verdict()) Tell(*runner.verdict());
+  const bool is_distrusted = runner.verdict() && runner.verdict()->trust == Trust::kNo;
+  if (!is_connection_lost) {
+    return is_distrusted && runner.writes_files() ? kExitNoTrust : kExitDone;
+  }
   spdlog::error("the connection to {} broke: start its server, then liod", lcm_url);
   return kExitNoTransport;
 }

@@ -14,8 +14,9 @@ namespace lio {
 [[nodiscard]] bool IsOver(const LiveRunner& runner);
 
 // Stops the runner and tells in one line on stderr why, unless it was asked to end or a log that
-// `lcm_url` names is over. Returns the exit code. Throws std::runtime_error when a file could not
-// be completed.
+// `lcm_url` names is over; then it tells the verdict on the run. Returns the exit code, which is
+// kExitNoTrust where files were written that cannot be trusted. Throws std::runtime_error when a
+// file could not be completed.
 [[nodiscard]] ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url);
 
 }  // namespace lio

@@ -130,6 +130,7 @@ void FilterLoop::Emit(const ScanOutput& output) {
   }
   if (!output.filter) return;
   to_.board.SetImuNoise(output.filter->imu_noise);
+  to_.board.SetTrust(odometry_.trust());
   EmitClouds(output);
 }
 

@@ -45,6 +45,7 @@ class FilterLoop {
 
   // After Run only.
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
+  [[nodiscard]] Verdict Judge() const { return odometry_.Judge(); }
   // Host's time from the first message to the last.
   [[nodiscard]] double input_duration_s() const;
 

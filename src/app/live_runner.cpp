@@ -64,6 +64,7 @@ void LiveRunner::EndThreads() {
 
 void LiveRunner::Stop() {
   EndThreads();
+  verdict_ = filter_.Judge();
   if (!writer_) return;
   // After a fault of the output thread; otherwise none are left.
   if (const auto fault =
@@ -96,6 +97,7 @@ StatusReport LiveRunner::ComposeStatus() {
 RunStats LiveRunner::Stats() const {
   const FilterInbox::Losses losses = inbox_.losses();
   RunStats stats;
+  if (verdict_) stats.verdict = *verdict_;
   stats.counters = filter_.counters();
   stats.input = board_.input();
   stats.extra = {{"num_imu_queue_dropped", losses.num_imu},

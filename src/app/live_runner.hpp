@@ -61,6 +61,10 @@ class LiveRunner {
   // True once Stop has given up the scans that were still waiting.
   [[nodiscard]] bool is_cut_short() const { return filter_.is_cut_short(); }
 
+  // Judges the whole run; absent before Stop.
+  [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
+  [[nodiscard]] bool writes_files() const { return writer_.has_value(); }
+
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
   // the files and sends a last status. Once only. Throws std::runtime_error when a file could not
   // be completed.
@@ -77,6 +81,7 @@ class LiveRunner {
   Bus& bus_;
   const std::int64_t start_utime_;
   std::optional<RunWriter> writer_;
+  std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
   FilterInbox inbox_;

@@ -68,6 +68,11 @@ void StatusBoard::SetImuNoise(const ImuNoiseRatios& ratios) {
   report_.imu_noise = ratios;
 }
 
+void StatusBoard::SetTrust(Trust trust) {
+  const std::lock_guard lock(mutex_);
+  report_.trust = trust;
+}
+
 void StatusBoard::SetInput(const InputCounters& counters) {
   const std::lock_guard lock(mutex_);
   report_.input = counters;

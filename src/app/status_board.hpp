@@ -30,6 +30,7 @@ class StatusBoard {
 
   void SetEstimator(const Counters& counters, TrackingStatus state, Timestamp newest_stamp);
   void SetImuNoise(const ImuNoiseRatios& ratios);
+  void SetTrust(Trust trust);
   void SetInput(const InputCounters& counters);
   void SetNote(std::string note);
   void CountRefusedCommand();

@@ -16,6 +16,7 @@
 #include "lio/io/pcd_file.hpp"
 #include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
+#include "lio/io/verdict_report.hpp"
 
 namespace lio {
 namespace {
@@ -101,7 +102,8 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   if (error) {
     throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
   }
-  for (const char* stale : {"stats.json", "map.pcd", "map.ply", "trajectory_base.tum"})
+  for (const char* stale :
+       {"stats.json", "verdict.json", "map.pcd", "map.ply", "trajectory_base.tum"})
     std::filesystem::remove(folder / stale, error);
   OutputFile options_file = OpenOutput(folder_ / "options.yaml");
   options_file.stream << PrintResultOptions(options);
@@ -194,6 +196,7 @@ void RunWriter::Finish(const RunStats& stats) {
   if (base_) Close(*base_);
   level_->Finish();
   WriteStats(stats);
+  WriteVerdict(folder_, stats.verdict);
 }
 
 }  // namespace lio

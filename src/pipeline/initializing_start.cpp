@@ -12,6 +12,7 @@
 #include "lio/pipeline/estimate_report.hpp"
 #include "lio/pipeline/initializing.hpp"
 #include "lio/pipeline/options_fields.hpp"
+#include "lio/verdict/rig_findings.hpp"
 
 namespace lio {
 namespace {
@@ -31,12 +32,30 @@ void RaiseTo(const ImuNoise& shown, ImuRig& imu) {
       std::max(imu.accel_noise_density, std::sqrt(shown.accel_psd.maxCoeff()));
 }
 
+// The extrinsic in the axes that the messages were found to have; its translation stays as it was.
+Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
+  const Pose T = rig.T_imu_lidar.value_or(Pose{});
+  return {(Quaternion(found.R_imu_sent).conjugate() * T.rotation).normalized(), T.translation};
+}
+
+// Why a stated convention is not the messages'. Turned axes and a turned extrinsic are the same to
+// all that moves: both are named.
+std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig,
+                                    const std::string& evidence) {
+  const std::string read_them = "rig:\n  imu:\n    units: auto\n";
+  if (found.R_imu_sent == Matrix3::Identity()) {
+    return {{CauseKind::kImuUnits, Trust::kNo, 0.0, evidence, read_them}};
+  }
+  return {{CauseKind::kExtrinsicRotation, Trust::kNo, 0.0, evidence,
+           ExtrinsicYaml(TurnedExtrinsic(found, rig))},
+          {CauseKind::kImuAxes, Trust::kNo, 0.0, evidence, read_them}};
+}
+
 // Tells the user what to configure for messages of the convention that was found.
 std::string FixFor(const ImuConvention& found, const Rig& rig) {
   const std::string fix = "set rig.imu.units: auto";
   if (found.R_imu_sent == Matrix3::Identity()) return fix + " or " + NameOfUnits(UnitsOf(found));
-  const Pose T_sent_imu{Quaternion(Matrix3(found.R_imu_sent.transpose())), Vector3::Zero()};
-  const Pose T = T_sent_imu * rig.T_imu_lidar.value_or(Pose{});
+  const Pose T = TurnedExtrinsic(found, rig);
   return fmt::format(
       "{}, or turn rig.T_imu_lidar: translation_m: [{:.3f}, {:.3f}, {:.3f}], rotation_wxyz: "
       "[{:.5f}, {:.5f}, {:.5f}, {:.5f}]",
@@ -154,6 +173,10 @@ std::optional<Transition> Initializing::CheckGravity(bool is_there, const std::s
   const GravityInput expected = context_.options.rig.imu.gravity;
   const GravityInput found = is_there ? GravityInput::kPresent : GravityInput::kRemoved;
   if (expected == GravityInput::kAutomatic || expected == found) return std::nullopt;
+  context_.examiner.Contradict({{CauseKind::kImuGravity, Trust::kNo, 0.0,
+                                 fmt::format("gravity is {} in the accelerometer's reading ({})",
+                                             NameOfGravity(found), evidence),
+                                 "rig:\n  imu:\n    gravity: auto\n"}});
   return Reject(stamp,
                 fmt::format("gravity is {0} in the accelerometer's reading, but "
                             "rig.imu.gravity says {1} ({2}): set rig.imu.gravity: auto or {0}",
@@ -210,11 +233,13 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   const Rig& rig = context_.options.rig;
   const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
   if (rig.imu.units != ImuUnits::kAutomatic) {
+    context_.examiner.Contradict(ConventionCauses(found, rig, what));
     return Reject(stamp, what + ", rig.imu.units says " + NameOfUnits(rig.imu.units) + ": " +
                              FixFor(found, rig));
   }
   if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
   context_.stream.SetConvention(found);
+  context_.examiner.SetConvention(found);
   context_.convention.Restart();
   context_.convention.TrustGyro(true);
   context_.convention.ForgetDoubt();

@@ -35,6 +35,19 @@ StreamOptions MakeStreamOptions(const Options& options) {
   return stream;
 }
 
+PoseRow MakePoseRow(const FilterReport& filter) {
+  const NavOutput& nav = filter.nav;
+  PoseRow row;
+  row.stamp = nav.stamp;
+  row.is_located = nav.status == TrackingStatus::kOk || nav.status == TrackingStatus::kDegenerate;
+  row.T_map_imu = nav.T_map_imu;
+  row.position_cov = filter.map_as_world_cov.topLeftCorner<3, 3>();
+  row.rotation_cov = nav.pose_cov.bottomRightCorner<3, 3>();
+  row.R_world_imu = nav.T_world_imu.rotation;
+  row.imu_noise = filter.imu_noise;
+  return row;
+}
+
 }  // namespace
 
 class Odometry::Impl {
@@ -44,12 +57,14 @@ class Odometry::Impl {
         clock_(clock),
         stream_(MakeStreamOptions(options), counters_),
         convention_(options_.rig, stream_.imu()),
+        examiner_(options_.rig, options_.pipeline.use_imu),
         clocks_(options_),
         mode_(std::make_unique<Mode>(Initializing(MakeContext(), {}))) {}
 
   void AddImu(const ImuSample& sample) {
     const std::int64_t begin_ns = NowNs();
     stream_.AddImu(sample);
+    examiner_.tally().AddImu(sample.stamp);
     ConsumeEvents();
     filter_ns_ += NowNs() - begin_ns;
   }
@@ -102,9 +117,18 @@ class Odometry::Impl {
     }
   }
 
-  std::vector<Output> TakeOutputs() { return outputs_.Take(); }
+  std::vector<Output> TakeOutputs() {
+    std::vector<Output> outputs = outputs_.Take();
+    for (const Output& output : outputs) {
+      const auto* scan = std::get_if<ScanOutput>(&output);
+      if (scan != nullptr && scan->filter) examiner_.tally().AddRow(MakePoseRow(*scan->filter));
+    }
+    return outputs;
+  }
   const Counters& counters() const { return counters_; }
   TrackingStatus status() const { return StatusOf(*mode_); }
+  Verdict Judge() const { return examiner_.Judge(counters_); }
+  Trust trust() const { return examiner_.trust(); }
 
  private:
   using Next = std::optional<Transition>;
@@ -114,7 +138,8 @@ class Odometry::Impl {
             clock_,   counters_,
             outputs_, stream_,
             sweeps_,  convention_,
-            clocks_,  imu_noise_};
+            clocks_,  imu_noise_,
+            examiner_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
   bool IsIdle() const { return !in_flight_ && sweeps_.size() <= NextSweepOf(*mode_); }
@@ -154,6 +179,7 @@ class Odometry::Impl {
     auto* tracking = std::get_if<Tracking>(mode_.get());
     if (tracking && sweeps_.empty()) tracking->AddSweep(*event.sweep);
     sweeps_.push_back(event.sweep);
+    examiner_.tally().AddSweep(event.sweep->end);
     return std::nullopt;
   }
   Next Consume(const SegmentStarts& event) {
@@ -227,6 +253,7 @@ class Odometry::Impl {
   std::deque<SweepPtr> sweeps_;
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
+  RigExaminer examiner_;
   ClockOffsetFollower clocks_;
   std::unique_ptr<Mode> mode_;
   SweepPtr in_flight_;  // the sweep whose job is out
@@ -261,6 +288,12 @@ void Odometry::ShedLoad() {
 }
 std::vector<Output> Odometry::TakeOutputs() {
   return impl_->TakeOutputs();
+}
+Verdict Odometry::Judge() const {
+  return impl_->Judge();
+}
+Trust Odometry::trust() const {
+  return impl_->trust();
 }
 const Counters& Odometry::counters() const {
   return impl_->counters();

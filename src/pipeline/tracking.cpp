@@ -131,6 +131,9 @@ void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const Imu
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
+  if (const auto news = context_.examiner.News(end)) {
+    context_.outputs.Notify(end, Notice::Severity::kWarning, *news);
+  }
   context_.sweeps.pop_front();
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(EarliestOf(*sweeps.front())));
@@ -140,6 +143,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   ScanReport report = MakeScanReport(outcome);
   if (!outcome.match.IsUsable()) return report;
   context_.convention.AddPose({outcome.sweep->middle(), outcome.match.T_map_imu});
+  Examine(outcome);
   FusionSettings settings;
   settings.gyro_density = context_.options.rig.imu.gyro_noise_density;
   settings.alike_factor = zero_velocity_.match_cov_factor();
@@ -154,6 +158,18 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   health_.AddFusion(fused);
   report.fused = fused == EventOutcome::kApplied;
   return report;
+}
+
+// The match as it is, before the filter.
+void Tracking::Examine(const MatchOutcome& outcome) const {
+  MotionRecord& record = context_.examiner.record();
+  if (is_first_scan_) record.BeginMap();
+  if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();
+  const Timestamp middle = outcome.sweep->middle();
+  const Timestamp since = record.last_stamp().value_or(middle);
+  const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
+  record.Add({middle, outcome.match.T_map_imu},
+             context_.stream.imu().Between(since - margin, middle + margin));
 }
 
 // The filters that stand beside this one.

@@ -94,6 +94,13 @@ TEST(StatusCodec, NoiseOfTheImuArrives) {
   EXPECT_EQ(message.accel_noise_ratio, 9.0F);
 }
 
+TEST(StatusCodec, TrustArrives) {
+  StatusReport report;
+  EXPECT_EQ(Decoded(EncodeStatus(report, "0.1.0")).trust, 0);
+  report.trust = Trust::kNo;
+  EXPECT_EQ(Decoded(EncodeStatus(report, "0.1.0")).trust, 2);
+}
+
 TEST(StatusCodec, NegativeAndLargeCountsArriveUnchanged) {
   StatusReport report;
   report.counters.num_imu = -2;

@@ -50,8 +50,11 @@ class ModeBench {
             nullptr,  counters,
             outputs_, stream_,
             sweeps,   convention_,
-            clocks_,  imu_noise_};
+            clocks_,  imu_noise_,
+            examiner};
   }
+
+  RigExaminer examiner{options_.rig, true};
 
   // Units that the messages are sent in, per SI unit.
   double force_scale = 1.0;

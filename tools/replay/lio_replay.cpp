@@ -10,10 +10,12 @@
 #include "lio/io/beam_table.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/run_writer.hpp"
+#include "lio/io/verdict_report.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
@@ -38,8 +40,9 @@ constexpr const char* kDescription =
     "run is over: steady, and level by the last estimate), trajectory.tum (as it was published on\n"
     "LIO_ODOM_LOCAL: the pose of imu in map, which never turns), trajectory_world.tum (as on\n"
     "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
-    "registration.csv, stats.json, options.yaml, map.pcd with --map, and trajectory_base.tum when\n"
-    "the rig has T_base_imu.\n"
+    "registration.csv, stats.json, verdict.json (may the result be trusted, and if not, why),\n"
+    "options.yaml, map.pcd with --map, and trajectory_base.tum when the rig has T_base_imu. A\n"
+    "summary of the verdict goes to stdout.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 
 constexpr const char* kExamples =
@@ -49,7 +52,8 @@ constexpr const char* kExamples =
     "out/lidar\n"
     "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n\n"
     "Exit codes: 0 done, 2 usage, 3 configuration (also one that the log's data contradict),\n"
-    "5 damaged, missing or unusable log.";
+    "5 damaged, missing or unusable log, 6 done, but the result cannot be trusted: verdict.json\n"
+    "and the summary on stdout say why and what to put into the configuration.";
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.footer(kExamples);
@@ -104,16 +108,21 @@ class Replay {
     while (std::optional<InputItem> item = input.Next()) {
       bar.Update(item->position_bytes);
       Add(std::move(*item));
-      if (!refusal_.empty()) return;
+      if (refusal_.empty()) continue;
+      verdict_ = odometry_.Judge();
+      return;
     }
     odometry_.Flush();
     match_lag_ = 0;
     num_messages_to_wait_ = 0;
     Match();
+    verdict_ = odometry_.Judge();
     Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
 
   const Counters& counters() const { return odometry_.counters(); }
+  // After Run only.
+  const Verdict& verdict() const { return verdict_; }
   // Says why the configuration contradicts the log; empty when it does not.
   const std::string& refusal() const { return refusal_; }
 
@@ -172,6 +181,7 @@ class Replay {
     stats.num_skipped_bytes = input.num_skipped_bytes();
     stats.log_duration_s = input.duration_s();
     stats.wall_s = wall_s;
+    stats.verdict = verdict_;
     writer_.Finish(stats);
   }
 
@@ -186,6 +196,7 @@ class Replay {
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;
   std::string refusal_;
+  Verdict verdict_;
 };
 
 // Says in one line what was wrong with the log; empty when nothing was.
@@ -208,6 +219,20 @@ std::string Complaint(const LogInput& input, const Counters& counters,
   return text.empty() ? text : fmt::format("{}: {}; the rest was replayed", arguments.log, text);
 }
 
+// Tells how the run went; the exit code.
+ExitCode End(const LogInput& input, const Replay& replay, const ReplayArguments& arguments) {
+  if (!replay.refusal().empty()) {
+    WriteVerdict(arguments.out, replay.verdict());
+    fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
+    return kExitConfiguration;
+  }
+  fmt::print("{}", VerdictSummary(replay.verdict()));
+  const std::string complaint = Complaint(input, replay.counters(), arguments);
+  if (complaint.empty()) return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
+  fmt::print(stderr, "lio-replay: {}\n", complaint);
+  return kExitUnusableInput;
+}
+
 int Main(int argc, char** argv) {
   CLI::App app(kDescription, "lio-replay");
   ReplayArguments arguments;
@@ -224,6 +249,10 @@ int Main(int argc, char** argv) {
   input_options.clock = ThreadCpuNs;
   if (arguments.num_threads) options.pipeline.num_threads = *arguments.num_threads;
   input_options.reads_ahead = options.pipeline.num_threads > 1;
+  if (const std::string why = WhyNoLog(arguments.log); !why.empty()) {
+    fmt::print(stderr, "lio-replay: {}\n", why);
+    return kExitUnusableInput;
+  }
   LogInput input(arguments.log, input_options);
   std::optional<RunWriter> writer;
   try {
@@ -234,14 +263,7 @@ int Main(int argc, char** argv) {
   }
   Replay replay(options, arguments, *writer);
   replay.Run(input);
-  if (!replay.refusal().empty()) {
-    fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
-    return kExitConfiguration;
-  }
-  const std::string complaint = Complaint(input, replay.counters(), arguments);
-  if (complaint.empty()) return kExitDone;
-  fmt::print(stderr, "lio-replay: {}\n", complaint);
-  return kExitUnusableInput;
+  return End(input, replay, arguments);
 }
 
 }  // namespace

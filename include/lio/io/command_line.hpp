@@ -24,6 +24,7 @@ enum ExitCode : int {
   kExitConfiguration = 3,   // a missing or faulty file, key or value of the configuration
   kExitNoTransport = 4,     // LCM cannot be reached
   kExitUnusableInput = 5,   // damaged, missing or unusable input
+  kExitNoTrust = 6,         // done, but the result cannot be trusted: verdict.json says why
   kExitInternalFault = 70,  // a thread of liod failed: EX_SOFTWARE of sysexits.h
 };
 

@@ -13,6 +13,7 @@
 //   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
 //   registration.csv: one row per scan: points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig
+//   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
@@ -33,6 +34,7 @@
 #include "lio/io/quantile_sketch.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -43,6 +45,7 @@ struct RunStats {
   std::vector<std::pair<std::string, std::int64_t>> extra;  // further counts, in this order
   double log_duration_s = 0.0;                              // from the first message to the last
   double wall_s = 0.0;
+  Verdict verdict = {};
 };
 
 enum class MapFormat { kPcd, kPly };

@@ -8,6 +8,7 @@
 
 #include "lio/io/input_decoder.hpp"
 #include "lio/pipeline/outputs.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -41,6 +42,7 @@ struct StatusReport {
   float rss_mb = 0.0F;
   float map_mb = 0.0F;
   ImuNoiseRatios imu_noise;
+  Trust trust = Trust::kYes;  // at the last look
   std::uint64_t config_hash = 0;
   std::string note;  // the last notice
 };

@@ -13,6 +13,7 @@
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/output_queue.hpp"
 #include "lio/stream/sensor_stream.hpp"
+#include "lio/verdict/rig_examiner.hpp"
 
 namespace lio {
 
@@ -29,6 +30,7 @@ struct ModeContext {
   ImuConventionMonitor& convention;
   ClockOffsetFollower& clocks;
   ImuNoiseWatch& imu_noise;
+  RigExaminer& examiner;
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 };

@@ -26,6 +26,7 @@
 #include "lio/pipeline/outputs.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/scan_chunk.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -71,6 +72,11 @@ class Odometry {
 
   const Counters& counters() const;
   TrackingStatus status() const;
+  // May the result so far be trusted, and if not, why? Costs some ten milliseconds.
+  [[nodiscard]] Verdict Judge() const;
+  // The trust that the last of the looks at the rig left, which come ever more seldom; costs
+  // nothing.
+  Trust trust() const;
 
  private:
   class Impl;

@@ -65,6 +65,7 @@ class Tracking {
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
+  void Examine(const MatchOutcome& outcome) const;
   void UpdateBesides(const MatchOutcome& outcome, bool is_fused);
   void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
                bool rebases_map, InsertTask& insert);

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What the counts of a run say of its data: sensors that are missing, doubled, saturated or noisy,
+// and drives that stand still.
+#pragma once
+
+#include <vector>
+
+#include "lio/base/counters.hpp"
+#include "lio/verdict/run_tally.hpp"
+#include "lio/verdict/verdict.hpp"
+
+namespace lio {
+
+struct DataFindingParameters {
+  // Shares of messages. Chosen; the simulator's and the field's faults are below.
+  double max_clipped_share = 0.02;
+  double max_doubled_share = 0.2;  // two senders of equal rate double one half
+  double max_bad_chunk_share = 0.1;
+  // s. Scans are missing at the end for longer than the longest sweep, and than an outage that is
+  // carried over. Chosen.
+  double max_without_sweeps_s = 2.0;
+  // The IMU's noise over the rig's. Engines and roads in the simulator and KITTI give up to 16.
+  double max_noise_ratio = 64.0;
+  // Below both the body has stood. Chosen: twice the noise of the map at rest, and a nod.
+  double still_path_share_m = 0.5;
+  double still_turn_rad = 0.05;
+};
+
+inline constexpr DataFindingParameters kDataFindings;
+
+[[nodiscard]] std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
+                                                bool uses_imu);
+
+}  // namespace lio

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/data_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lio {
+namespace {
+
+constexpr DataFindingParameters kParameters = kDataFindings;
+
+double Share(std::int64_t part, std::int64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
+                 std::vector<Cause>& causes) {
+  if (counters.num_scans == counters.num_scans_empty) {
+    causes.push_back(
+        {CauseKind::kNoScans, Trust::kNo, 0.0,
+         fmt::format("{} chunks came, no sweep with points was put together", counters.num_chunks),
+         ""});
+  } else if (tally.WithoutSweeps_s() > kParameters.max_without_sweeps_s) {
+    causes.push_back(
+        {CauseKind::kNoScans, Trust::kDoubtful, 0.0,
+         fmt::format("the IMU goes on for {:.1f} s after the last sweep", tally.WithoutSweeps_s()),
+         ""});
+  }
+  if (uses_imu && counters.num_imu == 0) {
+    causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
+                      "no inertial sample came: the path is the lidar's alone",
+                      "pipeline:\n  use_imu: false\n"});
+  }
+}
+
+void FindDoubled(const Counters& counters, std::vector<Cause>& causes) {
+  const double imu = Share(counters.num_imu_duplicate + counters.num_imu_late, counters.num_imu);
+  const double chunks = Share(counters.num_chunks_duplicate, counters.num_chunks);
+  if (std::max(imu, chunks) <= kParameters.max_doubled_share) return;
+  causes.push_back({CauseKind::kTwoSenders, Trust::kDoubtful, 0.0,
+                    fmt::format("{:.0f} % of the inertial samples came twice or late, {:.0f} % of "
+                                "the chunks twice: do two programs send on these channels?",
+                                100.0 * imu, 100.0 * chunks),
+                    ""});
+}
+
+}  // namespace
+
+std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally, bool uses_imu) {
+  std::vector<Cause> causes;
+  FindMissing(counters, tally, uses_imu, causes);
+  FindDoubled(counters, causes);
+  if (const double bad = Share(counters.num_chunks_bad, counters.num_chunks);
+      bad > kParameters.max_bad_chunk_share) {
+    causes.push_back({CauseKind::kPointTime, Trust::kDoubtful, 0.0,
+                      fmt::format("{:.0f} % of the chunks are refused: index, count or time span "
+                                  "of their points are inconsistent",
+                                  100.0 * bad),
+                      ""});
+  }
+  if (const double clipped = Share(counters.num_imu_clipped, counters.num_imu);
+      clipped > kParameters.max_clipped_share) {
+    causes.push_back({CauseKind::kSaturation, Trust::kDoubtful, 0.0,
+                      fmt::format("{:.1f} % of the inertial samples are at the end of their range",
+                                  100.0 * clipped),
+                      ""});
+  }
+  if (const ImuNoiseRatios noise = tally.MedianNoise();
+      std::max(noise.gyro, noise.accel) >= kParameters.max_noise_ratio) {
+    causes.push_back({CauseKind::kImuNoise, Trust::kDoubtful, 0.0,
+                      fmt::format("the gyro's noise is {:.0f} times, the accelerometer's {:.0f} "
+                                  "times that of the rig, most of the time",
+                                  noise.gyro, noise.accel),
+                      ""});
+  }
+  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kParameters.still_path_share_m &&
+                        tally.turned_rad() < kParameters.still_turn_rad;
+  if (is_still && causes.empty()) {
+    causes.push_back({CauseKind::kNoMotion, Trust::kYes, 0.0,
+                      "the body stood: clock offset, rotation and lever arm were not checked", ""});
+  }
+  return causes;
+}
+
+}  // namespace lio

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/motion_record.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "lio/filter/preintegration.hpp"
+
+namespace lio {
+namespace {
+
+// The mean of the samples about `stamp`; of all when none is near.
+ImuSample MeanAbout(std::span<const ImuSample> samples, Timestamp stamp, double half_s) {
+  ImuSample mean;
+  double num = 0.0;
+  for (const ImuSample& sample : samples) {
+    if (std::abs(SecondsBetween(sample.stamp, stamp)) > half_s) continue;
+    mean.w_imu_radps += sample.w_imu_radps;
+    mean.f_imu_mps2 += sample.f_imu_mps2;
+    num += 1.0;
+  }
+  if (num == 0.0) return samples.back();
+  mean.w_imu_radps /= num;
+  mean.f_imu_mps2 /= num;
+  return mean;
+}
+
+bool HasSaturated(std::span<const ImuSample> samples) {
+  for (const ImuSample& sample : samples) {
+    if (sample.is_rate_saturated || sample.is_force_saturated) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<Timestamp> MotionRecord::last_stamp() const {
+  return last_ ? std::optional(last_->stamp) : std::nullopt;
+}
+
+void MotionRecord::BeginMap() {
+  ++map_;
+  Interrupt();
+}
+
+void MotionRecord::Clear() {
+  steps_.clear();
+  BeginMap();
+}
+
+void MotionRecord::Add(const StampedPose& T_map_imu, std::span<const ImuSample> samples) {
+  const std::optional<StampedPose> last = std::exchange(last_, T_map_imu);
+  const bool is_step = last && samples.size() >= 3 && T_map_imu.stamp > last->stamp &&
+                       SecondsBetween(last->stamp, T_map_imu.stamp) <= kMotionRecord.max_step_s &&
+                       !HasSaturated(samples);
+  if (!is_step) {
+    ++track_;
+    return;
+  }
+  MotionStep step;
+  step.map = map_;
+  step.track = track_;
+  step.from = *last;
+  step.to = T_map_imu;
+  const Preintegration motion =
+      Preintegrate(samples, last->stamp, T_map_imu.stamp, Biases{}, ProcessNoise{});
+  step.turn_rad = LogSo3(motion.rotation);
+  const ImuSample at_from = MeanAbout(samples, last->stamp, kMotionRecord.instant_s);
+  const ImuSample at_to = MeanAbout(samples, T_map_imu.stamp, kMotionRecord.instant_s);
+  step.rate_gain_radps = at_to.w_imu_radps - motion.rotation.conjugate() * at_from.w_imu_radps;
+  const Quaternion half_turn_back = ExpSo3(-0.5 * step.turn_rad);
+  step.velocity_mps = half_turn_back * motion.velocity;
+  step.position_m = half_turn_back * motion.position;
+  step.jerk_mps3 = (at_to.f_imu_mps2 - at_from.f_imu_mps2) / motion.span_s();
+  if (steps_.size() >= kMotionRecord.max_steps) steps_.pop_front();
+  steps_.push_back(step);
+}
+
+}  // namespace lio

@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/rig_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "lio/verdict/rig_fit.hpp"
+
+namespace lio {
+namespace {
+
+constexpr RigFindingParameters kParameters = kRigFindings;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+double AngleDeg(const Quaternion& rotation) {
+  return kDegPerRad * LogSo3(rotation).norm();
+}
+
+double SureSigmas(int num_clusters) {
+  const boost::math::students_t distribution(std::max(1, num_clusters - 1));
+  return boost::math::quantile(
+      boost::math::complement(distribution, 0.5 * kParameters.false_alarm_probability));
+}
+
+double Sigmas(const Eigen::VectorXd& value, const Eigen::MatrixXd& cov) {
+  return std::sqrt(value.dot(cov.ldlt().solve(value)));
+}
+
+// The sure part of a value is that beyond so many standard deviations, axis by axis.
+double SurePart(const Eigen::VectorXd& value, const Eigen::MatrixXd& cov, double sure_sigmas) {
+  double sum_sq = 0.0;
+  for (Eigen::Index i = 0; i < value.size(); ++i) {
+    const double sure = std::abs(value[i]) - sure_sigmas * std::sqrt(cov(i, i));
+    if (sure > 0.0) sum_sq += sure * sure;
+  }
+  return std::sqrt(sum_sq);
+}
+
+double InTolerances(const Vector3& turn_rad, const Vector3& lever_m) {
+  return std::hypot(kDegPerRad * turn_rad.norm() / kParameters.rotation_tolerance_deg,
+                    lever_m.norm() / kParameters.lever_tolerance_m);
+}
+
+// One of the errors that the fit estimates, as the full fit has it.
+struct Suspect {
+  CauseKind kind;
+  double in_tolerances = 0.0;  // the sure part of it
+  double sigmas = 0.0;
+};
+
+constexpr std::array kSuspects = {CauseKind::kExtrinsicRotation, CauseKind::kClockOffset,
+                                  CauseKind::kLeverArm};
+
+FreeErrors OnlyFree(const std::vector<CauseKind>& kinds) {
+  const auto has = [&](CauseKind kind) { return std::ranges::count(kinds, kind) > 0; };
+  return {has(CauseKind::kExtrinsicRotation), has(CauseKind::kClockOffset),
+          has(CauseKind::kLeverArm)};
+}
+
+class Examination {
+ public:
+  Examination(const MotionRecord& record, const Rig& rig, const ImuConvention& convention)
+      : rig_(rig),
+        R_imu_sent_(Quaternion(convention.R_imu_sent)),
+        fit_(record, rig.imu.accel_bias_std_mps2) {}
+
+  RigFindings Find() {
+    if (!fit_.HasEnough()) return {};
+    const RigFit::TurnAlignment turns = fit_.AlignTurns();
+    if (turns.correlation < kParameters.min_correlation) return {};
+    RigFindings findings;
+    findings.is_checked = true;
+    if (auto units = JudgeUnits(turns)) {
+      findings.causes.push_back(std::move(*units));
+      return findings;
+    }
+    FitAll(turns);
+    Select();
+    NameInverted(findings.causes);
+    for (const CauseKind kind : selected_) findings.causes.push_back(MakeCause(kind));
+    NameAxes(findings.causes);
+    return findings;
+  }
+
+ private:
+  static std::optional<Cause> JudgeUnits(const RigFit::TurnAlignment& turns) {
+    const auto is_near = [&](double scale) {
+      return std::abs(turns.ratio / scale - 1.0) < kParameters.unit_scale_tolerance;
+    };
+    const bool is_in_deg = is_near(1.0 / kDegPerRad);
+    if (!is_in_deg && !is_near(kDegPerRad)) return std::nullopt;
+    return Cause{CauseKind::kImuUnits, Trust::kNo, 0.0,
+                 fmt::format("the lidar turns {:.3g} times as far as the gyro says: its rates are "
+                             "in {}",
+                             turns.ratio, is_in_deg ? "deg/s" : "rad/s"),
+                 "rig:\n  imu:\n    units: auto\n"};
+  }
+
+  void FitAll(const RigFit::TurnAlignment& turns) {
+    RigFitResult first = fit_.Solve(fit_.StartAt(Quaternion::Identity()), {});
+    if (AngleDeg(turns.rotation) > kParameters.large_rotation_deg) {
+      const RigFitResult other = fit_.Solve(fit_.StartAt(turns.rotation), {});
+      if (other.cost < first.cost) first = other;
+    }
+    RigErrors start = first.errors;
+    fit_.SetNoiseFrom(start);
+    start = fit_.Solve(start, {}).errors;
+    fit_.SetNoiseFrom(start);
+    all_ = fit_.Solve(start, {});
+    sure_sigmas_ = SureSigmas(all_.num_clusters);
+  }
+
+  // The full fit says this of one error.
+  Suspect Judge(CauseKind kind) const {
+    const auto judge = [&](const Eigen::VectorXd& value, int at, double tolerance) {
+      const Eigen::MatrixXd cov = all_.cov.block(at, at, value.size(), value.size());
+      return Suspect{kind, SurePart(value, cov, sure_sigmas_) / tolerance, Sigmas(value, cov)};
+    };
+    switch (kind) {
+      case CauseKind::kExtrinsicRotation:
+        return judge(LogSo3(all_.errors.rotation), kRigRotation,
+                     kParameters.rotation_tolerance_deg / kDegPerRad);
+      case CauseKind::kClockOffset:
+        return judge(Eigen::VectorXd::Constant(1, all_.errors.offset_s), kRigOffset,
+                     kParameters.offset_tolerance_s);
+      default:
+        return judge(all_.errors.lever_m, kRigLever, kParameters.lever_tolerance_m);
+    }
+  }
+
+  RigFitResult SolveWith(const std::vector<CauseKind>& kinds) const {
+    const FreeErrors free = OnlyFree(kinds);
+    RigErrors start = all_.errors;
+    if (!free.rotation) start.rotation = Quaternion::Identity();
+    if (!free.offset) start.offset_s = 0.0;
+    if (!free.lever) start.lever_m = Vector3::Zero();
+    return fit_.Solve(start, free);
+  }
+
+  // Forward selection: the error that explains most, then those that explain a share of it.
+  void Select() {
+    solution_ = all_;
+    const bool has_suspect = std::ranges::any_of(
+        kSuspects, [this](CauseKind kind) { return Judge(kind).in_tolerances >= 1.0; });
+    if (!has_suspect) {  // then nothing is mended
+      solution_.errors.rotation = Quaternion::Identity();
+      return;
+    }
+    solution_ = SolveWith({});
+    double first_gain = 0.0;
+    while (selected_.size() < kSuspects.size()) {
+      std::optional<CauseKind> best;
+      RigFitResult best_result = solution_;
+      for (const CauseKind kind : kSuspects) {
+        if (std::ranges::count(selected_, kind) > 0 || Judge(kind).in_tolerances < 1.0) continue;
+        std::vector<CauseKind> kinds = selected_;
+        kinds.push_back(kind);
+        const RigFitResult result = SolveWith(kinds);
+        if (result.cost >= best_result.cost) continue;
+        best = kind;
+        best_result = result;
+      }
+      const double gain = solution_.cost - best_result.cost;
+      if (!best || gain < kParameters.min_share_of_first * first_gain) return;
+      first_gain = std::max(first_gain, gain);
+      selected_.push_back(*best);
+      solution_ = best_result;
+    }
+  }
+
+  // The rotation from the axes of the messages to those that the rig makes of the lidar's.
+  Quaternion R_rig_sent() const { return solution_.errors.rotation * R_imu_sent_; }
+  Pose T_configured() const { return rig_.T_imu_lidar.value_or(Pose{}); }
+
+  // The extrinsic that the fit asks for, in the axes of the messages. The translation is that of
+  // the rig, but for a lever arm that was found.
+  Pose Corrected() const {
+    const Pose T = T_configured();
+    const Quaternion back = R_rig_sent().conjugate();
+    const bool has_lever = std::ranges::count(selected_, CauseKind::kLeverArm) > 0;
+    return {(back * T.rotation).normalized(),
+            has_lever ? Vector3(back * (T.translation + solution_.errors.lever_m)) : T.translation};
+  }
+
+  // If the inverse of the rig's R_a, t_a is the truth, the rotation is R_a R_a and the lever arm
+  // -R_a t_a - t_a.
+  void NameInverted(std::vector<Cause>& causes) const {
+    const Pose T = T_configured();
+    const Quaternion rotation = T.rotation * T.rotation;
+    const Vector3 lever = -(T.rotation * T.translation) - T.translation;
+    const bool differs = InTolerances(LogSo3(rotation), lever) > kParameters.tolerances_to_distrust;
+    const bool is_suspect = !selected_.empty() || AngleDeg(R_imu_sent_) > 1.0;
+    if (!differs || !is_suspect) return;
+    const Quaternion found = all_.errors.rotation * R_imu_sent_;
+    const Vector3 turn_off = LogSo3(found.conjugate() * rotation);
+    const Vector3 lever_off = all_.errors.lever_m - lever;
+    const Matrix3 turn_cov = all_.cov.block<3, 3>(kRigRotation, kRigRotation);
+    const Matrix3 lever_cov = all_.cov.block<3, 3>(kRigLever, kRigLever);
+    const double sigmas_off = kParameters.inverted_sigmas;
+    if (kDegPerRad * SurePart(turn_off, turn_cov, sigmas_off) > kParameters.inverted_within_deg ||
+        SurePart(lever_off, lever_cov, sigmas_off) > kParameters.inverted_within_m ||
+        2.0 * InTolerances(turn_off, lever_off) >
+            InTolerances(LogSo3(found), all_.errors.lever_m)) {
+      return;  // not near, or the rig as it stands is about as near
+    }
+    const double sigmas =
+        std::max(Judge(CauseKind::kExtrinsicRotation).sigmas, Judge(CauseKind::kLeverArm).sigmas);
+    causes.push_back(
+        {CauseKind::kExtrinsicInverted, Trust::kNo, sigmas,
+         fmt::format("the inverse of rig.T_imu_lidar fits the motion within {:.1f} deg "
+                     "and {:.2f} m; as it stands it is off by {:.1f} deg and {:.2f} m",
+                     kDegPerRad * turn_off.norm(), lever_off.norm(), AngleDeg(found),
+                     all_.errors.lever_m.norm()),
+         ExtrinsicYaml(T.Inverse())});
+  }
+
+  Cause MakeCause(CauseKind kind) const {
+    const Suspect suspect = Judge(kind);
+    Cause cause{kind, Trust::kDoubtful, suspect.sigmas, "", ""};
+    if (suspect.in_tolerances > kParameters.tolerances_to_distrust) cause.leaves = Trust::kNo;
+    const auto std_of = [&](int at) { return std::sqrt(solution_.cov(at, at)); };
+    const auto axes = [&](const Vector3& value, int at, double scale) {
+      return fmt::format("[{:.3g}, {:.3g}, {:.3g}] +- [{:.2g}, {:.2g}, {:.2g}]", scale * value.x(),
+                         scale * value.y(), scale * value.z(), scale * std_of(at),
+                         scale * std_of(at + 1), scale * std_of(at + 2));
+    };
+    const RigErrors& errors = solution_.errors;
+    if (kind == CauseKind::kClockOffset) {
+      const double total_s = rig_.lidar.clock_offset_s + errors.offset_s;
+      cause.evidence = fmt::format(
+          "turns agree when {:.1f} +- {:.1f} ms are added to the lidar's "
+          "stamps",
+          1e3 * errors.offset_s, 1e3 * std_of(kRigOffset));
+      cause.fix = fmt::format("rig:\n  lidar:\n    clock_offset_s: {:.4f}\n", total_s);
+    } else if (kind == CauseKind::kExtrinsicRotation) {
+      cause.evidence = fmt::format(
+          "lidar and IMU turn about other axes: rig.T_imu_lidar is off by {:.1f} deg, about x y z "
+          "of imu by {} deg",
+          AngleDeg(errors.rotation), axes(LogSo3(errors.rotation), kRigRotation, kDegPerRad));
+      cause.fix = ExtrinsicYaml(Corrected());
+    } else {
+      cause.evidence = fmt::format(
+          "in turns the lidar moves as one that is elsewhere: rig.T_imu_lidar lacks {} m in imu",
+          axes(errors.lever_m, kRigLever, 1.0));
+      cause.fix = ExtrinsicYaml(Corrected());
+    }
+    return cause;
+  }
+
+  // Messages in turned axes and a turned extrinsic are the same to all that moves.
+  void NameAxes(std::vector<Cause>& causes) const {
+    const auto is_quarter_turn = [](const Quaternion& rotation) {
+      return std::ranges::any_of(QuarterTurns(), [&](const Matrix3& turn) {
+        return turn != Matrix3::Identity() &&
+               AngleDeg(rotation.conjugate() * Quaternion(turn)) < kParameters.large_rotation_deg;
+      });
+    };
+    if (!is_quarter_turn(R_rig_sent())) return;
+    const std::string evidence = fmt::format(
+        "the IMU's messages are turned by {:.1f} deg to the axes that rig.T_imu_lidar makes of the "
+        "lidar's",
+        AngleDeg(R_rig_sent()));
+    const double sigmas =
+        Sigmas(LogSo3(R_rig_sent()), all_.cov.block<3, 3>(kRigRotation, kRigRotation));
+    // Read so, the path is right; which axes the poses are in depends on what the rig means.
+    const bool is_read_so = AngleDeg(R_imu_sent_) > 1.0;
+    const Trust leaves = is_read_so ? Trust::kDoubtful : Trust::kNo;
+    const bool is_named = std::ranges::any_of(
+        causes, [](const Cause& cause) { return cause.kind == CauseKind::kExtrinsicRotation; });
+    if (!is_named) {
+      causes.push_back(
+          {CauseKind::kExtrinsicRotation, leaves, sigmas, evidence, ExtrinsicYaml(Corrected())});
+    }
+    causes.push_back({CauseKind::kImuAxes, leaves, sigmas, evidence, ""});
+  }
+
+  const Rig& rig_;
+  Quaternion R_imu_sent_;
+  RigFit fit_;
+  RigFitResult all_;
+  double sure_sigmas_ = 0.0;
+  RigFitResult solution_;  // with the selected errors alone
+  std::vector<CauseKind> selected_;
+};
+
+}  // namespace
+
+RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
+                          const ImuConvention& convention) {
+  return Examination(record, rig, convention).Find();
+}
+
+std::string ExtrinsicYaml(const Pose& T) {
+  return fmt::format(
+      "rig:\n  T_imu_lidar:\n    translation_m: [{:.3f}, {:.3f}, {:.3f}]\n    rotation_wxyz: "
+      "[{:.6f}, {:.6f}, {:.6f}, {:.6f}]\n",
+      T.translation.x(), T.translation.y(), T.translation.z(), T.rotation.w(), T.rotation.x(),
+      T.rotation.y(), T.rotation.z());
+}
+
+}  // namespace lio

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/data_findings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+namespace lio {
+namespace {
+
+Counters CleanRun() {
+  Counters counters;
+  counters.num_imu = 1000;
+  counters.num_chunks = 500;
+  counters.num_scans = 100;
+  return counters;
+}
+
+RunTally MovingRun() {
+  RunTally tally;
+  for (int i = 0; i < 100; ++i) {
+    PoseRow row;
+    row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
+    row.T_map_imu.translation.x() = 0.5 * i;
+    tally.AddImu(row.stamp);
+    tally.AddSweep(row.stamp);
+    tally.AddRow(row);
+  }
+  return tally;
+}
+
+TEST(DataFindings, CleanRunHasNone) {
+  EXPECT_TRUE(FindDataFaults(CleanRun(), MovingRun(), true).empty());
+}
+
+TEST(DataFindings, EachFaultIsNamed) {
+  struct Case {
+    CauseKind kind;
+    std::function<void(Counters&)> spoil;
+  };
+  const Case cases[] = {
+      {CauseKind::kNoScans, [](Counters& counters) { counters.num_scans = 0; }},
+      {CauseKind::kNoScans, [](Counters& counters) { counters.num_scans_empty = 100; }},
+      {CauseKind::kNoImu, [](Counters& counters) { counters.num_imu = 0; }},
+      {CauseKind::kTwoSenders, [](Counters& counters) { counters.num_imu_duplicate = 500; }},
+      {CauseKind::kTwoSenders, [](Counters& counters) { counters.num_chunks_duplicate = 250; }},
+      {CauseKind::kPointTime, [](Counters& counters) { counters.num_chunks_bad = 100; }},
+      {CauseKind::kSaturation, [](Counters& counters) { counters.num_imu_clipped = 100; }},
+  };
+  for (const Case& spoiled : cases) {
+    SCOPED_TRACE(std::string(Name(spoiled.kind)));
+    Counters counters = CleanRun();
+    spoiled.spoil(counters);
+    const std::vector<Cause> causes = FindDataFaults(counters, MovingRun(), true);
+    ASSERT_EQ(causes.size(), 1U);
+    EXPECT_EQ(causes[0].kind, spoiled.kind);
+    EXPECT_NE(causes[0].leaves, Trust::kYes);
+    EXPECT_FALSE(causes[0].evidence.empty());
+  }
+}
+
+TEST(DataFindings, LidarAloneWantsNoImu) {
+  Counters counters = CleanRun();
+  counters.num_imu = 0;
+  EXPECT_TRUE(FindDataFaults(counters, MovingRun(), false).empty());
+}
+
+TEST(DataFindings, RestIsSaidButLeavesTrust) {
+  RunTally tally;
+  PoseRow row;
+  tally.AddRow(row);
+  const std::vector<Cause> causes = FindDataFaults(CleanRun(), tally, true);
+  ASSERT_EQ(causes.size(), 1U);
+  EXPECT_EQ(causes[0].kind, CauseKind::kNoMotion);
+  EXPECT_EQ(causes[0].leaves, Trust::kYes);
+}
+
+TEST(DataFindings, NoiseFarAboveTheRigIsNamed) {
+  RunTally tally = MovingRun();
+  for (int i = 100; i < 300; ++i) {
+    PoseRow row;
+    row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
+    row.imu_noise = {1.0, 200.0};
+    tally.AddRow(row);
+  }
+  const std::vector<Cause> causes = FindDataFaults(CleanRun(), tally, true);
+  ASSERT_EQ(causes.size(), 1U);
+  EXPECT_EQ(causes[0].kind, CauseKind::kImuNoise);
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/motion_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/motion.hpp"
+
+namespace lio::test {
+namespace {
+
+MotionRecord TwoPoses(double apart_s, std::vector<ImuSample> samples) {
+  MotionRecord record;
+  const Motion motion = Tumble();
+  record.Add({StampAt(1.0), motion(1.0)}, samples);
+  record.Add({StampAt(1.0 + apart_s), motion(1.0 + apart_s)}, samples);
+  return record;
+}
+
+std::vector<ImuSample> Samples() {
+  return ExactSamples(Tumble(), 0.9, 1.6, 0.005);
+}
+
+TEST(MotionRecord, StepHasTheTurnOfTheGyro) {
+  const MotionRecord record = TwoPoses(0.1, Samples());
+  ASSERT_EQ(record.steps().size(), 1U);
+  const MotionStep& step = record.steps().front();
+  const Vector3 turn = LogSo3(step.from.pose.rotation.conjugate() * step.to.pose.rotation);
+  EXPECT_LT((step.turn_rad - turn).norm(), 1e-5);
+  EXPECT_NEAR(step.span_s(), 0.1, 1e-9);
+}
+
+TEST(MotionRecord, StepHasWhatTheForcesAddToVelocity) {
+  const MotionStep step = TwoPoses(0.1, Samples()).steps().front();
+  const Motion motion = Tumble();
+  const Vector3 gained = StateOf(motion, 1.1).v_world_imu - StateOf(motion, 1.0).v_world_imu;
+  const Quaternion middle = motion(1.05).rotation;
+  EXPECT_LT((middle * step.velocity_mps + 0.1 * kGravity - gained).norm(), 1e-3);
+}
+
+TEST(MotionRecord, LongGapIsNoStep) {
+  EXPECT_TRUE(TwoPoses(0.5, Samples()).steps().empty());
+}
+
+TEST(MotionRecord, SaturatedSamplesAreNoStep) {
+  std::vector<ImuSample> samples = Samples();
+  samples[30].is_rate_saturated = true;
+  EXPECT_TRUE(TwoPoses(0.1, samples).steps().empty());
+}
+
+TEST(MotionRecord, InterruptionAndNewMapSeparateTracks) {
+  MotionRecord record;
+  const Motion motion = Tumble();
+  const std::vector<ImuSample> samples = Samples();
+  const auto add = [&](double t_s) { record.Add({StampAt(t_s), motion(t_s)}, samples); };
+  add(1.0);
+  add(1.1);
+  record.Interrupt();
+  add(1.2);
+  add(1.3);
+  record.BeginMap();
+  add(1.4);
+  add(1.5);
+  ASSERT_EQ(record.steps().size(), 3U);
+  EXPECT_NE(record.steps()[0].track, record.steps()[1].track);
+  EXPECT_EQ(record.steps()[0].map, record.steps()[1].map);
+  EXPECT_NE(record.steps()[1].map, record.steps()[2].map);
+  record.Clear();
+  EXPECT_TRUE(record.steps().empty());
+  EXPECT_FALSE(record.last_stamp());
+}
+
+}  // namespace
+}  // namespace lio::test

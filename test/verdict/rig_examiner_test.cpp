@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/verdict/rig_examiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "verdict/rig_drive.hpp"
+
+namespace lio::test {
+namespace {
+
+Counters CleanRun() {
+  Counters counters;
+  counters.num_imu = 4000;
+  counters.num_scans = 400;
+  return counters;
+}
+
+// Poses for every sweep up to `posed_s` of 40 s.
+void AddRows(double posed_s, RigExaminer& examiner) {
+  const Motion motion = WindingDrive(0.0);
+  for (int i = 0; i <= 400; ++i) {
+    const double t_s = 0.1 * i;
+    examiner.tally().AddSweep(StampAt(t_s));
+    if (t_s > posed_s) continue;
+    PoseRow row;
+    row.stamp = StampAt(t_s);
+    row.is_located = true;
+    row.T_map_imu = motion(t_s);
+    examiner.tally().AddRow(row);
+  }
+}
+
+Rig ExampleRig() {
+  Rig rig;
+  rig.T_imu_lidar = ExamplePose();
+  return rig;
+}
+
+TEST(RigExaminer, SoundRunIsTrusted) {
+  const Rig rig = ExampleRig();
+  RigExaminer examiner(rig, true);
+  AddRows(40.0, examiner);
+  const Verdict verdict = examiner.Judge(CleanRun());
+  EXPECT_EQ(verdict.trust, Trust::kYes);
+  EXPECT_NEAR(verdict.coverage, 1.0, 1e-6);
+  EXPECT_TRUE(verdict.causes.empty());
+}
+
+TEST(RigExaminer, RunWithoutAPoseIsNotTrusted) {
+  const Rig rig = ExampleRig();
+  EXPECT_EQ(RigExaminer(rig, true).Judge(CleanRun()).trust, Trust::kNo);
+}
+
+TEST(RigExaminer, CoverageLimitsTrust) {
+  const Rig rig = ExampleRig();
+  for (const auto& [posed_s, trust] : {std::pair(30.0, Trust::kDoubtful), {8.0, Trust::kNo}}) {
+    RigExaminer examiner(rig, true);
+    AddRows(posed_s, examiner);
+    EXPECT_EQ(examiner.Judge(CleanRun()).trust, trust) << posed_s;
+  }
+}
+
+TEST(RigExaminer, ContradictionIsTheFirstCause) {
+  const Rig rig = ExampleRig();
+  RigExaminer examiner(rig, true);
+  AddRows(40.0, examiner);
+  examiner.Contradict({{CauseKind::kImuUnits, Trust::kNo, 0.0, "in g", "units: auto"}});
+  const Verdict verdict = examiner.Judge(CleanRun());
+  EXPECT_EQ(verdict.trust, Trust::kNo);
+  ASSERT_EQ(verdict.causes.size(), 1U);
+  EXPECT_EQ(verdict.causes[0].kind, CauseKind::kImuUnits);
+}
+
+TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
+  Rig rig = ExampleRig();
+  rig.T_imu_lidar->translation.x() += 1.0;
+  RigExaminer examiner(rig, true);
+  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
+  AddRows(40.0, examiner);
+  int num_told = 0;
+  for (int t_s = 0; t_s < 100; ++t_s) {
+    if (const auto news = examiner.News(StampAt(t_s))) {
+      ++num_told;
+      EXPECT_NE(news->find("lever_arm"), std::string::npos) << *news;
+    }
+  }
+  EXPECT_EQ(num_told, 1);
+  EXPECT_EQ(examiner.trust(), Trust::kNo);
+  EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kNo);
+}
+
+TEST(RigExaminer, OtherConventionForgetsTheMotion) {
+  Rig rig = ExampleRig();
+  rig.T_imu_lidar->translation.x() += 1.0;
+  RigExaminer examiner(rig, true);
+  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
+  AddRows(40.0, examiner);
+  examiner.SetConvention(ConventionOf(ImuUnits::kDeg));
+  EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kYes);
+}
+
+}  // namespace
+}  // namespace lio::test
