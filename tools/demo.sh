@@ -75,7 +75,10 @@ for config in "${configs[@]}"; do words+=(--config "$config"); done
 mkdir -p "$out"
 rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # liod replaces the other files
 echo "demo: lcm-logplayer plays $log to liod at speed $speed"
-tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}"
+code=0
+tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}" || code=$?
+# liod's 6 says that the result cannot be trusted: it is shown, with the reason.
+((code == 0 || code == 6)) || exit "$code"
 
 if [[ ! -s $out/trajectory.tum ]]; then
   echo "tools/demo.sh: liod wrote no trajectory; its messages were:" >&2
@@ -94,4 +97,6 @@ else
   /usr/bin/python3 tools/plot/plot_run.py "$out"
 fi
 /usr/bin/python3 tools/demo/table.py "$out"
+sed -n '/trust: /,$p' "$out/liod.log"
 echo "demo: results are in $out/"
+exit "$code"
