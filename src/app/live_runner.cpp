@@ -64,7 +64,8 @@ void LiveRunner::EndThreads() {
 
 void LiveRunner::Stop() {
   EndThreads();
-  verdict_ = filter_.Judge();
+  const Counters& counters = filter_.counters();
+  if (counters.num_imu + counters.num_chunks > 0) verdict_ = filter_.Judge();
   if (!writer_) return;
   // After a fault of the output thread; otherwise none are left.
   if (const auto fault =

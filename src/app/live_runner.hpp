@@ -61,7 +61,7 @@ class LiveRunner {
   // True once Stop has given up the scans that were still waiting.
   [[nodiscard]] bool is_cut_short() const { return filter_.is_cut_short(); }
 
-  // Judges the whole run; absent before Stop.
+  // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
   [[nodiscard]] bool writes_files() const { return writer_.has_value(); }
 

@@ -23,7 +23,7 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
         {CauseKind::kNoScans, Trust::kNo, 0.0,
          fmt::format("{} chunks came, no sweep with points was put together", counters.num_chunks),
          ""});
-  } else if (tally.WithoutSweeps_s() > kParameters.max_without_sweeps_s) {
+  } else if (tally.WithoutSweeps_s() > kParameters.max_without_s) {
     causes.push_back(
         {CauseKind::kNoScans, Trust::kDoubtful, 0.0,
          fmt::format("the IMU goes on for {:.1f} s after the last sweep", tally.WithoutSweeps_s()),
@@ -33,6 +33,11 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       "no inertial sample came: the path is the lidar's alone",
                       "pipeline:\n  use_imu: false\n"});
+  } else if (uses_imu && tally.WithoutImu_s() > kParameters.max_without_s) {
+    causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
+                      fmt::format("sweeps go on for {:.1f} s after the last inertial sample",
+                                  tally.WithoutImu_s()),
+                      ""});
   }
 }
 
@@ -76,7 +81,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                                   noise.gyro, noise.accel),
                       ""});
   }
-  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kParameters.still_path_share_m &&
+  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kParameters.still_path_m &&
                         tally.turned_rad() < kParameters.still_turn_rad;
   if (is_still && causes.empty()) {
     causes.push_back({CauseKind::kNoMotion, Trust::kYes, 0.0,

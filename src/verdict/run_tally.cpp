@@ -84,6 +84,12 @@ double RunTally::WithoutSweeps_s() const {
   return std::max(0.0, SecondsBetween(*last_sweep_, *last_imu_));
 }
 
+double RunTally::WithoutImu_s() const {
+  if (!last_sweep_) return 0.0;
+  if (!last_imu_) return total_s_;
+  return std::max(0.0, SecondsBetween(*last_imu_, *last_sweep_));
+}
+
 ImuNoiseRatios RunTally::MedianNoise() const {
   return {MedianOf(gyro_noise_), MedianOf(accel_noise_)};
 }

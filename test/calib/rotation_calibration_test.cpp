@@ -125,7 +125,7 @@ TEST(RotationCalibration, RefusesStreamsThatDoNotBelongTogether) {
 TEST(RotationCalibration, RefusesAnOffsetBeyondTheSearch) {
   Recording recording = Record(Walk, 20.0);
   for (SweepRotation& sweep : recording.sweeps) sweep.stamp = sweep.stamp + Duration{700'000'000};
-  EXPECT_FALSE(Calibrate(recording).found);
+  EXPECT_FALSE(Calibrate(recording).is_sure());
   RotationCalibrationOptions options;
   options.max_offset_s = 1.0;
   const RotationCalibrationResult result =

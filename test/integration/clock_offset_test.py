@@ -8,6 +8,7 @@ import unittest
 import support
 
 OFFSET_S = 0.02
+EXIT_NO_TRUST = 6  # where the offset is not known
 
 
 class ClockOffset(unittest.TestCase):
@@ -20,7 +21,7 @@ class ClockOffset(unittest.TestCase):
             out = support.WORK / name
             done = support.run("lio-replay", "--config", folder / "config.yaml", *words,
                                folder / "log.lcm", "--out", out)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(done.returncode, (0, EXIT_NO_TRUST), done.stderr)
             ape = support.evaluate(folder / "truth.tum", out)["ape"]
             return ape["position_m"]["rmse"], done.stderr
 

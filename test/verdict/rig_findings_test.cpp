@@ -88,9 +88,9 @@ TEST(RigFindings, QuarterTurnNamesExtrinsicAndAxes) {
   EXPECT_EQ(findings.causes[0].leaves, Trust::kNo);
 }
 
-TEST(RigFindings, RatesInDegreesAreNamed) {
+TEST(RigFindings, RatesReadAsDegreesAreNamed) {
   RigDrive drive = RightDrive();
-  drive.gyro_unit = 180.0 / M_PI;
+  drive.gyro_unit = M_PI / 180.0;
   const RigFindings findings = FindingsOf(drive);
   ASSERT_EQ(findings.causes.size(), 1U);
   EXPECT_EQ(findings.causes[0].kind, CauseKind::kImuUnits);

@@ -65,10 +65,14 @@ TEST(RunTally, MedianNoiseIsKnownToAFactorOfTwo) {
   EXPECT_EQ(RunTally().MedianNoise().gyro, 0.0);
 }
 
-TEST(RunTally, TellsHowLongSweepsAreMissingAtTheEnd) {
+TEST(RunTally, TellsHowLongASensorIsMissingAtTheEnd) {
   RunTally tally = Drive(0.0, 20.0);
   for (int i = 0; i <= 50; ++i) tally.AddImu(At(20.0 + 0.1 * i));
   EXPECT_NEAR(tally.WithoutSweeps_s(), 5.0, 1e-9);
+  EXPECT_EQ(tally.WithoutImu_s(), 0.0);
+  for (int i = 0; i <= 80; ++i) tally.AddSweep(At(20.0 + 0.1 * i));
+  EXPECT_EQ(tally.WithoutSweeps_s(), 0.0);
+  EXPECT_NEAR(tally.WithoutImu_s(), 3.0, 1e-9);
 }
 
 }  // namespace

@@ -6,10 +6,12 @@ wrong. Prints two Markdown tables: the first cause that each verdict names, and 
 with the wrong rig, with the fix that the verdict proposes, and with the right rig.
 
   tools/bench/verdict.py [--seeds 1,2] [--drives street,campus] [--work out/verdict] [--no-fix]
+                         [--no-faulty] [--keep-logs]
 
 Ends with 1 where a first answer is wrong or a right rig is blamed. Needs tools/setup.sh, and for
-each drive up to 1 GB of disk, one at a time."""
+each drive up to 1 GB of disk, which is given back unless the logs are kept for another time."""
 import argparse
+import contextlib
 import json
 import math
 import os
@@ -26,7 +28,7 @@ BIN = pathlib.Path(os.environ.get("LIO_BUILD", ROOT / "build")) / "bin"
 DRIVES = {
     "street": ("--scenario", "street", "--lidar", "hdl32e", "--duration", "50"),
     "campus": ("--scenario", "campus", "--lidar", "vlp16", "--duration", "50"),
-    "loop": ("--scenario", "loop", "--lidar", "os1_64", "--duration", "50"),
+    "loop": ("--scenario", "loop", "--lidar", "os1_64", "--duration", "60"),
     "suburb": ("--scenario", "suburb", "--lidar", "vlp16", "--imu", "consumer_mems",
                "--duration", "40"),
     "motorway": ("--scenario", "motorway", "--lidar", "os1_64", "--duration", "30"),
@@ -86,18 +88,13 @@ def entry(text):
     return lambda t, q: f"rig: {{{text}}}\n"
 
 
-def quarter_turn(t, q):
-    """Units are stated, so that the axes are not found out, as they are with `auto`."""
-    return rotated((0, 0, 1), 90)(t, q)
-
-
 # Name: the configuration that is laid over the right one, and the cause that is right.
 SETUPS = {
     "right": (lambda t, q: "{}\n", None),
     "yaw 5 deg": (rotated((0, 0, 1), 5), "extrinsic_rotation"),
     "pitch 5 deg": (rotated((0, 1, 0), 5), "extrinsic_rotation"),
     "roll 5 deg": (rotated((1, 0, 0), 5), "extrinsic_rotation"),
-    "yaw 90 deg": (quarter_turn, "extrinsic_rotation"),
+    "yaw 90 deg": (rotated((0, 0, 1), 90), "extrinsic_rotation"),
     "x 1 m": (moved(1, 0, 0), "lever_arm"),
     "y 1 m": (moved(0, 1, 0), "lever_arm"),
     "z 1 m": (moved(0, 0, 1), "lever_arm"),
@@ -120,8 +117,10 @@ def run(program, *words, may_end_with=(0,)):
 
 
 def simulate(words, folder):
-    shutil.rmtree(folder, ignore_errors=True)
-    run("lio-sim", *words, "--threads", os.cpu_count(), "--out", folder)
+    if not (folder / "complete").exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        run("lio-sim", *words, "--threads", os.cpu_count(), "--out", folder)
+        (folder / "complete").touch()
 
 
 def read_extrinsic(folder):
@@ -218,22 +217,32 @@ def arguments():
     parser.add_argument("--drives", default=",".join(DRIVES))
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "out/verdict")
     parser.add_argument("--no-fix", action="store_true")
+    parser.add_argument("--no-faulty", action="store_true")
+    parser.add_argument("--keep-logs", action="store_true")
     return parser.parse_args()
 
 
+@contextlib.contextmanager
+def simulated(given, name, *words):
+    folder = given.work / name.replace(" ", "-")
+    simulate(words, folder)
+    yield folder
+    shutil.rmtree(folder / "run", ignore_errors=True)
+    if not given.keep_logs:
+        shutil.rmtree(folder)
+
+
 def fill(given, matrix):
-    folder = given.work / "drive"
     for seed in given.seeds.split(","):
         for drive in given.drives.split(","):
-            simulate((*DRIVES[drive], "--seed", seed), folder)
             setups = SETUPS if drive in WITH_EVERY_SETUP else ("right",)
-            for setup in setups:
-                matrix.add(folder, setup, f"{drive} {seed}", SETUPS[setup][1])
-        for fault, (text, expected) in FAULTY.items():
-            simulate((*DRIVES["campus"], "--seed", seed, "--fault", text),
-                     folder)
-            matrix.add(folder, fault, f"campus {seed}", expected)
-    shutil.rmtree(folder)
+            with simulated(given, f"{drive}-{seed}", *DRIVES[drive], "--seed", seed) as folder:
+                for setup in setups:
+                    matrix.add(folder, setup, f"{drive} {seed}", SETUPS[setup][1])
+        for fault, (text, expected) in ({} if given.no_faulty else FAULTY).items():
+            with simulated(given, f"{fault}-{seed}", *DRIVES["campus"], "--seed", seed, "--fault",
+                           text) as folder:
+                matrix.add(folder, fault, f"campus {seed}", expected)
 
 
 def main():

@@ -17,13 +17,13 @@ struct DataFindingParameters {
   double max_clipped_share = 0.02;
   double max_doubled_share = 0.2;  // two senders of equal rate double one half
   double max_bad_chunk_share = 0.1;
-  // s. Scans are missing at the end for longer than the longest sweep, and than an outage that is
-  // carried over. Chosen.
-  double max_without_sweeps_s = 2.0;
+  // s. A sensor is missing at the end for longer than an outage that is carried over: after two
+  // seconds without samples lidar-only odometry begins (docs/filter.md).
+  double max_without_s = 2.0;
   // The IMU's noise over the rig's. Engines and roads in the simulator and KITTI give up to 16.
   double max_noise_ratio = 64.0;
   // Below both the body has stood. Chosen: twice the noise of the map at rest, and a nod.
-  double still_path_share_m = 0.5;
+  double still_path_m = 0.5;
   double still_turn_rad = 0.05;
 };
 

@@ -56,8 +56,9 @@ class RunTally {
   [[nodiscard]] double path_m() const { return path_m_; }
   // The largest rotation against the first pose, rad.
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
-  // How long the input goes on after the last sweep, s.
+  // How long the input goes on after the last sweep, and after the last inertial sample, s.
   [[nodiscard]] double WithoutSweeps_s() const;
+  [[nodiscard]] double WithoutImu_s() const;
   // The noise over the rig's that half of all rows exceed, to a factor of two; 0 without rows.
   [[nodiscard]] ImuNoiseRatios MedianNoise() const;
   [[nodiscard]] std::int64_t num_rows() const { return num_rows_; }
