@@ -44,7 +44,7 @@ WITH_EVERY_SETUP = ("street", "campus", "loop")
 FAULTY = {
     "no scans from 10 s on": ("lidar_gap:start=10,duration=100", "no_scans"),
     "no IMU at all": ("imu_gap:start=0,duration=100", "no_imu"),
-    "each message twice": ("duplicate:channel=imu,ratio=1", "two_senders"),
+    "each inertial sample twice": ("duplicate:channel=imu,ratio=1", "two_senders"),
     "gyro at its limit": ("gyro_saturation:limit=0.1,start=5,duration=30", "saturation"),
     "lidar's clock 25 ms off": ("clock_offset:channel=lidar,offset=0.025", "clock_offset"),
 }
