@@ -36,9 +36,7 @@ class ArrivalQueue {
   // Returns the next message that arrives before `limit`.
   std::optional<Message> PopBefore(Timestamp limit) {
     if (waiting_.empty() || waiting_.begin()->first >= limit) return std::nullopt;
-    Message message = std::move(waiting_.begin()->second);
-    waiting_.erase(waiting_.begin());
-    return message;
+    return std::move(waiting_.extract(waiting_.begin()).mapped());
   }
 
  private:
