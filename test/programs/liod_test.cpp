@@ -49,11 +49,12 @@ class LiodTest : public ::testing::Test {
   }
 
   // Plays a log to liod; liod's output goes into the file said, its LIO_STATUS into status.lcm.
-  void PlayHearingStatus(const std::string& arguments, const std::string& log) const {
+  void PlayHearingStatus(const std::string& arguments, const std::string& log,
+                         int exit_code = 0) const {
     const auto result = RunAlone(Start(arguments) + "lcm-logger -q -f -c LIO_STATUS " +
                                  Out("status.lcm") + " & logger=$!; sleep 0.2; lcm-logplayer " +
                                  log + "; sleep 1; kill $logger; wait $logger; " + End());
-    EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+    EXPECT_EQ(result.exit_code, exit_code) << result.err << File("said");
   }
 
   test::TempDir folder_;
@@ -114,7 +115,9 @@ TEST_F(LiodTest, WhatTheConfigurationSaysWronglyOfTheImuIsRefusedWithTheFix) {
       {"rig.imu.units=g", "set rig.imu.units: auto or si"},
       {"rig.imu.gravity=removed", "set rig.imu.gravity: auto or present"}};
   for (const auto& [statement, fix] : cases) {
-    PlayHearingStatus("--out " + Out("live") + " --set " + statement, kScene + "/log.lcm");
+    constexpr int kExitNoTrust = 6;
+    PlayHearingStatus("--out " + Out("live") + " --set " + statement, kScene + "/log.lcm",
+                      kExitNoTrust);
     EXPECT_THAT(File("said"), HasSubstr(fix));
     EXPECT_THAT(File("status.lcm"), HasSubstr(fix));
     EXPECT_EQ(File("live/trajectory.tum"), "") << statement;
