@@ -40,8 +40,8 @@ struct ImuGapParameters {
   // about as far as matching searches (CorrespondenceParameters::kMaxStd_m). A lidar goes on
   // without a unit that has been silent for so long.
   Duration segment{1'000'000'000};
-  // A longer one is an outage (pipeline/outage.hpp): the doubt about the motion is 13 m by then, and
-  // the place is sought. At a clock step the doubt does not grow beyond that of so long a time.
+  // A longer one is an outage (pipeline/outage.hpp): the doubt about the motion is 13 m by then,
+  // and the place is sought. At a clock step the doubt does not grow beyond that of so long a time.
   // Chosen.
   Duration unknown{3'000'000'000};
 };
