@@ -284,9 +284,8 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
-  const StopRule rule{
-      options_.max_iterations * (input.is_far_off ? Parameters::kFarOffIterationFactor : 1),
-      options_.converged_step_m, options_.converged_step_rad};
+  const StopRule rule{options_.max_iterations, options_.converged_step_m,
+                      options_.converged_step_rad};
   if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
     Finish(input, T_grid_imu, result);
   }

@@ -79,8 +79,6 @@ struct NdtParameters {
   // Cap of a^2 / l, a point's squared distance from a patch's mean over the patch's variance: two
   // standard deviations off its middle a patch is extrapolated. Chosen.
   static constexpr float kMaxLeverSq = 4.f;
-  // Factor on the number of iterations where the guess may be far off. Chosen.
-  static constexpr int kFarOffIterationFactor = 5;
   // The counts of points by cell hold while no point within CorrespondenceParameters::kLever_m has
   // moved farther [m]: 5 % of a cell's edge. They set weights alone. Chosen.
   static constexpr double kCountsHold_m = 0.05;
