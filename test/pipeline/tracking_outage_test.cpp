@@ -11,31 +11,15 @@
 namespace lio {
 namespace {
 
-using test::ExactSample;
+using test::AfterOneSecond;
 using test::StampAt;
+using test::StdOf;
 using test::Straight;
-using test::TrackingBench;
+using test::XOf;
 
 using Step = ImuPreprocessor::Step;
 
-constexpr double kSpeed_mps = 8.0;
-
-// Straight ahead, one second of it tracked; then an outage begins.
-struct AfterOneSecond : TrackingBench {
-  AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
-
-  void StartSegment(double first_s, Step step) {
-    mode.StartSegment({ExactSample(motion, first_s), step, StampAt(1.0)});
-    GoOnAt(first_s);
-  }
-};
-
-double XOf(const MatchJob& job) {
-  return job.prior.T_map_imu.translation.x();
-}
-double StdOf(const MatchJob& job) {
-  return std::sqrt(job.prior.cov(0, 0));
-}
+constexpr double kSpeed_mps = AfterOneSecond::kSpeed_mps;
 
 TEST(TrackingOutage, LostAtOnceAfterAnOutage) {
   AfterOneSecond b;

@@ -9,25 +9,19 @@
 namespace lio {
 namespace {
 
-using test::ExactSample;
 using test::kImuStep_s;
 using test::Motion;
 using test::StampAt;
+using test::StdOf;
 using test::Straight;
-using test::TrackingBench;
+using test::XOf;
 
 using Step = ImuPreprocessor::Step;
 
-constexpr double kSpeed_mps = 8.0;
+constexpr double kSpeed_mps = test::AfterOneSecond::kSpeed_mps;
 
-// Straight ahead, one second of it tracked.
-struct AfterOneSecond : TrackingBench {
-  AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
-
-  void StartSegment(double first_s, Step step) {
-    mode.StartSegment({ExactSample(motion, first_s), step, StampAt(1.0)});
-    GoOnAt(first_s);
-  }
+// Straight ahead, one second of it tracked; then a clock steps.
+struct AfterOneSecond : test::AfterOneSecond {
   // The clock now says so at the end of that second.
   void SetClock(double now_s, Step step) {
     motion = [before = motion, by_s = now_s - 1.0](double t_s) { return before(t_s - by_s); };
@@ -39,13 +33,6 @@ struct AfterOneSecond : TrackingBench {
     GoOnAt(1.4);
   }
 };
-
-double XOf(const MatchJob& job) {
-  return job.prior.T_map_imu.translation.x();
-}
-double StdOf(const MatchJob& job) {
-  return std::sqrt(job.prior.cov(0, 0));
-}
 
 TEST(TrackingSegment, StateGoesOnAlongItsVelocityOverAGap) {
   AfterOneSecond b;

@@ -3,6 +3,9 @@
 // Runs the mode of tracking alone along a motion, from a state that is right.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cmath>
 #include <optional>
 
 #include "lio/pipeline/tracking.hpp"
@@ -92,6 +95,12 @@ struct TrackingBench {
     goes_by_stream = false;
   }
 
+  // A segment of the inertial stream begins there, one second after the start of the drive.
+  void StartSegment(double first_s, ImuPreprocessor::Step step) {
+    mode.StartSegment({ExactSample(motion, first_s), step, StampAt(1.0)});
+    GoOnAt(first_s);
+  }
+
   Motion motion;
   ModeBench bench;
   bool is_fed;
@@ -101,5 +110,20 @@ struct TrackingBench {
   double imu_from_s = kImuStep_s;
   bool goes_by_stream = true;
 };
+
+// Straight ahead, one second of it tracked.
+struct AfterOneSecond : TrackingBench {
+  static constexpr double kSpeed_mps = 8.0;
+
+  AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
+};
+
+// Where a job expects the body along the drive, and its standard deviation, m.
+inline double XOf(const MatchJob& job) {
+  return job.prior.T_map_imu.translation.x();
+}
+inline double StdOf(const MatchJob& job) {
+  return std::sqrt(job.prior.cov(0, 0));
+}
 
 }  // namespace lio::test
