@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lio/imu/start_state.hpp"
+#include "lio/imu/rest.hpp"
 #include "lio/pipeline/scan_step.hpp"
 
 namespace lio {

@@ -124,16 +124,16 @@ bool Initializing::IsLastScan() const {
 bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
   const Pose motion = scans_[first].pose.T_any_imu.Inverse() * scans_.back().pose.T_any_imu;
   const double distance_m = motion.translation.norm();
-  if (is_calm) return distance_m > kInitializing.moved_distance_calm_m;
-  return distance_m > kInitializing.moved_distance_m ||
-         LogSo3(motion.rotation).norm() > kInitializing.moved_angle_rad;
+  if (is_calm) return distance_m > kRest.at_start.max_shift_calm_m;
+  return distance_m > kRest.at_start.max_shift_m ||
+         LogSo3(motion.rotation).norm() > kRest.at_start.max_turn_rad;
 }
 
 bool Initializing::IsVeryCalm(Timestamp stamp) const {
   const Timestamp begin = stamp - Duration::FromSeconds(context_.options.start.rest_s);
   const ImuStatistics statistics = Summarise(context_.stream.imu().Between(begin, stamp));
   return statistics.num_samples >= 3 &&
-         IsCalm(statistics, context_.options.rig.imu, kInitializing.calm);
+         IsCalm(statistics, context_.options.rig.imu, kRest.at_start.calm);
 }
 
 void Initializing::ForgetOldestScan() {

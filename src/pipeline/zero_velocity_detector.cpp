@@ -7,17 +7,13 @@
 #include <utility>
 
 #include "lio/base/chi_square.hpp"
-#include "lio/imu/start_state.hpp"
+#include "lio/imu/rest.hpp"
 #include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
 
-// An idling engine adds this to the sensors' noise.
-constexpr VibrationLevel kIdleVibration{0.005, 0.08};
-// The engine, and errors of the sensors that the filter does not know, leave this in means.
-constexpr double kMeanRateStd_radps = 5e-4;
-constexpr double kMeanForceStd_mps2 = 0.01;
+constexpr RestOnTheWay kLimits = kRest.on_the_way;
 
 bool IsPlausible(const Vector3& residual, const Matrix3& cov) {
   return residual.dot(cov.ldlt().solve(residual)) < kChiSquare3At999;
@@ -33,7 +29,8 @@ bool IsUnmoved(const ImuStatistics& seen, const ImuRig& imu, const Estimate& est
   const NavState& state = estimate.state;
   const Matrix3 rate_cov =
       estimate.cov.block<3, 3>(kGyroBias, kGyroBias) +
-      MeanVariance(imu.gyro_noise_density, kMeanRateStd_radps, seen.span_s) * Matrix3::Identity();
+      MeanVariance(imu.gyro_noise_density, kLimits.mean_rate_std_radps, seen.span_s) *
+          Matrix3::Identity();
   if (!IsPlausible(seen.mean_w_radps - state.gyro_bias, rate_cov)) return false;
   // f = -R^T g + accel bias
   const Vector3 at_rest = -(state.T_world_imu.rotation.conjugate() * g_world);
@@ -42,7 +39,8 @@ bool IsUnmoved(const ImuStatistics& seen, const ImuRig& imu, const Estimate& est
   H.middleCols<3>(kAccelBias) = Matrix3::Identity();
   const Matrix3 force_cov =
       H * estimate.cov * H.transpose() +
-      MeanVariance(imu.accel_noise_density, kMeanForceStd_mps2, seen.span_s) * Matrix3::Identity();
+      MeanVariance(imu.accel_noise_density, kLimits.mean_force_std_mps2, seen.span_s) *
+          Matrix3::Identity();
   return IsPlausible(seen.mean_f_mps2 - at_rest - state.accel_bias, force_cov);
 }
 
@@ -79,7 +77,7 @@ Line FitLine(const std::deque<ZeroVelocityScan>& scans) {
 
 void ZeroVelocityDetector::Add(ZeroVelocityScan scan) {
   if (!scans_.empty() && scan.stamp - scans_.back().stamp > kScanGap.unrelated) Forget();
-  const Timestamp begin = scan.stamp - Duration::FromSeconds(kWindow_s);
+  const Timestamp begin = scan.stamp - Duration::FromSeconds(kLimits.window_s);
   scans_.push_back(std::move(scan));
   while (scans_.size() > 1 && scans_[1].stamp <= begin) scans_.pop_front();
 }
@@ -101,10 +99,10 @@ double ZeroVelocityDetector::Span_s() const {
 // Single matches of few points scatter by centimetres; a line through many does not.
 bool ZeroVelocityDetector::IsInPlace() const {
   const Line line = FitLine(scans_);
-  const double max_m = Span_s() < kWindow_s ? kMaxScatter_m : kMaxShift_m;
+  const double max_m = Span_s() < kLimits.window_s ? kLimits.max_scatter_m : kLimits.max_shift_m;
   return line.speed_mps.norm() * Span_s() < max_m &&
          std::all_of(scans_.begin(), scans_.end(), [&](const ZeroVelocityScan& scan) {
-           return (scan.position_map_m - line.At(scan.stamp)).norm() < kMaxScatter_m;
+           return (scan.position_map_m - line.At(scan.stamp)).norm() < kLimits.max_scatter_m;
          });
 }
 
@@ -115,13 +113,14 @@ bool ZeroVelocityDetector::IsStillToImu(const Estimate& estimate, const Vector3&
   }
   if (samples.size() < 2) return false;
   const ImuStatistics seen = Summarise(samples);
-  return seen.span_s >= Span_s() && IsCalm(seen, imu_, kIdleVibration) &&
+  return seen.span_s >= Span_s() && IsCalm(seen, imu_, kLimits.idle) &&
          IsUnmoved(seen, imu_, estimate, g_world);
 }
 
 bool ZeroVelocityDetector::Judge(const Estimate& estimate, const Vector3& g_world) {
   if (scans_.empty()) return false;
-  stands_ = (stands_ || Span_s() >= kWindow_s) && IsInPlace() && IsStillToImu(estimate, g_world);
+  stands_ =
+      (stands_ || Span_s() >= kLimits.window_s) && IsInPlace() && IsStillToImu(estimate, g_world);
   return stands_;
 }
 

@@ -4,7 +4,7 @@
 
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/imu_noise_estimator.hpp"
-#include "lio/imu/start_state.hpp"
+#include "lio/imu/rest.hpp"
 #include "lio/sensor/gap.hpp"
 #include "lio/stream/stream_parameters.hpp"
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "lio/imu/rest.hpp"
+
 namespace lio {
 namespace {
 
@@ -81,8 +83,8 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                                   noise.gyro, noise.accel),
                       ""});
   }
-  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kParameters.still_path_m &&
-                        tally.turned_rad() < kParameters.still_turn_rad;
+  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kRest.whole_run.max_path_m &&
+                        tally.turned_rad() < kRest.whole_run.max_turn_rad;
   if (is_still && causes.empty()) {
     causes.push_back({CauseKind::kNoMotion, Trust::kYes, 0.0,
                       "the body stood: clock offset, rotation and lever arm were not checked", ""});

@@ -14,9 +14,6 @@ struct RestStartParameters {
   // m/s. Velocity of a body at rest, 1 sigma. Chosen: above the 2.5 mm/s that a parked vehicle
   // sways by (docs/filter.md, Standing still).
   double velocity_std_mps = 0.01;
-  // Samples are calm when their spread is below this factor times noise and vibration. Chosen: the
-  // spread of 1 s of white noise varies by a few per cent only; the rest is margin for data sheets.
-  double max_spread_ratio = 1.5;
   // rad. Tilt before the mean force is fused, 1 sigma. Chosen: large against the tilt that results.
   double unknown_tilt_std_rad = 1.0;
   // m/s^2. Local gravity against the configured value, 1 sigma. Physics: 9.780 to 9.832 m/s^2 from

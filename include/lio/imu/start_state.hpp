@@ -13,31 +13,11 @@
 
 #include "lio/filter/nav_state.hpp"
 #include "lio/imu/initialization_parameters.hpp"
+#include "lio/imu/rest.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
 
 namespace lio {
-
-// Mean and spread of an interval of inertial samples.
-struct ImuStatistics {
-  int num_samples = 0;
-  double span_s = 0.0;
-  Vector3 mean_w_radps = Vector3::Zero();  // imu
-  Vector3 mean_f_mps2 = Vector3::Zero();   // imu
-  double gyro_std_radps = 0.0;             // on the axis of the largest spread
-  double accel_std_mps2 = 0.0;             // likewise
-};
-// All zero without samples.
-ImuStatistics Summarise(std::span<const ImuSample> samples);
-
-// Vibration of a body at rest, 1 sigma per axis.
-struct VibrationLevel {
-  double gyro_std_radps = 0.0;
-  double accel_std_mps2 = 0.0;
-};
-// True when the spread is not larger than this vibration and the sensors' noise explain. The noise
-// of a sample grows with the root of the sample rate.
-bool IsCalm(const ImuStatistics& statistics, const ImuRig& imu, const VibrationLevel& vibration);
 
 // True when the measured forces contain gravity. The setting `automatic` decides by the mean force
 // at rest or in smooth motion: whether its length is nearer to g than to zero.

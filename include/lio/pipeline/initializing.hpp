@@ -28,13 +28,6 @@
 namespace lio {
 
 struct InitializingParameters {
-  // At rest scan matching moves by less than this over a second, ...
-  double moved_distance_m = 0.05;
-  double moved_angle_rad = 0.01;
-  // ... but where the IMU is as calm as at rest, traffic and bare ground may deceive it by more,
-  // and a vehicle that moves without shaking at all is fast.
-  double moved_distance_calm_m = 0.5;
-  VibrationLevel calm{0.005, 0.05};
   double max_rest_wait_s = 1.4;  // shaken, but not moved for this long, counts as rest
   // An initialization looks back this far at most; the inertial buffer holds more.
   double max_window_s = 3.5;

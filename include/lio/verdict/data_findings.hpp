@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the counts of a run say of its data: sensors that are missing, doubled, saturated or noisy,
-// and drives that stand still.
+// Faults of the data that the counts of a run show: sensors that are missing, doubled, saturated or
+// noisy, and drives that stand still.
 #pragma once
 
 #include <vector>
@@ -22,9 +22,6 @@ struct DataFindingParameters {
   double max_without_s = 2.0;
   // The IMU's noise over the rig's. Engines and roads in the simulator and KITTI give up to 16.
   double max_noise_ratio = 64.0;
-  // Below both the body has stood. Chosen: twice the noise of the map at rest, and a nod.
-  double still_path_m = 0.5;
-  double still_turn_rad = 0.05;
 };
 
 inline constexpr DataFindingParameters kDataFindings;
