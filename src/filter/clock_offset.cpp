@@ -16,14 +16,18 @@ namespace {
 
 constexpr ClockOffsetParameters kParameters = kFilterParameters.clock_offset;
 
-// The change of rate between two scans that must be exceeded, rad/s: below it the change may be
-// the gyro's noise or the vehicle's vibration.
-double MinRateChange(std::span<const ImuSample> samples, const ImuRig& imu) {
-  const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
-  const double noise_radps =
-      imu.gyro_noise_density * std::sqrt(static_cast<double>(samples.size()) / span_s);
-  return std::max(kParameters.min_rate_change_radps,
-                  kParameters.min_rate_change_in_noise * noise_radps);
+Preintegration Gyro(std::span<const ImuSample> samples, Timestamp from, Timestamp to,
+                    const Vector3& bias, double density) {
+  ProcessNoise noise;
+  noise.gyro_density = density;
+  return Preintegrate(samples, from, to, {bias, Vector3::Zero()}, noise);
+}
+
+// The mean over the time by which the stamp may be wrong: noise and vibration average out.
+Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vector3& bias) {
+  const Duration half = Duration::FromSeconds(0.5 * kParameters.rate_span_s);
+  const Quaternion turn = Gyro(samples, stamp - half, stamp + half, bias, 0.0).rotation;
+  return LogSo3(turn) / kParameters.rate_span_s;
 }
 
 }  // namespace
@@ -55,34 +59,55 @@ void ClockOffset::Update(const Scan& scan) {
                kParameters.max_std_s * kParameters.max_std_s);
   if (scan.stamp - last_->stamp > kScanGap.unrelated || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
-  ProcessNoise noise;
-  noise.gyro_density = imu_.gyro_noise_density;
   const Preintegration gyro =
-      Preintegrate(samples, last_->stamp, scan.stamp, {scan.gyro_bias, Vector3::Zero()}, noise);
+      Gyro(samples, last_->stamp, scan.stamp, scan.gyro_bias, scan.gyro_density);
   const Quaternion matched = last_->R_map_imu.conjugate() * scan.R_map_imu;
   const Vector3 residual = LogSo3(gyro.rotation.conjugate() * matched);
-  const Vector3 w = SampleAt(samples, scan.stamp).w_imu_radps - scan.gyro_bias;
+  const Vector3 w = MeanRate(samples, scan.stamp, scan.gyro_bias);
   const Vector3 w_last =
-      gyro.rotation.conjugate() * (SampleAt(samples, last_->stamp).w_imu_radps - scan.gyro_bias);
-  const Vector3 h = w - w_last;
-  if (h.norm() < MinRateChange(samples, imu_)) return;
+      gyro.rotation.conjugate() * MeanRate(samples, last_->stamp, scan.gyro_bias);
+  Turn turn;
+  turn.rate_change_radps = w - w_last;
+  turn.rate_change_std_radps = std::sqrt(2.0 / kParameters.rate_span_s) * scan.gyro_density;
+  turn.innovation_rad = residual + w * scan.moved_by_s - w_last * last_->moved_by_s -
+                        turn.rate_change_radps * offset_s_;
+  turn.claimed_var =
+      scan.rotation_var + last_->rotation_var + scan.gyro_density * scan.gyro_density * span_s;
+  Fuse(turn);
+}
 
-  const Vector3 innovation =
-      residual + w * scan.moved_by_s - w_last * last_->moved_by_s - h * offset_s_;
-  const double turn_var = scan.rotation_var + last_->rotation_var +
-                          kParameters.turn_std_rad * kParameters.turn_std_rad +
-                          imu_.gyro_noise_density * imu_.gyro_noise_density * span_s;
+void ClockOffset::Fuse(const Turn& turn) {
+  const Vector3& h = turn.rate_change_radps;
+  const double turn_var = turn.claimed_var + unclaimed_var_;
   const Matrix3 S = var_s2_ * h * h.transpose() + turn_var * Matrix3::Identity();
-  const Vector3 weighted = S.inverse() * innovation;
-  if (innovation.dot(weighted) > kChiSquare3At999) return;
+  const Vector3 weighted = S.inverse() * turn.innovation_rad;
+  LearnUnclaimed(turn);
+  if (turn.innovation_rad.dot(weighted) > kChiSquare3At999) return;
+  if (h.norm() < std::max(kParameters.min_rate_change_radps,
+                          kParameters.min_rate_change_sigmas * turn.rate_change_std_radps)) {
+    return;
+  }
   offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
   var_s2_ = 1.0 / (1.0 / var_s2_ + h.squaredNorm() / turn_var);
 }
 
+// Across the change of rate an offset shows nothing, so that the scatter there is that of the turns
+// alone.
+void ClockOffset::LearnUnclaimed(const Turn& turn) {
+  const Vector3 along = turn.rate_change_radps.stableNormalized();
+  const Vector3 across = turn.innovation_rad - along * along.dot(turn.innovation_rad);
+  const double var = 0.5 * across.squaredNorm();
+  const double limit = kParameters.max_scatter_ratio * (turn.claimed_var + unclaimed_var_);
+  unclaimed_var_ +=
+      (std::min(var, limit) - turn.claimed_var - unclaimed_var_) / kParameters.num_turns_remembered;
+  unclaimed_var_ = std::max(unclaimed_var_, 0.0);
+}
+
 void ClockOffset::Follow() {
   const bool is_known = std_s() <= kParameters.known_std_s;
-  const bool is_sure = std::abs(offset_s_ - move_by_s_) > kParameters.sure_sigmas * std_s();
-  if (!is_known && !is_sure) return;
+  const bool is_off = std::abs(offset_s_ - move_by_s_) > kParameters.sure_sigmas * std_s();
+  is_found_ |= is_known || is_off;
+  if (!is_found_) return;
   move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kParameters.max_step_s, kParameters.max_step_s);
 }
 

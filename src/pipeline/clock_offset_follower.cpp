@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
 namespace lio {
 namespace {
@@ -19,7 +18,7 @@ ClockOffsetFollower::ClockOffsetFollower(const Options& options) : options_(&opt
 }
 
 void ClockOffsetFollower::Restart() {
-  if (options_->filter.estimate_clock_offset) offset_.emplace(options_->rig.imu);
+  if (options_->filter.estimate_clock_offset) offset_.emplace();
   is_announced_ = false;
 }
 
@@ -31,18 +30,13 @@ double ClockOffsetFollower::total_s() const {
   return options_->rig.lidar.clock_offset_s + (offset_ ? offset_->offset_s() : 0.0);
 }
 
-SweepPtr ClockOffsetFollower::Moved(const SweepPtr& sweep) {
-  moved_by_s_ = offset_ ? offset_->move_by_s() : 0.0;
-  const Duration by = Duration::FromSeconds(moved_by_s_);
-  if (by.ns == 0) return sweep;
-  auto moved = std::make_shared<Sweep>(*sweep);
-  moved->start = moved->start + by;
-  moved->end = moved->end + by;
-  return moved;
+Duration ClockOffsetFollower::correction() const {
+  return Duration::FromSeconds(offset_ ? offset_->move_by_s() : 0.0);
 }
 
 std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outcome,
-                                                        const FilterHistory& history) {
+                                                        const FilterHistory& history,
+                                                        double gyro_density) {
   if (!offset_) return std::nullopt;
   if (!outcome.match.IsUsable() || outcome.match.degenerate_mask != 0) {
     offset_->Interrupt();
@@ -51,9 +45,9 @@ std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outc
   const Sweep& sweep = *outcome.sweep;
   const std::vector<ImuSample> samples = history.SamplesBetween(sweep.start, sweep.end);
   const Matrix3 rotation_cov = outcome.match.cov.bottomRightCorner<3, 3>();
-  offset_->Add({sweep.middle(), moved_by_s_, outcome.match.T_map_imu.rotation,
+  offset_->Add({sweep.middle(), sweep.clock_correction.Seconds(), outcome.match.T_map_imu.rotation,
                 options_->filter.registration_cov_scale * rotation_cov.trace() / 3.0,
-                history.At(sweep.middle()).state.gyro_bias},
+                history.At(sweep.middle()).state.gyro_bias, gyro_density},
                samples);
   if (is_announced_ || offset_->std_s() > kKnownStd_s) return std::nullopt;
   is_announced_ = true;

@@ -30,7 +30,10 @@ StreamOptions MakeStreamOptions(const Options& options) {
   stream.use_imu = options.pipeline.use_imu;
   stream.units = options.rig.imu.units;
   stream.lidar_clock_offset_s = options.rig.lidar.clock_offset_s;
-  if (options.filter.estimate_clock_offset) stream.clock_margin_s = ClockOffset::kMax_s;
+  // Live, sweeps that wait for matching are dropped before so many do.
+  if (options.filter.estimate_clock_offset && options.pipeline.use_imu) {
+    stream.max_unmatched = static_cast<std::size_t>(options.pipeline.max_queued_scans) + 3;
+  }
   stream.incomplete_sweep_wait_s = options.pipeline.incomplete_sweep_wait_s;
   return stream;
 }
@@ -142,11 +145,19 @@ class Odometry::Impl {
             examiner_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
-  bool IsIdle() const { return !in_flight_ && sweeps_.size() <= NextSweepOf(*mode_); }
+  // The sweep in flight included.
+  std::size_t NumUnmatched() const {
+    const std::size_t next = std::min(NextSweepOf(*mode_), sweeps_.size());
+    return std::max<std::size_t>(sweeps_.size() - next, in_flight_ ? 1 : 0);
+  }
+  std::optional<StreamEvent> NextEvent() {
+    stream_.SetStampCorrection(clocks_.correction());
+    return stream_.Next(NumUnmatched());
+  }
 
   void ConsumeEvents() {
     std::size_t num_freed = 0;
-    while (const std::optional<StreamEvent> event = stream_.Next(IsIdle())) {
+    while (const std::optional<StreamEvent> event = NextEvent()) {
       if (std::holds_alternative<SweepReady>(*event)) ++num_freed;
       GoOn(std::visit([&](const auto& content) { return Consume(content); }, *event));
     }
@@ -230,13 +241,8 @@ class Odometry::Impl {
     return std::nullopt;
   }
 
-  MatchJob MakeJob(Initializing& mode, SweepPtr& sweep) { return mode.MakeJob(sweep); }
-  MatchJob MakeJob(LidarOnly& mode, SweepPtr& sweep) { return mode.MakeJob(sweep); }
-  MatchJob MakeJob(Tracking& mode, SweepPtr& sweep) {
-    sweep = clocks_.Moved(sweep);
-    return mode.MakeJob(sweep);
-  }
-  MatchJob MakeJob(Rejected& /*mode*/, SweepPtr& /*sweep*/) { return {}; }
+  MatchJob MakeJob(auto& mode, const SweepPtr& sweep) { return mode.MakeJob(sweep); }
+  MatchJob MakeJob(Rejected& /*mode*/, const SweepPtr& /*sweep*/) { return {}; }
 
   Next Finish(auto& mode, const MatchOutcome& outcome, InsertTask& insert) {
     return mode.FinishJob(outcome, insert);

@@ -33,7 +33,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
       zero_velocity_(context.options.rig.imu, is_at_rest),
       is_first_scan_(!std::exchange(handover_.keeps_map, false)) {
-  history_.KeepFrom(start.estimate.stamp - context_.stream.clock_margin());
+  history_.KeepFrom(start.estimate.stamp);
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
   }
@@ -59,13 +59,8 @@ ReportContext Tracking::MakeReportContext() const {
           &context_.stream.imu(), context_.clocks};
 }
 
-// A sweep may still be moved in time before it is matched.
-Timestamp Tracking::EarliestOf(const Sweep& sweep) const {
-  return sweep.start - context_.stream.clock_margin();
-}
-
 void Tracking::AddSweep(const Sweep& sweep) {
-  history_.KeepFrom(EarliestOf(sweep));
+  history_.KeepFrom(sweep.start);
 }
 
 MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
@@ -100,7 +95,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool is_keyframe = !is_sought && keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
-  UpdateBesides(outcome, report.fused);
+  UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
   GrowMap(outcome, report, is_keyframe, verdict.rebases_map && !is_sought, insert);
@@ -136,7 +131,7 @@ void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const Imu
   }
   context_.sweeps.pop_front();
   const auto& sweeps = context_.sweeps;
-  history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(EarliestOf(*sweeps.front())));
+  history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
 }
 
 ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
@@ -173,7 +168,7 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
 }
 
 // The filters that stand beside this one.
-void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused) {
+void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise) {
   if (is_fused) {
     SettleClockStep(outcome);
     if (context_.options.filter.use_zero_velocity &&
@@ -181,7 +176,9 @@ void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused) {
       ++context_.counters.num_standstills;
     }
   }
-  if (const auto news = context_.clocks.AddScan(outcome, history_)) {
+  const double gyro_density =
+      std::max(context_.options.rig.imu.gyro_noise_density, std::sqrt(noise.gyro_psd.maxCoeff()));
+  if (const auto news = context_.clocks.AddScan(outcome, history_, gyro_density)) {
     context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kInfo, *news);
   }
 }

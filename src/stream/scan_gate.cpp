@@ -27,7 +27,7 @@ void ScanGate::Accept(Sweep sweep) {
   }
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
-  waiting_.push_back(std::make_shared<const Sweep>(std::move(sweep)));
+  waiting_.push_back(std::make_shared<Sweep>(std::move(sweep)));
   while (waiting_span_s() > kScanGate.max_wait_s) {
     waiting_.pop_front();
     ++counters_->num_scans_without_imu;
@@ -77,13 +77,13 @@ double ScanGate::waiting_span_s() const {
   return waiting_.empty() ? 0.0 : SecondsBetween(waiting_.front()->end, waiting_.back()->end);
 }
 
-SweepPtr ScanGate::Open(std::optional<Timestamp> newest_imu) {
+std::shared_ptr<Sweep> ScanGate::Open(std::optional<Timestamp> newest_imu, Duration correction) {
   if (newest_imu != last_imu_) {
     last_imu_ = newest_imu;
     imu_silent_at_ = last_end_;
   }
   if (waiting_.empty() || !newest_imu) return nullptr;
-  if (*newest_imu >= waiting_.front()->end) return Force();
+  if (*newest_imu >= waiting_.front()->end + correction) return Force();
   if (!imu_silent_at_) imu_silent_at_ = waiting_.front()->start;
   return nullptr;
 }
@@ -93,9 +93,9 @@ bool ScanGate::IsImuSilent() const {
          waiting_.back()->end - *imu_silent_at_ > kImuGap.segment;
 }
 
-SweepPtr ScanGate::Force() {
+std::shared_ptr<Sweep> ScanGate::Force() {
   if (waiting_.empty()) return nullptr;
-  SweepPtr sweep = std::move(waiting_.front());
+  std::shared_ptr<Sweep> sweep = std::move(waiting_.front());
   waiting_.pop_front();
   return sweep;
 }

@@ -29,11 +29,8 @@ SensorStream::SensorStream(const StreamOptions& options, Counters& counters)
       preprocessor_(counters, MaxRateSent(options.units)),
       imu_(ConventionOf(options.units), counters),
       assembler_(counters),
-      gate_(counters) {}
-
-Duration SensorStream::clock_margin() const {
-  return Duration::FromSeconds(has_imu_ ? options_.clock_margin_s : 0.0);
-}
+      gate_(counters),
+      corrections_(options.max_unmatched.value_or(1)) {}
 
 void SensorStream::Notify(Timestamp stamp, Notice::Severity severity, std::string text) {
   events_.emplace_back(Notice{stamp, severity, std::move(text)});
@@ -58,24 +55,24 @@ void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 }
 
 bool SensorStream::RefuseForeign(const ImuSample& sample) {
-  if (!imu_senders_.IsForeign(sample.seq, sample.stamp)) return false;
+  if (!senders_.imu.IsForeign(sample.seq, sample.stamp)) return false;
   ++counters_->num_imu;
   if (counters_->num_imu_foreign++ == 0) {
     Notify(sample.stamp, Notice::Severity::kWarning,
            fmt::format("two senders of inertial samples on one channel: the one that came first is "
                        "kept (its number is now {}), the other refused (number {}); give each a "
                        "channel prefix of its own",
-                       static_cast<std::int32_t>(imu_senders_.kept_seq()), sample.seq));
+                       static_cast<std::int32_t>(senders_.imu.kept_seq()), sample.seq));
   }
   return true;
 }
 
 // Another lidar is taken once the first one has been silent for a second.
 bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
-  const bool is_kept = !lidar_ || lidar_->sensor_id == chunk.sensor_id ||
-                       Abs(chunk.stamp - lidar_->newest) > kClockStep.silence;
+  const bool is_kept = !senders_.lidar || senders_.lidar->sensor_id == chunk.sensor_id ||
+                       Abs(chunk.stamp - senders_.lidar->newest) > kClockStep.silence;
   if (is_kept) {
-    lidar_ = {chunk.sensor_id, chunk.stamp};
+    senders_.lidar = {chunk.sensor_id, chunk.stamp};
     return false;
   }
   ++counters_->num_chunks;
@@ -83,7 +80,7 @@ bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
     Notify(chunk.stamp, Notice::Severity::kWarning,
            fmt::format("two lidars on one channel: sensor_id {} came first and is kept, sensor_id "
                        "{} is refused; give each a channel prefix of its own",
-                       int{lidar_->sensor_id}, int{chunk.sensor_id}));
+                       int{senders_.lidar->sensor_id}, int{chunk.sensor_id}));
   }
   return true;
 }
@@ -113,9 +110,13 @@ void SensorStream::Reject() {
   }
 }
 
-std::optional<StreamEvent> SensorStream::Next(bool is_idle) {
+std::optional<StreamEvent> SensorStream::Next(std::size_t num_unmatched) {
   while (events_.empty()) {
-    if (!Advance(is_idle)) return std::nullopt;
+    if (options_.max_unmatched) {
+      if (corrections_.IsUnknown(num_unmatched)) return std::nullopt;
+      corrections_.Learn(num_unmatched, learned_correction_);
+    }
+    if (!Advance(num_unmatched == 0)) return std::nullopt;
   }
   StreamEvent event = std::move(events_.front());
   events_.pop_front();
@@ -242,14 +243,15 @@ void SensorStream::OpenGate() {
     GoLidarOnly("no inertial samples come");
   }
   if (!has_imu_) {
-    while (SweepPtr sweep = gate_.Force()) events_.emplace_back(SweepReady{std::move(sweep)});
+    while (SweepPtr sweep = gate_.Force()) GiveOut(std::move(sweep));
     return;
   }
-  std::optional<Timestamp> passed = newest;
-  if (passed) *passed = *passed - clock_margin();
-  while (SweepPtr sweep = gate_.Open(passed)) Admit(std::move(sweep));
+  const Duration correction = corrections_.ForNextSweep();
+  while (std::shared_ptr<Sweep> sweep = gate_.Open(newest, correction)) {
+    Admit(std::move(sweep), correction);
+  }
   if (gate_.IsImuSilent() && life_ != Life::kClosed) state_ = State::kLosingImu;
-  if (passed && !gate_.empty()) NotifyIfClocksApart(*passed, gate_.oldest().start);
+  if (newest && !gate_.empty()) NotifyIfClocksApart(*newest, gate_.oldest().start);
 }
 
 void SensorStream::GoLidarOnly(const std::string& evidence) {
@@ -285,7 +287,8 @@ bool SensorStream::NotifyIfClocksApart(Timestamp imu, Timestamp lidar) {
   return true;
 }
 
-void SensorStream::Admit(SweepPtr sweep) {
+void SensorStream::Admit(std::shared_ptr<Sweep> sweep, Duration correction) {
+  sweep->MoveBy(correction);
   const Timestamp earliest = begin_ ? *begin_ : imu_.sent().front().stamp;
   if (sweep->start + kStream.stamp_slack < earliest) {
     ++counters_->num_scans_without_imu;
@@ -294,8 +297,13 @@ void SensorStream::Admit(SweepPtr sweep) {
   }
   // From here on nothing may change what the scan is deskewed and predicted with.
   std::vector<ImuReady> ready;
-  imu_.FreezeUpTo(sweep->end + clock_margin(), ready);
+  imu_.FreezeUpTo(sweep->end, ready);
   Emit(std::move(ready));
+  GiveOut(std::move(sweep));
+}
+
+void SensorStream::GiveOut(SweepPtr sweep) {
+  corrections_.CountSweep();
   events_.emplace_back(SweepReady{std::move(sweep)});
 }
 
@@ -311,7 +319,7 @@ void SensorStream::CloseAll() {
   OpenGate();
   while (!gate_.empty()) {
     if (gate_.oldest().start > *imu_.newest()) ++counters_->num_scans_without_imu;
-    Admit(gate_.Force());
+    Admit(gate_.Force(), corrections_.ForNextSweep());
   }
   events_.emplace_back(StreamEnded{});
 }

@@ -12,11 +12,7 @@ namespace {
 constexpr double kScan_s = 0.1;
 constexpr double kTurnStd_rad = 5e-4;
 
-ImuRig Rig() {
-  ImuRig rig;
-  rig.gyro_noise_density = 5e-4;
-  return rig;
-}
+constexpr double kGyroDensity = 5e-4;
 
 // The lidar sends ten scans per second, and its clock is `offset_s` behind the IMU's.
 struct Drive {
@@ -25,7 +21,7 @@ struct Drive {
   double outlier_rad = 0.0;  // of every tenth scan
 
   void Run(ClockOffset& clock, int from_scan, int to_scan) {
-    const test::ImuErrors errors{gyro_bias, Vector3::Zero(), Rig().gyro_noise_density, 0.0};
+    const test::ImuErrors errors{gyro_bias, Vector3::Zero(), kGyroDensity, 0.0};
     for (int k = from_scan; k < to_scan; ++k) {
       const double moved_by_s = clock.move_by_s();
       const double seen_s = kScan_s * (k + 0.5);  // by the IMU's clock
@@ -36,7 +32,7 @@ struct Drive {
           motion, stamp_s - 0.5 * kScan_s, stamp_s + 0.5 * kScan_s, 100.0, errors, random);
       clock.Add({Timestamp{} + Duration::FromSeconds(stamp_s), moved_by_s,
                  motion.At(seen_s).T_world_imu.rotation * ExpSo3(error),
-                 kTurnStd_rad * kTurnStd_rad, gyro_bias},
+                 kTurnStd_rad * kTurnStd_rad, gyro_bias, kGyroDensity},
                 samples);
     }
   }
@@ -47,7 +43,7 @@ struct Drive {
 
 TEST(ClockOffset, AWalkShowsItToAMillisecond) {
   for (const double offset_s : {0.02, -0.035, 0.0}) {
-    ClockOffset clock(Rig());
+    ClockOffset clock;
     Drive drive{test::WalkMotion(), offset_s};
     drive.Run(clock, 0, 200);
     EXPECT_NEAR(clock.offset_s(), offset_s, 1e-3);
@@ -60,7 +56,7 @@ TEST(ClockOffset, AWalkShowsItToAMillisecond) {
 TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {
   test::SmoothMotion straight;
   straight.x.speed = 28.0;
-  ClockOffset clock(Rig());
+  ClockOffset clock;
   Drive{straight}.Run(clock, 0, 600);
   EXPECT_EQ(clock.offset_s(), 0.0) << "before anything is known";
   EXPECT_EQ(clock.move_by_s(), 0.0);
@@ -74,7 +70,7 @@ TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {
 }
 
 TEST(ClockOffset, StaysWithinItsBounds) {
-  ClockOffset clock(Rig());
+  ClockOffset clock;
   Drive{test::WalkMotion(), 0.08}.Run(clock, 0, 300);
   EXPECT_LE(clock.offset_s(), ClockOffset::kMax_s);
   EXPECT_LE(clock.move_by_s(), ClockOffset::kMax_s);
@@ -82,7 +78,7 @@ TEST(ClockOffset, StaysWithinItsBounds) {
   EXPECT_GT(clock.offset_s(), 0.9 * ClockOffset::kMax_s);
   EXPECT_GT(clock.move_by_s(), 0.9 * ClockOffset::kMax_s);
 
-  ClockOffset negative(Rig());
+  ClockOffset negative;
   Drive{test::WalkMotion(), -0.08}.Run(negative, 0, 300);
   EXPECT_GE(negative.offset_s(), -ClockOffset::kMax_s);
   EXPECT_LT(negative.offset_s(), -0.9 * ClockOffset::kMax_s);
@@ -90,13 +86,13 @@ TEST(ClockOffset, StaysWithinItsBounds) {
 }
 
 TEST(ClockOffset, WrongMatchesDoNotMoveIt) {
-  ClockOffset clock(Rig());
+  ClockOffset clock;
   Drive{test::WalkMotion(), 0.02, 0.05}.Run(clock, 0, 300);
   EXPECT_NEAR(clock.offset_s(), 0.02, 2e-3);
 }
 
 TEST(ClockOffset, StampsAreMovedSlowly) {
-  ClockOffset clock(Rig());
+  ClockOffset clock;
   Drive drive{test::WalkMotion(), 0.03};
   double last_s = 0.0;
   for (int k = 0; k < 100; ++k) {
@@ -110,7 +106,7 @@ TEST(ClockOffset, StampsAreMovedSlowly) {
 // Three standard deviations off is off for sure, however unsure by how much.
 TEST(ClockOffset, StampsAreMovedAsSoonAsTheyAreOffForSure) {
   for (const double offset_s : {0.03, 0.0}) {
-    ClockOffset clock(Rig());
+    ClockOffset clock;
     Drive drive{test::WalkMotion(), offset_s};
     bool moved_while_unsure = false;
     for (int k = 0; k < 40; ++k) {
@@ -122,7 +118,7 @@ TEST(ClockOffset, StampsAreMovedAsSoonAsTheyAreOffForSure) {
 }
 
 TEST(ClockOffset, ATurnAcrossALostScanIsLeftOut) {
-  ClockOffset clock(Rig());
+  ClockOffset clock;
   Drive drive{test::WalkMotion()};
   for (int k = 0; k < 50; ++k) {
     drive.Run(clock, k, k + 1);

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double kScan_s = 0.1;
 constexpr double kImuRate_hz = 100.0;
+constexpr double kGyroDensity = 5e-4;
 constexpr double kOffset_s = 0.02;  // the lidar's clock is behind the IMU's
 constexpr int kEnough = 150;        // scans of a walk
 
 Options OptionsWith(bool estimates, double configured_s = 0.0) {
   Options options;
-  options.rig.imu.gyro_noise_density = 5e-4;
+  options.rig.imu.gyro_noise_density = kGyroDensity;
   options.rig.lidar.clock_offset_s = configured_s;
   options.filter.estimate_clock_offset = estimates;
   return options;
@@ -31,29 +32,24 @@ class Walk {
  public:
   explicit Walk(double offset_s = kOffset_s) : offset_s_(offset_s) {}
 
-  SweepPtr NextSweep() {
-    const double start_s = 1.0 + kScan_s * num_scans_++ - offset_s_;
-    Sweep sweep;
-    sweep.start = At(start_s);
-    sweep.end = At(start_s + kScan_s);
-    return std::make_shared<Sweep>(sweep);
-  }
-
   // Feeds the next scan; `unmatched`: its match is of no use.
   std::optional<std::string> AddScan(ClockOffsetFollower& follower,
                                      MatchStatus status = MatchStatus::kConverged,
                                      unsigned degenerate_mask = 0) {
-    const SweepPtr sweep = NextSweep();
-    const SweepPtr moved = follower.Moved(sweep);
-    FeedImuUpTo(SecondsBetween(Timestamp{}, moved->end) + 0.02);
+    const double start_s = 1.0 + kScan_s * num_scans_++ - offset_s_;
+    Sweep sweep;
+    sweep.start = At(start_s);
+    sweep.end = At(start_s + kScan_s);
+    sweep.MoveBy(follower.correction());
+    FeedImuUpTo(SecondsBetween(Timestamp{}, sweep.end) + 0.02);
     MatchOutcome outcome;
-    outcome.sweep = moved;
+    outcome.sweep = std::make_shared<Sweep>(sweep);
     outcome.match.status = status;
     outcome.match.degenerate_mask = degenerate_mask;
     outcome.match.cov = 1e-8 * Matrix6::Identity();
-    const double seen_s = SecondsBetween(Timestamp{}, sweep->middle()) + offset_s_;
+    const double seen_s = start_s + 0.5 * kScan_s + offset_s_;
     outcome.match.T_map_imu = motion_.At(seen_s).T_world_imu;
-    return follower.AddScan(outcome, history_);
+    return follower.AddScan(outcome, history_, kGyroDensity);
   }
 
   int NumAnnounced(ClockOffsetFollower& follower, int num_scans) {
@@ -92,8 +88,7 @@ TEST(ClockOffsetFollower, IsOffUnlessAskedFor) {
   ClockOffsetFollower follower(options);
   Walk walk;
   EXPECT_EQ(walk.NumAnnounced(follower, 30), 0);
-  const SweepPtr sweep = walk.NextSweep();
-  EXPECT_EQ(follower.Moved(sweep), sweep) << "not even a copy";
+  EXPECT_EQ(follower.correction(), Duration{});
   EXPECT_FALSE(follower.is_running());
   EXPECT_EQ(follower.total_s(), 0.03);
   EXPECT_EQ(follower.std_s(), 0.0);
@@ -111,8 +106,7 @@ TEST(ClockOffsetFollower, DoesNotRunWithoutAnImu) {
 TEST(ClockOffsetFollower, MovesNoSweepWhileNothingIsKnown) {
   const Options options = OptionsWith(true);
   ClockOffsetFollower follower(options);
-  const SweepPtr sweep = Walk().NextSweep();
-  EXPECT_EQ(follower.Moved(sweep), sweep);
+  EXPECT_EQ(follower.correction(), Duration{});
 }
 
 // Tolerance: what ten scans a second of a walk tell, see the test of ClockOffset.
@@ -122,10 +116,7 @@ TEST(ClockOffsetFollower, MovesSweepsByTheOffsetOnceThatIsKnown) {
     ClockOffsetFollower follower(options);
     Walk walk(offset_s);
     walk.NumAnnounced(follower, kEnough);
-    const SweepPtr sweep = walk.NextSweep();
-    const SweepPtr moved = follower.Moved(sweep);
-    EXPECT_NEAR(SecondsBetween(sweep->start, moved->start), offset_s, 1e-3);
-    EXPECT_EQ(moved->end - moved->start, sweep->end - sweep->start);
+    EXPECT_NEAR(follower.correction().Seconds(), offset_s, 1e-3);
   }
 }
 
@@ -210,8 +201,7 @@ TEST(ClockOffsetFollower, ARestartKnowsNothingAnyMore) {
   follower.Restart();
   EXPECT_EQ(follower.std_s(), std_s);
   EXPECT_EQ(follower.total_s(), 0.0);
-  const SweepPtr sweep = walk.NextSweep();
-  EXPECT_EQ(follower.Moved(sweep), sweep);
+  EXPECT_EQ(follower.correction(), Duration{});
 }
 
 TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
@@ -220,8 +210,7 @@ TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
   Walk walk;
   walk.NumAnnounced(follower, kEnough);
   follower.Stop();
-  const SweepPtr sweep = walk.NextSweep();
-  EXPECT_EQ(follower.Moved(sweep), sweep);
+  EXPECT_EQ(follower.correction(), Duration{});
   EXPECT_FALSE(follower.is_running());
   EXPECT_EQ(follower.total_s(), 0.1);
   EXPECT_EQ(follower.std_s(), 0.0);

@@ -70,7 +70,7 @@ class ModeBench {
       stream_.AddImu(sample);
     }
     std::vector<ImuReady> ready;
-    while (const std::optional<StreamEvent> event = stream_.Next(true)) {
+    while (const std::optional<StreamEvent> event = stream_.Next(0)) {
       if (const auto* imu = std::get_if<ImuReady>(&*event)) ready.push_back(*imu);
     }
     return ready;

@@ -122,7 +122,7 @@ void StreamRun::Add(const SensorMessage& message) {
 }
 
 void StreamRun::Drain(bool is_idle) {
-  while (std::optional<StreamEvent> event = stream.Next(is_idle)) {
+  while (std::optional<StreamEvent> event = stream.Next(is_idle ? 0 : 1)) {
     events.push_back(std::move(*event));
   }
 }

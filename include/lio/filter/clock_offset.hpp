@@ -11,10 +11,12 @@
 // It is no state of the error-state filter because the map is built with the same clock: under a
 // steady motion the map absorbs the offset, and the two are told apart only as well as the map's
 // noise is known. Turns between neighbouring scans depend neither on the map's drift nor on
-// velocity. The information in the translations is not used. Limits. A turn whose rate hardly
-// changes holds no information and is left out: the estimate does not change on a straight road.
-// The estimate stays within kMax_s of zero. Neighbouring turns share a scan's error with opposite
-// signs; they are treated as independent, which overstates the variance.
+// velocity. The information in the translations is not used. The error of a turn beyond what is
+// claimed is learned from the innovations' component across the change of rate.
+// Limits. A turn whose rate hardly changes holds no information and is left out: the estimate does
+// not change on a straight road. The estimate stays within kMax_s of zero. Neighbouring turns share
+// a scan's error with opposite signs; they are treated as independent, which overstates the
+// variance.
 #pragma once
 
 #include <deque>
@@ -23,7 +25,6 @@
 
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/sensor/imu_sample.hpp"
-#include "lio/sensor/rig.hpp"
 
 namespace lio {
 
@@ -31,14 +32,13 @@ class ClockOffset {
  public:
   static constexpr double kMax_s = kFilterParameters.clock_offset.max_offset_s;
 
-  explicit ClockOffset(const ImuRig& imu) : imu_(imu) {}
-
   struct Scan {
     Timestamp stamp;                                // corrected, IMU clock
     double moved_by_s = 0.0;                        // the correction in `stamp`
     Quaternion R_map_imu = Quaternion::Identity();  // by registration
     double rotation_var = 0.0;                      // of R_map_imu, rad^2 per axis
     Vector3 gyro_bias = Vector3::Zero();            // rad/s, imu
+    double gyro_density = 0.0;                      // noise, rad/s/sqrt(Hz)
   };
   // Adds the next scan in time. `samples` are the inertial samples of its sweep, ascending.
   void Add(const Scan& scan, std::span<const ImuSample> samples);
@@ -48,18 +48,31 @@ class ClockOffset {
   double offset_s() const { return offset_s_; }  // the estimate of d
   double std_s() const;                          // its standard deviation
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
-  // scan, once the standard deviation is below 2 ms or the correction is off by three of them.
+  // scan, from when the standard deviation is below 2 ms or the offset is three of them.
   double move_by_s() const { return move_by_s_; }
 
  private:
+  // What a turn between neighbouring scans shows.
+  struct Turn {
+    Vector3 rate_change_radps = Vector3::Zero();
+    double rate_change_std_radps = 0.0;
+    Vector3 innovation_rad = Vector3::Zero();  // at the estimated offset
+    double claimed_var = 0.0;                  // of the innovation, by matching and gyro, rad^2
+  };
+
   void Update(const Scan& scan);
+  void Fuse(const Turn& turn);
+  void LearnUnclaimed(const Turn& turn);
   void Follow();
 
-  ImuRig imu_;
   double offset_s_ = 0.0;
   double var_s2_ =
       kFilterParameters.clock_offset.max_std_s * kFilterParameters.clock_offset.max_std_s;
   double move_by_s_ = 0.0;
+  bool is_found_ = false;  // stamps are moved
+  // Of a turn, beyond what is claimed, rad^2 per axis.
+  double unclaimed_var_ =
+      kFilterParameters.clock_offset.turn_std_rad * kFilterParameters.clock_offset.turn_std_rad;
   std::optional<Scan> last_;
   std::deque<ImuSample> samples_;  // since the beginning of the last scan's turn
 };

@@ -57,14 +57,22 @@ struct ClockOffsetParameters {
   // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
   // finds larger offsets.
   double max_offset_s = 0.05;
-  // rad/s. Turns whose rate changes less are left out. Chosen above the vibration of a car's body;
-  // a smaller value lets vibration move the estimate on a straight road.
-  double min_rate_change_radps = 0.05;
-  // The same limit in standard deviations of the gyro's noise at its sample rate. Chosen.
-  double min_rate_change_in_noise = 6.0;
-  // rad. Error of a turn beyond what registration and gyro claim, 1 sigma. Chosen; more trusts
-  // turns less.
+  // s. A rate is a mean over this time around a stamp. Chosen: twice max_std_s, so that the stamp
+  // lies within it as it should be.
+  double rate_span_s = 0.04;
+  // rad/s. Turns whose rate changes less are left out. Chosen above the sway of a car's body on a
+  // straight road.
+  double min_rate_change_radps = 0.02;
+  // The same limit in standard deviations of the change. Statistics: noise of the rate makes the
+  // estimate too small by 1/(1 + sigmas^2), here 3 %.
+  double min_rate_change_sigmas = 6.0;
+  // rad. Error of a turn beyond what registration and gyro claim, 1 sigma, before the drive has
+  // shown it. Chosen; it matters for the first seconds.
   double turn_std_rad = 1e-3;
+  // Turns over which that error is learned. Chosen: five seconds at 10 Hz.
+  double num_turns_remembered = 50.0;
+  // A single turn counts for no more than so many times the variance. Chosen: three sigmas.
+  double max_scatter_ratio = 9.0;
   // s/sqrt(s). Random walk of the offset. Chosen: oscillators differ by about 10 us per second.
   double walk_s_per_sqrt_s = 2e-5;
   // s. Standard deviation at the start, and its upper bound. Chosen.

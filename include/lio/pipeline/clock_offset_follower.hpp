@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Follows what is left of the offset between the clocks of lidar and IMU
-// (filter.estimate_clock_offset), moves sweeps by it, and announces it once it is known.
+// (filter.estimate_clock_offset), says by how much sweeps are to be moved
+// (stream/stamp_correction.hpp), and announces the offset once it is known.
 #pragma once
 
 #include <optional>
@@ -26,12 +27,14 @@ class ClockOffsetFollower {
   // A scan was lost: the next turn is not measured.
   void Interrupt();
 
-  // The sweep, its stamps moved by the offset as known now.
-  [[nodiscard]] SweepPtr Moved(const SweepPtr& sweep);
+  // To be added to the stamps of sweeps, as known now.
+  [[nodiscard]] Duration correction() const;
   // A scan that matching has dealt with. Gated ones as well: a wrong offset is what may have them
   // gated. Returns what to announce, once for each time the offset becomes known.
+  // `gyro_density`: the gyro's noise as it is now, rad/s/sqrt(Hz).
   [[nodiscard]] std::optional<std::string> AddScan(const MatchOutcome& outcome,
-                                                   const FilterHistory& history);
+                                                   const FilterHistory& history,
+                                                   double gyro_density);
 
   bool is_running() const { return offset_.has_value(); }
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
@@ -41,7 +44,6 @@ class ClockOffsetFollower {
  private:
   const Options* options_;
   std::optional<ClockOffset> offset_;
-  double moved_by_s_ = 0.0;  // the stamps of the sweep in flight
   bool is_announced_ = false;
 };
 

@@ -66,7 +66,7 @@ class Tracking {
   void SettleClockStep(const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Examine(const MatchOutcome& outcome) const;
-  void UpdateBesides(const MatchOutcome& outcome, bool is_fused);
+  void UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise);
   void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
                bool rebases_map, InsertTask& insert);
   void Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
@@ -75,7 +75,6 @@ class Tracking {
   Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
   void PublishAtImuRate();
   ReportContext MakeReportContext() const;
-  Timestamp EarliestOf(const Sweep& sweep) const;
 
   ModeContext context_;
   Handover handover_;

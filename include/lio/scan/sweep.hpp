@@ -15,6 +15,7 @@ namespace lio {
 struct Sweep {
   Timestamp start;  // instant of t_offset_ns = 0: the first point's stamp
   Timestamp end;    // the last point's stamp
+  Duration clock_correction;  // in both stamps, by the estimated clock offset
   std::int32_t scan_seq = 0;
   int num_missing_chunks = 0;
   std::int64_t decode_ns = 0;      // CPU time of decoding its messages
@@ -24,6 +25,13 @@ struct Sweep {
   // half a sweep to either side; with the end as reference their variance would be four times as
   // large and correlated with the filter's process noise (docs/filter.md, Measurement).
   Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
+
+  // Adds to both stamps.
+  void MoveBy(Duration correction) {
+    start = start + correction;
+    end = end + correction;
+    clock_correction = clock_correction + correction;
+  }
 };
 
 using SweepPtr = std::shared_ptr<const Sweep>;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 
 #include "lio/base/counters.hpp"
@@ -22,13 +23,13 @@ class ScanGate {
   // whose stamp is far ahead is held until the next one bears it out.
   void Add(Sweep sweep);
 
-  // The oldest sweep if the inertial stream, whose newest stamp is given, has passed its end.
-  // Absent: nothing is ready. Call it after every message.
-  SweepPtr Open(std::optional<Timestamp> newest_imu);
+  // The oldest sweep if the inertial stream, whose newest stamp is given, has passed its end, which
+  // is to be moved by `correction`. Absent: nothing is ready. Call it after every message.
+  std::shared_ptr<Sweep> Open(std::optional<Timestamp> newest_imu, Duration correction = {});
   // Has the inertial stream not moved for too long while the lidar went on?
   [[nodiscard]] bool IsImuSilent() const;
   // The oldest sweep whatever the inertial stream says.
-  SweepPtr Force();
+  std::shared_ptr<Sweep> Force();
   // No more sweeps come: lets in the one that is held.
   void Flush();
   // The inertial stream begins anew at `first`: forgets sweeps that were let in as later than that.
@@ -45,7 +46,7 @@ class ScanGate {
   bool Quarantine(Sweep& sweep);
 
   Counters* counters_;
-  std::deque<SweepPtr> waiting_;
+  std::deque<std::shared_ptr<Sweep>> waiting_;
   std::optional<Timestamp> last_end_;  // of the newest sweep that was let in
   int num_late_in_a_row_ = 0;
   std::optional<Sweep> suspect_;            // far ahead of all others

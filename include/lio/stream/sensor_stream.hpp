@@ -6,14 +6,17 @@
 // steps of the clocks by stamps and by the order of arrival; it asks no wall clock.
 //
 //   stream.AddImu(sample);
-//   while (auto event = stream.Next(is_idle)) Consume(*event);
+//   while (auto event = stream.Next(num_unmatched)) Consume(*event);
 //
-// `is_idle`: every sweep that was given out has been matched. A step of the inertial clock waits
-// for that, and what comes meanwhile waits behind it, so the events do not depend on how fast scans
-// are matched. The consumer handles each event before it asks for the next one.
+// `num_unmatched` counts the sweeps that were given out and have not been matched. A step of the
+// inertial clock waits until there are none, and what comes meanwhile waits behind it, so the
+// events do not depend on how fast scans are matched. The consumer handles each event before it
+// asks for the next one.
 #pragma once
 
+#include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +30,7 @@
 #include "lio/stream/scan_assembler.hpp"
 #include "lio/stream/scan_gate.hpp"
 #include "lio/stream/sender_watch.hpp"
+#include "lio/stream/stamp_correction.hpp"
 #include "lio/stream/stream_event.hpp"
 
 namespace lio {
@@ -35,8 +39,9 @@ struct StreamOptions {
   bool use_imu = true;
   ImuUnits units = ImuUnits::kAutomatic;
   double lidar_clock_offset_s = 0.0;  // added to the lidar's stamps
-  // A sweep's stamps may still be moved by this much before it is matched, while an IMU is there.
-  double clock_margin_s = 0.0;
+  // Sweeps are moved by the clock offset that matched ones show. The next sweep waits while so many
+  // have not been matched; absent: no sweep is moved.
+  std::optional<std::size_t> max_unmatched;
   double incomplete_sweep_wait_s = 0.05;  // a sweep is closed when stamps are this far past its end
 };
 
@@ -52,7 +57,10 @@ class SensorStream {
   // Nothing of this stream is wanted: messages are counted and dropped.
   void Reject();
 
-  [[nodiscard]] std::optional<StreamEvent> Next(bool is_idle);
+  [[nodiscard]] std::optional<StreamEvent> Next(std::size_t num_unmatched);
+
+  // Sweeps that have been matched show this offset; it moves those that are given out later.
+  void SetStampCorrection(Duration correction) { learned_correction_ = correction; }
 
   // The estimator can use sweeps from this time on; absent: from the first inertial sample on.
   void SetBegin(std::optional<Timestamp> begin) { begin_ = begin; }
@@ -61,7 +69,6 @@ class SensorStream {
   const ImuBuffer& imu() const { return imu_; }
   bool has_imu() const { return has_imu_; }  // false: lidar-only
   bool is_flushed() const { return life_ != Life::kOpen; }
-  Duration clock_margin() const;
 
  private:
   struct Message {
@@ -88,6 +95,16 @@ class SensorStream {
     Timestamp newest_examined;       // of the inertial samples since the step
   };
 
+  // The senders that are kept.
+  struct Senders {
+    struct Lidar {
+      std::int8_t sensor_id = 0;
+      Timestamp newest;  // of its chunks
+    };
+    SenderWatch imu;
+    std::optional<Lidar> lidar;  // the one that came first
+  };
+
   bool RefuseForeign(const ImuSample& sample);
   bool RefuseForeign(const ScanChunk& chunk);
   void Enqueue(Message message);
@@ -105,7 +122,8 @@ class SensorStream {
   void CloseSweepsBefore(Timestamp stamp);
   void TakeClosedSweeps();
   void OpenGate();
-  void Admit(SweepPtr sweep);
+  void Admit(std::shared_ptr<Sweep> sweep, Duration correction);
+  void GiveOut(SweepPtr sweep);
   bool NotifyIfClocksApart(Timestamp imu, Timestamp lidar);
   void GoLidarOnly(const std::string& evidence);
   void LoseImu();
@@ -127,19 +145,15 @@ class SensorStream {
   State state_ = State::kFlowing;
   std::deque<Message> inbox_;  // not processed yet
   std::deque<StreamEvent> events_;
-  // The lidar that came first, and its newest chunk.
-  struct Lidar {
-    std::int8_t sensor_id = 0;
-    Timestamp newest;
-  };
-  SenderWatch imu_senders_;
-  std::optional<Lidar> lidar_;
+  Senders senders_;
   ImuPreprocessor preprocessor_;
   SaturationDetector saturation_;
   ImuBuffer imu_;
   ClockStepArbiter arbiter_;
   ScanAssembler assembler_;
   ScanGate gate_;
+  StampCorrection corrections_;
+  Duration learned_correction_;
   PendingStep step_;
   Duration imu_clock_shift_;  // of an inertial clock that stepped alone
   Timestamp newest_chunk_;

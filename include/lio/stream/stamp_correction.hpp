@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The correction of a sweep's stamps by the clock offset that matched sweeps have shown
+// (pipeline/clock_offset_follower.hpp). A sweep gets the correction that was known when it was
+// `lag` sweeps away from being matched, so its stamps do not depend on how fast sweeps are matched.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+#include "lio/base/time.hpp"
+
+namespace lio {
+
+class StampCorrection {
+ public:
+  // `lag` counts sweeps and is at least 1.
+  explicit StampCorrection(std::size_t lag) : lag_(lag) {}
+
+  // With so many sweeps given out and not yet matched, would the next sweep's correction depend on
+  // one of them?
+  [[nodiscard]] bool IsUnknown(std::size_t num_unmatched) const { return num_unmatched >= lag_; }
+  // `correction` is known while so many sweeps are given out and not yet matched. To be called
+  // after each match, before CountSweep().
+  void Learn(std::size_t num_unmatched, Duration correction);
+  // For the next sweeps that are given out together.
+  [[nodiscard]] Duration ForNextSweep();
+  // A sweep is given out.
+  void CountSweep() { ++num_sweeps_; }
+
+ private:
+  struct Known {
+    std::size_t num_matched = 0;  // sweeps that had been matched before it was known
+    Duration correction;
+  };
+
+  std::size_t lag_;
+  std::size_t num_sweeps_ = 0;
+  std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweep
+};
+
+}  // namespace lio
