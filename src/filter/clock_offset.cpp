@@ -23,6 +23,14 @@ Preintegration Gyro(std::span<const ImuSample> samples, Timestamp from, Timestam
   return Preintegrate(samples, from, to, {bias, Vector3::Zero()}, noise);
 }
 
+// Samples are missing, or were made up in their place (stream/imu_buffer.hpp): the line between the
+// others does not follow the motion.
+bool AreSparse(std::span<const ImuSample> samples) {
+  return std::ranges::adjacent_find(samples, [](const ImuSample& a, const ImuSample& b) {
+           return b.stamp - a.stamp > kImuGap.sparse;
+         }) != samples.end();
+}
+
 // The mean over the time by which the stamp may be wrong: noise and vibration average out.
 Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vector3& bias) {
   const Duration half = Duration::FromSeconds(0.5 * kParameters.rate_span_s);
@@ -59,6 +67,7 @@ void ClockOffset::Update(const Scan& scan) {
                kParameters.max_std_s * kParameters.max_std_s);
   if (scan.stamp - last_->stamp > kScanGap.unrelated || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
+  if (AreSparse(samples)) return;
   const Preintegration gyro =
       Gyro(samples, last_->stamp, scan.stamp, scan.gyro_bias, scan.gyro_density);
   const Quaternion matched = last_->R_map_imu.conjugate() * scan.R_map_imu;
@@ -89,6 +98,7 @@ void ClockOffset::Fuse(const Turn& turn) {
   }
   offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
   var_s2_ = 1.0 / (1.0 / var_s2_ + h.squaredNorm() / turn_var);
+  ++num_turns_;
 }
 
 // Across the change of rate an offset shows nothing, so that the scatter there is that of the turns
@@ -106,7 +116,7 @@ void ClockOffset::LearnUnclaimed(const Turn& turn) {
 void ClockOffset::Follow() {
   const bool is_known = std_s() <= kParameters.known_std_s;
   const bool is_off = std::abs(offset_s_ - move_by_s_) > kParameters.sure_sigmas * std_s();
-  is_found_ |= is_known || is_off;
+  is_found_ |= num_turns_ >= kParameters.min_turns && (is_known || is_off);
   if (!is_found_) return;
   move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kParameters.max_step_s, kParameters.max_step_s);
 }

@@ -44,8 +44,9 @@ Pose LevelTrack::Get(const double (&from)[7]) {
   return {Quaternion(from[6], from[3], from[4], from[5]), Vector3(from[0], from[1], from[2])};
 }
 
-void LevelTrack::Add(const FilterReport& filter) {
+void LevelTrack::Add(const FilterReport& filter, Duration clock_correction) {
   last_.stamp_ns = filter.nav.stamp.ns;
+  last_.clock_correction_ns = clock_correction.ns;
   Put(filter.nav.T_map_imu, last_.T_map_imu);
   Put(filter.nav.T_world_imu, last_.T_world_imu);
   Eigen::Map<Matrix6>(last_.pose_cov) = filter.nav.pose_cov;
@@ -70,7 +71,7 @@ void LevelTrack::Finish() {
     covariances.stream << CovarianceHeader();
     Row row;
     while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
-      const Timestamp stamp{row.stamp_ns};
+      const Timestamp stamp{row.stamp_ns + last_.clock_correction_ns - row.clock_correction_ns};
       const Pose pose = T_level_map * Get(row.T_map_imu);
       poses.stream << TumRow({stamp, pose}) << '\n';
       const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);

@@ -146,7 +146,7 @@ void RunWriter::WriteScan(const ScanOutput& output) {
   last_scan_ = nav.stamp;
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
-  level_->Add(*output.filter);
+  level_->Add(*output.filter, output.scan.clock_correction);
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 

@@ -9,7 +9,10 @@
 namespace lio {
 namespace {
 
-constexpr double kKnownStd_s = 1e-3;  // 1 cm at 10 m/s: an offset known so well is announced
+// An offset is announced that is known so well, and so large that it matters: 1 cm at 10 m/s, and
+// three standard deviations of it.
+constexpr double kKnownStd_s = 1e-3;
+constexpr double kToldOffset_s = 3e-3;
 
 }  // namespace
 
@@ -49,7 +52,8 @@ std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outc
                 options_->filter.registration_cov_scale * rotation_cov.trace() / 3.0,
                 history.At(sweep.middle()).state.gyro_bias, gyro_density},
                samples);
-  if (is_announced_ || offset_->std_s() > kKnownStd_s) return std::nullopt;
+  const bool matters = std::abs(offset_->offset_s()) > kToldOffset_s;
+  if (is_announced_ || offset_->std_s() > kKnownStd_s || !matters) return std::nullopt;
   is_announced_ = true;
   return fmt::format(
       "clocks: the lidar's stamps are {:.1f} ms {} the IMU's (1 sigma {:.1f} ms): set "

@@ -85,6 +85,7 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
 ScanReport MakeScanReport(const MatchOutcome& outcome) {
   ScanReport report;
   report.stamp = outcome.sweep->end;
+  report.clock_correction = outcome.sweep->clock_correction;
   report.scan_seq = outcome.sweep->scan_seq;
   report.num_raw = static_cast<int>(outcome.sweep->points.size());
   report.num_used = outcome.num_used;

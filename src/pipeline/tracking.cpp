@@ -160,7 +160,8 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
   MotionRecord& record = context_.examiner.record();
   if (is_first_scan_) record.BeginMap();
   if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();
-  const Timestamp middle = outcome.sweep->middle();
+  record.SetClockCorrection(outcome.sweep->clock_correction);
+  const Timestamp middle = outcome.sweep->middle() - outcome.sweep->clock_correction;
   const Timestamp since = record.last_stamp().value_or(middle);
   const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
   record.Add({middle, outcome.match.T_map_imu},

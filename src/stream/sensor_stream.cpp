@@ -113,8 +113,8 @@ void SensorStream::Reject() {
 std::optional<StreamEvent> SensorStream::Next(std::size_t num_unmatched) {
   while (events_.empty()) {
     if (options_.max_unmatched) {
+      corrections_.Learn(num_unmatched);
       if (corrections_.IsUnknown(num_unmatched)) return std::nullopt;
-      corrections_.Learn(num_unmatched, learned_correction_);
     }
     if (!Advance(num_unmatched == 0)) return std::nullopt;
   }

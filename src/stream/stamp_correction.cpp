@@ -6,11 +6,13 @@
 
 namespace lio {
 
-void StampCorrection::Learn(std::size_t num_unmatched, Duration correction) {
-  if (correction == known_.back().correction) return;
-  // Sweeps that an initialization matches once more do not take back what was matched.
+void StampCorrection::Learn(std::size_t num_unmatched) {
+  // The match after which an initialization matches earlier sweeps once more is not counted before
+  // they are done: what they show comes after it.
   const std::size_t num_matched = num_sweeps_ - std::min(num_sweeps_, num_unmatched);
-  known_.push_back({std::max(num_matched, known_.back().num_matched), correction});
+  const std::size_t known_after = std::max(num_matched, num_matched_ + 1);
+  num_matched_ = std::max(num_matched, num_matched_);
+  if (newest_ != known_.back().correction) known_.push_back({known_after, newest_});
 }
 
 Duration StampCorrection::ForNextSweep() {

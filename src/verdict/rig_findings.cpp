@@ -68,6 +68,7 @@ class Examination {
   Examination(const MotionRecord& record, const Rig& rig, const ImuConvention& convention)
       : rig_(rig),
         R_imu_sent_(Quaternion(convention.R_imu_sent)),
+        clock_correction_s_(record.clock_correction().Seconds()),
         fit_(record, rig.imu.accel_bias_std_mps2) {}
 
   RigFindings Find() {
@@ -237,6 +238,10 @@ class Examination {
           "turns agree when {:.1f} +- {:.1f} ms are added to the lidar's "
           "stamps",
           1e3 * errors.offset_s, 1e3 * std_of(kRigOffset));
+      if (std::abs(errors.offset_s - clock_correction_s_) < kParameters.offset_tolerance_s) {
+        cause.leaves = Trust::kDoubtful;  // poses before that are late
+        cause.evidence += ", as they are since the offset was found on the way";
+      }
       cause.fix = fmt::format("rig:\n  lidar:\n    clock_offset_s: {:.4f}\n", total_s);
     } else if (kind == CauseKind::kExtrinsicRotation) {
       cause.evidence = fmt::format(
@@ -282,6 +287,7 @@ class Examination {
 
   const Rig& rig_;
   Quaternion R_imu_sent_;
+  double clock_correction_s_;
   RigFit fit_;
   RigFitResult all_;
   double sure_sigmas_ = 0.0;

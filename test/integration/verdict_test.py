@@ -46,9 +46,12 @@ class VerdictOfReplay(unittest.TestCase):
             for setup in WRONG:
                 with self.subTest(drive=drive, setup=setup):
                     found, code = self.judge(folder, setup)
-                    self.assertEqual(found["trust"], "no")
-                    self.assertIn(code, (EXIT_NO_TRUST, EXIT_CONFIGURATION))
                     first = found["causes"][0]
+                    if setup == "clock -25 ms":  # the filter finds it on the way
+                        self.assertEqual((found["trust"], code), ("doubtful", 0))
+                    else:
+                        self.assertEqual(found["trust"], "no")
+                        self.assertIn(code, (EXIT_NO_TRUST, EXIT_CONFIGURATION))
                     self.assertEqual(first["kind"], verdict.SETUPS[setup][1], found)
                     self.assertTrue(first["fix"].startswith("rig:"), first)
 

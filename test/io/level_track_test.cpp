@@ -36,7 +36,7 @@ class LevelTrackTest : public ::testing::Test {
 
 TEST_F(LevelTrackTest, PathIsTurnedRigidlyUntilItIsLevel) {
   LevelTrack track(folder_.path());
-  for (int x = 0; x <= 100; x += 10) track.Add(ReportAt(x));
+  for (int x = 0; x <= 100; x += 10) track.Add(ReportAt(x), {});
   track.Finish();
   const StampedPoses poses = ReadTrajectory(File("trajectory_level.tum")).poses;
   ASSERT_EQ(poses.size(), 11u);
@@ -56,16 +56,30 @@ TEST_F(LevelTrackTest, TheLastEstimateTellsWhatIsLevel) {
   LevelTrack track(folder_.path());
   FilterReport unsure = ReportAt(0.0);
   unsure.nav.T_world_imu.rotation = ExpSo3(Vector3(0.3, 0.0, 0.0));
-  track.Add(unsure);
+  track.Add(unsure, {});
   EXPECT_GT(LogSo3(track.R_level_map() * kMapTilt).norm(), 0.1);
-  track.Add(ReportAt(10.0));
+  track.Add(ReportAt(10.0), {});
   EXPECT_LT((track.R_level_map() * kMapTilt * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 1e-9);
+}
+
+// The clock offset is found on the way: the stamps of before are corrected afterwards.
+TEST_F(LevelTrackTest, StampsAreCorrectedByTheLastClockOffset) {
+  LevelTrack track(folder_.path());
+  track.Add(ReportAt(1.0), {});
+  track.Add(ReportAt(2.0), Duration{-4'000'000});
+  track.Add(ReportAt(3.0), Duration{-25'000'000});
+  track.Finish();
+  const StampedPoses poses = ReadTrajectory(File("trajectory_level.tum")).poses;
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[0].stamp, ReportAt(1.0).nav.stamp - Duration{25'000'000});
+  EXPECT_EQ(poses[1].stamp, ReportAt(2.0).nav.stamp - Duration{21'000'000});
+  EXPECT_EQ(poses[2].stamp, ReportAt(3.0).nav.stamp);
 }
 
 TEST_F(LevelTrackTest, CovarianceHasTheStepToTheWorldsEstimate) {
   LevelTrack track(folder_.path());
   FilterReport report = ReportAt(50.0);
-  track.Add(report);
+  track.Add(report, {});
   track.Finish();
   const std::string text = test::ReadText(File("covariance_level.csv"));
   EXPECT_TRUE(text.starts_with("t_s,cov_x_x,"));
@@ -80,7 +94,7 @@ TEST_F(LevelTrackTest, WithoutGravityNothingIsWritten) {
   LevelTrack track(folder_.path());
   FilterReport report = ReportAt(1.0);
   report.g_world_mps2.setZero();
-  track.Add(report);
+  track.Add(report, {});
   track.Finish();
   EXPECT_EQ(track.R_level_map().coeffs(), Quaternion::Identity().coeffs());
   EXPECT_TRUE(fs::is_empty(folder_.path()));
@@ -89,7 +103,7 @@ TEST_F(LevelTrackTest, WithoutGravityNothingIsWritten) {
 TEST_F(LevelTrackTest, FilesOfAnEarlierRunAreRemoved) {
   {
     LevelTrack track(folder_.path());
-    track.Add(ReportAt(1.0));
+    track.Add(ReportAt(1.0), {});
     track.Finish();
   }
   ASSERT_TRUE(fs::exists(File("trajectory_level.tum")));

@@ -83,7 +83,7 @@ class Walk {
   FilterHistory history_{HistoryOptions{}, Start(), SampleOf(0)};
 };
 
-TEST(ClockOffsetFollower, IsOffUnlessAskedFor) {
+TEST(ClockOffsetFollower, DoesNothingWhenSwitchedOff) {
   const Options options = OptionsWith(false, 0.03);
   ClockOffsetFollower follower(options);
   Walk walk;

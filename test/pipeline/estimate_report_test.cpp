@@ -174,6 +174,8 @@ TEST_F(EstimateReportTest, OnlyAFusedScanHasDegreesOfFreedom) {
 
 TEST_F(EstimateReportTest, TheConfiguredClockOffsetIsReported) {
   options_.rig.lidar.clock_offset_s = 0.04;
+  options_.filter.estimate_clock_offset = false;
+  clocks_ = ClockOffsetFollower(options_);
   const FilterReport report = MakeFilterReport(estimate_, {}, Context());
   EXPECT_EQ(report.clock_offset_s, 0.04);
   EXPECT_EQ(report.clock_offset_std_s, 0.0);

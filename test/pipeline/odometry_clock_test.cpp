@@ -31,8 +31,9 @@ TEST(Odometry, TheLidarsConfiguredOffsetIsTakenOffItsStamps) {
               Bytes(RunOdometry(StaticStartDrive(), test::DriveRig()).scans));
 }
 
-TEST(Odometry, TheClocksOffsetIsEstimatedWhenAskedFor) {
+TEST(Odometry, TheClocksOffsetIsEstimatedUnlessSwitchedOff) {
   Options options = test::DriveRig();
+  options.filter.estimate_clock_offset = false;
   const RunResult without = RunOdometry(StaticStartDrive(), options);
   options.filter.estimate_clock_offset = true;
   const RunResult with = RunOdometry(StaticStartDrive(), options);

@@ -11,10 +11,15 @@ constexpr Duration Ms(int ms) {
   return {1'000'000 * std::int64_t{ms}};
 }
 
+void Learn(StampCorrection& corrections, std::size_t num_unmatched, Duration newest) {
+  corrections.SetNewest(newest);
+  corrections.Learn(num_unmatched);
+}
+
 TEST(StampCorrection, ASweepGetsWhatIsKnownOnceAllButTheLastFewAreMatched) {
   StampCorrection corrections(3);
   corrections.CountSweep();
-  corrections.Learn(0, Ms(5));  // by the first sweep
+  Learn(corrections, 0, Ms(5));  // by the first sweep
   corrections.CountSweep();
   EXPECT_EQ(corrections.ForNextSweep(), Ms(0)) << "the first one might not be matched yet";
   corrections.CountSweep();
@@ -29,19 +34,22 @@ TEST(StampCorrection, IsUnknownWhileASweepThatCountsIsUnmatched) {
 
 TEST(StampCorrection, WithoutLagTheNewestHoldsAtOnce) {
   StampCorrection corrections(1);
-  corrections.Learn(0, Ms(2));
+  corrections.CountSweep();
+  Learn(corrections, 0, Ms(2));
   EXPECT_EQ(corrections.ForNextSweep(), Ms(2));
   corrections.CountSweep();
-  corrections.Learn(0, Ms(-4));
+  Learn(corrections, 0, Ms(-4));
   EXPECT_EQ(corrections.ForNextSweep(), Ms(-4));
 }
 
-// An initialization matches sweeps once more: what it learns then comes after the last of them.
-TEST(StampCorrection, SweepsThatAreMatchedOnceMoreDoNotTakeBackWhatWasMatched) {
+// The match of the fifth sweep begins an initialization, which matches all five once more: what
+// they show comes after the fifth.
+TEST(StampCorrection, WhatSweepsShowThatAreMatchedOnceMoreComesAfterAllOfThem) {
   StampCorrection corrections(2);
   for (int i = 0; i < 5; ++i) corrections.CountSweep();
-  corrections.Learn(0, Ms(1));  // after five
-  corrections.Learn(4, Ms(2));  // four of them again
+  Learn(corrections, 1, Ms(0));  // after four
+  Learn(corrections, 5, Ms(0));
+  Learn(corrections, 3, Ms(2));  // after two of them
   EXPECT_EQ(corrections.ForNextSweep(), Ms(0));
   corrections.CountSweep();
   EXPECT_EQ(corrections.ForNextSweep(), Ms(2));

@@ -55,6 +55,21 @@ TEST(RigFindings, WrongLeverArmIsNamed) {
   EXPECT_EQ(findings.causes[0].leaves, Trust::kNo);
 }
 
+TEST(RigFindings, ClockOffsetThatIsFollowedLeavesDoubtAlone) {
+  RigDrive drive = RightDrive();
+  drive.clock_offset_s = 0.02;
+  MotionRecord record = test::RecordDrive(drive);
+  for (const auto& [followed_ms, leaves] : {std::pair{18, Trust::kDoubtful}, {10, Trust::kNo}}) {
+    record.SetClockCorrection(Duration{1'000'000LL * followed_ms});
+    Rig rig;
+    rig.T_imu_lidar = drive.T_configured;
+    const RigFindings findings = FindRigErrors(record, rig, {});
+    ASSERT_FALSE(findings.causes.empty());
+    EXPECT_EQ(findings.causes[0].kind, CauseKind::kClockOffset);
+    EXPECT_EQ(findings.causes[0].leaves, leaves) << followed_ms;
+  }
+}
+
 TEST(RigFindings, ClockOffsetIsNamedWithWhatToAdd) {
   RigDrive drive = RightDrive();
   drive.clock_offset_s = 0.02;

@@ -52,7 +52,7 @@ class ClockOffset {
   double move_by_s() const { return move_by_s_; }
 
  private:
-  // What a turn between neighbouring scans shows.
+  // The measurement by a turn between neighbouring scans.
   struct Turn {
     Vector3 rate_change_radps = Vector3::Zero();
     double rate_change_std_radps = 0.0;
@@ -69,8 +69,9 @@ class ClockOffset {
   double var_s2_ =
       kFilterParameters.clock_offset.max_std_s * kFilterParameters.clock_offset.max_std_s;
   double move_by_s_ = 0.0;
+  int num_turns_ = 0;      // that have been fused
   bool is_found_ = false;  // stamps are moved
-  // Of a turn, beyond what is claimed, rad^2 per axis.
+  // The variance of a turn beyond what is claimed, rad^2 per axis.
   double unclaimed_var_ =
       kFilterParameters.clock_offset.turn_std_rad * kFilterParameters.clock_offset.turn_std_rad;
   std::optional<Scan> last_;

@@ -16,8 +16,8 @@ struct FilterOptions {
   int max_gated_in_a_row = 2;
   // Zero-velocity updates at rest (docs/filter.md, Standing still).
   bool use_zero_velocity = true;
-  // Estimates the clock offset between lidar and IMU (clock_offset.hpp); adds 50 ms of latency.
-  bool estimate_clock_offset = false;
+  // Estimates the clock offset between lidar and IMU (clock_offset.hpp).
+  bool estimate_clock_offset = true;
   // Factor k on the covariance of matches; more trusts matches less. Fitted to the simulator: NIS/6
   // is 1.0 at 1.6 (docs/consistency.md).
   double registration_cov_scale = 1.6;

@@ -83,6 +83,8 @@ struct ClockOffsetParameters {
   // Standard deviations. The stamps are moved before that where they are off for sure: without an
   // offset one estimate in 370 of a normal distribution lies so far from zero.
   double sure_sigmas = 3.0;
+  // Turns before stamps are moved. Chosen: one wrong match, or two, do not show an offset.
+  int min_turns = 5;
   // s per scan. Largest change of the correction. Chosen: it turns a scan by 2 mrad at 1 rad/s
   // (tested by ClockOffset.StampsAreMovedSlowly).
   double max_step_s = 2e-3;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The path of a run as it looks when the run is over: the steady path in map, turned once, rigidly
 // and about its origin, so that it is level by the last estimate. It keeps its shape, and its
-// height does not drift by the tilt that the start did not know. Written at the end as
+// height does not drift by the tilt that the start did not know. Its stamps are corrected by the
+// last estimate of the clock offset, those of before it was found too. Written at the end as
 // trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them.
 #pragma once
 
@@ -20,7 +21,8 @@ class LevelTrack {
   // be written; so do the others.
   explicit LevelTrack(const std::filesystem::path& folder);
 
-  void Add(const FilterReport& filter);
+  // `clock_correction`: what the estimated clock offset has added to the stamp.
+  void Add(const FilterReport& filter, Duration clock_correction);
   // From the map's frame to the level one, by the last row; the identity when no gravity was felt.
   [[nodiscard]] Quaternion R_level_map() const;
   // Writes the two files, unless nothing levels the path: no gravity was felt.
@@ -29,6 +31,7 @@ class LevelTrack {
  private:
   struct Row {
     std::int64_t stamp_ns = 0;
+    std::int64_t clock_correction_ns = 0;
     double T_map_imu[7] = {};    // translation, then rotation x y z w
     double T_world_imu[7] = {};  // likewise
     double pose_cov[36] = {};    // of T_world_imu

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Follows what is left of the offset between the clocks of lidar and IMU
 // (filter.estimate_clock_offset), says by how much sweeps are to be moved
-// (stream/stamp_correction.hpp), and announces the offset once it is known.
+// (stream/stamp_correction.hpp), and announces an offset that matters once it is known.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace lio {
 
 class ClockOffsetFollower {
  public:
-  // Does nothing unless the options ask for it.
+  // Does nothing where the options switch it off.
   explicit ClockOffsetFollower(const Options& options);
 
   // Begins anew, knowing nothing.

@@ -257,7 +257,7 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
   visit("use_zero_velocity", o.use_zero_velocity,
         "a vehicle that stands still, to IMU and lidar together, has no velocity");
   visit("estimate_clock_offset", o.estimate_clock_offset,
-        "follow what is left of the offset between lidar and IMU, up to 50 ms; 50 ms more latency");
+        "follow what is left of the offset between the clocks of lidar and IMU, up to 50 ms");
   visit("registration_cov_scale", o.registration_cov_scale,
         "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
   visit("map_walk_scale", o.map_walk_scale,

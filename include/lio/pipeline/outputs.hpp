@@ -82,7 +82,8 @@ using StageTimes = std::array<std::int64_t, kNumStages>;  // ns of CPU work, ind
 
 // One registration: a row of registration.csv.
 struct ScanReport {
-  Timestamp stamp;  // sweep end
+  Timestamp stamp;            // sweep end
+  Duration clock_correction;  // in the stamp, by the estimated clock offset
   std::int64_t scan_seq = 0;
   int num_raw = 0;
   int num_used = 0;

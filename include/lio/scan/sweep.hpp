@@ -13,8 +13,8 @@
 namespace lio {
 
 struct Sweep {
-  Timestamp start;  // instant of t_offset_ns = 0: the first point's stamp
-  Timestamp end;    // the last point's stamp
+  Timestamp start;            // instant of t_offset_ns = 0: the first point's stamp
+  Timestamp end;              // the last point's stamp
   Duration clock_correction;  // in both stamps, by the estimated clock offset
   std::int32_t scan_seq = 0;
   int num_missing_chunks = 0;

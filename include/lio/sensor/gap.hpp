@@ -5,7 +5,8 @@
 // length of a gap decides what follows from it, and every module takes the lengths from here:
 //
 //   samples apart by
-//     30 ms    sparse      process noise is added                   filter/filter_history
+//     30 ms    sparse      process noise is added, and turns say    filter/filter_history,
+//                          nothing of the clock offset              filter/clock_offset
 //     100 ms   unmeasured  no initialization in motion, and no      imu/moving_start,
 //                          calibration, uses the motion across it   calib/rotation_calibration
 //     150 ms   bridged     the mean of the time before stands in    stream/imu_buffer

@@ -60,7 +60,7 @@ class SensorStream {
   [[nodiscard]] std::optional<StreamEvent> Next(std::size_t num_unmatched);
 
   // Sweeps that have been matched show this offset; it moves those that are given out later.
-  void SetStampCorrection(Duration correction) { learned_correction_ = correction; }
+  void SetStampCorrection(Duration correction) { corrections_.SetNewest(correction); }
 
   // The estimator can use sweeps from this time on; absent: from the first inertial sample on.
   void SetBegin(std::optional<Timestamp> begin) { begin_ = begin; }
@@ -153,7 +153,6 @@ class SensorStream {
   ScanAssembler assembler_;
   ScanGate gate_;
   StampCorrection corrections_;
-  Duration learned_correction_;
   PendingStep step_;
   Duration imu_clock_shift_;  // of an inertial clock that stepped alone
   Timestamp newest_chunk_;

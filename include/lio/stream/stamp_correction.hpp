@@ -17,12 +17,14 @@ class StampCorrection {
   // `lag` counts sweeps and is at least 1.
   explicit StampCorrection(std::size_t lag) : lag_(lag) {}
 
-  // With so many sweeps given out and not yet matched, would the next sweep's correction depend on
-  // one of them?
+  // Does the next sweep's correction depend on a sweep that is not matched yet, when so many are
+  // not?
   [[nodiscard]] bool IsUnknown(std::size_t num_unmatched) const { return num_unmatched >= lag_; }
-  // `correction` is known while so many sweeps are given out and not yet matched. To be called
-  // after each match, before CountSweep().
-  void Learn(std::size_t num_unmatched, Duration correction);
+  // Matched sweeps show this now.
+  void SetNewest(Duration correction) { newest_ = correction; }
+  // The newest correction is known while so many sweeps are given out and not yet matched. To be
+  // called after each match, before CountSweep().
+  void Learn(std::size_t num_unmatched);
   // For the next sweeps that are given out together.
   [[nodiscard]] Duration ForNextSweep();
   // A sweep is given out.
@@ -35,7 +37,9 @@ class StampCorrection {
   };
 
   std::size_t lag_;
-  std::size_t num_sweeps_ = 0;
+  std::size_t num_sweeps_ = 0;   // given out
+  std::size_t num_matched_ = 0;  // of them, at least once
+  Duration newest_;
   std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweep
 };
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The motion of a drive as matching and the inertial samples show it, kept scan by scan for
-// rig_fit.hpp. Matched poses are raw: before the filter, gated ones included.
+// rig_fit.hpp. Matched poses are raw: before the filter, gated ones included, and by the clocks as
+// they are configured.
 #pragma once
 
 #include <cstddef>
@@ -45,9 +46,12 @@ class MotionRecord {
   void BeginMap();
   // The rates and forces so far were read in other units or axes.
   void Clear();
-  // Adds a matched pose, later than the one before. `samples`: from the last pose to this one at
-  // least, ascending.
+  // Adds a matched pose, later than the one before, whose stamp an estimated clock offset has not
+  // moved. `samples`: from the last pose to this one at least, ascending.
   void Add(const StampedPose& T_map_imu, std::span<const ImuSample> samples);
+  // The estimate moves stamps by this much now.
+  void SetClockCorrection(Duration correction) { clock_correction_ = correction; }
+  Duration clock_correction() const { return clock_correction_; }
   // A scan was not matched soundly: no step leads to the next pose.
   void Interrupt() { last_.reset(); }
 
@@ -57,6 +61,7 @@ class MotionRecord {
  private:
   int map_ = 0;
   int track_ = 0;
+  Duration clock_correction_;
   std::optional<StampedPose> last_;
   std::deque<MotionStep> steps_;
 };
