@@ -17,6 +17,8 @@
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
+// When the clock goes back, as when a log is played again to a running daemon, the rows from there
+// on stand in segment_2/, then segment_3/ and so on, under the same names.
 // For the same input all but the computing times is the same, byte for byte.
 #pragma once
 
@@ -29,11 +31,9 @@
 #include <vector>
 
 #include "lio/io/input_decoder.hpp"
-#include "lio/io/level_track.hpp"
-#include "lio/io/output_file.hpp"
 #include "lio/io/quantile_sketch.hpp"
+#include "lio/io/segment_files.hpp"
 #include "lio/pipeline/odometry.hpp"
-#include "lio/sensor/stamped_pose.hpp"
 #include "lio/verdict/verdict.hpp"
 
 namespace lio {
@@ -56,7 +56,8 @@ class RunWriter {
   // std::runtime_error naming the file when it cannot.
   RunWriter(const std::filesystem::path& folder, const Options& options);
 
-  // A row that is not later than the one before is left out and counted in stats.json.
+  // A row that steps back by more than 0.1 s begins a segment; another one that is not later than
+  // the one before is left out and counted in stats.json.
   void Write(const Output& output);
   // To be called after the last row: the points are turned as the level path is.
   void WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format = MapFormat::kPcd);
@@ -64,25 +65,15 @@ class RunWriter {
   void Finish(const RunStats& stats);
 
  private:
-  struct Track {  // poses and their covariances
-    OutputFile poses, covariances;
-  };
-
-  Track OpenTrack(const std::string& frame) const;
-  static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
-  void WriteScan(const ScanOutput& output);
+  std::filesystem::path FolderOf(int segment) const;
+  void FinishSegment();
   void WriteStats(const RunStats& stats);
 
   std::filesystem::path folder_;
-  Track in_map_;
-  Track in_world_;
-  std::optional<LevelTrack> level_;
-  std::optional<OutputFile> base_;
-  OutputFile imu_rate_;
-  OutputFile registration_;
-  std::optional<Timestamp> last_scan_;
-  std::optional<Timestamp> last_imu_rate_;
-  std::int64_t num_rows_not_later_ = 0;
+  bool has_base_;
+  std::optional<SegmentFiles> segment_;
+  int num_segments_ = 1;
+  std::int64_t num_rows_not_later_ = 0;  // of the segments before
   std::array<QuantileSketch, kNumStages> stage_ms_;
   QuantileSketch gyro_noise_ratio_;  // ImuNoiseRatios, at each scan
   QuantileSketch accel_noise_ratio_;

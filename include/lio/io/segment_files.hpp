@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The rows of a run between two steps back of the clock: trajectories, covariances and
+// registration.csv in one folder, where stamps ascend (run_writer.hpp says which files).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "lio/io/level_track.hpp"
+#include "lio/io/output_file.hpp"
+#include "lio/pipeline/odometry.hpp"
+#include "lio/sensor/stamped_pose.hpp"
+
+namespace lio {
+
+class SegmentFiles {
+ public:
+  // Rows that step back by more than this are another segment's. Chosen: a sweep at 10 Hz.
+  static constexpr Duration kStepBack{100'000'000};
+
+  // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
+  // naming the file when it cannot; so do the others when a file could not be written in full.
+  SegmentFiles(const std::filesystem::path& folder, bool has_base);
+
+  // Has the clock gone back before this row?
+  [[nodiscard]] bool IsBefore(const Output& output) const;
+  // A row that is not later than the one before is left out and counted.
+  void Write(const Output& output);
+  [[nodiscard]] Quaternion R_level_map() const { return level_.R_level_map(); }
+  [[nodiscard]] std::int64_t num_rows_not_later() const { return num_rows_not_later_; }
+  // Completes all files.
+  void Finish();
+
+ private:
+  struct Track {  // poses and their covariances
+    OutputFile poses, covariances;
+  };
+
+  static Track OpenTrack(const std::filesystem::path& folder, const std::string& frame);
+  static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
+  void WriteScan(const ScanOutput& output);
+  void WriteImuRate(const NavOutput& nav);
+
+  Track in_map_;
+  Track in_world_;
+  LevelTrack level_;
+  std::optional<OutputFile> base_;
+  OutputFile imu_rate_;
+  OutputFile registration_;
+  std::optional<Timestamp> last_sweep_;  // with a pose or without
+  std::optional<Timestamp> last_scan_;   // with a pose
+  std::optional<Timestamp> last_imu_rate_;
+  std::int64_t num_rows_not_later_ = 0;
+};
+
+}  // namespace lio

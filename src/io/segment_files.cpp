@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/segment_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "covariance_rows.hpp"
+#include "lio/io/trajectory_file.hpp"
+#include "stage_names.hpp"
+
+namespace lio {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<const char*, 6> kMatchStatusNames = {
+    "converged", "max_iterations", "too_few_points", "empty_map", "diverged", "degenerate"};
+
+std::string RegistrationHeader() {
+  std::string header =
+      "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
+      "degenerate_mask";
+  for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
+  for (std::size_t i = 0; i < LevelCounts().size(); ++i)
+    header += fmt::format(",matched_level_{}", i);
+  header += ",matches";
+  for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
+  return header + "\n";
+}
+
+std::string RegistrationRow(const ScanReport& scan) {
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", StampText(scan.stamp), scan.scan_seq,
+                  scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
+                  kMatchStatusNames.at(static_cast<std::size_t>(scan.status)), scan.fused ? 1 : 0,
+                  scan.residual_rms_m, scan.nis, scan.degenerate_mask);
+  for (const double eigenvalue : scan.information_eigenvalues) {
+    row += fmt::format(",{:.9e}", eigenvalue);
+  }
+  for (const int num : scan.num_matched_at) row += fmt::format(",{}", num);
+  row += fmt::format(",{}", scan.num_matches);
+  for (const std::int64_t ns : scan.stage_ns) row += fmt::format(",{:.6f}", Milliseconds(ns));
+  return row + "\n";
+}
+
+const fs::path& Created(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
+  }
+  fs::remove(folder / "trajectory_base.tum", error);  // of an earlier run
+  return folder;
+}
+
+bool StepsBack(const std::optional<Timestamp>& last, Timestamp stamp) {
+  return last && *last - stamp > SegmentFiles::kStepBack;
+}
+
+}  // namespace
+
+SegmentFiles::Track SegmentFiles::OpenTrack(const fs::path& folder, const std::string& frame) {
+  Track track{OpenOutput(folder / ("trajectory" + frame + ".tum")),
+              OpenOutput(folder / ("covariance" + frame + ".csv"))};
+  track.covariances.stream << CovarianceHeader();
+  return track;
+}
+
+void SegmentFiles::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
+  track.poses.stream << TumRow(pose) << '\n';
+  track.covariances.stream << CovarianceRow(pose.stamp, cov);
+}
+
+SegmentFiles::SegmentFiles(const fs::path& folder, bool has_base)
+    : in_map_(OpenTrack(Created(folder), "")),
+      in_world_(OpenTrack(folder, "_world")),
+      level_(folder),
+      imu_rate_(OpenOutput(folder / "trajectory_imu_rate.tum")),
+      registration_(OpenOutput(folder / "registration.csv")) {
+  if (has_base) base_ = OpenOutput(folder / "trajectory_base.tum");
+  registration_.stream << RegistrationHeader();
+}
+
+bool SegmentFiles::IsBefore(const Output& output) const {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) {
+    return StepsBack(last_sweep_, scan->scan.stamp);
+  }
+  const auto* nav = std::get_if<NavOutput>(&output);
+  return nav != nullptr && nav->source == OdometrySource::kImuPropagated &&
+         StepsBack(last_imu_rate_, nav->stamp);
+}
+
+void SegmentFiles::Write(const Output& output) {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan);
+  const auto* nav = std::get_if<NavOutput>(&output);
+  if (nav != nullptr && nav->source == OdometrySource::kImuPropagated) WriteImuRate(*nav);
+}
+
+void SegmentFiles::WriteImuRate(const NavOutput& nav) {
+  if (last_imu_rate_ && nav.stamp <= *last_imu_rate_) {
+    ++num_rows_not_later_;
+    return;
+  }
+  last_imu_rate_ = nav.stamp;
+  imu_rate_.stream << TumRow({nav.stamp, nav.T_map_imu}) << '\n';
+}
+
+void SegmentFiles::WriteScan(const ScanOutput& output) {
+  last_sweep_ = output.scan.stamp;
+  registration_.stream << RegistrationRow(output.scan);
+  if (!output.filter) return;
+  const NavOutput& nav = output.filter->nav;
+  if (last_scan_ && nav.stamp <= *last_scan_) {
+    ++num_rows_not_later_;
+    return;
+  }
+  last_scan_ = nav.stamp;
+  WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
+  WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
+  level_.Add(*output.filter, output.scan.clock_correction);
+  if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
+}
+
+void SegmentFiles::Finish() {
+  for (Track* track : {&in_map_, &in_world_}) {
+    Close(track->poses);
+    Close(track->covariances);
+  }
+  for (OutputFile* file : {&imu_rate_, &registration_}) Close(*file);
+  if (base_) Close(*base_);
+  level_.Finish();
+}
+
+}  // namespace lio
