@@ -17,6 +17,7 @@
 #include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "lio/io/verdict_report.hpp"
+#include "state_rows.hpp"
 
 namespace lio {
 namespace {
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kNumStages> kStageNames = {"decode", "reduce", "deskew", "match",
                                                              "insert", "filter", "total"};
+constexpr std::array<const char*, 3> kSeverityNames = {"info", "warning", "error"};
 constexpr std::array<const char*, 6> kMatchStatusNames = {
     "converged", "max_iterations", "too_few_points", "empty_map", "diverged", "degenerate"};
 
@@ -103,7 +105,7 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
     throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
   }
   for (const char* stale :
-       {"stats.json", "verdict.json", "map.pcd", "map.ply", "trajectory_base.tum"})
+       {"stats.json", "verdict.json", "map.pcd", "map.ply", "trajectory_base.tum", "report.html"})
     std::filesystem::remove(folder / stale, error);
   OutputFile options_file = OpenOutput(folder_ / "options.yaml");
   options_file.stream << PrintResultOptions(options);
@@ -113,12 +115,21 @@ RunWriter::RunWriter(const std::filesystem::path& folder, const Options& options
   level_.emplace(folder_);
   if (options.rig.T_base_imu) base_ = OpenOutput(folder_ / "trajectory_base.tum");
   imu_rate_ = OpenOutput(folder_ / "trajectory_imu_rate.tum");
+  states_ = OpenOutput(folder_ / "states.csv");
+  states_.stream << StateHeader();
+  notices_ = OpenOutput(folder_ / "notices.tsv");
+  notices_.stream << "t_s\tseverity\ttext\n";
   registration_ = OpenOutput(folder_ / "registration.csv");
   registration_.stream << RegistrationHeader();
 }
 
-void RunWriter::Write(const Output& output) {
-  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan);
+void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, trust);
+  if (const auto* notice = std::get_if<Notice>(&output)) {
+    notices_.stream << fmt::format("{}\t{}\t{}\n", StampText(notice->stamp),
+                                   kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
+                                   notice->text);
+  }
   const auto* nav = std::get_if<NavOutput>(&output);
   if (nav == nullptr || nav->source != OdometrySource::kImuPropagated) return;
   if (last_imu_rate_ && nav->stamp <= *last_imu_rate_) {
@@ -129,7 +140,7 @@ void RunWriter::Write(const Output& output) {
   imu_rate_.stream << TumRow({nav->stamp, nav->T_map_imu}) << '\n';
 }
 
-void RunWriter::WriteScan(const ScanOutput& output) {
+void RunWriter::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
   registration_.stream << RegistrationRow(output.scan);
   for (std::size_t i = 0; i < kNumStages; ++i) {
     stage_ms_[i].Add(Milliseconds(output.scan.stage_ns[i]));
@@ -147,6 +158,7 @@ void RunWriter::WriteScan(const ScanOutput& output) {
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
   level_->Add(*output.filter);
+  states_.stream << StateRow(*output.filter, trust);
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 
@@ -192,7 +204,7 @@ void RunWriter::Finish(const RunStats& stats) {
     Close(track->poses);
     Close(track->covariances);
   }
-  for (OutputFile* file : {&imu_rate_, &registration_}) Close(*file);
+  for (OutputFile* file : {&imu_rate_, &states_, &notices_, &registration_}) Close(*file);
   if (base_) Close(*base_);
   level_->Finish();
   WriteStats(stats);
