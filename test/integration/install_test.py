@@ -14,7 +14,8 @@ import unittest
 
 import support
 
-PROGRAMS = {"liod", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim", "lio-spy"}
+PROGRAMS = {"liod", "lio-run", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim",
+            "lio-spy"}
 BAG_LIBRARIES = ("libsqlite3", "libbz2", "liblz4")
 MAX_ERROR_M = 0.05
 

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Scores a finished run and writes its page.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "lio/report/run_report.hpp"
+
+namespace lio {
+
+struct Score {
+  std::string line;        // for users, e.g. "position error 0.004 m rmse, ..."
+  bool is_scored = false;  // otherwise `line` says why not
+};
+
+// The steady path of a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
+[[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
+
+// Compares the path with the truth; writes folder/eval.json and folder/eval.txt. Does not throw for
+// a truth that cannot be compared. Throws OutputError for a file that cannot be written.
+[[nodiscard]] Score ScoreRun(const std::filesystem::path& folder,
+                             const std::filesystem::path& truth);
+
+// Removes what an earlier run of lio-run may have left in `folder`, except for `kept`.
+void RemoveStaleFiles(const std::filesystem::path& folder,
+                      const std::optional<std::filesystem::path>& kept);
+
+}  // namespace lio
