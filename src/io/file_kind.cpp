@@ -61,13 +61,16 @@ std::string ReplayIt(const fs::path& path) {
 }
 
 std::string TakeItsTrajectory(const fs::path& path) {
-  const char* name =
-      fs::exists(path / "trajectory_level.tum") ? "trajectory_level.tum" : "trajectory.tum";
   return fmt::format("{} is the folder of a run: its path is {}", path.string(),
-                     (path / name).string());
+                     PathOfRun(path).string());
 }
 
 }  // namespace
+
+fs::path PathOfRun(const fs::path& folder) {
+  const fs::path level = folder / "trajectory_level.tum";
+  return fs::exists(level) ? level : folder / "trajectory.tum";
+}
 
 FileKind KindOf(const fs::path& path) {
   std::error_code error;

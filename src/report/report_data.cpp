@@ -5,6 +5,7 @@
 
 #include "columns.hpp"
 #include "lio/eval/stamped_csv.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/pcd_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "lio/report/run_report.hpp"
@@ -42,8 +43,7 @@ Json TableJson(const fs::path& file, const std::vector<std::string>& wanted, Tim
 }
 
 Json PathJson(const fs::path& folder, Timestamp begin) {
-  const fs::path level = folder / "trajectory_level.tum";
-  const fs::path file = fs::exists(level) ? level : folder / "trajectory.tum";
+  const fs::path file = PathOfRun(folder);
   if (!fs::exists(file) || fs::file_size(file) == 0) return nullptr;
   const StampedPoses poses = ReadTrajectory(file).poses;
   PlotColumns columns(begin);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "lio/eval/report.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -21,11 +22,6 @@ void WriteText(const fs::path& path, const std::string& text) {
 }
 
 }  // namespace
-
-fs::path PathOfRun(const fs::path& folder) {
-  const fs::path level = folder / "trajectory_level.tum";
-  return fs::exists(level) ? level : folder / "trajectory.tum";
-}
 
 Score ScoreRun(const fs::path& folder, const fs::path& truth) {
   const fs::path path = PathOfRun(folder);

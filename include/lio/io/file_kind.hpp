@@ -23,6 +23,9 @@ enum class FileKind : std::int8_t {
 
 [[nodiscard]] FileKind KindOf(const std::filesystem::path& path);
 
+// The steady path in a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
+[[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
+
 // One line that says what `path` is and which command takes it; empty for logs and for kOther.
 [[nodiscard]] std::string WhyNoLog(const std::filesystem::path& path);
 // The same for what is no trajectory; empty for kOther.

@@ -16,9 +16,6 @@ struct Score {
   bool is_scored = false;  // otherwise `line` says why not
 };
 
-// The steady path of a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
-[[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
-
 // Compares the path with the truth; writes folder/eval.json and folder/eval.txt. Does not throw for
 // a truth that cannot be compared. Throws OutputError for a file that cannot be written.
 [[nodiscard]] Score ScoreRun(const std::filesystem::path& folder,
