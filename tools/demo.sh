@@ -59,12 +59,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-out/demo}
 tools/setup.sh
 
-# The last configuration stands for the rig, so that none is drafted.
+# The first configuration stands for the rig, so that none is drafted.
 run_input() {
-  local words=(--out "$out" --overwrite "${settings[@]}") count=${#configs[@]} config
+  local words=(--out "$out" --overwrite "${settings[@]}") config
   if [[ -n $truth ]]; then words+=(--truth "$truth"); fi
-  for config in "${configs[@]:0:count > 0 ? count - 1 : 0}"; do words+=(--config "$config"); done
-  if ((count)); then words+=(--rig "${configs[-1]}"); fi
+  if ((${#configs[@]})); then words+=(--rig "${configs[0]}"); fi
+  for config in "${configs[@]:1}"; do words+=(--config "$config"); done
   build/bin/lio-run "$input" "${words[@]}" || code=$?
 }
 

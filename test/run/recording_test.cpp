@@ -25,6 +25,19 @@ class RecordingTest : public test::RosbagConversion {
     std::filesystem::create_directories(request.out);
     return PrepareRecording(request);
   }
+  // Writes the recorded drive with further messages at its beginning.
+  void WriteBagWith(const std::function<void(test::Bag1Writer&)>& write_more) {
+    test::Bag1Writer writer(dir_.path() / "drive.bag");
+    write_more(writer);
+    test::Record(
+        test::Drivers()[0],
+        [&](auto& topic, auto& type, Timestamp received, auto& data) {
+          writer.Write(topic, test::FullType(type, "/"), received, data);
+        },
+        test::RosBytes());
+    writer.Close();
+    options_.input = dir_.path() / "drive.bag";
+  }
   Options Load(const PreparedRecording& prepared) {
     const LoadResult loaded = LoadOptions(prepared.rig_files, {});
     EXPECT_THAT(loaded.faults, IsEmpty());
@@ -44,6 +57,30 @@ TEST_F(RecordingTest, ABagBecomesALogWithItsTruthAndADraftedRig) {
   EXPECT_EQ(options.rig.lidar.model, "vlp16") << "the test lidar has its beams";
   ASSERT_TRUE(options.rig.T_imu_lidar);
   EXPECT_EQ(options.rig.T_imu_lidar->translation, Vector3::Zero());
+}
+
+TEST_F(RecordingTest, TheMountingComesFromTfStatic) {
+  WriteBagWith([](test::Bag1Writer& writer) {
+    test::RosBytes links;
+    links.Put(std::uint32_t{1}).PutHeader(test::kRecordingBegin, "imu_link").PutString("velodyne");
+    for (const double value : {0.5, -0.25, 1.0, 0.0, 0.0, 1.0, 0.0}) links.Put(value);
+    writer.Write("/tf_static", "tf2_msgs/TFMessage", test::kRecordingBegin, links.bytes());
+  });
+  const PreparedRecording prepared = Prepare(options_.input);
+  EXPECT_THAT(prepared.assumptions, Contains(HasSubstr("from /tf_static: velodyne in imu_link")));
+  const Options options = Load(prepared);
+  EXPECT_EQ(options.rig.T_imu_lidar->translation, Vector3(0.5, -0.25, 1.0));
+  EXPECT_NEAR(std::abs(options.rig.T_imu_lidar->rotation.z()), 1.0, 1e-9);
+}
+
+TEST_F(RecordingTest, OfSeveralTruthTopicsNoneIsTakenUnasked) {
+  WriteBagWith([](test::Bag1Writer& writer) {
+    writer.Write("/slam", "nav_msgs/Odometry", test::kRecordingBegin,
+                 test::OdometryMessage({test::kRecordingBegin, Pose::Identity()}));
+  });
+  const PreparedRecording prepared = Prepare(options_.input);
+  EXPECT_FALSE(prepared.truth);
+  EXPECT_THAT(prepared.assumptions, Contains(HasSubstr("--truth-topic")));
 }
 
 TEST_F(RecordingTest, ARos2FolderIsABagToo) {

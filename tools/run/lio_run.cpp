@@ -50,8 +50,9 @@ constexpr const char* kAbout =
     "Without --rig a rig is drafted from what the recording shows, as DIR/rig_draft.yaml: the "
     "lidar\n"
     "by its beams, the extrinsic from /tf_static, else none; what is assumed is told. The rig of\n"
-    "another vehicle is never taken. Correct the draft as the verdict says, and run again with\n"
-    "--rig.\n\n"
+    "another vehicle is never taken. Correct the draft and run again with --rig; where the "
+    "verdict\n"
+    "knows the right lines, DIR/rig_corrected.yaml has them already.\n\n"
     "A run's folder as INPUT gets its report.html anew, e.g. one that liod --out wrote.";
 
 constexpr const char* kExamples =
@@ -74,7 +75,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
       ->type_name("DIR");
   app.add_flag("--overwrite", arguments.overwrites, "Replace the files of an earlier run in DIR");
-  app.add_option("--rig", arguments.rig, "The vehicle's configuration (default: a draft is made)")
+  app.add_option("--rig", arguments.rig,
+                 "The vehicle's configuration, which --config overrides (default: a draft is made)")
       ->type_name("FILE");
   app.add_option("--truth", arguments.truth,
                  "True trajectory as TUM file (default: beside INPUT, else from it)")
@@ -122,7 +124,7 @@ void PrepareFolder(const Arguments& arguments) {
       if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
       RefuseToOverwrite(arguments.input, out / name);
     }
-    RemoveStaleFiles(out, TruthArgument(arguments));
+    RemoveStaleFiles(out, {arguments.truth, arguments.rig});
     return;
   }
   fs::create_directories(out, error);
@@ -149,9 +151,13 @@ PreparedRecording Prepare(const Arguments& arguments) {
 std::vector<fs::path> ConfigurationFiles(const Arguments& arguments,
                                          const PreparedRecording& recording) {
   std::vector<fs::path> files = recording.rig_files;
-  files.insert(files.end(), arguments.options.files.begin(), arguments.options.files.end());
   if (!arguments.rig.empty()) files.emplace_back(arguments.rig);
+  files.insert(files.end(), arguments.options.files.begin(), arguments.options.files.end());
   return files;
+}
+
+bool IsDrafted(const PreparedRecording& recording) {
+  return !recording.rig_files.empty() && recording.rig_files[0].filename() == "rig_draft.yaml";
 }
 
 void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
@@ -166,13 +172,25 @@ void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
   }
   for (const std::string& sentence : recording.assumptions)
     fmt::print("assumed     {}\n", sentence);
-  const bool is_drafted =
-      !recording.rig_files.empty() && recording.rig_files[0].filename() == "rig_draft.yaml";
-  if (is_drafted) {
+  if (IsDrafted(recording)) {
     fmt::print("rig         {}: drafted; correct it, then give it as --rig\n",
                recording.rig_files[0].string());
   }
   std::fflush(stdout);
+}
+
+std::string NextCommand(const Arguments& arguments, const fs::path& rig) {
+  std::string command = fmt::format("{} {} --rig {} --out {} --overwrite", kProgram,
+                                    arguments.input, rig.string(), arguments.out);
+  const std::vector<std::pair<const char*, const std::string*>> options = {
+      {"--truth", &arguments.truth},
+      {"--lidar-topic", &arguments.lidar_topic},
+      {"--imu-topic", &arguments.imu_topic},
+      {"--truth-topic", &arguments.truth_topic}};
+  for (const auto& [name, value] : options) {
+    if (!value->empty()) command += fmt::format(" {} {}", name, *value);
+  }
+  return command;
 }
 
 void TellResult(const Arguments& arguments, const PreparedRecording& recording,
@@ -187,6 +205,10 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
   fmt::print("path        {}\nreport      {}\n{}", PathOfRun(out).string(),
              (out / "report.html").string(), VerdictSummary(verdict));
+  if (!IsDrafted(recording)) return;
+  if (const auto corrected = WriteCorrectedRig(out, recording.rig_files, verdict)) {
+    fmt::print("next        {}\n", NextCommand(arguments, *corrected));
+  }
 }
 
 ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Options options) {

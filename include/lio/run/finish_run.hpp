@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lio/report/run_report.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -21,8 +22,14 @@ struct Score {
 [[nodiscard]] Score ScoreRun(const std::filesystem::path& folder,
                              const std::filesystem::path& truth);
 
+// Writes folder/rig_corrected.yaml: the rig of `files` with the lines that the verdict's likeliest
+// cause with a fix proposes. Returns its path; nothing where no cause has a fix.
+[[nodiscard]] std::optional<std::filesystem::path> WriteCorrectedRig(
+    const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+    const Verdict& verdict);
+
 // Removes what an earlier run of lio-run may have left in `folder`, except for `kept`.
 void RemoveStaleFiles(const std::filesystem::path& folder,
-                      const std::optional<std::filesystem::path>& kept);
+                      const std::vector<std::filesystem::path>& kept);
 
 }  // namespace lio
