@@ -66,6 +66,17 @@ TEST_F(LioRunTest, AFolderWithSomethingInItIsOnlyOverwrittenWhenAskedTo) {
   EXPECT_TRUE(Has("out/precious.txt"));
 }
 
+TEST_F(LioRunTest, TheFolderOfTheInputIsNeverWrittenInto) {
+  std::filesystem::copy(kScene, folder_.path() / "sim");
+  const std::string truth = test::ReadText(Path("sim/truth.tum"));
+  for (const char* input : {"sim", "sim/", "sim/log.lcm"}) {
+    const auto result = Run({Path(input), "--out", Path("sim"), "--overwrite"});
+    EXPECT_EQ(result.exit_code, 2) << input;
+    EXPECT_THAT(result.err, HasSubstr("holds the input")) << input;
+  }
+  EXPECT_TRUE(test::ReadText(Path("sim/truth.tum")) == truth);
+}
+
 TEST_F(LioRunTest, AFinishedRunGetsItsReportAnew) {
   ASSERT_EQ(Run({kScene, "--out", Path("out")}).exit_code, 0);
   std::filesystem::remove(Path("out/report.html"));

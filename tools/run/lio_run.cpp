@@ -108,6 +108,13 @@ std::optional<fs::path> TruthArgument(const Arguments& arguments) {
   return fs::path(arguments.truth);
 }
 
+// Files of an earlier run are removed, and what lies beside the input is no such file.
+bool HoldsInput(const fs::path& out, const fs::path& input) {
+  std::error_code ignored;
+  const fs::path around = fs::absolute(input / "").parent_path().parent_path();
+  return fs::equivalent(out, input, ignored) || fs::equivalent(out, around, ignored);
+}
+
 // Makes the folder, or refuses one that holds something.
 void PrepareFolder(const Arguments& arguments) {
   if (arguments.out.empty()) {
@@ -116,6 +123,9 @@ void PrepareFolder(const Arguments& arguments) {
   const fs::path out = arguments.out;
   std::error_code error;
   if (fs::is_directory(out, error)) {
+    if (HoldsInput(out, arguments.input)) {
+      throw UsageError(out.string() + ": holds the input; name another folder");
+    }
     if (!fs::is_empty(out, error) && !arguments.overwrites) {
       throw UsageError(out.string() +
                        ": exists and is not empty; name another folder or add --overwrite");
