@@ -212,9 +212,14 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   } else {
     fmt::print("no score    there is no truth; give one with --truth\n");
   }
-  WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
-  fmt::print("path        {}\nreport      {}\n{}", PathOfRun(out).string(),
-             (out / "report.html").string(), VerdictSummary(verdict));
+  fmt::print("path        {}\n", PathOfRun(out).string());
+  try {
+    WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
+    fmt::print("report      {}\n", (out / "report.html").string());
+  } catch (const std::runtime_error& error) {  // the result itself is sound
+    fmt::print(stderr, "{}: no report: {}\n", kProgram, error.what());
+  }
+  fmt::print("{}", VerdictSummary(verdict));
   if (!IsDrafted(recording)) return;
   if (const auto corrected = WriteCorrectedRig(out, recording.rig_files, verdict)) {
     fmt::print("next        {}\n", NextCommand(arguments, *corrected));
