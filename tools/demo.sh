@@ -7,16 +7,16 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/demo.sh [OPTIONS] [INPUT]
-Sets up (tools/setup.sh), makes or converts the input, plays it with lcm-logplayer over UDP
-multicast to liod, and scores the result with lio-eval. Leaves path.png, error.png, map.png,
-eval.json and the files that liod writes in out/demo/.
-INPUT is a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive folder, a KITTI odometry sequence
-folder, an LCM log, or a folder that lio-sim wrote. Without INPUT a drive around a block is
-simulated.
-  --config FILE    configuration of liod; may be given again (default: by the kind of input)
+Sets up (tools/setup.sh), then runs odometry and leaves report.html, map.pcd, eval.json, verdict.json
+and the paths in out/demo/.
+INPUT goes to lio-run, which takes a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive, a KITTI
+odometry sequence, an LCM log, or a folder that lio-sim wrote. Without --config it drafts a rig.
+Without INPUT a drive around a block is simulated and played with lcm-logplayer over UDP multicast
+to liod; path.png, error.png and map.png are drawn, too.
+  --config FILE    configuration; may be given again (default: by the kind of input)
   --set KEY=VALUE  override one key; may be given again
   --truth FILE     true trajectory (default: from the input, or beside it)
-  --speed S        speed of playing, in multiples of real time (1; 3 for the simulated drive)
+  --speed S        without INPUT: speed of playing, in multiples of real time (3)
   --out DIR        folder of the results (out/demo)
 USAGE
 }
@@ -26,18 +26,16 @@ fail_usage() {
   exit 2
 }
 
-# On a busy machine the demo may be late, but it drops no scans.
-settings=(--set pipeline.max_queued_scans=1000)
-input="" given_truth="" speed="" out=out/demo given_configs=()
+settings=() input="" truth="" speed="" out="" configs=() code=0
 while (($#)); do
   case $1 in
     -h | --help) usage && exit 0 ;;
     --config | --set | --truth | --speed | --out)
       (($# > 1)) || fail_usage "$1 needs a value"
       case $1 in
-        --config) given_configs+=("$(realpath -ms "$2")") ;;
+        --config) configs+=("$(realpath -ms "$2")") ;;
         --set) settings+=(--set "$2") ;;
-        --truth) given_truth=$(realpath -ms "$2") ;;
+        --truth) truth=$(realpath -ms "$2") ;;
         --speed) speed=$2 ;;
         --out) out=$(realpath -ms "$2") ;;
       esac
@@ -55,48 +53,68 @@ if [[ -n $input && ! -e $input ]]; then
   echo "tools/demo.sh: $input does not exist" >&2
   exit 5
 fi
+[[ -z $input || -z $speed ]] || fail_usage "--speed is for the simulated drive alone"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+out=${out:-out/demo}
 tools/setup.sh
-log="" truth="" configs=()
-source tools/demo/input.sh
-if [[ -n $input ]]; then
-  find_input "$input"
-else
-  make_input
-  speed=${speed:-3}
-fi
-speed=${speed:-1}
-truth=${given_truth:-$truth}
-if ((${#given_configs[@]})); then configs=("${given_configs[@]}"); fi
 
-words=()
-for config in "${configs[@]}"; do words+=(--config "$config"); done
-mkdir -p "$out"
-rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # liod replaces the other files
-echo "demo: lcm-logplayer plays $log to liod at speed $speed"
-code=0
-tools/demo/play.sh "$log" "$out" "$speed" "${words[@]}" "${settings[@]}" || code=$?
-# liod's 6 says that the result cannot be trusted: it is shown, with the reason.
-((code == 0 || code == 6)) || exit "$code"
+# The first configuration stands for the rig, so that none is drafted.
+run_input() {
+  local words=(--out "$out" --overwrite "${settings[@]}") config
+  if [[ -n $truth ]]; then words+=(--truth "$truth"); fi
+  if ((${#configs[@]})); then words+=(--rig "${configs[0]}"); fi
+  for config in "${configs[@]:1}"; do words+=(--config "$config"); done
+  build/bin/lio-run "$input" "${words[@]}" || code=$?
+}
 
-if [[ ! -s $out/trajectory.tum ]]; then
-  echo "tools/demo.sh: liod wrote no trajectory; its messages were:" >&2
-  cat "$out/liod.log" >&2
-  exit 1
-fi
+# The simulated drive is kept while its maker is the same: the program and its sensor files.
+make_drive() {
+  local folder=$1 id
+  id="loop vlp16 $(cat build/bin/lio-sim config/lidars/*.yaml config/imus/*.yaml | cksum)"
+  if [[ -f $folder/source && $(<"$folder/source") == "$id" ]]; then return; fi
+  rm -rf "$folder" && mkdir -p "$folder"
+  echo "demo: making the input, a drive around a simulated block (kept in $folder)"
+  build/bin/lio-sim --scenario loop --lidar vlp16 --threads "$(nproc)" --out "$folder"
+  echo "$id" >"$folder/source"
+}
+
+play_drive() {
+  local folder=out/inputs/loop words=() config
+  make_drive "$folder"
+  if ! ((${#configs[@]})); then configs=("$folder/config.yaml"); fi
+  for config in "${configs[@]}"; do words+=(--config "$config"); done
+  # On a busy machine the demo may be late, but it drops no scans.
+  settings=(--set pipeline.max_queued_scans=1000 "${settings[@]}")
+  mkdir -p "$out"
+  rm -f "$out"/{path,error,map}.png "$out"/eval.{json,txt} # liod replaces the other files
+  echo "demo: lcm-logplayer plays $folder/log.lcm to liod at speed ${speed:-3}"
+  tools/demo/play.sh "$folder/log.lcm" "$out" "${speed:-3}" "${words[@]}" "${settings[@]}" ||
+    code=$?
+  # liod's 6 says that the result cannot be trusted: it is shown, with the reason.
+  ((code == 0 || code == 6)) || exit "$code"
+  if [[ ! -s $out/trajectory.tum ]]; then
+    echo "tools/demo.sh: liod wrote no trajectory; its messages were:" >&2
+    cat "$out/liod.log" >&2
+    exit 1
+  fi
+  truth=${truth:-$folder/truth.tum}
+  score_drive
+}
+
 # The level path is what a user keeps; without gravity there is only the path as it was published.
-path=$out/trajectory_level.tum
-[[ -s $path ]] || path=$out/trajectory.tum
-if [[ -n $truth ]]; then
+score_drive() {
+  local path=$out/trajectory_level.tum
+  [[ -s $path ]] || path=$out/trajectory.tum
   echo "demo: scoring ${path##*/}"
   build/bin/lio-eval "$truth" "$path" --json "$out/eval.json" --plots "$out" \
     --map "$out/map.pcd" >"$out/eval.txt"
-else
-  echo "demo: this input has no true trajectory: drawing only path and map"
-  /usr/bin/python3 tools/plot/plot_run.py "$out"
-fi
-/usr/bin/python3 tools/demo/table.py "$out"
-sed -n '/trust: /,$p' "$out/liod.log"
-echo "demo: results are in $out/"
+  build/bin/lio-run "$out" --truth "$truth" >/dev/null
+  /usr/bin/python3 tools/demo/table.py "$out"
+  sed -n '/trust: /,$p' "$out/liod.log"
+}
+
+if [[ -n $input ]]; then run_input; else play_drive; fi
+((code == 0 || code == 6)) || exit "$code"
+echo "demo: results are in $out/: open report.html in a browser"
 exit "$code"

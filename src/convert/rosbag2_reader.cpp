@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 
+#include "joined_bags.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/convert/byte_order.hpp"
 #include "lio/convert/ros_messages.hpp"
@@ -316,6 +317,10 @@ std::unique_ptr<BagReader> OpenRosbag2(const fs::path& path) {
 std::unique_ptr<BagReader> OpenBag(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or folder");
   const fs::path extension = path.extension();
+  if (fs::is_directory(path) && !fs::exists(path / "metadata.yaml")) {
+    const std::vector<fs::path> bags = BagsOfFolder(path);
+    if (!bags.empty()) return JoinBags(bags);
+  }
   const bool is_ros2 = fs::is_directory(path) || extension == ".db3" || extension == ".yaml";
   if (extension == ".mcap") {
     throw InputError(path.string() +

@@ -79,7 +79,9 @@ RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& 
   run.name = dir.string();
   const bool has_own_truth = std::filesystem::is_regular_file(dir / truth);
   run.truth = ReadStamped(has_own_truth ? dir / truth : truth);
-  const std::string of_frame = frame == RunFrame::kWorld ? "_world" : "";
+  const std::string of_frame = frame == RunFrame::kWorld   ? "_world"
+                               : frame == RunFrame::kLevel ? "_level"
+                                                           : "";
   run.estimate = ReadStamped(dir / ("trajectory" + of_frame + ".tum"));
   run.covariances = ReadCovariances(dir / ("covariance" + of_frame + ".csv"), run.estimate);
   const std::filesystem::path registration = dir / "registration.csv";

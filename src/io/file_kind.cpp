@@ -35,6 +35,12 @@ FileKind KindOfFolder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "velodyne_points", error)) return FileKind::kKittiRaw;
   if (fs::exists(folder / "trajectory.tum", error)) return FileKind::kRunFolder;
+  if (fs::exists(folder / "velodyne", error) && fs::exists(folder / "times.txt", error)) {
+    return FileKind::kKittiOdometry;
+  }
+  if (fs::exists(folder / "log.lcm", error) && fs::exists(folder / "config.yaml", error)) {
+    return FileKind::kLogFolder;
+  }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string extension = entry.path().extension();
     if (extension == ".mcap") return FileKind::kMcap;
@@ -55,13 +61,16 @@ std::string ReplayIt(const fs::path& path) {
 }
 
 std::string TakeItsTrajectory(const fs::path& path) {
-  const char* name =
-      fs::exists(path / "trajectory_level.tum") ? "trajectory_level.tum" : "trajectory.tum";
   return fmt::format("{} is the folder of a run: its path is {}", path.string(),
-                     (path / name).string());
+                     PathOfRun(path).string());
 }
 
 }  // namespace
+
+fs::path PathOfRun(const fs::path& folder) {
+  const fs::path level = folder / "trajectory_level.tum";
+  return fs::exists(level) ? level : folder / "trajectory.tum";
+}
 
 FileKind KindOf(const fs::path& path) {
   std::error_code error;
@@ -79,6 +88,10 @@ std::string WhyNoLog(const fs::path& path) {
              "with 'lio-convert rosbag'";
     case FileKind::kKittiRaw:
       return ConvertWith(path, "a KITTI raw drive", "kitti-raw");
+    case FileKind::kKittiOdometry:
+      return ConvertWith(path, "a KITTI odometry sequence", "kitti-odometry");
+    case FileKind::kLogFolder:
+      return path.string() + " is a folder: its log is " + (path / "log.lcm").string();
     case FileKind::kRunFolder:
       return TakeItsTrajectory(path);
     case FileKind::kLcmLog:
@@ -95,6 +108,7 @@ std::string WhyNoTrajectory(const fs::path& path) {
 std::string WhyNoRecording(const fs::path& path) {
   const FileKind kind = KindOf(path);
   if (kind == FileKind::kLcmLog) return ReplayIt(path);
+  if (kind == FileKind::kLogFolder) return ReplayIt(path / "log.lcm");
   return kind == FileKind::kRunFolder ? TakeItsTrajectory(path) : std::string();
 }
 

@@ -13,6 +13,13 @@ std::string_view LastPart(std::string_view dotted) {
   return dotted.substr(dotted.rfind('.') + 1);  // npos + 1 is 0
 }
 
+// A unit that was left out ("voxel" instead of "voxel_m") is a small mistake, however long it is.
+int Cost(std::string_view wrong, std::string_view name) {
+  const bool lacks_unit = !wrong.empty() && name.size() > wrong.size() && name.starts_with(wrong) &&
+                          name[wrong.size()] == '_';
+  return lacks_unit ? 1 : EditDistance(wrong, name);
+}
+
 }  // namespace
 
 // Rows i-2, i-1 and i of the table of the Damerau-Levenshtein distance.
@@ -38,8 +45,8 @@ std::string NearestName(std::string_view wrong, std::span<const std::string> nam
   int best = std::numeric_limits<int>::max();
   std::string nearest;
   for (const std::string& name : names) {
-    const int cost = std::min(EditDistance(wrong, name),
-                              kOtherGroupCost + EditDistance(LastPart(wrong), LastPart(name)));
+    const int cost =
+        std::min(Cost(wrong, name), kOtherGroupCost + Cost(LastPart(wrong), LastPart(name)));
     if (cost >= best) continue;
     best = cost;
     nearest = name;

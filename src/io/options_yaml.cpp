@@ -11,10 +11,13 @@
 #include "lio/io/beam_table.hpp"
 #include "lio/io/nearest_name.hpp"
 #include "lio/pipeline/options_fields.hpp"
+#include "yaml_rotations.hpp"
 #include "yaml_values.hpp"
 
 namespace lio {
 namespace {
+
+constexpr const char* kRotationKey = "rotation_wxyz";
 
 std::string Join(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
@@ -22,6 +25,7 @@ std::string Join(const std::string& path, const std::string& key) {
 
 struct Key {
   std::function<std::string(const YAML::Node&)> parse;  // null for a group of keys
+  std::vector<std::string> sets;  // the paths of the fields that it sets, usually its own
 };
 
 struct OptionalGroup {
@@ -67,8 +71,10 @@ class KeyTable {
     if constexpr (kIsGroup<T>) {
       keys_[path_] = {};
       VisitFields(*this, field);
+      if constexpr (std::same_as<T, Pose>) AddOtherForms(field);
     } else {
-      keys_[path_].parse = [&field](const YAML::Node& node) { return ParseValue(node, field); };
+      keys_[path_] = {[&field](const YAML::Node& node) { return ParseValue(node, field); },
+                      {path_}};
       if (!optional_groups.empty() && path_.starts_with(optional_groups.back().path + ".")) {
         optional_groups.back().fields.push_back(path_);
       }
@@ -78,6 +84,18 @@ class KeyTable {
   void Add(std::optional<T>& field) {
     optional_groups.push_back({path_, {}, [&field] { field.reset(); }});
     Add(field.emplace());
+  }
+  // A pose's rotation, or all of it, may be given in other forms than those that are printed.
+  void AddOtherForms(Pose& pose) {
+    const std::string rotation = Join(path_, kRotationKey);
+    keys_[Join(path_, "rotation_rpy_deg")] = {
+        [&pose](const YAML::Node& node) { return ParseRpyDeg(node, pose.rotation); }, {rotation}};
+    keys_[Join(path_, "rotation_matrix")] = {
+        [&pose](const YAML::Node& node) { return ParseRotationMatrix(node, pose.rotation); },
+        {rotation}};
+    keys_[Join(path_, "matrix")] = {
+        [&pose](const YAML::Node& node) { return ParseTransformMatrix(node, pose); },
+        {Join(path_, "translation_m"), rotation}};
   }
 
   std::map<std::string, Key> keys_;
@@ -93,6 +111,7 @@ class Loader {
  private:
   void ApplyMap(const YAML::Node& map, const std::string& path);
   void ApplyKey(const YAML::Node& key, const YAML::Node& value, const std::string& path);
+  void CheckGivenOnce(const YAML::Node& map, const std::string& path);
   void SettleOptionalGroups();
 
   std::string Where(const YAML::Node& node) const {
@@ -159,6 +178,24 @@ void Loader::ApplyMap(const YAML::Node& map, const std::string& path) {
     }
     ApplyKey(pair.first, pair.second, path);
   }
+  CheckGivenOnce(map, path);
+}
+
+// Refuses two forms of one thing in one map: which of them counts would depend on their order.
+void Loader::CheckGivenOnce(const YAML::Node& map, const std::string& path) {
+  std::map<std::string, std::string> setters;  // the key that sets it, by the field's path
+  for (const auto& pair : map) {
+    if (!pair.first.IsScalar()) continue;
+    const std::string full = Join(path, pair.first.Scalar());
+    const Key* key = keys_.Find(full);
+    if (key == nullptr) continue;
+    for (const std::string& field : key->sets) {
+      const auto [earlier, is_new] = setters.emplace(field, full);
+      if (is_new || earlier->second == full) continue;
+      Fault(Where(pair.first), full + ": " + earlier->second + " gives this already; keep one");
+      break;
+    }
+  }
 }
 
 void Loader::ApplyKey(const YAML::Node& key, const YAML::Node& value, const std::string& path) {
@@ -178,17 +215,20 @@ void Loader::ApplyKey(const YAML::Node& key, const YAML::Node& value, const std:
     return;
   }
   given_[full] = Where(key);
+  for (const std::string& field : known->sets) given_[field] = Where(key);
   if (!known->parse) {
     ApplyMap(value, full);
     return;
   }
   const std::string problem = known->parse(value);
-  if (problem.empty()) {
-    refused_.erase(full);
-  } else {
-    Fault(Where(key), full + ": " + problem);
-    refused_.insert(full);
+  for (const std::string& field : known->sets) {
+    if (problem.empty()) {
+      refused_.erase(field);
+    } else {
+      refused_.insert(field);
+    }
   }
+  if (!problem.empty()) Fault(Where(key), full + ": " + problem);
 }
 
 void Loader::SettleOptionalGroups() {
@@ -202,7 +242,10 @@ void Loader::SettleOptionalGroups() {
       continue;
     }
     for (const std::string& field : missing) {
-      Fault(given_[group.path], field + ": is missing; the keys of its group go together");
+      const bool has_forms = field.ends_with(std::string(".") + kRotationKey);
+      Fault(given_[group.path],
+            field + (has_forms ? " (or rotation_rpy_deg, rotation_matrix, matrix)" : "") +
+                ": is missing; the keys of its group go together");
     }
   }
 }

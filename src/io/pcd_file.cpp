@@ -25,4 +25,15 @@ void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f
   throw std::runtime_error("cannot write " + path.string());
 }
 
+std::vector<Eigen::Vector3f> LoadPcd(const std::filesystem::path& path) {
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  if (pcl::PCDReader().read(path.string(), cloud) != 0) {
+    throw std::runtime_error("cannot read " + path.string() + " as a PCD file");
+  }
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(cloud.size());
+  for (const pcl::PointXYZ& p : cloud) points.emplace_back(p.x, p.y, p.z);
+  return points;
+}
+
 }  // namespace lio

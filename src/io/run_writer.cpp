@@ -14,6 +14,7 @@
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
 #include "lio/io/ply_file.hpp"
+#include "lio/io/trajectory_file.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "stage_names.hpp"
 
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> kSeverityNames = {"info", "warning", "error"};
 
 Json Summary(const QuantileSketch& values) {
   if (values.empty()) return {{"median", nullptr}, {"p99", nullptr}, {"max", nullptr}};
@@ -55,7 +58,7 @@ RunWriter::RunWriter(const fs::path& folder, const Options& options)
     : folder_(folder), has_base_(options.rig.T_base_imu) {
   segment_.emplace(folder_, has_base_);
   std::error_code error;
-  for (const char* stale : {"stats.json", "verdict.json", "map.pcd", "map.ply"}) {
+  for (const char* stale : {"stats.json", "verdict.json", "map.pcd", "map.ply", "report.html"}) {
     fs::remove(folder / stale, error);
   }
   for (int segment = 2; fs::exists(FolderOf(segment) / "registration.csv"); ++segment) {
@@ -64,14 +67,21 @@ RunWriter::RunWriter(const fs::path& folder, const Options& options)
   OutputFile options_file = OpenOutput(folder_ / "options.yaml");
   options_file.stream << PrintResultOptions(options);
   Close(options_file);
+  notices_ = OpenOutput(folder_ / "notices.tsv");
+  notices_.stream << "t_s\tseverity\ttext\n";
 }
 
-void RunWriter::Write(const Output& output) {
+void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
+  if (const auto* notice = std::get_if<Notice>(&output)) {
+    notices_.stream << fmt::format("{}\t{}\t{}\n", StampText(notice->stamp),
+                                   kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
+                                   notice->text);
+  }
   if (segment_->IsBefore(output)) {
     FinishSegment();
     segment_.emplace(FolderOf(++num_segments_), has_base_);
   }
-  segment_->Write(output);
+  segment_->Write(output, trust);
   const auto* scan = std::get_if<ScanOutput>(&output);
   if (scan == nullptr) return;
   for (std::size_t i = 0; i < kNumStages; ++i) {
@@ -128,6 +138,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
 
 void RunWriter::Finish(const RunStats& stats) {
   FinishSegment();
+  Close(notices_);
   WriteStats(stats);
   WriteVerdict(folder_, stats.verdict);
 }

@@ -10,6 +10,7 @@
 #include "covariance_rows.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "stage_names.hpp"
+#include "state_rows.hpp"
 
 namespace lio {
 namespace fs = std::filesystem;
@@ -78,8 +79,10 @@ SegmentFiles::SegmentFiles(const fs::path& folder, bool has_base)
       in_world_(OpenTrack(folder, "_world")),
       level_(folder),
       imu_rate_(OpenOutput(folder / "trajectory_imu_rate.tum")),
+      states_(OpenOutput(folder / "states.csv")),
       registration_(OpenOutput(folder / "registration.csv")) {
   if (has_base) base_ = OpenOutput(folder / "trajectory_base.tum");
+  states_.stream << StateHeader();
   registration_.stream << RegistrationHeader();
 }
 
@@ -92,8 +95,8 @@ bool SegmentFiles::IsBefore(const Output& output) const {
          StepsBack(last_imu_rate_, nav->stamp);
 }
 
-void SegmentFiles::Write(const Output& output) {
-  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan);
+void SegmentFiles::Write(const Output& output, std::optional<Trust> trust) {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, trust);
   const auto* nav = std::get_if<NavOutput>(&output);
   if (nav != nullptr && nav->source == OdometrySource::kImuPropagated) WriteImuRate(*nav);
 }
@@ -107,7 +110,7 @@ void SegmentFiles::WriteImuRate(const NavOutput& nav) {
   imu_rate_.stream << TumRow({nav.stamp, nav.T_map_imu}) << '\n';
 }
 
-void SegmentFiles::WriteScan(const ScanOutput& output) {
+void SegmentFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
   last_sweep_ = output.scan.stamp;
   registration_.stream << RegistrationRow(output.scan);
   if (!output.filter) return;
@@ -120,6 +123,7 @@ void SegmentFiles::WriteScan(const ScanOutput& output) {
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
   level_.Add(*output.filter, output.scan.clock_correction);
+  states_.stream << StateRow(*output.filter, trust);
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 
@@ -128,7 +132,7 @@ void SegmentFiles::Finish() {
     Close(track->poses);
     Close(track->covariances);
   }
-  for (OutputFile* file : {&imu_rate_, &registration_}) Close(*file);
+  for (OutputFile* file : {&imu_rate_, &states_, &registration_}) Close(*file);
   if (base_) Close(*base_);
   level_.Finish();
 }

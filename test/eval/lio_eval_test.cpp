@@ -50,6 +50,43 @@ class LioEval : public ::testing::Test {
   std::string estimate_ = (dir_.path() / "estimate.tum").string();
 };
 
+TEST_F(LioEval, SeveralRunsAndFoldersMakeOneTable) {
+  std::filesystem::create_directories(InDir("run"));
+  WriteTum(InDir("run/trajectory.tum"), test::Helix(300).poses);
+  const auto result = Run({truth_, estimate_, InDir("run"), "--align", "none", "--csv",
+                           InDir("t.csv"), "--json", InDir("t.json")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
+  const std::string csv = test::ReadText(InDir("t.csv"));
+  EXPECT_THAT(csv, StartsWith("run,path_length_m,ape_rmse_m,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  const auto json = nlohmann::json::parse(test::ReadText(InDir("t.json")));
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_NEAR(json[0]["ape"]["position_m"]["rmse"].get<double>(), 2.0, 1e-6);
+  EXPECT_THAT(json[1]["estimate"].get<std::string>(), HasSubstr("run/trajectory.tum"));
+  ExpectFault(Run({truth_, estimate_, InDir("run"), "--plot", InDir("p.png")}), 2, "--plot");
+}
+
+TEST_F(LioEval, ATimeOffsetIsGivenOrFound) {
+  const auto drive = [](int i) {
+    const double s = 0.002 * i * i;
+    return Pose{Quaternion::Identity(), {s, 20.0 * std::sin(0.05 * s), std::sin(0.2 * i)}};
+  };
+  WriteTum(truth_, test::MakeTrajectory(300, drive).poses);
+  StampedPoses late = test::MakeTrajectory(300, drive).poses;
+  for (StampedPose& row : late) row.stamp = row.stamp + Duration::FromSeconds(0.2);
+  WriteTum(estimate_, late);
+  for (const std::string wish : {"auto", "-0.2"}) {
+    const auto result = Run({truth_, estimate_, "--time-offset", wish, "--json", InDir("o.json")});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("time offset -0.2 s"));
+    const auto json = nlohmann::json::parse(test::ReadText(InDir("o.json")));
+    EXPECT_NEAR(json["time_offset_s"].get<double>(), -0.2, 1e-3);
+    EXPECT_NEAR(json["ape"]["position_m"]["rmse"].get<double>(), 0.0, 1e-2);
+  }
+  ExpectFault(Run({truth_, estimate_, "--time-offset", "soon"}), 2, "--time-offset");
+}
+
 TEST_F(LioEval, PrintsFiguresAndWritesJson) {
   const auto result = Run({truth_, estimate_, "--json", InDir("e.json"), "--align", "none"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -68,13 +105,14 @@ TEST_F(LioEval, UsageFaultsEndWithTwo) {
   ExpectFault(Run({truth_}), 2, "ESTIMATE is required");
   ExpectFault(Run({truth_, estimate_, "--align", "sim3"}), 2, "--align");
   ExpectFault(Run({truth_, estimate_, "--max-gap", "-1"}), 2, "--max-gap");
-  ExpectFault(Run({truth_, estimate_, "more"}), 2, "more");
+  ExpectFault(Run({truth_, estimate_, "--more"}), 2, "more");
   ExpectFault(Run({truth_, estimate_, "--json", InDir("no/such/dir.json")}), 2,
               "cannot be written");
 }
 
 TEST_F(LioEval, UnusableInputEndsWithFiveAndNamesThePlace) {
   ExpectFault(Run({InDir("missing.tum"), estimate_}), 5, "missing.tum: cannot be read");
+  ExpectFault(Run({truth_, estimate_, InDir("other.tum")}), 5, "other.tum: cannot be read");
   const auto bad = dir_.Write("bad.tum", "1 0 0 0 0 0 0 1\n2 0 0 nan 0 0 0 1\n");
   ExpectFault(Run({truth_, bad.string()}), 5, "bad.tum:2: column 4 ('nan')");
   const auto empty = dir_.Write("empty.tum", "");

@@ -9,7 +9,7 @@ import unittest
 import support
 
 USAGE, CONFIGURATION, TRANSPORT, INPUT = 2, 3, 4, 5
-PROGRAMS = ("liod", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim")
+PROGRAMS = ("liod", "lio-run", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim")
 
 
 class ExitCodes(unittest.TestCase):

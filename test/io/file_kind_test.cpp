@@ -37,6 +37,13 @@ TEST_F(FileKindTest, FoldersAreToldByWhatIsInThem) {
   EXPECT_EQ(KindOf(Make("split/x_0.bag", "").parent_path()), FileKind::kRosBag);
   EXPECT_EQ(KindOf(Make("kitti/velodyne_points/data", "").parent_path().parent_path()),
             FileKind::kKittiRaw);
+  Make("05/times.txt", "");
+  EXPECT_EQ(KindOf(Make("05/velodyne/000000.bin", "").parent_path().parent_path()),
+            FileKind::kKittiOdometry);
+  Make("sim/log.lcm", "");
+  const auto sim = Make("sim/config.yaml", "").parent_path();
+  EXPECT_EQ(KindOf(sim), FileKind::kLogFolder);
+  EXPECT_THAT(WhyNoLog(sim), HasSubstr((sim / "log.lcm").string()));
 }
 
 TEST_F(FileKindTest, EachProgramNamesTheRightCommand) {

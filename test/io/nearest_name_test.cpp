@@ -24,5 +24,11 @@ TEST(NearestName, FindsTypingMistakesAndNamesOfOtherGroups) {
   EXPECT_EQ(NearestName("x", {}), "");
 }
 
+TEST(NearestName, ALeftOutUnitIsASmallMistake) {
+  const std::vector<std::string> names = {"T.rotation_wxyz", "T.rotation_rpy_deg", "ndt.voxel_m"};
+  EXPECT_EQ(NearestName("T.rotation_rpy", names), "T.rotation_rpy_deg");
+  EXPECT_EQ(NearestName("rotation_rpy", names), "T.rotation_rpy_deg");
+}
+
 }  // namespace
 }  // namespace lio

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -171,8 +173,10 @@ TEST_F(OptionsYaml, LidarModelsNeedABeamTable) {
 
 TEST_F(OptionsYaml, HalfAGroupIsRefused) {
   const LoadResult result = Load("rig:\n  T_imu_lidar:\n    translation_m: [0, 0, 1]\n");
-  EXPECT_THAT(result.faults, ElementsAre(At(2) + "rig.T_imu_lidar.rotation_wxyz: is missing; the "
-                                                 "keys of its group go together"));
+  EXPECT_THAT(result.faults,
+              ElementsAre(At(2) + "rig.T_imu_lidar.rotation_wxyz (or rotation_rpy_deg, "
+                                  "rotation_matrix, matrix): is missing; the "
+                                  "keys of its group go together"));
 }
 
 TEST_F(OptionsYaml, DoubledKeysAreRefused) {
@@ -298,6 +302,49 @@ TEST(ConfigFiles, UlhkPutsTheLidarsMinusXAheadOfTheImu) {
   ASSERT_TRUE(rig.T_imu_lidar.has_value());
   EXPECT_LT((rig.T_imu_lidar->rotation * Vector3(-1, 0, 0) - Vector3(0, 1, 0)).norm(), 1e-9);
   EXPECT_EQ(rig.T_imu_lidar->translation, Vector3(0, 0, 0.28));
+}
+
+TEST_F(OptionsYaml, RotationsMayComeAsAnglesOrMatrices) {
+  const Quaternion quarter(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitZ()));
+  const std::string head = "rig:\n  T_imu_lidar:\n";
+  const std::string translation = "    translation_m: [1, 2, 3]\n";
+  for (const std::string& form :
+       {translation + "    rotation_rpy_deg: [0, 0, 90]\n",
+        translation + "    rotation_matrix: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]\n",
+        std::string("    matrix: [0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1]\n")}) {
+    const LoadResult result = Load(head + form);
+    EXPECT_THAT(result.faults, IsEmpty()) << form;
+    ASSERT_TRUE(result.options.rig.T_imu_lidar) << form;
+    EXPECT_EQ(result.options.rig.T_imu_lidar->translation, Vector3(1, 2, 3));
+    EXPECT_LT(result.options.rig.T_imu_lidar->rotation.angularDistance(quarter), 1e-12) << form;
+  }
+}
+
+TEST_F(OptionsYaml, ALaterFormOverridesAnEarlierOneOfAnotherFile) {
+  const LoadResult result = Load(kRig, {"rig.T_imu_lidar.rotation_rpy_deg=[0, 0, 180]"});
+  EXPECT_THAT(result.faults, IsEmpty());
+  EXPECT_NEAR(std::abs(result.options.rig.T_imu_lidar->rotation.z()), 1.0, 1e-12);
+}
+
+TEST_F(OptionsYaml, TwoFormsOfOneRotationInOneFileAreRefused) {
+  EXPECT_THAT(
+      Load(std::string(kRig) + "    rotation_rpy_deg: [0, 0, 0]\n").faults,
+      ElementsAre(At(5) + "rig.T_imu_lidar.rotation_rpy_deg: rig.T_imu_lidar.rotation_wxyz gives "
+                          "this already; keep one"));
+  EXPECT_THAT(
+      Load(std::string(kRig) + "    matrix: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n").faults,
+      ElementsAre(StartsWith(At(5) + "rig.T_imu_lidar.matrix: rig.T_imu_lidar.translation_m")));
+}
+
+TEST_F(OptionsYaml, AFaultyRotationIsToldOnceWithItsLine) {
+  EXPECT_THAT(Load("rig:\n  T_imu_lidar:\n    translation_m: [0, 0, 0]\n"
+                   "    rotation_matrix: [[1, 1, 0], [0, 1, 0], [0, 0, 1]]\n")
+                  .faults,
+              ElementsAre(StartsWith(At(4) + "rig.T_imu_lidar.rotation_matrix: is no rotation")));
+  EXPECT_THAT(Load("rig:\n  T_imu_lidar:\n    translation_m: [0, 0, 0]\n"
+                   "    rotation_rpy: [0, 0, 0]\n")
+                  .faults,
+              ::testing::Contains(HasSubstr("did you mean rig.T_imu_lidar.rotation_rpy_deg?")));
 }
 
 }  // namespace

@@ -61,6 +61,16 @@ TEST(PcdFile, AnEmptyCloudIsAFileToo) {
   EXPECT_EQ(pcd.data, "");
 }
 
+TEST(PcdFile, IsReadAsItWasWritten) {
+  const test::TempDir dir;
+  const std::vector<Eigen::Vector3f> points = {{1.5f, -2.25f, 3e-20f}, {0.1f, 1e9f, -0.0f}};
+  WritePcd(dir.path() / "map.pcd", points);
+  EXPECT_EQ(LoadPcd(dir.path() / "map.pcd"), points);
+  WritePcd(dir.path() / "none.pcd", {});
+  EXPECT_TRUE(LoadPcd(dir.path() / "none.pcd").empty());
+  EXPECT_THROW(static_cast<void>(LoadPcd(dir.path() / "missing.pcd")), std::runtime_error);
+}
+
 TEST(PcdFile, OverwritesWhatIsThere) {
   const test::TempDir dir;
   const auto path = dir.Write("map.pcd", std::string(100'000, 'x'));

@@ -295,6 +295,20 @@ TEST_F(RunWriterTest, OptionsAreThoseThatWereUsed) {
   EXPECT_THAT(written, Not(HasSubstr("num_threads"))) << "changes no result";
 }
 
+TEST_F(RunWriterTest, StatesAndNoticesAreTablesOfTheirOwn) {
+  RunWriter writer(out_, Options{});
+  writer.Write(Scan(kStamp), Trust::kNo);
+  writer.Write(Scan(kStamp + Duration{1}));
+  writer.Write(Notice{kStamp, Notice::Severity::kWarning, "look out"});
+  writer.Finish({});
+  const auto states = Lines(out_ / "states.csv");
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_THAT(states[1], StartsWith("1700000000.000000007,0,2,"));
+  EXPECT_THAT(states[2], StartsWith("1700000000.000000008,0,-1,"));
+  EXPECT_THAT(Lines(out_ / "notices.tsv"),
+              ElementsAre("t_s\tseverity\ttext", "1700000000.000000007\twarning\tlook out"));
+}
+
 TEST_F(RunWriterTest, EarlierRunsAreOverwritten) {
   {
     RunWriter writer(out_, Options{});

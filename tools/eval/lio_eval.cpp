@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 // lio-eval: measures how far a trajectory is from the truth; and lio-eval consistency.
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <iostream>
 #include <string_view>
 
+#include "compare_command.hpp"
 #include "eval_program.hpp"
 #include "lio/eval/evaluation.hpp"
 #include "lio/eval/report.hpp"
@@ -23,6 +25,9 @@ docs/evaluation.md explains each figure.
 Examples:
   lio-eval truth.tum out/trajectory.tum
   lio-eval truth.tum out/trajectory.tum --json out/eval.json --plot out/eval.png --map out/map.pcd
+  lio-eval truth.tum out/run                      a run's folder: its trajectory_level.tum
+  lio-eval truth.tum out/a out/b --csv table.csv  several runs in one table
+  lio-eval truth.tum out/run --time-offset auto   where the clocks differ
   lio-eval poses/05.txt mine.txt --align none
   lio-eval consistency --help                     to judge the covariance
 
@@ -30,10 +35,12 @@ Exit codes: 0 done, 2 usage, 3 no matplotlib for the pictures, 5 missing or unus
 
 struct Arguments {
   std::string truth;
-  std::string estimate;
+  std::vector<std::string> estimates;
+  std::string time_offset = "0";
   std::string align = "se3";
   std::optional<double> max_gap_s;
   std::string json;
+  std::string csv;
   std::string plot;
   std::string plots;
   std::string map;
@@ -41,9 +48,10 @@ struct Arguments {
 
 void Describe(CLI::App& app, Arguments& arguments) {
   app.add_option("TRUTH", arguments.truth, "True trajectory")->required()->type_name("FILE");
-  app.add_option("ESTIMATE", arguments.estimate, "Estimated trajectory")
+  app.add_option("ESTIMATE", arguments.estimates,
+                 "Estimated trajectory, or a run's folder; several make one table")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE|DIR");
   app.add_option("--align", arguments.align,
                  "Move the estimate onto the truth: not at all, about z, or freely (default se3)")
       ->check(CLI::IsMember({"none", "yaw", "se3"}).description(""))
@@ -52,6 +60,14 @@ void Describe(CLI::App& app, Arguments& arguments) {
                  "Interpolate across gaps of at most so many seconds (default: from the data)")
       ->check(NumberAboveZero())
       ->type_name("S");
+  app.add_option("--time-offset", arguments.time_offset,
+                 "Seconds to add to the estimate's stamps; auto finds those of the least error")
+      ->check(TextCheck([](const std::string& text) {
+        return text == "auto" ? std::string() : NumberWithin(-1e6, 1e6)(text);
+      }))
+      ->type_name("auto|S");
+  app.add_option("--csv", arguments.csv, "Write the table of the runs into this file")
+      ->type_name("FILE");
   app.add_option("--json", arguments.json, "Write the figures into this file")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw paths, errors and height in one picture")
       ->type_name("FILE.png");
@@ -78,27 +94,75 @@ int Draw(const Arguments& arguments, const Evaluation& evaluation, const Reporte
   return RunPlot(kProgram, "plot_trajectory.py", PictureData(evaluation, files), words);
 }
 
+TimeOffsetWish ToWish(const Arguments& arguments) {
+  if (arguments.time_offset == "auto") return {true, 0.0};
+  return {false, std::stod(arguments.time_offset)};
+}
+
+// Refuses what cannot be read or must not be overwritten; empty when nothing is wrong.
+std::string WhyNotScored(const Arguments& arguments) {
+  const bool draws = !arguments.plot.empty() || !arguments.plots.empty();
+  if (draws && arguments.estimates.size() > 1) {
+    throw UsageError("--plot and --plots draw one run; name a single ESTIMATE");
+  }
+  std::vector<std::string> files = arguments.estimates;
+  files.push_back(arguments.truth);
+  for (const std::string& file : files) {
+    for (const std::string& output : {arguments.json, arguments.csv}) {
+      if (!output.empty()) RefuseToOverwrite(file, output);
+    }
+    const bool is_run = KindOf(file) == FileKind::kRunFolder && file != arguments.truth;
+    if (const std::string why = WhyNoTrajectory(file); !is_run && !why.empty()) return why;
+  }
+  return {};
+}
+
+int WriteFigures(const Arguments& arguments, const std::vector<ScoredRun>& runs) {
+  if (!arguments.csv.empty()) {
+    std::ofstream stream(arguments.csv, std::ios::trunc);
+    stream << ComparisonCsv(runs);
+    stream.close();
+    if (!stream) return Fail(kExitUsage, arguments.csv + ": cannot be written");
+  }
+  if (arguments.json.empty()) return kExitDone;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ScoredRun& run : runs) {
+    all.push_back(EvaluationJson(run.evaluation, {arguments.truth, run.file}));
+    all.back()["time_offset_s"] = run.time_offset_s;
+  }
+  return WriteJson(arguments.json, runs.size() == 1 ? all.front() : all);
+}
+
+void Print(const Arguments& arguments, const std::vector<ScoredRun>& runs) {
+  if (runs.size() > 1) {
+    std::cout << ComparisonText(runs) << std::flush;
+    return;
+  }
+  std::cout << EvaluationText(runs[0].evaluation, {arguments.truth, runs[0].file});
+  if (runs[0].time_offset_s != 0.0) {
+    std::cout << "time offset " << runs[0].time_offset_s << " s added to the estimate's stamps\n";
+  }
+  std::cout << std::flush;
+}
+
 int Run(const Arguments& arguments) {
   if (!arguments.map.empty() && !std::filesystem::is_regular_file(arguments.map)) {
     return Fail(kExitUnusableInput, arguments.map + ": cannot be read; give a PCD file");
   }
   try {
-    for (const std::string& file : {arguments.truth, arguments.estimate}) {
-      if (!arguments.json.empty()) RefuseToOverwrite(file, arguments.json);
-      if (const std::string why = WhyNoTrajectory(file); !why.empty()) {
-        return Fail(kExitUnusableInput, why);
-      }
+    if (const std::string why = WhyNotScored(arguments); !why.empty()) {
+      return Fail(kExitUnusableInput, why);
     }
     const Trajectory truth = ReadTrajectory(arguments.truth);
-    const Trajectory estimate = ReadTrajectory(arguments.estimate);
-    const Evaluation evaluation = Evaluate(truth, estimate, ToOptions(arguments));
-    const ReportedFiles files = {arguments.truth, arguments.estimate};
-    std::cout << EvaluationText(evaluation, files) << std::flush;
-    if (!arguments.json.empty()) {
-      const int exit_code = WriteJson(arguments.json, EvaluationJson(evaluation, files));
-      if (exit_code != kExitDone) return exit_code;
+    std::vector<ScoredRun> runs;
+    for (const std::string& run : arguments.estimates) {
+      runs.push_back(ScoreRun(truth, run, ToOptions(arguments), ToWish(arguments)));
     }
-    return Draw(arguments, evaluation, files);
+    Print(arguments, runs);
+    if (const int exit_code = WriteFigures(arguments, runs); exit_code != kExitDone) {
+      return exit_code;
+    }
+    return Draw(arguments, runs[0].evaluation, {arguments.truth, runs[0].file});
   } catch (const UsageError& e) {
     return Fail(kExitUsage, e.what());
   } catch (const std::runtime_error& e) {

@@ -4,19 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
 
-#include "lio/io/beam_table.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
-#include "lio/io/log_input.hpp"
-#include "lio/io/map_cloud.hpp"
-#include "lio/io/progress_bar.hpp"
-#include "lio/io/run_writer.hpp"
 #include "lio/io/verdict_report.hpp"
-#include "lio/pipeline/registration_worker.hpp"
+#include "lio/run/replay.hpp"
 
 namespace lio {
 namespace {
@@ -40,9 +33,10 @@ constexpr const char* kDescription =
     "run is over: steady, and level by the last estimate), trajectory.tum (as it was published on\n"
     "LIO_ODOM_LOCAL: the pose of imu in map, which never turns), trajectory_world.tum (as on\n"
     "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
-    "registration.csv, stats.json, verdict.json (may the result be trusted, and if not, why),\n"
-    "options.yaml, map.pcd with --map, and trajectory_base.tum when the rig has T_base_imu. A\n"
-    "summary of the verdict goes to stdout.\n"
+    "registration.csv, states.csv, notices.tsv, stats.json, verdict.json (may the result be\n"
+    "trusted, and if not, why), options.yaml, map.pcd with --map, and trajectory_base.tum when "
+    "the\n"
+    "rig has T_base_imu. A summary of the verdict goes to stdout.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 
 constexpr const char* kExamples =
@@ -91,143 +85,17 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   AddOptionsArguments(app, arguments.options);
 }
 
-// Feeds the estimator and carries its outputs to the files.
-class Replay {
- public:
-  Replay(const Options& options, const ReplayArguments& arguments, RunWriter& writer)
-      : writer_(writer),
-        odometry_(options, ThreadCpuNs),
-        worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)),
-        writes_map_(arguments.writes_map),
-        map_format_(arguments.map_format == "ply" ? MapFormat::kPly : MapFormat::kPcd),
-        match_lag_(arguments.match_lag) {}
-
-  void Run(LogInput& input) {
-    const auto begin = std::chrono::steady_clock::now();
-    ProgressBar bar("lio-replay", input.size_bytes());
-    while (std::optional<InputItem> item = input.Next()) {
-      bar.Update(item->position_bytes);
-      Add(std::move(*item));
-      if (refusal_.empty()) continue;
-      verdict_ = odometry_.Judge();
-      return;
-    }
-    odometry_.Flush();
-    match_lag_ = 0;
-    num_messages_to_wait_ = 0;
-    Match();
-    verdict_ = odometry_.Judge();
-    Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  }
-
-  const Counters& counters() const { return odometry_.counters(); }
-  // After Run only.
-  const Verdict& verdict() const { return verdict_; }
-  // Says why the configuration contradicts the log; empty when it does not.
-  const std::string& refusal() const { return refusal_; }
-
- private:
-  void Add(InputItem item) {
-    // The time of decoding inertial samples counts for the scan they come with.
-    decode_ns_ += item.decode_ns;
-    if (const auto* sample = std::get_if<ImuSample>(&item.data)) {
-      odometry_.AddImu(*sample);
-    } else {
-      odometry_.AddChunk(std::get<ScanChunk>(std::move(item.data)), decode_ns_);
-      decode_ns_ = 0;
-    }
-    --num_messages_to_wait_;
-    Match();
-  }
-
-  void Match() {
-    while (outcome_ || StartMatch()) {
-      if (num_messages_to_wait_ > 0) break;
-      const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
-      worker_.Insert(insert);
-      if (writes_map_ && insert.T_map_imu) map_.Add(insert.points_imu, *insert.T_map_imu);
-    }
-    TakeOutputs();
-  }
-
-  bool StartMatch() {
-    const std::optional<MatchJob> job = odometry_.NextJob();
-    if (!job) return false;
-    if (job->map_action == MapAction::kClear) map_.Clear();
-    outcome_ = worker_.Run(*job);
-    num_messages_to_wait_ = match_lag_;
-    return true;
-  }
-
-  void TakeOutputs() {
-    for (const Output& output : odometry_.TakeOutputs()) {
-      writer_.Write(output);
-      if (const auto* notice = std::get_if<Notice>(&output)) {
-        if (notice->severity == Notice::Severity::kError) {
-          refusal_ = notice->text;
-          continue;
-        }
-        fmt::print(stderr, "lio-replay: {:.3f}: {}\n", static_cast<double>(notice->stamp.ns) * 1e-9,
-                   notice->text);
-      }
-    }
-  }
-
-  void Finish(const LogInput& input, double wall_s) {
-    if (writes_map_) writer_.WriteMap(map_.points_map(), map_format_);
-    RunStats stats;
-    stats.counters = odometry_.counters();
-    stats.input = input.counters();
-    stats.num_skipped_bytes = input.num_skipped_bytes();
-    stats.log_duration_s = input.duration_s();
-    stats.wall_s = wall_s;
-    stats.verdict = verdict_;
-    writer_.Finish(stats);
-  }
-
-  RunWriter& writer_;
-  Odometry odometry_;
-  RegistrationWorker worker_;
-  MapCloud map_;
-  bool writes_map_;
-  MapFormat map_format_;
-  int match_lag_;
-  std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
-  int num_messages_to_wait_ = 0;         // messages to read before it is taken
-  std::int64_t decode_ns_ = 0;
-  std::string refusal_;
-  Verdict verdict_;
-};
-
-// Says in one line what was wrong with the log; empty when nothing was.
-std::string Complaint(const LogInput& input, const Counters& counters,
-                      const ReplayArguments& arguments) {
-  if (counters.num_chunks == 0) {
-    const bool is_whole = arguments.start_s == 0.0 && std::isinf(arguments.duration_s);
-    return fmt::format(
-        "{} has no scans on {}SCAN{}: nothing to estimate; see what it holds with 'lio-log info'",
-        arguments.log, arguments.channel_prefix,
-        is_whole ? "" : " in the part that --start and --duration leave");
-  }
-  std::string text;
-  if (input.num_skipped_bytes() > 0) {
-    text = fmt::format("skipped {} damaged bytes", input.num_skipped_bytes());
-  }
-  if (const std::int64_t refused = input.counters().TotalRefused(); refused > 0) {
-    text += fmt::format("{}refused {} undecodable messages", text.empty() ? "" : " and ", refused);
-  }
-  return text.empty() ? text : fmt::format("{}: {}; the rest was replayed", arguments.log, text);
-}
-
 // Tells how the run went; the exit code.
-ExitCode End(const LogInput& input, const Replay& replay, const ReplayArguments& arguments) {
+ExitCode End(const LogInput& input, const Replay& replay, const ReplayArguments& arguments,
+             const LogInputOptions& input_options) {
   if (!replay.refusal().empty()) {
     WriteVerdict(arguments.out, replay.verdict());
     fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
     return kExitConfiguration;
   }
   fmt::print("{}", VerdictSummary(replay.verdict()));
-  const std::string complaint = Complaint(input, replay.counters(), arguments);
+  const std::string complaint =
+      LogComplaint(arguments.log, input, replay.counters(), input_options);
   if (complaint.empty()) return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
   fmt::print(stderr, "lio-replay: {}\n", complaint);
   return kExitUnusableInput;
@@ -261,9 +129,14 @@ int Main(int argc, char** argv) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;
   }
-  Replay replay(options, arguments, *writer);
+  ReplaySettings settings;
+  settings.program = "lio-replay";
+  settings.writes_map = arguments.writes_map;
+  settings.map_format = arguments.map_format == "ply" ? MapFormat::kPly : MapFormat::kPcd;
+  settings.match_lag = arguments.match_lag;
+  Replay replay(options, settings, *writer);
   replay.Run(input);
-  return End(input, replay, arguments);
+  return End(input, replay, arguments, input_options);
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ class BagReader {
   virtual std::int64_t size_bytes() const = 0;
 };
 
-// Opens a ROS 1 bag (a file) or a ROS 2 bag (its folder, its metadata.yaml or one .db3 file).
+// Opens a ROS 1 bag (a file, or the folder of a split recording, whose bags are joined) or a ROS 2
+// bag (its folder, its metadata.yaml or one .db3 file).
 // Throws InputError that names the path when it is neither.
 std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
 

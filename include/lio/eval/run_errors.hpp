@@ -20,6 +20,7 @@ namespace lio {
 enum class RunFrame {
   kMap,    // trajectory.tum with covariance.csv: the steady path
   kWorld,  // trajectory_world.tum with covariance_world.csv: always level
+  kLevel,  // trajectory_level.tum with covariance_level.csv: steady, and level by the last estimate
 };
 
 // Holds the files of a run: poses with their covariances, and rows of registration.csv.

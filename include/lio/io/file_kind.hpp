@@ -13,13 +13,18 @@ namespace lio {
 enum class FileKind : std::int8_t {
   kOther,
   kLcmLog,
-  kRosBag,     // of ROS 1 or 2, a file or a folder
-  kMcap,       // a bag of ROS 2 as MCAP
-  kKittiRaw,   // the folder of a drive
-  kRunFolder,  // the results of lio-replay or of liod --out
+  kRosBag,         // of ROS 1 or 2, a file or a folder
+  kMcap,           // a bag of ROS 2 as MCAP
+  kKittiRaw,       // the folder of a drive
+  kKittiOdometry,  // the folder of a sequence
+  kLogFolder,      // log.lcm with config.yaml beside it, as lio-sim writes them
+  kRunFolder,      // the results of lio-replay, of lio-run or of liod --out
 };
 
 [[nodiscard]] FileKind KindOf(const std::filesystem::path& path);
+
+// The steady path in a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
+[[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
 
 // One line that says what `path` is and which command takes it; empty for logs and for kOther.
 [[nodiscard]] std::string WhyNoLog(const std::filesystem::path& path);

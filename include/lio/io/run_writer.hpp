@@ -11,6 +11,10 @@
 //     level by the last estimate (level_track.hpp); written at the end when gravity is felt
 //   trajectory_base.tum: the poses of base in map, when rig.T_base_imu is given
 //   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
+//   states.csv: one row per scan: status (as in status_t), trust so far (0 yes, 1 doubtful, 2 no,
+//   -1
+//     not asked), velocity in world, biases with standard deviations, clock offset, NIS
+//   notices.tsv: what was told to people: stamp, severity, text
 //   registration.csv: one row per scan: points, residual, information, status, stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
@@ -57,8 +61,9 @@ class RunWriter {
   RunWriter(const std::filesystem::path& folder, const Options& options);
 
   // A row that steps back by more than 0.1 s begins a segment; another one that is not later than
-  // the one before is left out and counted in stats.json.
-  void Write(const Output& output);
+  // the one before is left out and counted in stats.json. `trust` is that of the run so far, where
+  // the caller knows it.
+  void Write(const Output& output, std::optional<Trust> trust = std::nullopt);
   // To be called after the last row: the points are turned as the level path is.
   void WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format = MapFormat::kPcd);
   // Completes all files. Throws std::runtime_error when a file could not be written in full.
@@ -72,6 +77,7 @@ class RunWriter {
   std::filesystem::path folder_;
   bool has_base_;
   std::optional<SegmentFiles> segment_;
+  OutputFile notices_;
   int num_segments_ = 1;
   std::int64_t num_rows_not_later_ = 0;  // of the segments before
   std::array<QuantileSketch, kNumStages> stage_ms_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The rows of a run between two steps back of the clock: trajectories, covariances and
+// The rows of a run between two steps back of the clock: trajectories, covariances, states.csv and
 // registration.csv in one folder, where stamps ascend (run_writer.hpp says which files).
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "lio/io/output_file.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -27,8 +28,9 @@ class SegmentFiles {
 
   // Has the clock gone back before this row?
   [[nodiscard]] bool IsBefore(const Output& output) const;
-  // A row that is not later than the one before is left out and counted.
-  void Write(const Output& output);
+  // A row that is not later than the one before is left out and counted. `trust` is that of the run
+  // so far, where the caller knows it.
+  void Write(const Output& output, std::optional<Trust> trust);
   [[nodiscard]] Quaternion R_level_map() const { return level_.R_level_map(); }
   [[nodiscard]] std::int64_t num_rows_not_later() const { return num_rows_not_later_; }
   // Completes all files.
@@ -41,7 +43,7 @@ class SegmentFiles {
 
   static Track OpenTrack(const std::filesystem::path& folder, const std::string& frame);
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
-  void WriteScan(const ScanOutput& output);
+  void WriteScan(const ScanOutput& output, std::optional<Trust> trust);
   void WriteImuRate(const NavOutput& nav);
 
   Track in_map_;
@@ -49,6 +51,7 @@ class SegmentFiles {
   LevelTrack level_;
   std::optional<OutputFile> base_;
   OutputFile imu_rate_;
+  OutputFile states_;
   OutputFile registration_;
   std::optional<Timestamp> last_sweep_;  // with a pose or without
   std::optional<Timestamp> last_scan_;   // with a pose

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The page that shows a run: report.html, one file that needs neither a network nor other files.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lio {
+
+struct ReportInputs {
+  std::string input;                           // the recording, for the title
+  std::optional<std::filesystem::path> truth;  // a TUM file
+  std::vector<std::string> assumptions;        // sentences that a reader must know
+};
+
+// Collects what the page shows from the files that RunWriter left in `folder`; docs/report.md names
+// the parts. A file that is missing leaves its part out. Throws std::runtime_error that names file
+// and line where a file is damaged.
+[[nodiscard]] nlohmann::ordered_json ReportData(const std::filesystem::path& folder,
+                                                const ReportInputs& inputs);
+
+// The whole page as text.
+[[nodiscard]] std::string ReportPage(const nlohmann::ordered_json& data);
+
+// Writes folder/report.html. Throws std::runtime_error as ReportData does, and when the file cannot
+// be written.
+void WriteReport(const std::filesystem::path& folder, const ReportInputs& inputs);
+
+}  // namespace lio

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Runs the estimator over a log, without a clock and without dropping anything.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lio/io/log_input.hpp"
+#include "lio/io/map_cloud.hpp"
+#include "lio/io/run_writer.hpp"
+#include "lio/pipeline/odometry.hpp"
+#include "lio/pipeline/registration_worker.hpp"
+
+namespace lio {
+
+struct ReplaySettings {
+  std::string program;  // is named at the progress bar and before each notice
+  bool writes_map = false;
+  MapFormat map_format = MapFormat::kPcd;
+  int match_lag = 0;  // messages by which each match's result is taken late; the files are the same
+};
+
+// Feeds the estimator and carries its outputs to the files. Notices go to stderr as well.
+class Replay {
+ public:
+  Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer);
+
+  // Replays all of `input`, or up to the notice that the options contradict it, and completes the
+  // files. Throws std::runtime_error naming a file that cannot be written.
+  void Run(LogInput& input);
+
+  [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
+  // After Run only.
+  [[nodiscard]] const Verdict& verdict() const { return verdict_; }
+  // Says why the configuration contradicts the log; empty when it does not.
+  [[nodiscard]] const std::string& refusal() const { return refusal_; }
+
+ private:
+  void Add(InputItem item);
+  void Match();
+  bool StartMatch();
+  void TakeOutputs();
+  void Finish(const LogInput& input, double wall_s);
+
+  ReplaySettings settings_;
+  RunWriter& writer_;
+  Odometry odometry_;
+  RegistrationWorker worker_;
+  MapCloud map_;
+  std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
+  int num_messages_to_wait_ = 0;         // messages to read before it is taken
+  std::int64_t decode_ns_ = 0;
+  std::string refusal_;
+  Verdict verdict_;
+};
+
+// Says in one line what was wrong with the log, e.g. that it has no scans; empty when nothing was.
+[[nodiscard]] std::string LogComplaint(const std::string& log, const LogInput& input,
+                                       const Counters& counters, const LogInputOptions& options);
+
+}  // namespace lio

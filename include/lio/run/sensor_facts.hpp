@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Looks at a log's beginning: which sensors are there, how fast they are, and which lidar it is.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lio/io/beam_table.hpp"
+#include "lio/io/log_input.hpp"
+#include "lio/io/stream_stats.hpp"
+
+namespace lio {
+
+// Collects the elevation of each ring.
+class RingElevations {
+ public:
+  void Add(const LidarPoint& point);
+  // The median elevation of each ring [rad], ring 0 first; empty where the points carry no rings or
+  // some ring between has no point.
+  [[nodiscard]] std::vector<double> Medians() const;
+
+ private:
+  std::vector<std::vector<float>> by_ring_;
+};
+
+struct LidarGuess {
+  std::string model = "generic";
+  std::string reason;  // says for users why
+};
+
+// Finds the model whose table has the same number of beams at the same elevations.
+[[nodiscard]] LidarGuess GuessLidar(std::span<const double> elevations_rad,
+                                    std::span<const BeamTable> known);
+
+struct SensorFacts {
+  StreamStats imu;
+  StreamStats lidar;  // by sweeps
+  AccelerometerStats accelerometer;
+  int num_rings = 0;
+  LidarGuess guess;
+};
+
+// Reads the first half minute of the log. Throws std::runtime_error naming the file when it cannot
+// be opened.
+[[nodiscard]] SensorFacts LookAtLog(const std::filesystem::path& log);
+
+}  // namespace lio

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <report/page_parts.hpp>  // made by lio_embed_text
+#include <string_view>
+#include <utility>
+
+#include "lio/io/output_file.hpp"
+#include "lio/report/run_report.hpp"
+
+namespace lio {
+namespace {
+
+// Inside a script element "</" and "<!--" have a meaning of their own. In JSON "<" stands in texts
+// alone, where it may be written by its number.
+std::string ForScript(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+// Puts each part in the place of its mark. The page is written once, so that a part which holds a
+// mark itself is left alone.
+std::string Filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& parts) {
+  std::string text;
+  while (!page.empty()) {
+    std::size_t first = page.size();
+    const std::pair<std::string_view, std::string>* next = nullptr;
+    for (const auto& part : parts) {
+      const std::size_t at = page.find(part.first);
+      if (at < first) {
+        first = at;
+        next = &part;
+      }
+    }
+    text += page.substr(0, first);
+    if (next == nullptr) break;
+    text += next->second;
+    page.remove_prefix(first + next->first.size());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ReportPage(const nlohmann::ordered_json& data) {
+  // Text that is no UTF-8, e.g. in a file's name, must not end the run.
+  const std::string json =
+      data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return Filled(kPageHtml, {{"@PLOT_LICENCE@", std::string(kPlotLicence)},
+                            {"@PLOT_CSS@", std::string(kPlotCss)},
+                            {"@PAGE_CSS@", std::string(kPageCss)},
+                            {"@DATA@", ForScript(json)},
+                            {"@PLOT_JS@", std::string(kPlotJs)},
+                            {"@PAGE_JS@", std::string(kPageJs)}});
+}
+
+void WriteReport(const std::filesystem::path& folder, const ReportInputs& inputs) {
+  const std::string page = ReportPage(ReportData(folder, inputs));
+  OutputFile file = OpenOutput(folder / "report.html");
+  file.stream << page;
+  Close(file);
+}
+
+}  // namespace lio

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "convert/joined_bags.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lio/io/input_error.hpp"
+#include "support/ros_bag.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio {
+namespace {
+
+using ::testing::ElementsAre;
+
+Timestamp At(int second) {
+  return {1'700'000'000'000'000'000 + second * 1'000'000'000LL};
+}
+
+class JoinedBagsTest : public ::testing::Test {
+ protected:
+  // Writes a bag with a message of one byte at each second.
+  void Write(const std::string& name, const std::vector<int>& seconds, const std::string& topic,
+             bool with_index = true) {
+    test::Bag1Writer::Options options;
+    options.with_index = with_index;
+    test::Bag1Writer bag(dir_.path() / name, options);
+    for (const int second : seconds) {
+      bag.Write(topic, "std_msgs/Byte", At(second), {static_cast<std::uint8_t>(second)});
+    }
+    bag.Close();
+  }
+  static std::vector<int> ReadAll(BagReader& bag) {
+    std::vector<int> seen;
+    BagMessage message;
+    while (bag.Next(message)) seen.push_back(message.data[0]);
+    return seen;
+  }
+
+  test::TempDir dir_;
+};
+
+TEST_F(JoinedBagsTest, PartsComeInTheOrderOfTheirTimesNotOfTheirNames) {
+  Write("drive_10.bag", {5, 6}, "/b");
+  Write("drive_2.bag", {3, 4}, "/a");
+  Write("drive_1.bag", {1, 2}, "/a");
+  const auto bag = OpenBag(dir_.path());
+  EXPECT_TRUE(bag->knows_all_topics());
+  ASSERT_EQ(bag->topics().size(), 2u);
+  EXPECT_THAT(ReadAll(*bag), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(bag->begin_time(), At(1));
+  EXPECT_EQ(bag->position_bytes(), bag->size_bytes());
+  EXPECT_FALSE(bag->damage().Any());
+  BagMessage message;
+  EXPECT_FALSE(bag->Next(message)) << "the end stays the end";
+}
+
+TEST_F(JoinedBagsTest, TopicsHaveOneIndexInAllParts) {
+  Write("a.bag", {1}, "/late_in_the_list");
+  Write("b.bag", {2}, "/other");
+  Write("c.bag", {3}, "/late_in_the_list");
+  const auto bag = OpenBag(dir_.path());
+  bag->Select([](const BagTopic& topic) { return topic.name == "/late_in_the_list"; });
+  BagMessage message;
+  std::vector<std::size_t> indices;
+  while (bag->Next(message)) indices.push_back(message.topic);
+  ASSERT_EQ(indices.size(), 2u);
+  EXPECT_EQ(indices[0], indices[1]);
+  EXPECT_EQ(bag->topics()[indices[0]].name, "/late_in_the_list");
+  EXPECT_EQ(bag->topics()[indices[0]].num_messages, 2);
+}
+
+TEST_F(JoinedBagsTest, DamageOfOnePartIsThatOfAll) {
+  Write("a.bag", {1}, "/a", false);
+  Write("b.bag", {2}, "/a");
+  const auto bag = OpenBag(dir_.path());
+  EXPECT_THAT(ReadAll(*bag), ElementsAre(1, 2));
+  EXPECT_TRUE(bag->damage().Any());
+}
+
+TEST_F(JoinedBagsTest, APartThatIsNoBagIsNamed) {
+  Write("a.bag", {1}, "/a");
+  dir_.Write("b.bag", "no bag");
+  try {
+    OpenBag(dir_.path());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("b.bag"));
+  }
+}
+
+}  // namespace
+}  // namespace lio
