@@ -76,12 +76,15 @@ void GaussianMap::Remove(std::int32_t cell) {
   voxels_.Of<SurfacePatch>(cell) = {};
 }
 
-// Welford's update. A full cell that shows neither a plane nor a vertical structure forgets slowly
+// Welford's update. A cell that shows neither a plane nor a vertical structure forgets slowly
 // instead of freezing; otherwise a cell filled by single rings while parked would stay a line for
 // ever.
 void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const {
-  if (sums.num_points >= options_.max_cell_points) {
-    const double keep = 1.0 - 1.0 / options_.max_cell_points;
+  const int most = sums.is_known
+                       ? options_.max_cell_points
+                       : std::min(options_.max_cell_points, Parameters::kUnknownMemory_points);
+  if (sums.num_points >= most) {
+    const double keep = 1.0 - 1.0 / sums.num_points;
     for (double* sum : {&sums.xx, &sums.xy, &sums.xz, &sums.yy, &sums.yz, &sums.zz}) *sum *= keep;
     sums.fitted_at = 0;
   } else {

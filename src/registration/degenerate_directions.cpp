@@ -53,12 +53,16 @@ void SplitWithin(const Matrix6& information, const Matrix6& basis, int begin, in
 
 }  // namespace
 
+double MetresPerRad(const Matrix6& information) {
+  const double rotation = information.bottomRightCorner<3, 3>().trace();
+  const double translation = information.topLeftCorner<3, 3>().trace();
+  return translation > 0 && rotation > 0 ? std::sqrt(rotation / translation) : 1.0;
+}
+
 DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_information,
                                const Matrix6& sure_information) {
   DirectionSplit split;
-  const double rotation = information.bottomRightCorner<3, 3>().trace();
-  const double translation = information.topLeftCorner<3, 3>().trace();
-  if (translation > 0 && rotation > 0) split.metres_per_rad = std::sqrt(rotation / translation);
+  split.metres_per_rad = MetresPerRad(information);
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   const auto in_metres = [&](const Matrix6& matrix) -> Matrix6 {
     return inverse_scale.asDiagonal() * matrix * inverse_scale.asDiagonal();

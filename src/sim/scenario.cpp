@@ -26,6 +26,7 @@ const std::vector<Maker>& Makers() {
       {{"garage", "up the ramps of a multi-storey car park"}, MakeGarage},
       {{"campus", "on foot around a campus, sensor in hand"}, MakeCampus},
       {{"hall", "a sports hall, sensor in hand, turned at up to 300 deg/s"}, MakeHall},
+      {{"office", "corridors, doors and stairs of an office, sensor in hand"}, MakeOffice},
       {{"parked", "parked at a crossing among traffic"}, MakeParked},
   };
   return makers;

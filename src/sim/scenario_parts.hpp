@@ -37,5 +37,6 @@ Scenario MakeMotorway(const ScenarioOptions& options);
 Scenario MakeGarage(const ScenarioOptions& options);
 Scenario MakeCampus(const ScenarioOptions& options);
 Scenario MakeHall(const ScenarioOptions& options);
+Scenario MakeOffice(const ScenarioOptions& options);
 
 }  // namespace lio::sim

@@ -40,6 +40,19 @@ TEST(DegenerateDirections, FullInformationHasNone) {
   EXPECT_TRUE((split.eigenvalues.tail<5>().array() >= split.eigenvalues.head<5>().array()).all());
 }
 
+TEST(DegenerateDirections, MetresPerRadAreTheLeverOfTheMatchedPoints) {
+  Matrix6 information = Matrix6::Zero();
+  const Vector3 normal(0, 0, 1);
+  for (const Vector3& point : {Vector3(3, 0, 7), Vector3(0, 4, 1), Vector3(-5, 0, 2)}) {
+    Vector6 row;
+    row << normal, point.cross(normal);
+    information += 100.0 * row * row.transpose();
+  }
+  EXPECT_NEAR(MetresPerRad(information), std::sqrt((9.0 + 16.0 + 25.0) / 3.0), 1e-12);
+  EXPECT_EQ(MetresPerRad(Matrix6::Zero()), 1.0);
+  EXPECT_EQ(SplitDirections(information, SmallNoise()).metres_per_rad, MetresPerRad(information));
+}
+
 TEST(DegenerateDirections, StepIsGaussNewtonsWhereAllIsObservable) {
   std::mt19937_64 random(2);
   const Matrix6 H = FullInformation(random);

@@ -260,6 +260,22 @@ TEST(NdtMatcher, NewContentShareFallsAsTheMapFills) {
   EXPECT_LT(last_share, 0.2);
 }
 
+// A room whose walls are 1.5 m away fills its cells within a few scans. They hold the errors of
+// these few, so the next scans are no independent measurements of the place.
+TEST(NdtMatcher, AFewScansOfANarrowPlaceDoNotFreezeTheMap) {
+  std::vector<test::Box> walls;
+  for (const double side : {-1.0, 1.0}) {
+    walls.push_back({{0, 1.6 * side, 0}, {2.0, 0.1, 3}});
+    walls.push_back({{2.1 * side, 0, 0}, {0.1, 2.0, 3}});
+  }
+  NdtMatcherIn room(test::Scene(-1.2, walls));
+  for (int i = 0; i < 8; ++i) room.InsertFrom({Quaternion::Identity(), Vector3(0.05 * i, 0, 0)});
+  const Pose truth{Quaternion::Identity(), Vector3(0.2, 0, 0)};
+  const MatchResult result = room.MatchFrom(truth, Vector6::Zero(), 0.02);
+  EXPECT_GT(result.new_content_share, 0.05);
+  EXPECT_LT(result.new_content_share, 0.2) << "eight scans are in the map";
+}
+
 // A floor on a voxel face is split between two cells by its noise; the turned grid has no such
 // face for horizontal floors and vertical walls.
 TEST(NdtMatcher, GroundOnAVoxelFaceIsMatchedAsWell) {

@@ -123,7 +123,8 @@ TEST_P(Strapdown, OfTheIdealImuStaysWithinACentimetreAndAHundredthOfADegreeAfter
 INSTANTIATE_TEST_SUITE_P(Scenarios, Strapdown,
                          ::testing::Values(Case{"street", 200.0}, Case{"street", 1000.0},
                                            Case{"tunnel", 200.0}, Case{"garage", 1000.0},
-                                           Case{"campus", 1000.0}, Case{"hall", 1000.0}),
+                                           Case{"campus", 1000.0}, Case{"hall", 1000.0},
+                                           Case{"office", 1000.0}),
                          [](const auto& test) {
                            return std::string(test.param.scenario) + "_" +
                                   std::to_string(static_cast<int>(test.param.rate_hz)) + "_hz";

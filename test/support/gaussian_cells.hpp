@@ -13,6 +13,7 @@ namespace lio {
 inline NdtOptions TestOptions() {
   NdtOptions options;
   options.voxel_m = 1.0;
+  options.max_cell_points = 100;
   return options;
 }
 

@@ -28,6 +28,9 @@ struct GaussianMapParameters {
   // Floor of a vertical structure's horizontal standard deviation [m]: the side from which a trunk
   // is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
+  // So many points a cell remembers that shows no surface yet, so that the rings of a stop do not
+  // hide what is seen while driving off. Chosen.
+  static constexpr int kUnknownMemory_points = 100;
   // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
   // filled cell changes little with each point. Chosen.
   static constexpr double kRefitGrowth = 1.3;

@@ -10,10 +10,12 @@ namespace lio {
 inline constexpr std::size_t kMaxMapLevels = 4;
 
 struct NdtOptions {
-  double voxel_m = 1.0;       // edge of the largest cells; larger catches from farther
-  int num_levels = 2;         // resolutions; each level's cells are half as large as the next one's
-  int min_cell_points = 6;    // a cell with fewer points does not count
-  int max_cell_points = 100;  // a cell with as many is frozen
+  double voxel_m = 1.0;     // edge of the largest cells; larger catches from farther
+  int num_levels = 2;       // resolutions; each level's cells are half as large as the next one's
+  int min_cell_points = 6;  // a cell with fewer points does not count
+  // A cell with as many is frozen, and a scan that it matches shows nothing new. In narrow places
+  // 100 come in two scans, all with the errors of these two.
+  int max_cell_points = 2000;
   // Most matches take 2 to 4. One that comes back to a part of the map that is decimetres off takes
   // 10 to 60 small steps: with 12 a vehicle that closed a loop was lost.
   int max_iterations = 60;

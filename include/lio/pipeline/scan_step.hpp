@@ -23,7 +23,12 @@ struct ScanStepParameters {
   // cm in 100 m. Fitted to the simulator: NEES of eight drives nearest to one
   // (docs/experiments/field_realism.md).
   double shape_drift_m_per_sqrt_m = 1e-3;
-  // The same of its rotation: 0.03 deg in 100 m. Fitted likewise, against the tilt lost in tunnels.
+  // The shortest lever (MetresPerRad()) of those drives, the 5 % quantile of garage and hall. Below
+  // it the variance grows with its inverse: in an office, at 2.4 m, it is four times as large
+  // (docs/experiments/narrow_places.md).
+  double shape_drift_lever_m = 10.0;
+  // The drift of its rotation: 0.03 deg in 100 m, whatever the lever. Fitted likewise, against the
+  // tilt lost in tunnels.
   double shape_drift_rad_per_sqrt_m = 5e-5;
   // The least time that a prior is taken to have run free, so that rates by it stay finite.
   double min_since_last_fix_s = 0.01;

@@ -31,6 +31,10 @@ struct DirectionSplit {
   }
 };
 
+// The root mean square of the levers at which the matched points hold the rotation: about as far as
+// the surroundings are. 1 where there is no information.
+[[nodiscard]] double MetresPerRad(const Matrix6& information);
+
 // `information`: the Hessian of the cost, right error. `noise_information`: the part of it that the
 // noise of the map's normals induces by itself. `sure_information`: the part of it that this noise
 // does not induce; it needs no margin above the noise.
