@@ -24,6 +24,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr Duration kStepBack{100'000'000};  // chosen: a sweep at 10 Hz
+
 constexpr std::array<const char*, 3> kSeverityNames = {"info", "warning", "error"};
 
 Json Summary(const QuantileSketch& values) {
@@ -55,8 +57,7 @@ fs::path RunWriter::FolderOf(int segment) const {
 }
 
 RunWriter::RunWriter(const fs::path& folder, const Options& options)
-    : folder_(folder), has_base_(options.rig.T_base_imu) {
-  segment_.emplace(folder_, has_base_);
+    : folder_(folder), has_base_(options.rig.T_base_imu), whole_(folder, has_base_) {
   std::error_code error;
   for (const char* stale : {"stats.json", "verdict.json", "map.pcd", "map.ply", "report.html"}) {
     fs::remove(folder / stale, error);
@@ -77,11 +78,12 @@ void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
                                    kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
                                    notice->text);
   }
-  if (segment_->IsBefore(output)) {
-    FinishSegment();
+  if (StepsBack(output)) {
+    if (segment_) segment_->Finish();
     segment_.emplace(FolderOf(++num_segments_), has_base_);
   }
-  segment_->Write(output, trust);
+  whole_.Write(output, trust);
+  if (segment_) segment_->Write(output, trust);
   const auto* scan = std::get_if<ScanOutput>(&output);
   if (scan == nullptr) return;
   for (std::size_t i = 0; i < kNumStages; ++i) {
@@ -93,13 +95,31 @@ void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
   if (noise.accel > 0.0) accel_noise_ratio_.Add(noise.accel);
 }
 
-void RunWriter::FinishSegment() {
-  segment_->Finish();
-  num_rows_not_later_ += segment_->num_rows_not_later();
+bool RunWriter::StepsBack(const Output& output) {
+  std::optional<Timestamp>* last = nullptr;
+  Timestamp stamp;
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) {
+    last = &last_sweep_;
+    stamp = scan->scan.stamp;
+  } else if (const auto* nav = std::get_if<NavOutput>(&output);
+             nav != nullptr && nav->source == OdometrySource::kImuPropagated) {
+    last = &last_imu_rate_;
+    stamp = nav->stamp;
+  } else {
+    return false;
+  }
+  const bool steps_back = *last && **last - stamp > kStepBack;
+  if (steps_back) {  // rows of either kind
+    last_sweep_.reset();
+    last_imu_rate_.reset();
+  }
+  *last = stamp;
+  return steps_back;
 }
 
 void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format) {
-  const Eigen::Matrix3f R_level_map = segment_->R_level_map().toRotationMatrix().cast<float>();
+  const Eigen::Matrix3f R_level_map =
+      (segment_ ? *segment_ : whole_).R_level_map().toRotationMatrix().cast<float>();
   std::vector<Eigen::Vector3f> points_level;
   points_level.reserve(points_map.size());
   for (const Eigen::Vector3f& point : points_map) points_level.push_back(R_level_map * point);
@@ -119,7 +139,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
   }
   json["num_imu_missing"] = stats.input.num_imu_missing;
   json["num_skipped_bytes"] = stats.num_skipped_bytes;
-  json["num_rows_not_later"] = num_rows_not_later_;
+  json["num_rows_not_later"] = whole_.num_rows_not_later();
   json["num_segments"] = num_segments_;
   for (const auto& [name, count] : stats.extra) json[name] = count;
   json["log_duration_s"] = stats.log_duration_s;
@@ -137,7 +157,8 @@ void RunWriter::WriteStats(const RunStats& stats) {
 }
 
 void RunWriter::Finish(const RunStats& stats) {
-  FinishSegment();
+  whole_.Finish();
+  if (segment_) segment_->Finish();
   Close(notices_);
   WriteStats(stats);
   WriteVerdict(folder_, stats.verdict);

@@ -56,10 +56,6 @@ const fs::path& Created(const fs::path& folder) {
   return folder;
 }
 
-bool StepsBack(const std::optional<Timestamp>& last, Timestamp stamp) {
-  return last && *last - stamp > SegmentFiles::kStepBack;
-}
-
 }  // namespace
 
 SegmentFiles::Track SegmentFiles::OpenTrack(const fs::path& folder, const std::string& frame) {
@@ -86,15 +82,6 @@ SegmentFiles::SegmentFiles(const fs::path& folder, bool has_base)
   registration_.stream << RegistrationHeader();
 }
 
-bool SegmentFiles::IsBefore(const Output& output) const {
-  if (const auto* scan = std::get_if<ScanOutput>(&output)) {
-    return StepsBack(last_sweep_, scan->scan.stamp);
-  }
-  const auto* nav = std::get_if<NavOutput>(&output);
-  return nav != nullptr && nav->source == OdometrySource::kImuPropagated &&
-         StepsBack(last_imu_rate_, nav->stamp);
-}
-
 void SegmentFiles::Write(const Output& output, std::optional<Trust> trust) {
   if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, trust);
   const auto* nav = std::get_if<NavOutput>(&output);
@@ -111,7 +98,6 @@ void SegmentFiles::WriteImuRate(const NavOutput& nav) {
 }
 
 void SegmentFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
-  last_sweep_ = output.scan.stamp;
   registration_.stream << RegistrationRow(output.scan);
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;

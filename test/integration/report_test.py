@@ -50,10 +50,11 @@ class Report(unittest.TestCase):
         return said
 
     def test_a_run_with_truth_draws_all_its_plots_and_links_them(self):
-        # Path, four of errors, height, velocity, two of biases, status, trust, NIS, points, times.
-        said = self.check(self.run_drive("report-truth") / "report.html", 14)
-        self.assertEqual(int(said["pointed"]), 13, "cursors follow the pointer on the path")
-        self.assertEqual(int(said["zoomed"]), 13, "a zoom of one plot is that of all")
+        # Path, four of errors, height, velocity, two of biases, clock offset, status, trust, NIS,
+        # points, times.
+        said = self.check(self.run_drive("report-truth") / "report.html", 15)
+        self.assertEqual(int(said["pointed"]), 14, "cursors follow the pointer on the path")
+        self.assertEqual(int(said["zoomed"]), 14, "a zoom of one plot is that of all")
         self.assertEqual(said["here"], "block")
 
     def test_lidar_only_has_no_plots_of_biases(self):

@@ -21,8 +21,9 @@
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
-// When the clock goes back, as when a log is played again to a running daemon, the rows from there
-// on stand in segment_2/, then segment_3/ and so on, under the same names.
+// When the clock goes back, as when a log is played again to a running daemon, these files go on
+// where the time that they have is passed. All rows from the step on stand in segment_2/ besides,
+// those from the next one on in segment_3/ and so on, under the same names.
 // For the same input all but the computing times is the same, byte for byte.
 #pragma once
 
@@ -60,8 +61,8 @@ class RunWriter {
   // std::runtime_error naming the file when it cannot.
   RunWriter(const std::filesystem::path& folder, const Options& options);
 
-  // A row that steps back by more than 0.1 s begins a segment; another one that is not later than
-  // the one before is left out and counted in stats.json. `trust` is that of the run so far, where
+  // A row that is not later than the one before is left out and counted in stats.json; one that
+  // steps back by more than 0.1 s begins a segment. `trust` is that of the run so far, where
   // the caller knows it.
   void Write(const Output& output, std::optional<Trust> trust = std::nullopt);
   // To be called after the last row: the points are turned as the level path is.
@@ -71,15 +72,18 @@ class RunWriter {
 
  private:
   std::filesystem::path FolderOf(int segment) const;
-  void FinishSegment();
+  // Has the clock gone back before this row?
+  bool StepsBack(const Output& output);
   void WriteStats(const RunStats& stats);
 
   std::filesystem::path folder_;
   bool has_base_;
-  std::optional<SegmentFiles> segment_;
+  SegmentFiles whole_;                   // the run as one
+  std::optional<SegmentFiles> segment_;  // since the last step back of the clock
+  std::optional<Timestamp> last_sweep_;
+  std::optional<Timestamp> last_imu_rate_;
   OutputFile notices_;
   int num_segments_ = 1;
-  std::int64_t num_rows_not_later_ = 0;  // of the segments before
   std::array<QuantileSketch, kNumStages> stage_ms_;
   QuantileSketch gyro_noise_ratio_;  // ImuNoiseRatios, at each scan
   QuantileSketch accel_noise_ratio_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The rows of a run between two steps back of the clock: trajectories, covariances, states.csv and
-// registration.csv in one folder, where stamps ascend (run_writer.hpp says which files).
+// The files of a run that have a row for each scan or sample: trajectories, covariances, states.csv
+// and registration.csv in one folder (run_writer.hpp says which).
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,10 @@ namespace lio {
 
 class SegmentFiles {
  public:
-  // Rows that step back by more than this are another segment's. Chosen: a sweep at 10 Hz.
-  static constexpr Duration kStepBack{100'000'000};
-
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
   // naming the file when it cannot; so do the others when a file could not be written in full.
   SegmentFiles(const std::filesystem::path& folder, bool has_base);
 
-  // Has the clock gone back before this row?
-  [[nodiscard]] bool IsBefore(const Output& output) const;
   // A row that is not later than the one before is left out and counted. `trust` is that of the run
   // so far, where the caller knows it.
   void Write(const Output& output, std::optional<Trust> trust);
@@ -53,8 +48,7 @@ class SegmentFiles {
   OutputFile imu_rate_;
   OutputFile states_;
   OutputFile registration_;
-  std::optional<Timestamp> last_sweep_;  // with a pose or without
-  std::optional<Timestamp> last_scan_;   // with a pose
+  std::optional<Timestamp> last_scan_;
   std::optional<Timestamp> last_imu_rate_;
   std::int64_t num_rows_not_later_ = 0;
 };
