@@ -12,15 +12,12 @@ namespace lio {
 using OutageStage = OutageRecovery::Stage;
 
 // Nothing is known of the motion until a scan tells.
-void Tracking::BeginOutage(const Estimate& before, Timestamp first) {
+void Tracking::BeginOutage(const Estimate& before, Timestamp first, const std::string& why) {
   outage_.Begin(before);
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
-  context_.outputs.Notify(
-      first, Notice::Severity::kWarning,
-      fmt::format("lost: by their stamps nothing came of all sensors for {:.3f} s, or their clocks "
-                  "were set; scans tell whether the body has moved",
-                  SecondsBetween(before.stamp, first)));
+  context_.outputs.Notify(first, Notice::Severity::kWarning,
+                          fmt::format("lost: {}; scans tell whether the body has moved", why));
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
 }
 

@@ -46,6 +46,10 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   context_.sweeps.clear();
   ++context_.counters.num_restarts;
   const Timestamp first = segment.first.stamp;
+  if (SecondsBetween(history_.head().stamp, first) <= -kMaxUnknown_s) {
+    SeekAfterSetBack(segment);
+    return;
+  }
   const Estimate before = history_.head();
   const double jump_s = SecondsBetween(before.stamp, first);
   const bool is_gap = segment.step == ImuPreprocessor::Step::kGap && jump_s >= 0.0;
@@ -57,7 +61,10 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   if (is_gap) handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
   if (is_gap && jump_s >= kMaxUnknown_s) {
     history_ = FilterHistory(options, AcrossOutage(before, first), segment.first);
-    BeginOutage(before, first);
+    BeginOutage(before, first,
+                fmt::format("by their stamps nothing came of all sensors for {:.3f} s, or their "
+                            "clocks were set",
+                            jump_s));
     return;
   }
   const double unknown_s = is_gap ? jump_s : UnknownAtSetClock_s(segment.step, jump_s);
@@ -76,6 +83,27 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   }
   estimate.stamp = first;
   history_ = FilterHistory(options, estimate, segment.first);
+}
+
+// A clock that was set back by seconds, or another recording: the body is where it was, or anywhere
+// that it reaches in as long a time.
+void Tracking::SeekAfterSetBack(const SegmentStarts& segment) {
+  const Timestamp first = segment.first.stamp;
+  Estimate before = history_.head();
+  const Duration back = before.stamp - first;
+  const Duration by = -(back + back);  // stamps from before then lie as far before `first`
+  before.stamp = before.stamp + by;
+  handover_.ShiftTimesBy(by);
+  health_.ShiftTimesBy(by);
+  handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  handover_.last_published.reset();
+  zero_velocity_.Forget();
+  history_ = FilterHistory(MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
+                                              context_.stream.imu().NoiseAt(first)),
+                           AcrossOutage(before, first), segment.first);
+  BeginOutage(before, first,
+              fmt::format("the clocks were set back by {:.3f} s, or another recording begins",
+                          back.Seconds()));
 }
 
 void Tracking::TakeClockStep(const AmbiguousClockStep& step) {

@@ -32,6 +32,27 @@ TEST(TrackingOutage, LostAtOnceAfterAnOutage) {
   EXPECT_TRUE(std::get<Relocalize>(job.task).search.T_map_imu_alternative);
 }
 
+// Were the clocks set, or was a player started again? Only scans can tell.
+TEST(TrackingOutage, LostAtOnceWhenTheClocksGoBackBySeconds) {
+  AfterOneSecond b;
+  b.StartSegment(-5.0, Step::kSetBack);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  EXPECT_EQ(b.bench.counters.num_restarts, 1);
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
+  const MatchJob job = b.NextJob();
+  EXPECT_GT(StdOf(job), 6.0 * kSpeed_mps - 1.0) << "anywhere that six seconds lead to";
+  const auto& alternative = std::get<Relocalize>(job.task).search.T_map_imu_alternative;
+  ASSERT_TRUE(alternative);
+  EXPECT_NEAR(alternative->translation.x(), 1.05 * kSpeed_mps, 0.1) << "or where it was";
+  // It is where it was, and goes on from there.
+  b.motion = [](double t_s) { return Straight(kSpeed_mps)(t_s + 6.0); };
+  MatchOutcome found = b.bench.Matched(job, b.motion);
+  found.is_relocalized = true;
+  ASSERT_FALSE(b.Finish(found));
+  ASSERT_FALSE(b.Match(2));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+}
+
 TEST(TrackingOutage, FoundAfterAnOutageItIsOkOnceTwoMoreScansMatch) {
   AfterOneSecond b;
   b.StartSegment(6.0, Step::kGap);

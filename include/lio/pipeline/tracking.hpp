@@ -54,7 +54,8 @@ class Tracking {
 
  private:
   bool FeelsGravity() const { return !g_world_.isZero(); }
-  void BeginOutage(const Estimate& before, Timestamp first);
+  void SeekAfterSetBack(const SegmentStarts& segment);
+  void BeginOutage(const Estimate& before, Timestamp first, const std::string& why);
   void SetTaskAfterOutage(MatchJob& job) const;
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
