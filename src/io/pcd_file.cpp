@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/pcd_file.hpp"
 
+#include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
@@ -26,11 +27,14 @@ void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f
 }
 
 std::vector<Eigen::Vector3f> LoadPcd(const std::filesystem::path& path) {
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  if (pcl::PCDReader().read(path.string(), cloud) != 0) {
+  pcl::PCLPointCloud2 raw;
+  if (pcl::PCDReader().read(path.string(), raw) != 0) {
     throw std::runtime_error("cannot read " + path.string() + " as a PCD file");
   }
   std::vector<Eigen::Vector3f> points;
+  if (raw.data.empty()) return points;  // PCL's conversion takes the address of the first point
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  pcl::fromPCLPointCloud2(raw, cloud);
   points.reserve(cloud.size());
   for (const pcl::PointXYZ& p : cloud) points.emplace_back(p.x, p.y, p.z);
   return points;

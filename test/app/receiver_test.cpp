@@ -36,7 +36,7 @@ class ReceiverTest : public ::testing::Test {
 };
 
 TEST_F(ReceiverTest, WhatArrivedBeforeTheStopIsTaken) {
-  for (int i = 0; i < 500; ++i) bus_->Publish("LIO_IMU", EncodeImu({}, i));
+  for (int i = 0; i < 500; ++i) EXPECT_TRUE(bus_->Publish("LIO_IMU", EncodeImu({}, i)));
   EXPECT_TRUE(bus_->Publish("LIO_SCAN", EncodeChunk({})));
   ReceiveAll();
   EXPECT_EQ(NumItems(), 501);
