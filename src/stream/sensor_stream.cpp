@@ -246,10 +246,8 @@ void SensorStream::OpenGate() {
     while (SweepPtr sweep = gate_.Force()) GiveOut(std::move(sweep));
     return;
   }
-  const Duration correction = corrections_.ForNextSweep();
-  while (std::shared_ptr<Sweep> sweep = gate_.Open(newest, correction)) {
-    Admit(std::move(sweep), correction);
-  }
+  const Duration correction = corrections_.ForNextSweeps();
+  while (std::shared_ptr<Sweep> sweep = gate_.Open(newest, correction)) Admit(std::move(sweep));
   if (gate_.IsImuSilent() && life_ != Life::kClosed) state_ = State::kLosingImu;
   if (newest && !gate_.empty()) NotifyIfClocksApart(*newest, gate_.oldest().start);
 }
@@ -287,8 +285,8 @@ bool SensorStream::NotifyIfClocksApart(Timestamp imu, Timestamp lidar) {
   return true;
 }
 
-void SensorStream::Admit(std::shared_ptr<Sweep> sweep, Duration correction) {
-  sweep->MoveBy(correction);
+void SensorStream::Admit(std::shared_ptr<Sweep> sweep) {
+  sweep->MoveBy(corrections_.ForNextSweeps());
   const Timestamp earliest = begin_ ? *begin_ : imu_.sent().front().stamp;
   if (sweep->start + kStream.stamp_slack < earliest) {
     ++counters_->num_scans_without_imu;
@@ -319,7 +317,7 @@ void SensorStream::CloseAll() {
   OpenGate();
   while (!gate_.empty()) {
     if (gate_.oldest().start > *imu_.newest()) ++counters_->num_scans_without_imu;
-    Admit(gate_.Force(), corrections_.ForNextSweep());
+    Admit(gate_.Force());
   }
   events_.emplace_back(StreamEnded{});
 }

@@ -89,7 +89,7 @@ void SensorStream::EndStep() {
   TakeClosedSweeps();
   while (begin_ && !gate_.empty() && (first < newest || gate_.oldest().end < first)) {
     ++counters_->num_scans_without_imu;
-    Admit(gate_.Force(), corrections_.ForNextSweep());
+    Admit(gate_.Force());
   }
 }
 

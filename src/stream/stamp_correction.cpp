@@ -13,11 +13,7 @@ void StampCorrection::Learn(std::size_t num_unmatched) {
   const std::size_t known_after = std::max(num_matched, num_matched_ + 1);
   num_matched_ = std::max(num_matched, num_matched_);
   if (newest_ != known_.back().correction) known_.push_back({known_after, newest_});
-}
-
-Duration StampCorrection::ForNextSweep() {
   while (known_.size() > 1 && known_[1].num_matched + lag_ <= num_sweeps_ + 1) known_.pop_front();
-  return known_.front().correction;
 }
 
 }  // namespace lio

@@ -16,14 +16,21 @@ void Learn(StampCorrection& corrections, std::size_t num_unmatched, Duration new
   corrections.Learn(num_unmatched);
 }
 
+// The correction of the next sweep, which is then given out and matched.
+Duration GiveOut(StampCorrection& corrections) {
+  corrections.Learn(0);
+  const Duration correction = corrections.ForNextSweeps();
+  corrections.CountSweep();
+  return correction;
+}
+
 TEST(StampCorrection, ASweepGetsWhatIsKnownOnceAllButTheLastFewAreMatched) {
   StampCorrection corrections(3);
-  corrections.CountSweep();
-  Learn(corrections, 0, Ms(5));  // by the first sweep
-  corrections.CountSweep();
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(0)) << "the first one might not be matched yet";
-  corrections.CountSweep();
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(5));
+  EXPECT_EQ(GiveOut(corrections), Ms(0));
+  corrections.SetNewest(Ms(5));  // by the first sweep
+  EXPECT_EQ(GiveOut(corrections), Ms(0));
+  EXPECT_EQ(GiveOut(corrections), Ms(0)) << "the first one might not be matched yet";
+  EXPECT_EQ(GiveOut(corrections), Ms(5));
 }
 
 TEST(StampCorrection, IsUnknownWhileASweepThatCountsIsUnmatched) {
@@ -36,10 +43,22 @@ TEST(StampCorrection, WithoutLagTheNewestHoldsAtOnce) {
   StampCorrection corrections(1);
   corrections.CountSweep();
   Learn(corrections, 0, Ms(2));
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(2));
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(2));
   corrections.CountSweep();
   Learn(corrections, 0, Ms(-4));
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(-4));
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(-4));
+}
+
+// A fast matcher has learned more by then than a slow one.
+TEST(StampCorrection, SweepsThatOneMessageSetsFreeHaveOneCorrection) {
+  StampCorrection corrections(2);
+  corrections.CountSweep();
+  Learn(corrections, 0, Ms(2));
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(0));
+  corrections.CountSweep();
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(0));
+  corrections.Learn(1);
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(2));
 }
 
 // The match of the fifth sweep begins an initialization, which matches all five once more: what
@@ -50,9 +69,10 @@ TEST(StampCorrection, WhatSweepsShowThatAreMatchedOnceMoreComesAfterAllOfThem) {
   Learn(corrections, 1, Ms(0));  // after four
   Learn(corrections, 5, Ms(0));
   Learn(corrections, 3, Ms(2));  // after two of them
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(0));
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(0));
   corrections.CountSweep();
-  EXPECT_EQ(corrections.ForNextSweep(), Ms(2));
+  corrections.Learn(0);
+  EXPECT_EQ(corrections.ForNextSweeps(), Ms(2));
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ class SensorStream {
   void CloseSweepsBefore(Timestamp stamp);
   void TakeClosedSweeps();
   void OpenGate();
-  void Admit(std::shared_ptr<Sweep> sweep, Duration correction);
+  void Admit(std::shared_ptr<Sweep> sweep);
   void GiveOut(SweepPtr sweep);
   bool NotifyIfClocksApart(Timestamp imu, Timestamp lidar);
   void GoLidarOnly(const std::string& evidence);

@@ -23,10 +23,11 @@ class StampCorrection {
   // Matched sweeps show this now.
   void SetNewest(Duration correction) { newest_ = correction; }
   // The newest correction is known while so many sweeps are given out and not yet matched. To be
-  // called after each match, before CountSweep().
+  // called after each match, before the next sweeps are given out.
   void Learn(std::size_t num_unmatched);
-  // For the next sweeps that are given out together.
-  [[nodiscard]] Duration ForNextSweep();
+  // For the sweeps that are given out until the next call of Learn(), however many: those that one
+  // message sets free have one correction.
+  [[nodiscard]] Duration ForNextSweeps() const { return known_.front().correction; }
   // A sweep is given out.
   void CountSweep() { ++num_sweeps_; }
 
@@ -40,7 +41,7 @@ class StampCorrection {
   std::size_t num_sweeps_ = 0;   // given out
   std::size_t num_matched_ = 0;  // of them, at least once
   Duration newest_;
-  std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweep
+  std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweeps
 };
 
 }  // namespace lio
