@@ -85,6 +85,14 @@ SensorMessages Silenced(SensorMessages messages, Sensor sensor, double from_s, d
   return messages;
 }
 
+SensorMessages OnlyImu(double from_s, double to_s) {
+  return Silenced(Sensors(from_s, to_s), Sensor::kLidar, from_s, to_s);
+}
+
+SensorMessages OnlyLidar(double from_s, double to_s) {
+  return Silenced(Sensors(from_s, to_s), Sensor::kImu, from_s, to_s);
+}
+
 SensorMessages Stepped(SensorMessages messages, Sensor sensor, double from_s, double step_s) {
   const Duration step = Duration::FromSeconds(step_s);
   for (SensorMessage& message : messages) {

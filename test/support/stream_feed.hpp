@@ -32,6 +32,9 @@ SensorMessages Sensors(double from_s, double to_s);
 enum class Sensor { kImu, kLidar, kBoth };
 // Without what that sensor took from `from_s` on and before `to_s`.
 SensorMessages Silenced(SensorMessages messages, Sensor sensor, double from_s, double to_s);
+// All that one of them sends alone, as Sensors().
+SensorMessages OnlyImu(double from_s, double to_s);
+SensorMessages OnlyLidar(double from_s, double to_s);
 // The clock of that sensor steps by `step_s` at `from_s`.
 SensorMessages Stepped(SensorMessages messages, Sensor sensor, double from_s, double step_s);
 
