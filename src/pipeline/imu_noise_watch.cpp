@@ -14,6 +14,13 @@ ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig) {
           std::sqrt(noise.accel_psd.maxCoeff()) / rig.accel_noise_density};
 }
 
+ImuRig RaisedTo(const ImuNoise& shown, ImuRig rig) {
+  rig.gyro_noise_density = std::max(rig.gyro_noise_density, std::sqrt(shown.gyro_psd.maxCoeff()));
+  rig.accel_noise_density =
+      std::max(rig.accel_noise_density, std::sqrt(shown.accel_psd.maxCoeff()));
+  return rig;
+}
+
 bool ImuNoiseWatch::IsNews(double ratio, Sensor& sensor) {
   if (ratio < std::max(kImuNoiseWatch.min_ratio, kImuNoiseWatch.tell_again * sensor.told)) {
     sensor.num_in_row = 0;

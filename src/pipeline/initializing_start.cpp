@@ -25,13 +25,6 @@ std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
 }
 
-// Raises the densities to the noise that the samples show on the noisiest axis.
-void RaiseTo(const ImuNoise& shown, ImuRig& imu) {
-  imu.gyro_noise_density = std::max(imu.gyro_noise_density, std::sqrt(shown.gyro_psd.maxCoeff()));
-  imu.accel_noise_density =
-      std::max(imu.accel_noise_density, std::sqrt(shown.accel_psd.maxCoeff()));
-}
-
 // The extrinsic in the axes that the messages were found to have; its translation stays as it was.
 Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
   const Pose T = rig.T_imu_lidar.value_or(Pose{});
@@ -214,7 +207,7 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
     return rejection;
   } else {
     Rig rig = context_.options.rig;
-    RaiseTo(imu.NoiseAt(stamp), rig.imu);
+    rig.imu = RaisedTo(imu.NoiseAt(stamp), rig.imu);
     moving = StartMoving(samples, poses, begin, rig, *has_gravity);
   }
   if (moving.start) return StartFrom(*moving.start, 0, false);

@@ -29,6 +29,18 @@ TEST(ImuNoiseWatch, RatiosAreThoseOfTheNoisiestAxis) {
   EXPECT_NEAR(NoiseRatiosOf(noise, rig).accel, 9.0, 1e-9);
 }
 
+TEST(ImuNoiseWatch, DensitiesAreRaisedToTheNoisiestAxisAndNeverLowered) {
+  ImuRig rig;
+  rig.gyro_noise_density = 1e-3;
+  rig.accel_noise_density = 1e-2;
+  ImuNoise noise;
+  noise.gyro_psd = Vector3(1e-6, 4e-6, 1e-6);
+  noise.accel_psd = Vector3::Constant(1e-6);
+  const ImuRig raised = RaisedTo(noise, rig);
+  EXPECT_NEAR(raised.gyro_noise_density, 2e-3, 1e-12);
+  EXPECT_EQ(raised.accel_noise_density, 1e-2);
+}
+
 TEST(ImuNoiseWatch, VibrationIsAnnouncedOnce) {
   ImuNoiseWatch watch;
   EXPECT_EQ(Said(watch, {1.0, 1.2}, 100), "");

@@ -13,6 +13,8 @@
 namespace lio {
 
 [[nodiscard]] ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig);
+// The rig with its densities raised to the noise that the samples show on the noisiest axis.
+[[nodiscard]] ImuRig RaisedTo(const ImuNoise& shown, ImuRig rig);
 
 struct ImuNoiseWatchParameters {
   double min_ratio = 3.0;     // less is within what data sheets leave open. Chosen
