@@ -8,7 +8,6 @@
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/estimate_report.hpp"
 #include "lio/pipeline/scan_step.hpp"
-#include "pipeline/history_options.hpp"
 
 namespace lio {
 
@@ -26,9 +25,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
     : context_(context),
       handover_(std::move(handover)),
       g_world_(start.g_world),
-      history_(MakeHistoryOptions(context.options, context.nis_limit, start.g_world,
-                                  context.stream.imu().NoiseAt(start.estimate.stamp)),
-               WithMapStart(start.estimate),
+      history_(HistoryOptionsAt(start.estimate.stamp), WithMapStart(start.estimate),
                SampleAt(context.stream.imu().samples(), start.estimate.stamp)),
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
       zero_velocity_(context.options.rig.imu, is_at_rest),
@@ -37,6 +34,17 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
   }
+}
+
+HistoryOptions Tracking::HistoryOptionsAt(Timestamp stamp) const {
+  const ImuRig& imu = context_.options.rig.imu;
+  HistoryOptions history;
+  history.noise = {imu.gyro_noise_density, imu.accel_noise_density, imu.gyro_bias_walk_density,
+                   imu.accel_bias_walk_density, context_.stream.imu().NoiseAt(stamp)};
+  history.g_world = g_world_;
+  history.span_s = context_.options.filter.history_s;
+  history.nis_limit = context_.nis_limit;
+  return history;
 }
 
 void Tracking::AddImu(const ImuReady& event) {
@@ -177,8 +185,7 @@ void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const I
       ++context_.counters.num_standstills;
     }
   }
-  const double gyro_density =
-      std::max(context_.options.rig.imu.gyro_noise_density, std::sqrt(noise.gyro_psd.maxCoeff()));
+  const double gyro_density = RaisedTo(noise, context_.options.rig.imu).gyro_noise_density;
   if (const auto news = context_.clocks.AddScan(outcome, history_, gyro_density)) {
     context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kInfo, *news);
   }

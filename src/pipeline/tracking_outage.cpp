@@ -5,14 +5,17 @@
 
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/pipeline/tracking.hpp"
-#include "pipeline/history_options.hpp"
 
 namespace lio {
 
 using OutageStage = OutageRecovery::Stage;
 
 // Nothing is known of the motion until a scan tells.
-void Tracking::BeginOutage(const Estimate& before, Timestamp first, const std::string& why) {
+void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
+                               const std::string& why) {
+  const Timestamp first = segment.first.stamp;
+  handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  history_ = FilterHistory(HistoryOptionsAt(first), AcrossOutage(before, first), segment.first);
   outage_.Begin(before);
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
@@ -72,9 +75,8 @@ void Tracking::NotifyFound(Timestamp end) {
 // The scans after the one that was found contradict it.
 void Tracking::ForgetPlace(Timestamp end) {
   const auto& samples = context_.stream.imu().samples();
-  history_ = FilterHistory(MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
-                                              context_.stream.imu().NoiseAt(end)),
-                           AcrossOutage(outage_.before(), end), SampleAt(samples, end));
+  history_ = FilterHistory(HistoryOptionsAt(end), AcrossOutage(outage_.before(), end),
+                           SampleAt(samples, end));
   for (const ImuSample& sample : samples) {
     if (sample.stamp > end) (void)history_.AddImu(sample);
   }

@@ -8,7 +8,6 @@
 
 #include "lio/pipeline/tracking.hpp"
 #include "lio/sensor/gap.hpp"
-#include "pipeline/history_options.hpp"
 
 namespace lio {
 namespace {
@@ -45,28 +44,26 @@ Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& opti
 void Tracking::StartSegment(const SegmentStarts& segment) {
   context_.sweeps.clear();
   ++context_.counters.num_restarts;
-  const Timestamp first = segment.first.stamp;
-  if (SecondsBetween(history_.head().stamp, first) <= -kMaxUnknown_s) {
-    SeekAfterSetBack(segment);
-    return;
-  }
-  const Estimate before = history_.head();
-  const double jump_s = SecondsBetween(before.stamp, first);
-  const bool is_gap = segment.step == ImuPreprocessor::Step::kGap && jump_s >= 0.0;
-  const HistoryOptions options = MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
-                                                    context_.stream.imu().NoiseAt(first));
   handover_.clock_step.reset();
   handover_.last_published.reset();
   zero_velocity_.Forget();
-  if (is_gap) handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
-  if (is_gap && jump_s >= kMaxUnknown_s) {
-    history_ = FilterHistory(options, AcrossOutage(before, first), segment.first);
-    BeginOutage(before, first,
-                fmt::format("by their stamps nothing came of all sensors for {:.3f} s, or their "
-                            "clocks were set",
-                            jump_s));
+  const Timestamp first = segment.first.stamp;
+  const Estimate before = history_.head();
+  const double jump_s = SecondsBetween(before.stamp, first);
+  if (jump_s <= -kMaxUnknown_s) {
+    SeekAfterSetBack(before, segment);
     return;
   }
+  const bool is_gap = segment.step == ImuPreprocessor::Step::kGap && jump_s >= 0.0;
+  if (is_gap && jump_s >= kMaxUnknown_s) {
+    SeekAfterOutage(before, segment,
+                    fmt::format("by their stamps nothing came of all sensors for {:.3f} s, or "
+                                "their clocks were set",
+                                jump_s));
+    return;
+  }
+  if (is_gap) handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  const HistoryOptions options = HistoryOptionsAt(first);
   const double unknown_s = is_gap ? jump_s : UnknownAtSetClock_s(segment.step, jump_s);
   Estimate estimate = Coasted(before, unknown_s, options);
   context_.outputs.Notify(
@@ -87,23 +84,15 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
 
 // A clock that was set back by seconds, or another recording: the body is where it was, or anywhere
 // that it reaches in as long a time.
-void Tracking::SeekAfterSetBack(const SegmentStarts& segment) {
-  const Timestamp first = segment.first.stamp;
-  Estimate before = history_.head();
-  const Duration back = before.stamp - first;
-  const Duration by = -(back + back);  // stamps from before then lie as far before `first`
+void Tracking::SeekAfterSetBack(Estimate before, const SegmentStarts& segment) {
+  const Duration back = before.stamp - segment.first.stamp;
+  const Duration by = -(back + back);  // stamps from before then lie as far before the first one
   before.stamp = before.stamp + by;
   handover_.ShiftTimesBy(by);
   health_.ShiftTimesBy(by);
-  handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
-  handover_.last_published.reset();
-  zero_velocity_.Forget();
-  history_ = FilterHistory(MakeHistoryOptions(context_.options, context_.nis_limit, g_world_,
-                                              context_.stream.imu().NoiseAt(first)),
-                           AcrossOutage(before, first), segment.first);
-  BeginOutage(before, first,
-              fmt::format("the clocks were set back by {:.3f} s, or another recording begins",
-                          back.Seconds()));
+  SeekAfterOutage(before, segment,
+                  fmt::format("the clocks were set back by {:.3f} s, or another recording begins",
+                              back.Seconds()));
 }
 
 void Tracking::TakeClockStep(const AmbiguousClockStep& step) {

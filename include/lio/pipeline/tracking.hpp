@@ -54,8 +54,10 @@ class Tracking {
 
  private:
   bool FeelsGravity() const { return !g_world_.isZero(); }
-  void SeekAfterSetBack(const SegmentStarts& segment);
-  void BeginOutage(const Estimate& before, Timestamp first, const std::string& why);
+  HistoryOptions HistoryOptionsAt(Timestamp stamp) const;
+  void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
+  void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
+                       const std::string& why);
   void SetTaskAfterOutage(MatchJob& job) const;
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
