@@ -85,6 +85,15 @@ TextCheck NameUpTo(std::size_t max_characters) {
   };
 }
 
+void AddSpanArguments(CLI::App& app, double& start_s, double& duration_s) {
+  app.add_option("--start", start_s, "Leave out the first S seconds")
+      ->type_name("S")
+      ->check(NumberFromZero());
+  app.add_option("--duration", duration_s, "Use only S seconds")
+      ->type_name("S")
+      ->check(NumberAboveZero());
+}
+
 void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output) {
   namespace fs = std::filesystem;
   std::error_code ignored;

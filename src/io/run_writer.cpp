@@ -96,24 +96,19 @@ void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
 }
 
 bool RunWriter::StepsBack(const Output& output) {
-  std::optional<Timestamp>* last = nullptr;
-  Timestamp stamp;
-  if (const auto* scan = std::get_if<ScanOutput>(&output)) {
-    last = &last_sweep_;
-    stamp = scan->scan.stamp;
-  } else if (const auto* nav = std::get_if<NavOutput>(&output);
-             nav != nullptr && nav->source == OdometrySource::kImuPropagated) {
-    last = &last_imu_rate_;
-    stamp = nav->stamp;
-  } else {
+  const auto* scan = std::get_if<ScanOutput>(&output);
+  const auto* nav = std::get_if<NavOutput>(&output);
+  if (scan == nullptr && (nav == nullptr || nav->source != OdometrySource::kImuPropagated)) {
     return false;
   }
-  const bool steps_back = *last && **last - stamp > kStepBack;
+  const Timestamp stamp = scan != nullptr ? scan->scan.stamp : nav->stamp;
+  std::optional<Timestamp>& last = scan != nullptr ? last_sweep_ : last_imu_rate_;
+  const bool steps_back = last && *last - stamp > kStepBack;
   if (steps_back) {  // rows of either kind
     last_sweep_.reset();
     last_imu_rate_.reset();
   }
-  *last = stamp;
+  last = stamp;
   return steps_back;
 }
 

@@ -24,6 +24,11 @@ fs::path WithoutSlash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+// With its parents, whatever form it is given in.
+fs::path WholePath(const fs::path& path) {
+  return WithoutSlash(fs::absolute(path)).lexically_normal();
+}
+
 // A trajectory beside the input is its truth by name: drive.bag, drive.gt.tum or drive.tum.
 std::optional<fs::path> TruthBeside(const fs::path& input) {
   fs::path stem = WithoutSlash(input);
@@ -173,7 +178,7 @@ void Preparation::FromKittiRaw() {
   options.truth_file = OwnTruthFile();
   options.imu_rate_hz = 100.0;
   options.progress = request_.progress;
-  const fs::path drive = WithoutSlash(fs::absolute(request_.input)).lexically_normal();
+  const fs::path drive = WholePath(request_.input);
   const bool has_calibration = fs::exists(drive / "calib_imu_to_velo.txt") ||
                                fs::exists(drive.parent_path() / "calib_imu_to_velo.txt");
   const fs::path day_rig = request_.out / "kitti_rig.yaml";
@@ -203,7 +208,7 @@ void Preparation::FromKittiOdometry() {
   options.sequence = request_.input;
   options.output = prepared_.log;
   options.progress = request_.progress;
-  const fs::path sequence = WithoutSlash(fs::absolute(request_.input)).lexically_normal();
+  const fs::path sequence = WholePath(request_.input);
   const fs::path poses =
       sequence.parent_path().parent_path() / "poses" / (sequence.filename().string() + ".txt");
   if (fs::is_regular_file(poses)) {

@@ -226,12 +226,7 @@ CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments) {
       ->type_name("FILE");
   command->add_option("--rig", arguments.rig_file, "Write the result as a configuration file")
       ->type_name("OUT.yaml");
-  command->add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--duration", arguments.duration_s, "Use only S seconds")
-      ->type_name("S")
-      ->check(CLI::PositiveNumber);
+  AddSpanArguments(*command, arguments.start_s, arguments.duration_s);
   command->add_option("--max-offset", arguments.max_offset_s, "Search for offsets up to this [s]")
       ->type_name("S")
       ->check(CLI::Range(0.01, 100.0))

@@ -67,12 +67,7 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->needs("--map")
       ->check(CLI::IsMember({"pcd", "ply"}))
       ->capture_default_str();
-  app.add_option("--start", arguments.start_s, "Leave out the log's first S seconds")
-      ->type_name("S")
-      ->check(NumberFromZero());
-  app.add_option("--duration", arguments.duration_s, "Replay only S seconds")
-      ->type_name("S")
-      ->check(NumberAboveZero());
+  AddSpanArguments(app, arguments.start_s, arguments.duration_s);
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->type_name("NAME")
       ->capture_default_str();

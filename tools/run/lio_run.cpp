@@ -90,12 +90,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.num_threads, "Instead of pipeline.num_threads")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
-  app.add_option("--start", arguments.start_s, "Leave out the first S seconds")
-      ->type_name("S")
-      ->check(NumberFromZero());
-  app.add_option("--duration", arguments.duration_s, "Run only S seconds")
-      ->type_name("S")
-      ->check(NumberAboveZero());
+  AddSpanArguments(app, arguments.start_s, arguments.duration_s);
   AddOptionsArguments(app, arguments.options);
 }
 

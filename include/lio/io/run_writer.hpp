@@ -37,7 +37,7 @@
 
 #include "lio/io/input_decoder.hpp"
 #include "lio/io/quantile_sketch.hpp"
-#include "lio/io/segment_files.hpp"
+#include "lio/io/row_files.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/verdict/verdict.hpp"
 
@@ -78,8 +78,8 @@ class RunWriter {
 
   std::filesystem::path folder_;
   bool has_base_;
-  SegmentFiles whole_;                   // the run as one
-  std::optional<SegmentFiles> segment_;  // since the last step back of the clock
+  RowFiles whole_;                   // the run as one
+  std::optional<RowFiles> segment_;  // since the last step back of the clock
   std::optional<Timestamp> last_sweep_;
   std::optional<Timestamp> last_imu_rate_;
   OutputFile notices_;

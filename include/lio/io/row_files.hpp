@@ -17,11 +17,11 @@
 
 namespace lio {
 
-class SegmentFiles {
+class RowFiles {
  public:
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
   // naming the file when it cannot; so do the others when a file could not be written in full.
-  SegmentFiles(const std::filesystem::path& folder, bool has_base);
+  RowFiles(const std::filesystem::path& folder, bool has_base);
 
   // A row that is not later than the one before is left out and counted. `trust` is that of the run
   // so far, where the caller knows it.

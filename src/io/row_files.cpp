@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/io/segment_files.hpp"
+#include "lio/io/row_files.hpp"
 
 #include <fmt/format.h>
 
@@ -58,19 +58,19 @@ const fs::path& Created(const fs::path& folder) {
 
 }  // namespace
 
-SegmentFiles::Track SegmentFiles::OpenTrack(const fs::path& folder, const std::string& frame) {
+RowFiles::Track RowFiles::OpenTrack(const fs::path& folder, const std::string& frame) {
   Track track{OpenOutput(folder / ("trajectory" + frame + ".tum")),
               OpenOutput(folder / ("covariance" + frame + ".csv"))};
   track.covariances.stream << CovarianceHeader();
   return track;
 }
 
-void SegmentFiles::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
+void RowFiles::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
   track.poses.stream << TumRow(pose) << '\n';
   track.covariances.stream << CovarianceRow(pose.stamp, cov);
 }
 
-SegmentFiles::SegmentFiles(const fs::path& folder, bool has_base)
+RowFiles::RowFiles(const fs::path& folder, bool has_base)
     : in_map_(OpenTrack(Created(folder), "")),
       in_world_(OpenTrack(folder, "_world")),
       level_(folder),
@@ -82,13 +82,13 @@ SegmentFiles::SegmentFiles(const fs::path& folder, bool has_base)
   registration_.stream << RegistrationHeader();
 }
 
-void SegmentFiles::Write(const Output& output, std::optional<Trust> trust) {
+void RowFiles::Write(const Output& output, std::optional<Trust> trust) {
   if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, trust);
   const auto* nav = std::get_if<NavOutput>(&output);
   if (nav != nullptr && nav->source == OdometrySource::kImuPropagated) WriteImuRate(*nav);
 }
 
-void SegmentFiles::WriteImuRate(const NavOutput& nav) {
+void RowFiles::WriteImuRate(const NavOutput& nav) {
   if (last_imu_rate_ && nav.stamp <= *last_imu_rate_) {
     ++num_rows_not_later_;
     return;
@@ -97,7 +97,7 @@ void SegmentFiles::WriteImuRate(const NavOutput& nav) {
   imu_rate_.stream << TumRow({nav.stamp, nav.T_map_imu}) << '\n';
 }
 
-void SegmentFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
+void RowFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
   registration_.stream << RegistrationRow(output.scan);
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
@@ -113,7 +113,7 @@ void SegmentFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trus
   if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
 }
 
-void SegmentFiles::Finish() {
+void RowFiles::Finish() {
   for (Track* track : {&in_map_, &in_world_}) {
     Close(track->poses);
     Close(track->covariances);

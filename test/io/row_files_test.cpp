@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The rows are tested with RunWriter.
-#include "lio/io/segment_files.hpp"
+#include "lio/io/row_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,19 +13,19 @@
 namespace lio {
 namespace {
 
-TEST(SegmentFiles, TheBaseHasAFileWhereTheRigNamesOne) {
+TEST(RowFiles, TheBaseHasAFileWhereTheRigNamesOne) {
   const test::TempDir folder;
   const std::filesystem::path base = folder.path() / "new" / "trajectory_base.tum";
   for (const bool has_base : {false, true, false}) {
-    SegmentFiles(folder.path() / "new", has_base).Finish();
+    RowFiles(folder.path() / "new", has_base).Finish();
     EXPECT_EQ(std::filesystem::exists(base), has_base);
   }
 }
 
-TEST(SegmentFiles, AFolderThatCannotBeMadeIsNamed) {
+TEST(RowFiles, AFolderThatCannotBeMadeIsNamed) {
   const test::TempDir folder;
   std::ofstream(folder.path() / "file").close();
-  EXPECT_THROW(SegmentFiles(folder.path() / "file" / "out", false), std::runtime_error);
+  EXPECT_THROW(RowFiles(folder.path() / "file" / "out", false), std::runtime_error);
 }
 
 }  // namespace
