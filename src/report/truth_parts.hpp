@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the page shows when the truth is known: figures, the true path, and errors with the standard
+// The parts of the page that need the truth: figures, the true path, and errors with the standard
 // deviations that the filter claims.
 #pragma once
 

@@ -126,7 +126,7 @@ TEST(ClockOffset, AFewTurnsAloneMoveNoStamps) {
   EXPECT_EQ(clock.move_by_s(), 0.0);
 }
 
-// What a turn scatters by is learned from the drive: a quiet matcher is trusted more.
+// The scatter of turns is learned from the drive: a quiet matcher is trusted more.
 TEST(ClockOffset, StandardDeviationFollowsTheScatterOfTheTurns) {
   double stds_s[2] = {};
   for (int i = 0; i < 2; ++i) {

@@ -248,8 +248,8 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
   }
 }
 
-// What `moved_m` adds to the map pose's variances of translation and rotation, with all matched
-// points at one lever.
+// The growth of the map pose's variances of translation and rotation over `moved_m`, with all
+// matched points at one lever.
 std::pair<double, double> ShapeDrift(double moved_m, double lever_m) {
   const auto variances = [&](double moved) {
     FilterHistory history = Driving({Vector3(0.01, 0.01, 0.01)});

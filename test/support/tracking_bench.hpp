@@ -118,7 +118,7 @@ struct AfterOneSecond : TrackingBench {
   AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
 };
 
-// Where a job expects the body along the drive, and its standard deviation, m.
+// The place along the drive at which a job expects the body, and its standard deviation, m.
 inline double XOf(const MatchJob& job) {
   return job.prior.T_map_imu.translation.x();
 }

@@ -24,7 +24,7 @@ struct RigDrive {
 
 inline constexpr double kScanPeriod_s = 0.1;
 
-// What matching measures at the stamp t: the lidar's pose, as the rig makes it one of imu.
+// Matching measures this at the stamp t: the lidar's pose, as the rig makes it one of imu.
 inline Pose MatchedPose(const RigDrive& drive, const Motion& motion, double t_s,
                         std::mt19937_64& random) {
   std::normal_distribution<double> normal;
