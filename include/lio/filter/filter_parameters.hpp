@@ -10,7 +10,7 @@
 
 namespace lio {
 
-// NIS-based covariance inflation of poses from registration (docs/filter.md, Measurement).
+// NIS-based covariance inflation of poses from registration (docs/filter.md, Pose update).
 struct InflationParameters {
   // Share of a new NIS in the factor. Chosen: ten poses, one second at 10 Hz; more follows faster
   // and is noisier.
@@ -23,7 +23,7 @@ struct InflationParameters {
   double max_factor = 9.0;
 };
 
-// How a pose beyond the gate is fused when it must be (docs/filter.md, Measurement).
+// How a pose beyond the gate is fused when it must be (docs/filter.md, Pose update).
 struct ForcedUpdateParameters {
   // Smaller residuals are registration errors: the pose's covariance is scaled until it fits.
   // Larger ones are motion that no sample showed. Found on drives of the simulator, where a map of
@@ -46,13 +46,13 @@ struct ImuOutageParameters {
   // s. The error of a saturated sample lasts this long: one sweep at 10 Hz.
   double saturated_s = 0.1;
   // Acceleration (m/s^2) and rate (rad/s) beyond the end of the range, 1 sigma. Chosen so that
-  // simulated drives with clipped gyros keep their path (docs/filter.md, Holes and loss; a sports
+  // simulated drives with clipped gyros keep their path (docs/recovery.md; a sports
   // hall with rates 2 rad/s beyond the range is lost).
   double saturated_accel_std_mps2 = 10.0;
   double saturated_gyro_std_radps = 2.0;
 };
 
-// The estimator of the clock offset between lidar and IMU (docs/filter.md, The clocks' offset).
+// The estimator of the clock offset between lidar and IMU (docs/filter.md, Clock offset).
 struct ClockOffsetParameters {
   // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
   // finds larger offsets.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Tuning constants of the detection of the IMU convention: units, axes and gravity of the inertial
-// messages (imu_classifier.hpp, motion_evidence.hpp; docs/filter.md, What the inertial messages
-// mean). A comment gives the unit, the meaning and the source; a value marked "chosen" has no
+// messages (imu_classifier.hpp, motion_evidence.hpp; docs/filter.md, Initialization). A
+// comment gives the unit, the meaning and the source; a value marked "chosen" has no
 // measurement behind it. The standard deviations and thresholds were found together on simulated
 // drives (g, deg/s, both, z down, turned axes); KITTI 0005 and UrbanLoco drives, whose convention
 // is the expected one, are decided rightly, too.

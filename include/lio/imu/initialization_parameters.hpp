@@ -12,7 +12,7 @@ namespace lio {
 // The initialization from samples at rest, and the continuation of an earlier path.
 struct RestStartParameters {
   // m/s. Velocity of a body at rest, 1 sigma. Chosen: above the 2.5 mm/s that a parked vehicle
-  // sways by (docs/filter.md, Standing still).
+  // sways by (docs/filter.md, Zero-velocity update).
   double velocity_std_mps = 0.01;
   // rad. Tilt before the mean force is fused, 1 sigma. Chosen: large against the tilt that results.
   double unknown_tilt_std_rad = 1.0;

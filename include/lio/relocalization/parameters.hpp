@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The tuning constants of relocalization. "Measured" values come from the experiments of
-// docs/filter.md on simulated drives and walks; "chosen" ones follow from geometry or cost and were
-// not searched for.
+// The tuning constants of relocalization (docs/recovery.md). "Measured" values come from the
+// experiments named there on simulated drives and walks; "chosen" ones follow from geometry or cost
+// and were not searched for.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ struct Sweep {
 
   // The instant for which matching measures the pose. Motion errors within the sweep then act over
   // half a sweep to either side; with the end as reference their variance would be four times as
-  // large and correlated with the filter's process noise (docs/filter.md, Measurement).
+  // large and correlated with the filter's process noise (docs/filter.md, Covariance of a match).
   Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
 
   // Adds to both stamps.
