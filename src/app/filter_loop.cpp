@@ -100,7 +100,7 @@ void FilterLoop::HandOutJob() {
   has_job_out_ = true;
   timings_.Of(job->sweep->scan_seq).started_utime = HostUtime();
   clouds_.full = {};
-  if (publishes_full_cloud_) clouds_.full = {job->sweep, job->T_any_imu, {}};
+  if (publishes_full_cloud_) clouds_.full = {job->sweep, job->T_any_imu, *job->T_imu_lidar, {}};
   to_.match_worker.Tell(std::move(*job));
 }
 

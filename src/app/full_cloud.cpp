@@ -24,14 +24,14 @@ std::vector<LidarPoint> FinitePoints(const std::vector<LidarPoint>& points) {
 
 }  // namespace
 
-std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task, const Pose& T_imu_lidar) {
+std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task) {
   const Sweep& sweep = *task.sweep;
   std::vector<LidarPoint> points = FinitePoints(sweep.points);
   std::vector<ScanPoint> positions;
   positions.reserve(points.size());
   for (const LidarPoint& p : points) positions.push_back({{p.x_m, p.y_m, p.z_m}, p.t_offset_ns});
   const std::vector<Eigen::Vector3f> points_imu =
-      Deskew(positions, {sweep.start, sweep.end, sweep.middle()}, task.T_any_imu, T_imu_lidar);
+      Deskew(positions, {sweep.start, sweep.end, sweep.middle()}, task.T_any_imu, task.T_imu_lidar);
   const Eigen::Matrix3f rotation = task.T_map_imu.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = task.T_map_imu.translation.cast<float>();
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -13,12 +13,12 @@ namespace lio {
 struct FullCloudTask {
   std::shared_ptr<const Sweep> sweep;
   StampedPoses T_any_imu;  // covers the sweep, as in MatchJob
+  Pose T_imu_lidar;        // likewise
   Pose T_map_imu;          // at the sweep's middle, as matched
 };
 
 // Gives chunks of at most kMaxChunkPoints points, in the order of the sweep. Stamps and offsets are
 // still the points' own instants.
-[[nodiscard]] std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task,
-                                                       const Pose& T_imu_lidar);
+[[nodiscard]] std::vector<ScanChunk> RegisterFullCloud(const FullCloudTask& task);
 
 }  // namespace lio

@@ -25,8 +25,7 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
             inbox_.EndOutcomes();
           }),
       output_worker_(
-          publisher_, live.out ? &writer_.emplace(*live.out, options) : nullptr,
-          options.rig.T_imu_lidar.value_or(Pose::Identity()), live.version,
+          publisher_, live.out ? &writer_.emplace(*live.out, options) : nullptr, live.version,
           [this] { return ComposeStatus(); }, [this](const std::string& fault) { OnFault(fault); }),
       filter_(options, live.publishes_full_cloud,
               {inbox_, publisher_, board_, match_worker_, output_worker_}),

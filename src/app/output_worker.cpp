@@ -17,12 +17,10 @@ constexpr std::chrono::milliseconds kChunkPause(1);
 
 }  // namespace
 
-OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
-                           std::string version, std::function<StatusReport()> compose,
-                           OnFault on_fault)
+OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, std::string version,
+                           std::function<StatusReport()> compose, OnFault on_fault)
     : publisher_(publisher),
       writer_(writer),
-      T_imu_lidar_(T_imu_lidar),
       version_(std::move(version)),
       compose_(std::move(compose)),
       thread_("output", std::move(on_fault)) {
@@ -107,7 +105,7 @@ void OutputWorker::Do(const Tasks& tasks) {
 }
 
 void OutputWorker::PublishFull(const FullCloudTask& task) {
-  for (const ScanChunk& chunk : RegisterFullCloud(task, T_imu_lidar_)) {
+  for (const ScanChunk& chunk : RegisterFullCloud(task)) {
     publisher_.PublishFull(chunk);
     std::this_thread::sleep_for(kChunkPause);
   }

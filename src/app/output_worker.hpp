@@ -27,8 +27,8 @@ class OutputWorker {
 
   // `publisher` and `writer` are borrowed; `writer` is null without files. `compose` gives the
   // status, on the output thread. `on_fault` is called when any of them has thrown.
-  OutputWorker(Publisher& publisher, RunWriter* writer, const Pose& T_imu_lidar,
-               std::string version, std::function<StatusReport()> compose, OnFault on_fault);
+  OutputWorker(Publisher& publisher, RunWriter* writer, std::string version,
+               std::function<StatusReport()> compose, OnFault on_fault);
   ~OutputWorker();  // as Finish
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
@@ -65,7 +65,6 @@ class OutputWorker {
 
   Publisher& publisher_;
   RunWriter* writer_;
-  Pose T_imu_lidar_;
   std::string version_;
   std::function<StatusReport()> compose_;
   std::atomic<std::int64_t> num_rows_dropped_ = 0;

@@ -49,6 +49,7 @@ void LevelTrack::Add(const FilterReport& filter, Duration clock_correction) {
   last_.clock_correction_ns = clock_correction.ns;
   Put(filter.nav.T_map_imu, last_.T_map_imu);
   Put(filter.nav.T_world_imu, last_.T_world_imu);
+  Put(filter.T_imu_lidar, last_.T_imu_lidar);
   Eigen::Map<Matrix6>(last_.pose_cov) = filter.nav.pose_cov;
   is_level_known_ = !filter.g_world_mps2.isZero();
   rows_.write(reinterpret_cast<const char*>(&last_), sizeof last_);
@@ -59,6 +60,13 @@ Quaternion LevelTrack::R_level_map() const {
   const Vector3 up_imu = Get(last_.T_world_imu).rotation.conjugate() * Vector3::UnitZ();
   const Vector3 up_map = Get(last_.T_map_imu).rotation * up_imu;
   return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
+}
+
+// The row has the body as its own extrinsic made it: this is the one of the last extrinsic.
+Pose LevelTrack::LastImuPose(const Row& row) const {
+  const Pose T_map_imu = Get(row.T_map_imu);
+  if (std::ranges::equal(row.T_imu_lidar, last_.T_imu_lidar)) return T_map_imu;
+  return T_map_imu * Get(row.T_imu_lidar) * Get(last_.T_imu_lidar).Inverse();
 }
 
 void LevelTrack::Finish() {
@@ -72,7 +80,7 @@ void LevelTrack::Finish() {
     Row row;
     while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
       const Timestamp stamp{row.stamp_ns + last_.clock_correction_ns - row.clock_correction_ns};
-      const Pose pose = T_level_map * Get(row.T_map_imu);
+      const Pose pose = T_level_map * LastImuPose(row);
       poses.stream << TumRow({stamp, pose}) << '\n';
       const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
       covariances.stream << CovarianceRow(stamp,

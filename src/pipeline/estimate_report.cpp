@@ -65,6 +65,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.g_world_mps2 = context.g_world;
   filter.clock_offset_s = context.clocks.total_s();
   filter.clock_offset_std_s = context.clocks.std_s();
+  filter.T_imu_lidar = context.extrinsic.T_imu_lidar();
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov.topLeftCorner<kMapStart, kMapStart>();

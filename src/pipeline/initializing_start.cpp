@@ -233,6 +233,7 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
   context_.stream.SetConvention(found);
   context_.examiner.SetConvention(found);
+  context_.extrinsic.Restart();
   context_.convention.Restart();
   context_.convention.TrustGyro(true);
   context_.convention.ForgetDoubt();

@@ -62,6 +62,7 @@ class Odometry::Impl {
         convention_(options_.rig, stream_.imu()),
         examiner_(options_.rig, options_.pipeline.use_imu),
         clocks_(options_),
+        extrinsic_(options_),
         mode_(std::make_unique<Mode>(Initializing(MakeContext(), {}))) {}
 
   void AddImu(const ImuSample& sample) {
@@ -88,6 +89,7 @@ class Odometry::Impl {
     const std::int64_t begin_ns = NowNs();
     MatchJob job = std::visit([&](auto& mode) { return MakeJob(mode, sweeps_[next]); }, *mode_);
     in_flight_ = sweeps_[next];
+    job.T_imu_lidar = extrinsic_.T_imu_lidar();
     job.filter_ns = std::exchange(filter_ns_, 0) + NowNs() - begin_ns;
     return job;
   }
@@ -137,12 +139,12 @@ class Odometry::Impl {
   using Next = std::optional<Transition>;
 
   ModeContext MakeContext() {
-    return {options_, ChiSquareQuantile6(options_.filter.gate_probability),
-            clock_,   counters_,
-            outputs_, stream_,
-            sweeps_,  convention_,
-            clocks_,  imu_noise_,
-            examiner_};
+    return {options_,   ChiSquareQuantile6(options_.filter.gate_probability),
+            clock_,     counters_,
+            outputs_,   stream_,
+            sweeps_,    convention_,
+            clocks_,    extrinsic_,
+            imu_noise_, examiner_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
   // The sweep in flight included.
@@ -261,6 +263,7 @@ class Odometry::Impl {
   ImuNoiseWatch imu_noise_;
   RigExaminer examiner_;
   ClockOffsetFollower clocks_;
+  ExtrinsicFollower extrinsic_;
   std::unique_ptr<Mode> mode_;
   SweepPtr in_flight_;  // the sweep whose job is out
   // Sweeps in the queue that one message set free together, as after a gap of the inertial stream.

@@ -211,6 +211,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   ScanInWork scan{.job = job, .motion = job.T_any_imu};
   MatchOutcome& outcome = scan.outcome;
   outcome.sweep = job.sweep;
+  if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
   if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
 
   std::int64_t begin = Now();

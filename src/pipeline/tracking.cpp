@@ -63,8 +63,8 @@ void Tracking::PublishAtImuRate() {
 }
 
 ReportContext Tracking::MakeReportContext() const {
-  return {context_.options,       g_world_,       handover_.last_seq, status(),
-          &context_.stream.imu(), context_.clocks};
+  return {context_.options,       g_world_,        handover_.last_seq, status(),
+          &context_.stream.imu(), context_.clocks, context_.extrinsic};
 }
 
 void Tracking::AddSweep(const Sweep& sweep) {
@@ -120,6 +120,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
         MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);
   }
   Publish(outcome, report, noise, begin_ns);
+  LookAtRig(end);
   return JudgeSelf(end, verdict.restarts);
 }
 
@@ -134,9 +135,6 @@ void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const Imu
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
-  if (const auto news = context_.examiner.News(end)) {
-    context_.outputs.Notify(end, Notice::Severity::kWarning, *news);
-  }
   context_.sweeps.pop_front();
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));

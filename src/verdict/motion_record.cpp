@@ -49,6 +49,14 @@ void MotionRecord::Clear() {
   BeginMap();
 }
 
+void MotionRecord::SetImu(const Pose& T_old_new) {
+  for (MotionStep& step : steps_) {
+    step.from.pose = step.from.pose * T_old_new;
+    step.to.pose = step.to.pose * T_old_new;
+  }
+  if (last_) last_->pose = last_->pose * T_old_new;
+}
+
 void MotionRecord::Add(const StampedPose& T_map_imu, std::span<const ImuSample> samples) {
   const std::optional<StampedPose> last = std::exchange(last_, T_map_imu);
   const bool is_step = last && samples.size() >= 3 && T_map_imu.stamp > last->stamp &&

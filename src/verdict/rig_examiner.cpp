@@ -25,6 +25,11 @@ Trust TrustIn(double coverage) {
   return coverage < kRigExaminer.doubtful_coverage ? Trust::kDoubtful : Trust::kYes;
 }
 
+Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention) {
+  const Quaternion R_sent_imu = Quaternion(convention.R_imu_sent).conjugate();
+  return {R_sent_imu * T_imu_lidar.rotation, R_sent_imu * T_imu_lidar.translation};
+}
+
 }  // namespace
 
 RigExaminer::RigExaminer(const Rig& rig, bool uses_imu)
@@ -35,16 +40,36 @@ void RigExaminer::SetConvention(const ImuConvention& convention) {
   record_.Clear();
 }
 
-std::optional<std::string> RigExaminer::News(Timestamp stamp) {
+std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
   if (!first_stamp_) first_stamp_ = stamp;
-  if (has_told_ || SecondsBetween(*first_stamp_, stamp) < next_look_s_) return std::nullopt;
-  next_look_s_ *= 2.0;
-  const RigFindings findings = FindRigErrors(record_, rig_, convention_);
-  trust_ = LeastOf(findings.causes, Trust::kYes);
-  if (trust_ != Trust::kNo) return std::nullopt;
+  if (SecondsBetween(*first_stamp_, stamp) < next_look_s_) return std::nullopt;
+  next_look_s_ *= kRigExaminer.next_look_factor;
+  RigFindings findings = FindRigErrors(record_, rig_, convention_);
+  trust_ = LeastOf(findings.causes, LeastOf(corrected_, Trust::kYes));
+  return findings;
+}
+
+std::optional<std::string> RigExaminer::News(const RigFindings& findings) {
+  if (has_told_ || LeastOf(findings.causes, Trust::kYes) != Trust::kNo) return std::nullopt;
   has_told_ = true;
   const Cause& cause = findings.causes.front();
   return fmt::format("the result cannot be trusted: {}: {}", Name(cause.kind), cause.evidence);
+}
+
+void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar,
+                               const Pose& T_old_new) {
+  rig_.T_imu_lidar = T_imu_lidar;
+  if (findings.T_imu_lidar) {
+    std::ranges::copy_if(findings.causes, std::back_inserter(corrected_), IsOfExtrinsic);
+    record_.Clear();  // sweeps were deskewed wrongly
+  } else {
+    record_.SetImu(T_old_new);
+  }
+  for (Cause& cause : corrected_) {
+    cause.leaves = Trust::kDoubtful;
+    cause.fix = ExtrinsicYaml(InAxesOfMessages(T_imu_lidar, convention_));
+  }
+  trust_ = Trust::kDoubtful;
 }
 
 Verdict RigExaminer::Judge(const Counters& counters) const {
@@ -56,6 +81,7 @@ Verdict RigExaminer::Judge(const Counters& counters) const {
     verdict.causes.insert(verdict.causes.end(), std::make_move_iterator(causes.begin()),
                           std::make_move_iterator(causes.end()));
   };
+  append(corrected_);
   append(FindRigErrors(record_, rig_, convention_).causes);
   if (contradictions_.empty()) append(FindDataFaults(counters, tally_, uses_imu_));
   // Equal ones stay in their order: rigs are more often wrong than data.

@@ -22,10 +22,9 @@ double AngleDeg(const Quaternion& rotation) {
   return kDegPerRad * LogSo3(rotation).norm();
 }
 
-double SureSigmas(int num_clusters) {
+double SureSigmas(int num_clusters, double probability) {
   const boost::math::students_t distribution(std::max(1, num_clusters - 1));
-  return boost::math::quantile(
-      boost::math::complement(distribution, 0.5 * kParameters.false_alarm_probability));
+  return boost::math::quantile(boost::math::complement(distribution, 0.5 * probability));
 }
 
 double Sigmas(const Eigen::VectorXd& value, const Eigen::MatrixXd& cov) {
@@ -86,6 +85,9 @@ class Examination {
     NameInverted(findings.causes);
     for (const CauseKind kind : selected_) findings.causes.push_back(MakeCause(kind));
     NameAxes(findings.causes);
+    findings.T_imu_lidar = WithoutErrors(solution_, IsSelected(CauseKind::kExtrinsicRotation),
+                                         IsSelected(CauseKind::kLeverArm));
+    findings.T_imu_lidar_bettered = Bettered();
     return findings;
   }
 
@@ -114,7 +116,7 @@ class Examination {
     start = fit_.Solve(start, {}).errors;
     fit_.SetNoiseFrom(start);
     all_ = fit_.Solve(start, {});
-    sure_sigmas_ = SureSigmas(all_.num_clusters);
+    sure_sigmas_ = SureSigmas(all_.num_clusters, kParameters.false_alarm_probability);
   }
 
   // The full fit says this of one error.
@@ -179,14 +181,39 @@ class Examination {
   Quaternion R_rig_sent() const { return solution_.errors.rotation * R_imu_sent_; }
   Pose T_configured() const { return rig_.T_imu_lidar.value_or(Pose{}); }
 
+  [[nodiscard]] bool IsSelected(CauseKind kind) const {
+    return std::ranges::count(selected_, kind) > 0;
+  }
+
+  // rig.T_imu_lidar in axes that R_rig_axes turns into its own, without a lever arm that it lacks.
+  Pose InAxes(const Quaternion& R_rig_axes, const Vector3& lever_m) const {
+    const Pose T = T_configured();
+    const Quaternion back = R_rig_axes.conjugate();
+    return {(back * T.rotation).normalized(), back * (T.translation + lever_m)};
+  }
+
   // The extrinsic that the fit asks for, in the axes of the messages. The translation is that of
   // the rig, but for a lever arm that was found.
   Pose Corrected() const {
-    const Pose T = T_configured();
-    const Quaternion back = R_rig_sent().conjugate();
-    const bool has_lever = std::ranges::count(selected_, CauseKind::kLeverArm) > 0;
-    return {(back * T.rotation).normalized(),
-            has_lever ? Vector3(back * (T.translation + solution_.errors.lever_m)) : T.translation};
+    if (IsSelected(CauseKind::kLeverArm)) return InAxes(R_rig_sent(), solution_.errors.lever_m);
+    return {InAxes(R_rig_sent(), {}).rotation, T_configured().translation};
+  }
+
+  // In the axes that the samples are read in. The translation is the rig's, as above.
+  std::optional<Pose> WithoutErrors(const RigFitResult& fit, bool rotation, bool lever) const {
+    if (!rotation && !lever) return std::nullopt;
+    const Quaternion R_rig_read = rotation ? fit.errors.rotation : Quaternion::Identity();
+    if (lever) return InAxes(R_rig_read, fit.errors.lever_m);
+    return Pose{InAxes(R_rig_read, {}).rotation, T_configured().translation};
+  }
+
+  std::optional<Pose> Bettered() const {
+    const double sigmas = SureSigmas(all_.num_clusters, kParameters.better_probability);
+    const auto is_off = [&](const Vector3& value, int at) {
+      return SurePart(value, all_.cov.block<3, 3>(at, at), sigmas) > 0.0;
+    };
+    return WithoutErrors(all_, is_off(LogSo3(all_.errors.rotation), kRigRotation),
+                         is_off(all_.errors.lever_m, kRigLever));
   }
 
   // If the inverse of the rig's R_a, t_a is the truth, the rotation is R_a R_a and the lever arm

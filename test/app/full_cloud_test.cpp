@@ -19,19 +19,14 @@ FullCloudTask StandingTask(std::size_t num_points) {
   }
   FullCloudTask task;
   task.T_any_imu = {{sweep->start, Pose::Identity()}, {sweep->end, Pose::Identity()}};
+  task.T_imu_lidar.translation = Vector3(0, 0, 0.5);
   task.T_map_imu.translation = Vector3(100, 0, 0);
   task.sweep = sweep;
   return task;
 }
 
-Pose Raised() {
-  Pose pose;
-  pose.translation = Vector3(0, 0, 0.5);
-  return pose;
-}
-
 TEST(FullCloud, PointsStandInTheMapAndKeepTheirInstantIntensityAndRing) {
-  const auto chunks = RegisterFullCloud(StandingTask(3), Raised());
+  const auto chunks = RegisterFullCloud(StandingTask(3));
   ASSERT_EQ(chunks.size(), 1u);
   EXPECT_EQ(chunks[0].sensor_id, -1);
   EXPECT_EQ(chunks[0].scan_seq, 8);
@@ -47,7 +42,7 @@ TEST(FullCloud, PointsStandInTheMapAndKeepTheirInstantIntensityAndRing) {
 }
 
 TEST(FullCloud, LargeSweepsAreSplitIntoNumberedChunks) {
-  const auto chunks = RegisterFullCloud(StandingTask(2 * kMaxChunkPoints + 1), Raised());
+  const auto chunks = RegisterFullCloud(StandingTask(2 * kMaxChunkPoints + 1));
   ASSERT_EQ(chunks.size(), 3u);
   std::size_t num_points = 0;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -64,11 +59,11 @@ TEST(FullCloud, PointsThatAreNotFiniteAreLeftOut) {
   auto sweep = std::make_shared<Sweep>(*task.sweep);
   sweep->points[1].y_m = std::numeric_limits<float>::quiet_NaN();
   task.sweep = sweep;
-  EXPECT_EQ(RegisterFullCloud(task, Raised())[0].points.size(), 3u);
+  EXPECT_EQ(RegisterFullCloud(task)[0].points.size(), 3u);
 }
 
 TEST(FullCloud, AnEmptySweepGivesNothing) {
-  EXPECT_TRUE(RegisterFullCloud(StandingTask(0), Raised()).empty());
+  EXPECT_TRUE(RegisterFullCloud(StandingTask(0)).empty());
 }
 
 }  // namespace

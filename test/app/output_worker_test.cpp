@@ -53,8 +53,7 @@ TEST_F(OutputWorkerTest, RowsThatWaitAreWrittenBeforeItEnds) {
   RunWriter writer(folder.path(), Options{});
   {
     OutputWorker worker(
-        publisher_, &writer, Pose::Identity(), "1.0.0", [] { return StatusReport{}; },
-        ExpectNoFault);
+        publisher_, &writer, "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
     for (int i = 1; i <= 1000; ++i) worker.PutRow(ImuRate(i));
   }
   writer.Finish({});
@@ -64,7 +63,7 @@ TEST_F(OutputWorkerTest, RowsThatWaitAreWrittenBeforeItEnds) {
 
 TEST_F(OutputWorkerTest, WithoutFilesRowsAreIgnored) {
   OutputWorker worker(
-      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
+      publisher_, nullptr, "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   worker.PutRow(ImuRate(1));
   worker.Finish();
   EXPECT_EQ(worker.num_rows_dropped(), 0);
@@ -72,7 +71,7 @@ TEST_F(OutputWorkerTest, WithoutFilesRowsAreIgnored) {
 
 TEST_F(OutputWorkerTest, StatusIsSentAtTheStartWhenAnnouncedAndAtTheEnd) {
   OutputWorker worker(
-      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
+      publisher_, nullptr, "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   while (NumReceived(channels_.status) < 1) std::this_thread::yield();
   worker.AnnounceStatus();
   while (NumReceived(channels_.status) < 2) std::this_thread::yield();
@@ -82,12 +81,12 @@ TEST_F(OutputWorkerTest, StatusIsSentAtTheStartWhenAnnouncedAndAtTheEnd) {
 
 TEST_F(OutputWorkerTest, CloudsAreSentFullOnesInChunksOfOneDatagram) {
   OutputWorker worker(
-      publisher_, nullptr, Pose::Identity(), "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
+      publisher_, nullptr, "1.0.0", [] { return StatusReport{}; }, ExpectNoFault);
   worker.Put(RegisteredCloud{Timestamp{1}, 0, std::vector<Eigen::Vector3f>(10)});
   auto sweep = std::make_shared<Sweep>();
   sweep->end = Timestamp{100'000'000};
   sweep->points.resize(kMaxChunkPoints + 1);
-  worker.Put(FullCloudTask{sweep, {{sweep->start, {}}, {sweep->end, {}}}, {}});
+  worker.Put(FullCloudTask{sweep, {{sweep->start, {}}, {sweep->end, {}}}, {}, {}});
   worker.Finish();
   EXPECT_EQ(NumReceived(channels_.cloud), 1);
   EXPECT_EQ(NumReceived(channels_.cloud_full), 2);
@@ -99,8 +98,7 @@ TEST_F(OutputWorkerTest, AfterAFaultTheRowsAreKeptAndCanBeWritten) {
   RunWriter writer(folder.path(), Options{});
   std::promise<std::string> reported;
   OutputWorker worker(
-      publisher_, &writer, Pose::Identity(), "1.0.0",
-      []() -> StatusReport { throw std::runtime_error("no status"); },
+      publisher_, &writer, "1.0.0", []() -> StatusReport { throw std::runtime_error("no status"); },
       [&](const std::string& fault) { reported.set_value(fault); });
   EXPECT_EQ(reported.get_future().get(), "the output thread failed: no status");
   for (int i = 1; i <= 10; ++i) worker.PutRow(ImuRate(i));

@@ -17,6 +17,8 @@ import verdict  # pylint: disable=wrong-import-position
 DRIVES = {"walk": ("campus", "--lidar", "vlp16", "--duration", "25"),
           "street": ("street", "--lidar", "vlp16", "--duration", "30")}
 WRONG = ("yaw 5 deg", "x 1 m", "inverted", "clock -25 ms", "units: g", "gravity: removed")
+CORRECTED = ("yaw 5 deg", "x 1 m", "inverted", "clock -25 ms")  # on the way, by the estimator
+KEEP = "filter:\n  estimate_extrinsic: false\n"
 EXIT_NO_TRUST, EXIT_CONFIGURATION = 6, 3
 
 
@@ -47,13 +49,20 @@ class VerdictOfReplay(unittest.TestCase):
                 with self.subTest(drive=drive, setup=setup):
                     found, code = self.judge(folder, setup)
                     first = found["causes"][0]
-                    if setup == "clock -25 ms":  # the filter finds it on the way
+                    if setup in CORRECTED:
                         self.assertEqual((found["trust"], code), ("doubtful", 0))
                     else:
                         self.assertEqual(found["trust"], "no")
                         self.assertIn(code, (EXIT_NO_TRUST, EXIT_CONFIGURATION))
                     self.assertEqual(first["kind"], verdict.SETUPS[setup][1], found)
                     self.assertTrue(first["fix"].startswith("rig:"), first)
+
+    def test_an_extrinsic_that_is_kept_leaves_no_trust(self):
+        folder = self.folder("walk")
+        overlay = verdict.SETUPS["x 1 m"][0](*verdict.read_extrinsic(folder))
+        found, code = verdict.judged(folder, [overlay, KEEP])
+        self.assertEqual((found["trust"], code), ("no", EXIT_NO_TRUST))
+        self.assertEqual(found["causes"][0]["kind"], "lever_arm")
 
     def test_the_fix_mends_the_run(self):
         folder = self.folder("walk")

@@ -76,6 +76,26 @@ TEST_F(LevelTrackTest, StampsAreCorrectedByTheLastClockOffset) {
   EXPECT_EQ(poses[2].stamp, ReportAt(3.0).nav.stamp);
 }
 
+// The extrinsic is corrected on the way: the body of before was another one on the same lidar.
+TEST_F(LevelTrackTest, BodyIsThatOfTheLastExtrinsic) {
+  const Pose T_old_lidar{ExpSo3(Vector3(0.0, 0.0, 0.1)), Vector3(1.0, 0.0, 0.5)};
+  const Pose T_new_lidar{Quaternion::Identity(), Vector3(0.2, 0.0, 0.5)};
+  FilterReport before = ReportAt(1.0);
+  before.nav.T_map_imu = before.nav.T_map_imu * T_new_lidar * T_old_lidar.Inverse();
+  before.T_imu_lidar = T_old_lidar;
+  FilterReport after = ReportAt(2.0);
+  after.T_imu_lidar = T_new_lidar;
+  LevelTrack track(folder_.path());
+  track.Add(before, {});
+  track.Add(after, {});
+  track.Finish();
+  const StampedPoses poses = ReadTrajectory(File("trajectory_level.tum")).poses;
+  ASSERT_EQ(poses.size(), 2u);
+  const Pose step = poses[0].pose.Inverse() * poses[1].pose;
+  const Pose expected = ReportAt(1.0).nav.T_map_imu.Inverse() * ReportAt(2.0).nav.T_map_imu;
+  EXPECT_LT(LogSe3(expected.Inverse() * step).norm(), 1e-7);
+}
+
 TEST_F(LevelTrackTest, CovarianceHasTheStepToTheWorldsEstimate) {
   LevelTrack track(folder_.path());
   FilterReport report = ReportAt(50.0);

@@ -34,13 +34,14 @@ class EstimateReportTest : public testing::Test {
   }
 
   ReportContext Context(const Vector3& g_world = test::kGravity) {
-    return {options_, g_world, 17, TrackingStatus::kDegenerate, &imu_, clocks_};
+    return {options_, g_world, 17, TrackingStatus::kDegenerate, &imu_, clocks_, extrinsic_};
   }
 
   Options options_;
   Counters counters_;
   ImuBuffer imu_{ImuConvention{}, counters_};
   ClockOffsetFollower clocks_{options_};
+  ExtrinsicFollower extrinsic_{options_};
   Estimate estimate_;
 };
 

@@ -38,23 +38,27 @@ inline Motion Straight(double speed_mps) {
 class ModeBench {
  public:
   explicit ModeBench(const Options& options = {})
-      : options_(options),
+      : examiner(options.rig, true),
+        options_(options),
         stream_(MakeStreamOptions(options), counters),
         convention_(options_.rig, stream_.imu()),
-        clocks_(options_) {}
+        clocks_(options_),
+        extrinsic_(options_) {}
   ModeBench(const ModeBench&) = delete;  // modes refer to its parts
   ModeBench& operator=(const ModeBench&) = delete;
 
   ModeContext context() {
-    return {options_, ChiSquareQuantile6(options_.filter.gate_probability),
-            nullptr,  counters,
-            outputs_, stream_,
-            sweeps,   convention_,
-            clocks_,  imu_noise_,
-            examiner};
+    return {options_,   ChiSquareQuantile6(options_.filter.gate_probability),
+            nullptr,    counters,
+            outputs_,   stream_,
+            sweeps,     convention_,
+            clocks_,    extrinsic_,
+            imu_noise_, examiner};
   }
 
-  RigExaminer examiner{options_.rig, true};
+  const ExtrinsicFollower& extrinsic() const { return extrinsic_; }
+
+  RigExaminer examiner;
 
   // Units that the messages are sent in, per SI unit.
   double force_scale = 1.0;
@@ -153,6 +157,7 @@ class ModeBench {
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
   ClockOffsetFollower clocks_;
+  ExtrinsicFollower extrinsic_;
   std::int32_t num_sweeps_ = 0;
   Pose T_map_world_;
 };

@@ -38,6 +38,20 @@ TEST(MotionRecord, StepHasWhatTheForcesAddToVelocity) {
   EXPECT_LT((middle * step.velocity_mps + 0.1 * kGravity - gained).norm(), 1e-3);
 }
 
+TEST(MotionRecord, PosesAreThoseOfTheOtherImuFromThereOn) {
+  const Pose T_old_new{ExpSo3(Vector3(0.0, 0.0, 0.1)), Vector3(0.3, 0.0, 0.0)};
+  MotionRecord record = TwoPoses(0.1, Samples());
+  record.SetImu(T_old_new);
+  const Motion motion = Tumble();
+  record.Add({StampAt(1.2), motion(1.2) * T_old_new}, Samples());
+  ASSERT_EQ(record.steps().size(), 2U);
+  for (const MotionStep& step : record.steps()) {
+    const Pose expected = motion(test::SecondsOf(step.from.stamp)) * T_old_new;
+    EXPECT_LT(LogSe3(expected.Inverse() * step.from.pose).norm(), 1e-9);
+  }
+  EXPECT_EQ(record.steps()[1].from.pose.translation, record.steps()[0].to.pose.translation);
+}
+
 TEST(MotionRecord, LongGapIsNoStep) {
   EXPECT_TRUE(TwoPoses(0.5, Samples()).steps().empty());
 }

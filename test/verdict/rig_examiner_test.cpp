@@ -81,7 +81,9 @@ TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
   AddRows(40.0, examiner);
   int num_told = 0;
   for (int t_s = 0; t_s < 100; ++t_s) {
-    if (const auto news = examiner.News(StampAt(t_s))) {
+    const auto findings = examiner.Look(StampAt(t_s));
+    if (!findings) continue;
+    if (const auto news = examiner.News(*findings)) {
       ++num_told;
       EXPECT_NE(news->find("lever_arm"), std::string::npos) << *news;
     }
@@ -89,6 +91,26 @@ TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
   EXPECT_EQ(num_told, 1);
   EXPECT_EQ(examiner.trust(), Trust::kNo);
   EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kNo);
+}
+
+TEST(RigExaminer, AnExtrinsicThatIsCorrectedLeavesDoubtAndItsFix) {
+  Rig rig = ExampleRig();
+  rig.T_imu_lidar->translation.x() += 1.0;
+  RigExaminer examiner(rig, true);
+  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
+  AddRows(40.0, examiner);
+  EXPECT_FALSE(examiner.Look(StampAt(0.0)));
+  const auto findings = examiner.Look(StampAt(50.0));
+  ASSERT_TRUE(findings && findings->T_imu_lidar);
+  examiner.SetExtrinsic(*findings, *findings->T_imu_lidar,
+                        *rig.T_imu_lidar * findings->T_imu_lidar->Inverse());
+  EXPECT_EQ(examiner.trust(), Trust::kDoubtful);
+  const Verdict verdict = examiner.Judge(CleanRun());
+  EXPECT_EQ(verdict.trust, Trust::kDoubtful);
+  ASSERT_EQ(verdict.causes.size(), 1U);
+  EXPECT_EQ(verdict.causes[0].kind, CauseKind::kLeverArm);
+  EXPECT_EQ(verdict.causes[0].fix, ExtrinsicYaml(*findings->T_imu_lidar));
+  EXPECT_TRUE(examiner.record().steps().empty()) << "sweeps were deskewed wrongly";
 }
 
 TEST(RigExaminer, OtherConventionForgetsTheMotion) {

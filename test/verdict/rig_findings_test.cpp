@@ -55,6 +55,27 @@ TEST(RigFindings, WrongLeverArmIsNamed) {
   EXPECT_EQ(findings.causes[0].leaves, Trust::kNo);
 }
 
+TEST(RigFindings, TheExtrinsicOfTheMotionIsGivenWhereTheRigsIsWrong) {
+  EXPECT_FALSE(FindingsOf(RightDrive()).T_imu_lidar);
+  RigDrive drive = RightDrive();
+  drive.T_configured.translation.x() += 1.0;
+  const RigFindings findings = FindingsOf(drive);
+  ASSERT_TRUE(findings.T_imu_lidar);
+  EXPECT_LT((findings.T_imu_lidar->translation - ExamplePose().translation).norm(), 0.02);
+  EXPECT_EQ(findings.T_imu_lidar->rotation.coeffs(), ExamplePose().rotation.coeffs());
+}
+
+// An error within the tolerances is no fault of the rig, but an earlier look can be bettered.
+TEST(RigFindings, SmallErrorsBetterAnEarlierLook) {
+  RigDrive drive = RightDrive();
+  drive.T_configured.translation.y() += 0.025;
+  drive.position_std_m = 0.0005;
+  const RigFindings findings = FindingsOf(drive);
+  EXPECT_FALSE(findings.T_imu_lidar);
+  ASSERT_TRUE(findings.T_imu_lidar_bettered);
+  EXPECT_LT((findings.T_imu_lidar_bettered->translation - ExamplePose().translation).norm(), 0.01);
+}
+
 TEST(RigFindings, ClockOffsetThatIsFollowedLeavesDoubtAlone) {
   RigDrive drive = RightDrive();
   drive.clock_offset_s = 0.02;

@@ -14,10 +14,13 @@ struct FilterOptions {
   double gate_probability = 0.999;
   // After so many gated poses in a row the next is fused by force: the body has moved unseen.
   int max_gated_in_a_row = 2;
-  // Zero-velocity updates at rest (docs/filter.md, Standing still).
+  // Zero-velocity updates at rest (docs/filter.md, Zero-velocity update).
   bool use_zero_velocity = true;
   // Estimates the clock offset between lidar and IMU (clock_offset.hpp).
   bool estimate_clock_offset = true;
+  // Corrects rig.T_imu_lidar where the motion shows that it is surely wrong
+  // (extrinsic_follower.hpp).
+  bool estimate_extrinsic = true;
   // Factor k on the covariance of matches; more trusts matches less. Fitted to the simulator: NIS/6
   // is 1.0 at 1.6 (docs/consistency.md).
   double registration_cov_scale = 1.6;

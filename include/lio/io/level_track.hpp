@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // The path of a run as it looks when the run is over: the steady path in map, turned once, rigidly
 // and about its origin, so that it is level by the last estimate. It keeps its shape, and its
-// height does not drift by the tilt that the start did not know. Its stamps are corrected by the
-// last estimate of the clock offset, those of before it was found too. Written at the end as
-// trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them.
+// height does not drift by the tilt that the start did not know. Its stamps and its body are those
+// of the last estimates of clock offset and extrinsic, before these were found too. Written at the
+// end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,13 @@ class LevelTrack {
     std::int64_t clock_correction_ns = 0;
     double T_map_imu[7] = {};    // translation, then rotation x y z w
     double T_world_imu[7] = {};  // likewise
+    double T_imu_lidar[7] = {};  // in use
     double pose_cov[36] = {};    // of T_world_imu
   };
 
   static void Put(const Pose& pose, double (&to)[7]);
   static Pose Get(const double (&from)[7]);
+  [[nodiscard]] Pose LastImuPose(const Row& row) const;
 
   std::filesystem::path folder_;
   std::filesystem::path rows_path_;

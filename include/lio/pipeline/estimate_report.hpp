@@ -7,6 +7,7 @@
 #include "lio/filter/nav_state.hpp"
 #include "lio/imu/start_state.hpp"
 #include "lio/pipeline/clock_offset_follower.hpp"
+#include "lio/pipeline/extrinsic_follower.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/stream/imu_buffer.hpp"
@@ -21,6 +22,7 @@ struct ReportContext {
   TrackingStatus status;
   const ImuBuffer* imu;  // null without an IMU
   const ClockOffsetFollower& clocks;
+  const ExtrinsicFollower& extrinsic;
 };
 
 [[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);

@@ -53,6 +53,8 @@ struct MatchJob {
   MotionPrior prior;
   MapAction map_action = MapAction::kKeep;
   bool refines_deskew = false;  // match, deskew again along what was found, match again
+  // The extrinsic that trajectory and prior are of. Absent: the rig has it.
+  std::optional<Pose> T_imu_lidar = std::nullopt;
   std::variant<Track, FindVelocity, Relocalize> task;
   std::int64_t filter_ns = 0;  // CPU time the filter has spent since the job before
 };

@@ -8,6 +8,7 @@
 
 #include "lio/base/counters.hpp"
 #include "lio/pipeline/clock_offset_follower.hpp"
+#include "lio/pipeline/extrinsic_follower.hpp"
 #include "lio/pipeline/imu_convention_monitor.hpp"
 #include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/pipeline/options.hpp"
@@ -29,6 +30,7 @@ struct ModeContext {
   std::deque<SweepPtr>& sweeps;
   ImuConventionMonitor& convention;
   ClockOffsetFollower& clocks;
+  ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
   RigExaminer& examiner;
 

@@ -258,6 +258,8 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
         "a vehicle that stands still, to IMU and lidar together, has no velocity");
   visit("estimate_clock_offset", o.estimate_clock_offset,
         "follow what is left of the offset between the clocks of lidar and IMU, up to 50 ms");
+  visit("estimate_extrinsic", o.estimate_extrinsic,
+        "correct rig.T_imu_lidar where the motion shows that it is surely wrong");
   visit("registration_cov_scale", o.registration_cov_scale,
         "factor on the match covariance; above 1 trusts matches less", Range{1e-3, 1e6});
   visit("map_walk_scale", o.map_walk_scale,

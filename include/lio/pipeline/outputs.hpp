@@ -70,6 +70,7 @@ struct FilterReport {
   // zero unless it is estimated.
   double clock_offset_s = 0.0;
   double clock_offset_std_s = 0.0;
+  Pose T_imu_lidar;          // in use: the rig's, or as corrected on the way
   ImuNoiseRatios imu_noise;  // zero where it is not known
   double nis = 0.0;          // normalised innovation squared of the last update
   int nis_dof = 0;           // 0: no update

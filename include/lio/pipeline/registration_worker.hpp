@@ -47,7 +47,7 @@ class RegistrationWorker {
   void FinishMatch(const Track& task, ScanInWork& scan);
   void TakeDensePoints(ScanInWork& scan);
 
-  Pose T_imu_lidar_;
+  Pose T_imu_lidar_;  // of the last job
   ClockNs clock_;
   bool warms_up_densely_;  // a new map gets all points of a sweep: only NDT's cells want them
   PointFilter filter_;

@@ -69,6 +69,8 @@ class Tracking {
   void SettleClockStep(const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Examine(const MatchOutcome& outcome) const;
+  void LookAtRig(Timestamp end);
+  void CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end);
   void UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise);
   void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
                bool rebases_map, InsertTask& insert);

@@ -52,6 +52,8 @@ class MotionRecord {
   // The estimate moves stamps by this much now.
   void SetClockCorrection(Duration correction) { clock_correction_ = correction; }
   Duration clock_correction() const { return clock_correction_; }
+  // The poses so far and those to come are of another imu, which has this pose in the one so far.
+  void SetImu(const Pose& T_old_new);
   // A scan was not matched soundly: no step leads to the next pose.
   void Interrupt() { last_.reset(); }
 

@@ -13,6 +13,7 @@
 #include "lio/imu/imu_convention.hpp"
 #include "lio/sensor/rig.hpp"
 #include "lio/verdict/motion_record.hpp"
+#include "lio/verdict/rig_findings.hpp"
 #include "lio/verdict/run_tally.hpp"
 #include "lio/verdict/verdict.hpp"
 
@@ -23,16 +24,17 @@ struct RigExaminerParameters {
   // of the time was an outage; with half of it missing the path is a guess.
   double doubtful_coverage = 0.9;
   double least_coverage = 0.5;
-  // s. The rig is looked at so long after the first pose, and again after each doubling: a look
-  // costs some ten milliseconds. Chosen: the first turn of a street.
-  double first_look_s = 15.0;
+  // s. The rig is looked at so long after the first pose, and again each time the drive is longer
+  // by this factor: a look costs some ten milliseconds. Chosen: a walker has then shown an
+  // extrinsic that is off by degrees.
+  double first_look_s = 7.5;
+  double next_look_factor = 1.25;
 };
 
 inline constexpr RigExaminerParameters kRigExaminer;
 
 class RigExaminer {
  public:
-  // `rig` is borrowed.
   RigExaminer(const Rig& rig, bool uses_imu);
 
   MotionRecord& record() { return record_; }
@@ -42,19 +44,25 @@ class RigExaminer {
   // The run ends, because the configuration contradicts the data.
   void Contradict(std::vector<Cause> causes) { contradictions_ = std::move(causes); }
 
-  // To be called for each scan with a pose: tells once when it is sure that the rig is wrong.
-  [[nodiscard]] std::optional<std::string> News(Timestamp stamp);
+  // To be called for each scan with a pose: looks at the rig now and then.
+  [[nodiscard]] std::optional<RigFindings> Look(Timestamp stamp);
+  // Tells once when a look is sure that the result cannot be trusted.
+  [[nodiscard]] std::optional<std::string> News(const RigFindings& findings);
+  // The extrinsic is another one from here on, since a look has found the rig's wrong, or has
+  // bettered what an earlier one found. T_old_new: MotionRecord::SetImu.
+  void SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar, const Pose& T_old_new);
   [[nodiscard]] Verdict Judge(const Counters& counters) const;
   // The trust that was left at the last look.
   [[nodiscard]] Trust trust() const { return trust_; }
 
  private:
-  const Rig& rig_;
+  Rig rig_;  // as it is in use
   bool uses_imu_;
   ImuConvention convention_;
   MotionRecord record_;
   RunTally tally_;
   std::vector<Cause> contradictions_;
+  std::vector<Cause> corrected_;  // causes that are no longer there
   std::optional<Timestamp> first_stamp_;
   double next_look_s_ = kRigExaminer.first_look_s;
   bool has_told_ = false;

@@ -30,6 +30,8 @@ struct RigFindingParameters {
   // quantile with one degree of freedom less than the fit has clusters of time (as is usual for
   // clustered sandwiches): 5 standard deviations in four minutes, 9 in 25 s, 40 in 8 s. Chosen.
   double false_alarm_probability = 1e-6;
+  // The same for an extrinsic that is bettered: that of three standard deviations. Customary.
+  double better_probability = 2.7e-3;
   // Below this correlation of turns, gyro and lidar do not tell of one motion: the drive is still,
   // or nothing can be said. As in calib (docs/calibration.md).
   double min_correlation = 0.6;
@@ -53,6 +55,12 @@ inline constexpr RigFindingParameters kRigFindings;
 struct RigFindings {
   bool is_checked = false;    // the motion was enough to tell
   std::vector<Cause> causes;  // likeliest first
+  // rig.T_imu_lidar as the motion shows it, in the axes that the samples are read in: present where
+  // it is surely wrong. Entries that are not surely wrong are the rig's.
+  std::optional<Pose> T_imu_lidar;
+  // The same within the tolerances, for an extrinsic that was found by an earlier and shorter look:
+  // present where this one contradicts it.
+  std::optional<Pose> T_imu_lidar_bettered;
 };
 
 // `convention`: how the messages are read now, found or stated.

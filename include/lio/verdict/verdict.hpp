@@ -57,6 +57,11 @@ struct Cause {
   std::string fix;       // YAML for the configuration; empty where no entry mends it
 };
 
+[[nodiscard]] constexpr bool IsOfExtrinsic(const Cause& cause) {
+  return cause.kind == CauseKind::kExtrinsicRotation || cause.kind == CauseKind::kLeverArm ||
+         cause.kind == CauseKind::kExtrinsicInverted;
+}
+
 // The filter claims this; absent where the drive was too short to say it.
 struct ClaimedAccuracy {
   std::optional<double> position_std_m_per_100m;
