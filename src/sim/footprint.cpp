@@ -61,9 +61,9 @@ Echo EchoOfFootprint(const Hit& centre, const Rim& rim, const InBetween& in_betw
   if (!merges && !is_drawn) return echo;
   echo.range_m = centre.range_m + gap_m * other.energy / (mine.energy + other.energy);
   echo.strength = std::min(1.0, mine.share + other.share);
-  const double off_m = std::min(std::abs(echo.range_m - centre.range_m),
+  echo.off_surface_m = std::min(std::abs(echo.range_m - centre.range_m),
                                 std::abs(echo.range_m - double{other.hit->range_m}));
-  if (off_m > kOnSurface_m) echo.kind = EchoKind::kInBetween;
+  if (echo.off_surface_m > kOnSurface_m) echo.kind = EchoKind::kInBetween;
   return echo;
 }
 

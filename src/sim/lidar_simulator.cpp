@@ -104,6 +104,7 @@ SimulatedSweep LidarSimulator::Sweep(std::int64_t index) const {
   sweep.points.reserve(cast.hits.hits.size());
   sweep.objects.reserve(cast.hits.hits.size());
   sweep.kinds.reserve(cast.hits.hits.size());
+  sweep.off_surface_m.reserve(cast.hits.hits.size());
   for (std::int64_t column = 0; column < cast.columns.num; ++column) {
     for (const std::size_t beam : firing_order_) AddPoint(cast, column, beam, sweep);
   }
@@ -209,6 +210,7 @@ void LidarSimulator::AddPoint(const Cast& cast, std::int64_t column, std::size_t
   sweep.points.push_back(point);
   sweep.objects.push_back(echo.surface.object);
   sweep.kinds.push_back(echo.kind);
+  sweep.off_surface_m.push_back(static_cast<float>(echo.off_surface_m));
 }
 
 }  // namespace lio::sim

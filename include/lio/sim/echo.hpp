@@ -25,6 +25,7 @@ struct Echo {
   Hit surface;            // the surface that sends it back
   double strength = 1.0;  // share of the light that takes this way, there and back
   EchoKind kind = EchoKind::kSurface;
+  double off_surface_m = 0.0;  // in between: from the nearer of the two surfaces
 };
 
 // Holds the range error that grows with the strength of the echo ("range walk": a stronger pulse

@@ -60,6 +60,7 @@ struct SimulatedSweep {
   std::int64_t num_rays = 0;
   std::vector<LidarPoint> points;     // in the order of firing
   std::vector<EchoKind> kinds;        // how each point came about
+  std::vector<float> off_surface_m;   // see Echo::off_surface_m
   std::vector<std::int32_t> objects;  // object that each point lies on: see Hit::object
 };
 
