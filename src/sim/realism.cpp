@@ -30,11 +30,10 @@ const std::vector<Effect>& Effects() {
       {"glass", [](RecordOptions& o) { o.lidar_errors.has_glass = true; }},
       // 0.02 deg
       {"beam-table", [](RecordOptions& o) { o.lidar_errors.beam_table_std_rad = 3.5e-4; }},
-      // 0.1 % of the speed, 0.01 deg
-      {"rotor",
-       [](RecordOptions& o) {
-         o.lidar_errors.rotor = {1e-3, 1.75e-4};
-       }},
+      // 0.1 % of the speed
+      {"rotor", [](RecordOptions& o) { o.lidar_errors.rotor.speed_std_ratio = 1e-3; }},
+      // 0.01 deg
+      {"encoder", [](RecordOptions& o) { o.lidar_errors.rotor.encoder_std_rad = 1.75e-4; }},
       {"stamp-jitter",
        [](RecordOptions& o) {
          o.clock_errors.imu_jitter_std_s = 2e-4;
@@ -67,6 +66,7 @@ void MakeIdeal(RecordOptions& options) {
   options.lidar_errors.has_mixed_pixels = false;
   options.lidar_errors.has_weak_echoes = false;
   options.lidar.range_step_m = 0.0;
+  options.claimed_imu = options.imu;  // users have data sheets, and no ideal ones
   MakeIdeal(options.imu.gyro);
   MakeIdeal(options.imu.accel);
 }

@@ -71,6 +71,8 @@ TEST(Realism, IdealSensorsHaveNoErrors) {
   EXPECT_EQ(options.imu.accel.noise_density, 0.0);
   EXPECT_EQ(options.imu.gyro.turn_on_bias_std, 0.0);
   EXPECT_EQ(options.imu.rate_hz, 100.0) << "the rate is the sensor's own";
+  ASSERT_TRUE(options.claimed_imu);
+  EXPECT_EQ(options.claimed_imu->accel.noise_density, 7.85e-4) << "the rig says the data sheet's";
 }
 
 TEST(Realism, DatasheetHasNoneOfTheFieldsEffects) {
@@ -100,9 +102,9 @@ std::string Described(const RecordOptions& options) {
   text << lidar.has_footprint << ' ' << lidar.in_between.reach_m << ' ' << lidar.laser_bias_std_m
        << ' ' << lidar.grazing_bias_m << ' ' << lidar.range_walk.retro_m << ' ' << lidar.has_glass
        << ' ' << lidar.beam_table_std_rad << ' ' << lidar.rotor.speed_std_ratio << ' '
-       << clock.imu_jitter_std_s << ' ' << clock.drift_std_ratio << ' ' << imu.vibrates << ' '
-       << imu.has_engine << ' ' << imu.rectifies << ' ' << imu.is_g_sensitive << ' '
-       << imu.warms_up;
+       << lidar.rotor.encoder_std_rad << ' ' << clock.imu_jitter_std_s << ' '
+       << clock.drift_std_ratio << ' ' << imu.vibrates << ' ' << imu.has_engine << ' '
+       << imu.rectifies << ' ' << imu.is_g_sensitive << ' ' << imu.warms_up;
   return text.str();
 }
 

@@ -18,7 +18,7 @@ from simulated_runs import Drive, Results, median_and_worst, replay, simulate
 
 # Effects that change what the lidar sees; the others leave the scans as they are.
 LIDAR = ("mixed-pixels", "laser-bias", "grazing-bias", "intensity-bias", "glass", "beam-table",
-         "rotor")
+         "rotor", "encoder")
 OTHERS = ("stamp-jitter", "clock-drift", "vibration", "engine", "rectification", "g-sensitivity",
           "warm-up")
 CLOCKS = ("--without", "stamp-jitter", "--without", "clock-drift")
@@ -31,7 +31,6 @@ def measure(results, drive, work, row, *words):
     if name in results:
         return
     folder = work / "log"
-    shutil.rmtree(folder, ignore_errors=True)
     simulate(drive, folder, *words)
     results.keep(name, replay(folder))
 
@@ -42,8 +41,6 @@ def measure_drive(results, drive, work, effects):
     if all(f"{drive.name} {row_name(*row)}" in results for row in rows):
         return
     ideal, field = work / "ideal", work / "field"
-    for folder in (ideal, field):
-        shutil.rmtree(folder, ignore_errors=True)
     simulate(drive, ideal, *IDEAL)
     simulate(drive, field, *FIELD, *CLOCKS)
     scans = {"ideal": ("--scans", ideal / "log.lcm"), "field": ("--scans", field / "log.lcm")}

@@ -49,8 +49,6 @@ def measure_drive(results, drive, work):
     if all(f"{drive.name} {row}" in results for row in ROWS):
         return
     scans_folder, still, shaken = work / "scans", work / "still", work / "shaken"
-    for folder in (scans_folder, still, shaken):
-        shutil.rmtree(folder, ignore_errors=True)
     clocks = ("--without", "stamp-jitter", "--without", "clock-drift")
     simulate(drive, scans_folder, *clocks)
     scans = ("--scans", scans_folder / "log.lcm")

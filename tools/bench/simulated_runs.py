@@ -40,12 +40,14 @@ def call(*words):
 
 def simulate(drive, folder, *words):
     """Writes the log into the folder, unless it is there."""
-    if not (folder / "complete").exists():
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        call(BIN / "lio-sim", *drive.words(), *words, "--out", folder)
-        (folder / "complete").touch()
-    return folder
+    asked = " ".join(str(word) for word in (*drive.words(), *words))
+    complete = folder / "complete"
+    if complete.exists() and complete.read_text() == asked:
+        return
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    call(BIN / "lio-sim", *drive.words(), *words, "--out", folder)
+    complete.write_text(asked)
 
 
 def nees(folder, frame):

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "lio/sim/clock_errors.hpp"
@@ -25,6 +26,7 @@ struct RecordOptions {
   LidarModel lidar;
   LidarErrors lidar_errors;
   ImuModel imu;
+  std::optional<ImuModel> claimed_imu;  // whose densities config.yaml has; absent: those of `imu`
   ImuVariant imu_variant = ImuVariant::kNormal;
   ImuEffects imu_effects;
   ClockErrors clock_errors;
