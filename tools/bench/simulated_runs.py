@@ -93,7 +93,9 @@ class Results:
 
 
 def median_and_worst(values):
-    """As text: both in the same unit; a dash where nothing was measured."""
+    """As text; a dash where nothing was measured, and one figure where only one was."""
     if not values:
         return "-"
+    if len(values) == 1:
+        return f"{values[0]:.2g}"
     return f"{statistics.median(values):.2g}, {max(values):.2g}"
