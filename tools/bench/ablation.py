@@ -38,6 +38,8 @@ def measure(results, drive, work, row, *words):
 def measure_drive(results, drive, work, effects):
     """The rows that share scans come first, then those that need scans of their own."""
     rows = [(grade, effect) for grade in ("ideal", "field") for effect in ("", *effects)]
+    if f"{drive.name} datasheet" not in results:
+        measure(results, drive, work, "datasheet", "--realism", "datasheet")
     if all(f"{drive.name} {row_name(*row)}" in results for row in rows):
         return
     ideal, field = work / "ideal", work / "field"
@@ -56,19 +58,24 @@ def row_name(grade, effect):
     return f"{grade} {'+' if grade == 'ideal' else '-'}{effect}" if effect else grade
 
 
+def cell(results, drives, row):
+    found = [results[f"{drive.name} {row}"] for drive in drives
+             if f"{drive.name} {row}" in results]
+    ates = median_and_worst([100 * figures["ate_m"] for figures in found])
+    return f"{ates}; {median_and_worst([figures['nees'] for figures in found])}"
+
+
 def print_table(results, drives, seeds, grade, effects):
     print(f"\n| {'added to ideal' if grade == 'ideal' else 'left out of field'} | "
           + " | ".join(drive.replace(":", ", ") for drive in drives) + " |")
     print("|---" * (len(drives) + 1) + "|")
-    for effect in ("", *effects):
-        cells = []
-        for words in drives:
-            drive = [Drive(*words.split(":"), seed) for seed in seeds]
-            names = [f"{one.name} {row_name(grade, effect)}" for one in drive]
-            found = [results[name] for name in names if name in results]
-            ates = median_and_worst([100 * figures["ate_m"] for figures in found])
-            cells.append(f"{ates}; {median_and_worst([figures['nees'] for figures in found])}")
-        print(f"| {effect or 'nothing'} | " + " | ".join(cells) + " |")
+    rows = [(effect or "nothing", row_name(grade, effect)) for effect in ("", *effects)]
+    if grade == "field":
+        rows.append(("all: `datasheet`", "datasheet"))
+    for title, row in rows:
+        cells = [cell(results, [Drive(*words.split(":"), seed) for seed in seeds], row)
+                 for words in drives]
+        print(f"| {title} | " + " | ".join(cells) + " |")
 
 
 def main():
