@@ -76,6 +76,13 @@ void ClipRate(Message& message, double limit) {
   w = w.cwiseMax(-limit).cwiseMin(limit);
 }
 
+void Shake(Message& message, std::uint64_t key, double accel_std_mps2, double gyro_std_radps) {
+  ImuSample& sample = std::get<ImuMessage>(message.body).sample;
+  Random random(key, Purpose::kFault);
+  for (double& axis : sample.f_imu_mps2) axis += accel_std_mps2 * random.Gaussian();
+  for (double& axis : sample.w_imu_radps) axis += gyro_std_radps * random.Gaussian();
+}
+
 void AppendCopy(std::vector<Message>& messages, double delay_s) {
   Message copy = messages.front();
   copy.arrival = copy.arrival + Duration::FromSeconds(delay_s);
@@ -136,6 +143,9 @@ void FaultInjector::ApplyOne(const Fault& fault, std::uint64_t fault_key,
       break;
     case FaultKind::kGyroSaturation:
       ClipRate(message, fault.Get("limit"));
+      break;
+    case FaultKind::kShaking:
+      Shake(message, key, fault.Get("accel"), fault.Get("gyro"));
       break;
     case FaultKind::kEmptyScan:
       if (hit) Thin(messages, 0);

@@ -8,17 +8,15 @@
 #include <numeric>
 #include <utility>
 
+#include "lio/sim/polished.hpp"
 #include "lio/sim/random.hpp"
+#include "sweep_caster.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr std::size_t kTileColumns =
-    8;  // neighbours in azimuth see almost the same, which makes ray packets fast
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kLobe_rad = 0.07;       // half width of a polished surface's lobe
-constexpr float kMergedEchoes_m = 0.6f;  // two echoes nearer than this merge into one
-constexpr float kEdge_m = 0.12f;         // a larger step in range is an edge, not a slope
+constexpr float kEdge_m = 0.12f;  // a larger step in range is an edge, not a slope
 constexpr double kMaxGrazingBias_m = 0.04;
 
 // Holds two numbers made from one word.
@@ -53,23 +51,6 @@ LidarPoint PointAt(double range_m, double heading_rad, const Vector3& direction)
   return point;
 }
 
-// Returns the strength of the light that comes back from a surface at 1 m.
-double Backscatter(const MaterialTraits& traits, double cos_incidence) {
-  double strength = traits.reflectivity * std::sqrt(cos_incidence);
-  if (traits.specular > 0.0 && cos_incidence > 0.97) {
-    const double off_sq = 2.0 * (1.0 - cos_incidence) / (kLobe_rad * kLobe_rad);
-    strength += 2.0 * traits.specular * std::exp(-off_sq);
-  }
-  return strength;
-}
-
-std::uint16_t IntensityOf(double backscatter) {
-  // This is Velodyne's scale: matt surfaces have 0..100 in per cent, retroreflectors 101..255.
-  const double value =
-      backscatter <= 1.0 ? 100.0 * backscatter : 100.0 + 60.0 * (backscatter - 1.0);
-  return static_cast<std::uint16_t>(std::clamp(value, 0.0, 255.0));
-}
-
 const Dust* DustAt(const std::vector<Dust>& clouds, double t_s) {
   for (const Dust& dust : clouds) {
     if (t_s >= dust.begin_s && t_s < dust.end_s) return &dust;
@@ -79,21 +60,16 @@ const Dust* DustAt(const std::vector<Dust>& clouds, double t_s) {
 
 }  // namespace
 
-struct LidarSimulator::Columns {
-  std::int64_t first = 0;  // counted from sweep 0
-  std::int64_t num = 0;
-  double begin_s = 0.0;
-  double end_s = 0.0;
-};
-
-// The arrays are column-major, with one entry per ray.
-struct LidarSimulator::Echoes {
-  std::vector<Hit> hits;
-  std::vector<double> headings_rad;  // one per column
+struct LidarSimulator::Cast {
+  TurnColumns columns;
+  SweepHits hits;
 };
 
 LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory)
-    : setup_(std::move(setup)), scene_(&scene), trajectory_(&trajectory) {
+    : setup_(std::move(setup)),
+      scene_(&scene),
+      trajectory_(&trajectory),
+      rotor_(setup_.model, setup_.errors.rotor, setup_.seed, setup_.begin_s) {
   const LidarModel& model = setup_.model;
   Random random(setup_.seed, Purpose::kLaser);
   for (const Beam& beam : model.beams) {
@@ -113,195 +89,128 @@ LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Traje
   weakest_echo_ = 0.1 / (model.range_at_10_percent_m * model.range_at_10_percent_m);
 }
 
-double LidarSimulator::ColumnTime(std::int64_t column) const {
-  return setup_.begin_s + static_cast<double>(column) * setup_.model.column_period_s;
-}
-
-double LidarSimulator::HeadingAt(double t_s) const {
-  const double turns = (t_s - setup_.begin_s) * setup_.model.rotation_hz;
-  return setup_.model.cut_azimuth_rad - kTurn * (turns - std::floor(turns));
-}
-
-LidarSimulator::Columns LidarSimulator::ColumnsOf(std::int64_t index) const {
-  const double per_turn = 1.0 / (setup_.model.rotation_hz * setup_.model.column_period_s);
-  const auto first_of = [&](std::int64_t turn) {  // the margin keeps exact divisors exact
-    return static_cast<std::int64_t>(std::ceil(static_cast<double>(turn) * per_turn - 1e-6));
-  };
-  Columns columns;
-  columns.first = first_of(index);
-  columns.num = first_of(index + 1) - columns.first;
-  columns.begin_s = ColumnTime(columns.first);
-  columns.end_s = ColumnTime(columns.first + columns.num);
-  return columns;
-}
-
 double LidarSimulator::SweepEnd_s(std::int64_t index) const {
-  const Columns columns = ColumnsOf(index);
-  return ColumnTime(columns.first + columns.num - 1) +
+  const TurnColumns columns = rotor_.ColumnsOf(index);
+  return rotor_.ColumnTime(columns.first + columns.num - 1) +
          setup_.model.beams[firing_order_.back()].fire_time_s;
 }
 
-void LidarSimulator::CastTile(const Scene::Interval& interval, const Columns& columns,
-                              std::int64_t first, Echoes& echoes) const {
-  const std::size_t num_beams = setup_.model.beams.size();
-  const auto num =
-      static_cast<std::size_t>(std::min<std::int64_t>(kTileColumns, columns.num - first));
-  std::vector<Ray> rays(num * num_beams);
-  for (std::size_t c = 0; c < num; ++c) {
-    const std::size_t in_sweep = static_cast<std::size_t>(first) + c;
-    const double t_s = ColumnTime(columns.first + static_cast<std::int64_t>(in_sweep));
-    const double heading = HeadingAt(t_s);
-    echoes.headings_rad[in_sweep] = heading;
-    const Kinematics imu = trajectory_->At(t_s);
-    const Pose lidar = imu.T_world_imu * setup_.T_imu_lidar;
-    const Matrix3 R_world_lidar = lidar.rotation.toRotationMatrix();
-    const Vector3 w_world = imu.T_world_imu.rotation * imu.w_imu_radps;
-    const Vector3 lever = lidar.translation - imu.T_world_imu.translation;
-    const Vector3 v_world = imu.v_world_mps + w_world.cross(lever);
-    const Matrix3 R_world_column =
-        R_world_lidar * Eigen::AngleAxisd(heading, Vector3::UnitZ()).toRotationMatrix();
-    for (std::size_t b = 0; b < num_beams; ++b) {
-      // Within a column the motion is taken as linear, which is off by less than 1e-8 m and rad.
-      const double dt = setup_.model.beams[b].fire_time_s;
-      const Vector3 direction = R_world_column * column_directions_[b];
-      Ray& ray = rays[b * num + c];
-      ray.origin_m = (lidar.translation + dt * v_world).cast<float>();
-      ray.direction = (direction + dt * w_world.cross(direction)).cast<float>();
-      ray.time_ratio = static_cast<float>(
-          std::min(1.0, (t_s + dt - columns.begin_s) / (columns.end_s - columns.begin_s)));
-    }
-  }
-  std::vector<Hit> hits(rays.size());
-  interval.Cast(rays, static_cast<float>(setup_.model.max_range_m), hits);
-  for (std::size_t b = 0; b < num_beams; ++b) {
-    for (std::size_t c = 0; c < num; ++c) {
-      echoes.hits[(static_cast<std::size_t>(first) + c) * num_beams + b] = hits[b * num + c];
-    }
-  }
-}
-
 SimulatedSweep LidarSimulator::Sweep(std::int64_t index) const {
-  const Columns columns = ColumnsOf(index);
-  const std::size_t num_beams = setup_.model.beams.size();
-  const Scene::Interval interval = scene_->During(columns.begin_s, columns.end_s);
-  Echoes echoes;
-  echoes.hits.resize(static_cast<std::size_t>(columns.num) * num_beams);
-  echoes.headings_rad.resize(static_cast<std::size_t>(columns.num));
-  for (std::int64_t first = 0; first < columns.num; first += kTileColumns) {
-    CastTile(interval, columns, first, echoes);
-  }
+  Cast cast{rotor_.ColumnsOf(index), {}};
+  cast.hits = CastSweep({setup_, column_directions_, rotor_, *scene_, *trajectory_}, cast.columns);
   SimulatedSweep sweep;
-  sweep.begin_ns = static_cast<std::int64_t>(std::llround(columns.begin_s * 1e9));
-  sweep.num_rays = static_cast<std::int64_t>(echoes.hits.size());
-  sweep.points.reserve(echoes.hits.size());
-  sweep.objects.reserve(echoes.hits.size());
-  for (std::int64_t column = 0; column < columns.num; ++column) {
-    for (const std::size_t beam : firing_order_) AddPoint(columns, echoes, column, beam, sweep);
+  sweep.begin_ns = static_cast<std::int64_t>(std::llround(cast.columns.begin_s * 1e9));
+  sweep.num_rays = static_cast<std::int64_t>(cast.hits.hits.size());
+  sweep.points.reserve(cast.hits.hits.size());
+  sweep.objects.reserve(cast.hits.hits.size());
+  sweep.kinds.reserve(cast.hits.hits.size());
+  sweep.off_surface_m.reserve(cast.hits.hits.size());
+  for (std::int64_t column = 0; column < cast.columns.num; ++column) {
+    for (const std::size_t beam : firing_order_) AddPoint(cast, column, beam, sweep);
   }
   return sweep;
 }
 
-LidarSimulator::Echo LidarSimulator::Straddle(const Hit& hit, const Neighbour& other,
-                                              double edge_at, double chance) const {
-  if (!std::isfinite(other.hit->range_m)) return {hit.range_m, false};
-  const double depth = other.half_width_rad / other.spacing_rad;
-  const float gap = other.hit->range_m - hit.range_m;
-  const float slope =
-      hit.range_m * static_cast<float>(other.spacing_rad) / std::max(0.1f, hit.cos_incidence);
-  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return {hit.range_m, false};
-  const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
-  if (std::abs(gap) < kMergedEchoes_m || (std::abs(gap) < setup_.errors.in_between_reach_m &&
-                                          chance < setup_.errors.in_between_chance)) {
-    return {hit.range_m + share * gap, true};
-  }
-  return {gap < 0.0f && share > 0.3f ? other.hit->range_m : hit.range_m, false};
-}
-
-// Only one side of each direction can be straddled; the half width of the beam decides how often.
-LidarSimulator::Echo LidarSimulator::Straddle(const Echoes& echoes, std::size_t index,
-                                              std::size_t beam, std::uint64_t key) const {
+// Guesses from the next or last column whether the beam straddles an edge; the half width of the
+// beam decides how often.
+Echo LidarSimulator::GuessStraddling(const Cast& cast, std::size_t index, std::uint64_t key) const {
   const LidarModel& model = setup_.model;
-  const Hit& hit = echoes.hits[index];
+  const std::vector<Hit>& hits = cast.hits.hits;
+  const Hit& hit = hits[index];
+  const Echo unmixed{hit.range_m, hit, 1.0, EchoKind::kSurface};
   const std::size_t stride = model.beams.size();
   const Pair across = Halves(MixBits(key + 2));
   const bool next = across.a < 0.5;
+  if (next ? index + stride >= hits.size() : index < stride) return unmixed;
+  const Hit& other = hits[next ? index + stride : index - stride];
+  if (!std::isfinite(other.range_m)) return unmixed;
   // 0: the edge is here, 1: it is at the other.
-  const auto edge_at = [](double uniform) {
-    return uniform < 0.5 ? 2.0 * uniform : 2.0 * uniform - 1.0;
-  };
-  if (next ? index + stride < echoes.hits.size() : index >= stride) {
-    const Neighbour column{&echoes.hits[next ? index + stride : index - stride],
-                           kTurn * model.rotation_hz * model.column_period_s,
-                           0.5 * model.beam_width_horizontal_rad};
-    const Echo echo = Straddle(hit, column, edge_at(across.a), across.b);
-    if (echo.range_m != hit.range_m) return echo;
+  const double edge_at = across.a < 0.5 ? 2.0 * across.a : 2.0 * across.a - 1.0;
+  const double spacing_rad = kTurn * model.rotation_hz * model.column_period_s;
+  const double depth = 0.5 * model.beam_width_horizontal_rad / spacing_rad;
+  const float gap = other.range_m - hit.range_m;
+  const float slope =
+      hit.range_m * static_cast<float>(spacing_rad) / std::max(0.1f, hit.cos_incidence);
+  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return unmixed;
+  const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
+  const InBetween& rule = setup_.errors.in_between;
+  if (std::abs(gap) < kMergedEchoes_m || (std::abs(gap) < rule.reach_m && across.b < rule.chance)) {
+    return {hit.range_m + share * gap, hit, 1.0, EchoKind::kInBetween};
   }
-  if (!setup_.errors.straddles_rings) return {hit.range_m, false};
-  const Pair along = Halves(MixBits(key + 6));
-  const bool above = along.a < 0.5;
-  if (above ? beam + 1 >= stride : beam == 0) return {hit.range_m, false};
-  const std::size_t other = above ? beam + 1 : beam - 1;
-  const Neighbour ring{
-      &echoes.hits[above ? index + 1 : index - 1],
-      std::max(1e-6, std::abs(model.beams[other].elevation_rad - model.beams[beam].elevation_rad)),
-      0.5 * model.beam_width_vertical_rad};
-  return Straddle(hit, ring, edge_at(along.a), along.b);
+  const bool is_other = gap < 0.0f && share > 0.3f;
+  return {is_other ? other.range_m : hit.range_m, hit, 1.0, EchoKind::kSurface};
 }
 
-void LidarSimulator::AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column,
-                              std::size_t beam, SimulatedSweep& sweep) const {
+// Returns the echo of a beam by all that its footprint and the light's further ways meet.
+Echo LidarSimulator::EchoOf(const Cast& cast, std::size_t index, std::uint64_t key) const {
+  const Hit& hit = cast.hits.hits[index];
+  Echo echo{hit.range_m, hit, 1.0, EchoKind::kSurface};
+  if (const Rim* rim = cast.hits.RimOf(index)) {
+    const std::uint64_t draw = HashKey({static_cast<std::uint64_t>(Purpose::kFootprint), key});
+    echo = EchoOfFootprint(hit, *rim, setup_.errors.in_between, draw);
+  }
+  const Behind* behind = cast.hits.BehindOf(index);
+  if (behind != nullptr && echo.range_m == double{hit.range_m}) echo = EchoOfPolished(hit, *behind);
+  return echo;
+}
+
+void LidarSimulator::AddPoint(const Cast& cast, std::int64_t column, std::size_t beam,
+                              SimulatedSweep& sweep) const {
   const LidarModel& model = setup_.model;
   const LidarErrors& errors = setup_.errors;
-  const auto in_sweep = static_cast<std::size_t>(column);
-  const std::size_t index = in_sweep * model.beams.size() + beam;
-  Hit hit = echoes.hits[index];
+  const std::size_t index = static_cast<std::size_t>(column) * model.beams.size() + beam;
+  const std::int64_t in_log = cast.columns.first + column;
   const std::uint64_t key = HashKey({setup_.seed, static_cast<std::uint64_t>(Purpose::kLidar),
-                                     static_cast<std::uint64_t>(columns.first + column), beam});
-  const double t_s = ColumnTime(columns.first + column) + model.beams[beam].fire_time_s;
-  const Pair chance = Halves(MixBits(key + 1));
-  double range_m = hit.range_m;
-  bool is_in_between = false;
+                                     static_cast<std::uint64_t>(in_log), beam});
+  const double t_s = rotor_.ColumnTime(in_log) + model.beams[beam].fire_time_s;
+  Echo echo = EchoOf(cast, index, key);
+  bool is_seen = echo.surface.object != Hit::kNothing;
   double backscatter = 0.0;
   double std_scale = errors.noise_scale;
-  if (hit.object != Hit::kNothing) {
-    backscatter = Backscatter(TraitsOf(hit.material), hit.cos_incidence);
-    const double weakness = weakest_echo_ * range_m * range_m / backscatter;
+  if (is_seen) {
+    backscatter = BackscatterOf(echo);
+    const Pair chance = Halves(MixBits(key + 1));
+    const double weakness = weakest_echo_ * echo.range_m * echo.range_m / backscatter;
     const double weakness_sq = weakness * weakness;
-    const bool seen = !errors.has_weak_echoes || chance.a * (1.0 + weakness_sq * weakness_sq) < 1.0;
-    if (!seen || chance.b < errors.dropout_ratio) hit.object = Hit::kNothing;
-    if (errors.has_mixed_pixels) {
-      const Echo echo = Straddle(echoes, index, beam, key);
-      range_m = echo.range_m;
-      is_in_between = echo.is_in_between;
+    is_seen = !errors.has_weak_echoes || chance.a * (1.0 + weakness_sq * weakness_sq) < 1.0;
+    if (chance.b < errors.dropout_ratio) is_seen = false;
+    if (errors.has_mixed_pixels && !errors.has_footprint && echo.kind == EchoKind::kSurface) {
+      echo = GuessStraddling(cast, index, key);
     }
-    const double grazing = 1.0 / std::max(0.05f, hit.cos_incidence) - 1.0;
-    range_m += std::min(errors.grazing_bias_m * grazing, kMaxGrazingBias_m) + laser_bias_m_[beam];
+    const double grazing = 1.0 / std::max(0.05f, echo.surface.cos_incidence) - 1.0;
+    echo.range_m +=
+        std::min(errors.grazing_bias_m * grazing, kMaxGrazingBias_m) + laser_bias_m_[beam];
+    echo.range_m += RangeWalkOf(errors.range_walk, backscatter);
     const double slant = std::min(grazing, 6.0);
     std_scale *= std::sqrt(1.0 + 0.15 * slant * slant + 0.5 * std::min(weakness, 2.0));
   }
   if (const Dust* dust = DustAt(errors.dust, t_s)) {
     const double first_m =
         model.min_range_m - std::log(Halves(MixBits(key + 3)).a) / dust->echoes_per_m;
-    if (first_m < std::min(range_m, 25.0)) {
-      range_m = first_m;
+    if (first_m < std::min(echo.range_m, 25.0)) {
+      echo.range_m = first_m;
       backscatter = 0.03;
-      hit.object = Hit::kFixed;
+      echo.surface.object = Hit::kFixed;
+      echo.kind = EchoKind::kDust;
+      is_seen = true;
     }
   }
-  if (hit.object == Hit::kNothing) return;
-  range_m += std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
+  if (!is_seen) return;
+  double range_m = echo.range_m + std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
   if (model.range_step_m > 0.0) {
     range_m = model.range_step_m * std::round(range_m / model.range_step_m);
   }
   if (range_m < model.min_range_m || range_m > model.max_range_m) return;
-  LidarPoint point = PointAt(range_m, echoes.headings_rad[in_sweep], table_directions_[beam]);
+  LidarPoint point = PointAt(range_m, cast.hits.headings_rad[static_cast<std::size_t>(column)],
+                             table_directions_[beam]);
   point.t_offset_ns = static_cast<std::uint32_t>(
       std::max<std::int64_t>(0, std::llround(t_s * 1e9) - sweep.begin_ns));
   point.intensity = IntensityOf(backscatter * (0.95 + 0.1 * Halves(MixBits(key + 5)).a));
   point.ring = static_cast<std::uint16_t>(beam);
-  sweep.num_in_between += is_in_between ? 1 : 0;
   sweep.points.push_back(point);
-  sweep.objects.push_back(hit.object);
+  sweep.objects.push_back(echo.surface.object);
+  sweep.kinds.push_back(echo.kind);
+  sweep.off_surface_m.push_back(static_cast<float>(echo.off_surface_m));
 }
 
 }  // namespace lio::sim

@@ -97,6 +97,11 @@ std::vector<ScanChunk> SplitSweep(const SimulatedSweep& sweep, std::int64_t inde
   return chunks;
 }
 
+ImuEffects EffectsOn(const Scenario& scenario, ImuEffects effects) {
+  effects.has_engine = effects.has_engine && scenario.is_on_car;
+  return effects;
+}
+
 class Recording {
  public:
   Recording(const Scenario& scenario, const RecordOptions& options,
@@ -104,9 +109,10 @@ class Recording {
       : options_(options),
         end_s_(scenario.begin_s + scenario.duration_s),
         begin_s_(scenario.begin_s),
-        imu_({options.imu, options.imu_variant, options.gravity_mps2, options.imu_vibrates,
-              options.seed},
+        imu_({options.imu, options.imu_variant, options.gravity_mps2,
+              EffectsOn(scenario, options.imu_effects), options.seed},
              *scenario.trajectory),
+        clocks_(options.clock_errors, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
         faults_(options.faults, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
         log_(folder / "log.lcm"),
         truth_(folder) {}
@@ -115,16 +121,23 @@ class Recording {
   void AddSweep(const SimulatedSweep& sweep, std::int64_t index) {
     stats_.num_sweeps += 1;
     stats_.num_rays += sweep.num_rays;
-    stats_.num_in_between += sweep.num_in_between;
+    const auto count = [&](EchoKind kind) {
+      return std::count(sweep.kinds.begin(), sweep.kinds.end(), kind);
+    };
+    stats_.num_in_between += count(EchoKind::kInBetween);
+    stats_.num_mirrored += count(EchoKind::kMirrored);
+    stats_.num_through_glass += count(EchoKind::kThroughGlass);
     stats_.num_points += static_cast<std::int64_t>(sweep.points.size());
-    for (ScanChunk& chunk : SplitSweep(sweep, index)) {
-      const std::uint32_t last_ns = chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns;
-      const Timestamp arrival = chunk.stamp + Duration{last_ns} + kChunkDelay;
-      AddImuUntil(arrival - kEpoch);
-      Send({arrival, std::move(chunk)});
-      stats_.num_chunks += 1;
-      WriteUntil(arrival - kDisorder);
-    }
+    for (ScanChunk& chunk : SplitSweep(sweep, index)) AddChunk(std::move(chunk));
+  }
+
+  void AddChunk(ScanChunk chunk) {
+    const std::uint32_t last_ns = chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns;
+    const Timestamp arrival = chunk.stamp + Duration{last_ns} + kChunkDelay;
+    AddImuUntil(arrival - kEpoch);
+    Send({arrival, std::move(chunk)});
+    stats_.num_chunks += 1;
+    WriteUntil(arrival - kDisorder);
   }
 
   RecordStats Finish() {
@@ -152,6 +165,7 @@ class Recording {
   }
 
   void Send(Message message) {
+    clocks_.Stamp(message);
     for (Message& sent : faults_.Apply(std::move(message))) queue_.Push(std::move(sent));
   }
 
@@ -170,6 +184,7 @@ class Recording {
   double end_s_;
   double begin_s_;
   ImuSimulator imu_;
+  Clocks clocks_;
   FaultInjector faults_;
   EventLogWriter log_;
   TruthWriter truth_;
@@ -204,6 +219,19 @@ void CastSweeps(const LidarSimulator& lidar, double end_s, int num_threads,
   });
 }
 
+void CopyScans(const std::filesystem::path& log, Recording& recording) {
+  EventLogReader reader(log);
+  LogEvent event;
+  while (reader.Next(event)) {
+    ScanChunk chunk;
+    if (event.channel != "LIO_SCAN") continue;
+    if (DecodeChunk(event.data, chunk) != DecodeStatus::kOk) {
+      throw std::runtime_error("a scan cannot be read in " + log.string());
+    }
+    recording.AddChunk(std::move(chunk));
+  }
+}
+
 }  // namespace
 
 Timestamp StampOf(std::int64_t trajectory_ns) {
@@ -215,6 +243,11 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::function<void(double)>& progress) {
   std::filesystem::create_directories(folder);
   WriteRigFile(folder / "config.yaml", scenario, options);
+  Recording recording(scenario, options, folder);
+  if (!options.scans.empty()) {
+    CopyScans(options.scans, recording);
+    return recording.Finish();
+  }
   const Scene scene(scenario.world);
   LidarErrors errors = options.lidar_errors;
   const std::vector<Dust> dust = DustOf(options.faults, scenario.begin_s);
@@ -222,7 +255,6 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
   const LidarSimulator lidar(
       {options.lidar, scenario.T_imu_lidar, errors, options.seed, scenario.begin_s}, scene,
       *scenario.trajectory);
-  Recording recording(scenario, options, folder);
   const double end_s = scenario.begin_s + scenario.duration_s;
   CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {
     recording.AddSweep(numbered.sweep, numbered.index);

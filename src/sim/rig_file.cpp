@@ -49,8 +49,9 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
     WriteVector(file, "      min_m", scenario.own_vehicle_box->min_m);
     WriteVector(file, "      max_m", scenario.own_vehicle_box->max_m);
   }
-  const InertialModel& gyro = options.imu.gyro;
-  const InertialModel& accel = options.imu.accel;
+  const ImuModel& imu = options.claimed_imu ? *options.claimed_imu : options.imu;
+  const InertialModel& gyro = imu.gyro;
+  const InertialModel& accel = imu.accel;
   file << "  imu:\n"
        << "    gyro_noise_density: " << std::max(kLeastDensity, gyro.noise_density) << "\n"
        << "    accel_noise_density: " << std::max(kLeastDensity, accel.noise_density) << "\n"

@@ -39,6 +39,7 @@ void AddCarrier(Scenario& scenario, Mesh shape) {
 }  // namespace
 
 void MountOnCar(Scenario& scenario, MotionPlan plan) {
+  scenario.is_on_car = true;
   plan.T_body_imu = {FromDegrees(1.0, -0.8, 0.5), {0.25, -0.08, 1.62}};
   scenario.T_imu_lidar = {FromDegrees(-90.0, 1.2, -0.6), {0.04, -0.03, 0.30}};
   scenario.trajectory = std::make_shared<Trajectory>(plan);

@@ -163,6 +163,7 @@ Hit Scene::Interval::Impl::HitOf(const RTCRayHit8& packet, std::size_t i, const 
   if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return hit;
   const Vector3f normal(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]);
   Vector3f direction = ray.direction;
+  hit.normal = normal.normalized();
   const unsigned mover = packet.hit.instID[0][i];
   const unsigned triangle = packet.hit.primID[i];
   hit.range_m = packet.ray.tfar[i];
@@ -173,6 +174,7 @@ Hit Scene::Interval::Impl::HitOf(const RTCRayHit8& packet, std::size_t i, const 
     hit.object = static_cast<int>(mover);
     hit.material = world->shape_materials[world->movers[mover].shape][triangle];
     direction = (to_mover[mover] * direction.cast<double>()).cast<float>();
+    hit.normal = (to_mover[mover].transpose() * hit.normal.cast<double>()).cast<float>();
   }
   hit.cos_incidence = std::abs(normal.dot(direction)) / normal.norm();
   return hit;

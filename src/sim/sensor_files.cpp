@@ -42,6 +42,10 @@ class Reader {
     }
   }
   double Number(const std::string& key) const { return Get<double>("", key); }
+  double NumberOr(const std::string& section, const std::string& key, double absent) const {
+    const YAML::Node parent = section.empty() ? root_ : root_[section];
+    return parent && parent.IsMap() && parent[key] ? Get<double>(section, key) : absent;
+  }
   [[noreturn]] void Fail(const std::string& message) const {
     throw std::runtime_error(name_ + ": " + message);
   }
@@ -63,6 +67,9 @@ InertialModel ReadInertial(const Reader& file, const std::string& section,
   model.scale_std_ratio = number("scale_std_ratio");
   model.misalignment_std_rad = number("misalignment_std_rad");
   model.vibration_std_per_mps = number("vibration_std_" + unit + "_per_mps");
+  model.bias_per_kelvin_std = file.NumberOr(section, "bias_std_" + unit + "_per_kelvin", 0.0);
+  model.bias_per_vibration_std = file.NumberOr(section, "bias_std_" + unit + "_per_mps2_sq", 0.0);
+  model.bias_per_force_std = file.NumberOr(section, "bias_std_" + unit + "_per_mps2", 0.0);
   model.full_scale = number("full_scale_" + unit);
   model.step = number("step_" + unit);
   return model;
@@ -105,6 +112,8 @@ ImuModel LoadImuModel(const std::string& name_or_path) {
   ImuModel model;
   model.name = file.Get<std::string>("", "model");
   model.rate_hz = file.Number("rate_hz");
+  model.warm_up_kelvin = file.NumberOr("", "warm_up_kelvin", model.warm_up_kelvin);
+  model.warm_up_time_s = file.NumberOr("", "warm_up_time_s", model.warm_up_time_s);
   model.gyro = ReadInertial(file, "gyro", "radps");
   model.accel = ReadInertial(file, "accel", "mps2");
   return model;

@@ -166,6 +166,29 @@ TEST(Fault, ClockOffsetIsConstantThroughout) {
   }
 }
 
+TEST(Fault, ShakingAddsNoiseOfItsSizeFromItsStart) {
+  const Outcome out("shaking:start=5,accel=0.5,gyro=0.01");
+  const Outcome still("shaking:accel=0,gyro=0");
+  double accel_sq = 0.0;
+  double gyro_sq = 0.0;
+  int num = 0;
+  for (std::size_t k = 0; k < out.imu.size(); ++k) {
+    const ImuSample& shaken = out.imu[k].sample;
+    const Vector3 accel = shaken.f_imu_mps2 - still.imu[k].sample.f_imu_mps2;
+    const Vector3 gyro = shaken.w_imu_radps - still.imu[k].sample.w_imu_radps;
+    if (k < 500) {
+      EXPECT_EQ(accel.norm() + gyro.norm(), 0.0);
+      continue;
+    }
+    accel_sq += accel.squaredNorm();
+    gyro_sq += gyro.squaredNorm();
+    num += 3;
+  }
+  EXPECT_NEAR(std::sqrt(accel_sq / num), 0.5, 0.02);
+  EXPECT_NEAR(std::sqrt(gyro_sq / num), 0.01, 4e-4);
+  EXPECT_TRUE(out.LidarIsWhole());
+}
+
 TEST(Fault, NanHitsSamplesAndPoints) {
   const Outcome out("nan:ratio=0.05");
   const auto num_imu = std::count_if(out.imu.begin(), out.imu.end(), [](const auto& imu) {

@@ -65,8 +65,8 @@ TEST(ParseFault, NumbersAreWholeAndFinite) {
 TEST(DescribeFaults, EveryKindIsDescribedAndParsesByItsNameAlone) {
   const std::string text = DescribeFaults();
   for (const char* kind : {"imu_gap", "lidar_gap", "drop", "duplicate", "reorder", "chunk_loss",
-                           "stamp_jump", "clock_offset", "nan", "gyro_saturation", "empty_scan",
-                           "sparse_scan", "dust", "wrong_extrinsic"}) {
+                           "stamp_jump", "clock_offset", "nan", "gyro_saturation", "shaking",
+                           "empty_scan", "sparse_scan", "dust", "wrong_extrinsic"}) {
     EXPECT_THAT(text, HasSubstr("  " + std::string(kind) + " ")) << kind;
     EXPECT_EQ(WordsOf(kind), "") << kind;
   }
@@ -92,7 +92,7 @@ TEST(DescribeFaults, TheKeysShownAreThoseOfTheKind) {
     EXPECT_EQ(ParseFault(text).values, ParseFault(kind).values) << text;
     ++num_kinds;
   }
-  EXPECT_EQ(num_kinds, 14);
+  EXPECT_EQ(num_kinds, 15);
 }
 
 }  // namespace

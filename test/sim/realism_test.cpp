@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "lio/sim/scenario.hpp"
 
@@ -19,7 +20,7 @@ RecordOptions OptionsOf(Realism realism, const std::vector<std::string>& without
   RecordOptions options;
   options.lidar = LoadLidarModel("hdl32e");
   options.imu = LoadImuModel("xsens_mti10");
-  SetRealism(realism, without, options);
+  SetRealism(realism, {{}, without}, options);
   return options;
 }
 
@@ -32,7 +33,7 @@ RecordOptions Only(const std::string& effect) {
   options.lidar_errors.dropout_ratio = 0.0;
   options.lidar_errors.has_weak_echoes = false;
   options.lidar.range_step_m = 0.0;
-  if (effect != "mixed-pixels") options.lidar_errors.has_mixed_pixels = false;
+  options.lidar_errors.has_mixed_pixels = false;
   return options;
 }
 
@@ -70,12 +71,14 @@ TEST(Realism, IdealSensorsHaveNoErrors) {
   EXPECT_EQ(options.imu.accel.noise_density, 0.0);
   EXPECT_EQ(options.imu.gyro.turn_on_bias_std, 0.0);
   EXPECT_EQ(options.imu.rate_hz, 100.0) << "the rate is the sensor's own";
+  ASSERT_TRUE(options.claimed_imu);
+  EXPECT_EQ(options.claimed_imu->accel.noise_density, 7.85e-4) << "the rig says the data sheet's";
 }
 
 TEST(Realism, DatasheetHasNoneOfTheFieldsEffects) {
   const RecordOptions datasheet = OptionsOf(Realism::kDatasheet);
   const RecordOptions without_all = OptionsOf(Realism::kField, FieldEffects());
-  EXPECT_FALSE(datasheet.imu_vibrates);
+  EXPECT_FALSE(datasheet.imu_effects.vibrates);
   EXPECT_EQ(datasheet.lidar_errors.laser_bias_std_m, 0.0);
   EXPECT_EQ(SweepIn(Room(), datasheet).points.size(), SweepIn(Room(), without_all).points.size());
 }
@@ -88,6 +91,43 @@ TEST(Realism, AnUnknownEffectIsAnsweredWithTheKnownOnes) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("no effect 'fog'"));
     EXPECT_THAT(error.what(), ::testing::HasSubstr("laser-bias"));
   }
+}
+
+// All switches and sizes that effects set.
+std::string Described(const RecordOptions& options) {
+  const LidarErrors& lidar = options.lidar_errors;
+  const ImuEffects& imu = options.imu_effects;
+  const ClockErrors& clock = options.clock_errors;
+  std::ostringstream text;
+  text << lidar.has_footprint << ' ' << lidar.in_between.reach_m << ' ' << lidar.laser_bias_std_m
+       << ' ' << lidar.grazing_bias_m << ' ' << lidar.range_walk.retro_m << ' ' << lidar.has_glass
+       << ' ' << lidar.beam_table_std_rad << ' ' << lidar.rotor.speed_std_ratio << ' '
+       << lidar.rotor.encoder_std_rad << ' ' << clock.imu_jitter_std_s << ' '
+       << clock.drift_std_ratio << ' ' << imu.vibrates << ' ' << imu.has_engine << ' '
+       << imu.rectifies << ' ' << imu.is_g_sensitive << ' ' << imu.warms_up;
+  return text.str();
+}
+
+TEST(Realism, EachEffectIsSwitchedAlone) {
+  const std::string all = Described(OptionsOf(Realism::kField));
+  const std::string none = Described(OptionsOf(Realism::kDatasheet));
+  for (const std::string& effect : FieldEffects()) {
+    EXPECT_NE(Described(OptionsOf(Realism::kField, {effect})), all) << effect;
+    std::vector<std::string> others = FieldEffects();
+    std::erase(others, effect);
+    RecordOptions with = OptionsOf(Realism::kField, FieldEffects());
+    SetRealism(Realism::kDatasheet, {{effect}, {}}, with);
+    EXPECT_NE(Described(with), none) << effect;
+    EXPECT_EQ(Described(with), Described(OptionsOf(Realism::kField, others))) << effect;
+  }
+}
+
+TEST(Realism, AnEffectIsAddedToIdealSensors) {
+  RecordOptions options = OptionsOf(Realism::kDatasheet);
+  SetRealism(Realism::kIdeal, {{"vibration"}, {}}, options);
+  EXPECT_TRUE(options.imu_effects.vibrates);
+  EXPECT_EQ(options.imu.accel.noise_density, 0.0);
+  EXPECT_EQ(options.imu.accel.vibration_std_per_mps, 0.012);
 }
 
 TEST(Realism, EachLaserHasItsOwnBias) {
@@ -149,7 +189,7 @@ TEST(Realism, OneToThreePerCentOfAStreetsReturnsAreMixedPixels) {
   std::size_t of = 0;
   for (std::int64_t index = 0; index < 90; index += 30) {
     const SimulatedSweep sweep = lidar.Sweep(index);
-    num += sweep.num_in_between;
+    num += std::count(sweep.kinds.begin(), sweep.kinds.end(), EchoKind::kInBetween);
     of += sweep.points.size();
   }
   const double share = static_cast<double>(num) / static_cast<double>(of);
@@ -157,36 +197,22 @@ TEST(Realism, OneToThreePerCentOfAStreetsReturnsAreMixedPixels) {
   EXPECT_LT(share, 0.03);
 }
 
-// The spread of neighbouring samples' differences, where the motion itself is smooth.
-double SpreadOf(const RecordOptions& options, bool of_rate) {
-  const Scenario street = MakeScenario("street", {1, 20.0, true});
-  ImuSetup setup{options.imu, ImuVariant::kNormal, 9.8, options.imu_vibrates, 1};
-  ImuSimulator imu(setup, *street.trajectory);
-  double sum_sq = 0.0;
-  double per_mps = 0.0;
-  int num = 0;
-  for (int i = 0; i < 1500; ++i) {
-    const std::int64_t t_ns = std::llround(street.begin_s * 1e9) + std::int64_t{10'000'000} * i;
-    const SimulatedImu sample = imu.Sample(t_ns);
-    const Vector3 truth = of_rate ? sample.truth.w_imu_radps
-                                  : Vector3(sample.truth.T_world_imu.rotation.conjugate() *
-                                            (sample.truth.a_world_mps2 + Vector3(0, 0, 9.8)));
-    const Vector3 measured = of_rate ? sample.sample.w_imu_radps : sample.sample.f_imu_mps2;
-    const Vector3 bias = of_rate ? sample.gyro_bias_radps : sample.accel_bias_mps2;
-    const double speed = sample.truth.v_world_mps.norm();
-    if (speed < 3.0) continue;
-    sum_sq += (measured - truth - bias).squaredNorm() / 3.0;
-    per_mps += speed * speed;
-    ++num;
-  }
-  EXPECT_GT(num, 500);
-  return std::sqrt(sum_sq / per_mps);
-}
-
-TEST(Realism, VibrationGrowsWithSpeed) {
-  EXPECT_NEAR(SpreadOf(Only("vibration"), false), 0.012, 0.003);
-  EXPECT_LT(SpreadOf(OptionsOf(Realism::kDatasheet), false), 0.003);
-  EXPECT_GT(SpreadOf(Only("vibration"), true), SpreadOf(OptionsOf(Realism::kDatasheet), true));
+TEST(Realism, AStreetIsSeenInItsWindowsAndThroughThem) {
+  const Scenario street = MakeScenario("street", {1, 10.0, true});
+  const RecordOptions options = OptionsOf(Realism::kField);
+  const Scene scene(street.world);
+  const LidarSimulator lidar(
+      {options.lidar, street.T_imu_lidar, options.lidar_errors, 1, street.begin_s}, scene,
+      *street.trajectory);
+  const SimulatedSweep sweep = lidar.Sweep(40);
+  const auto share = [&](EchoKind kind) {
+    return static_cast<double>(std::count(sweep.kinds.begin(), sweep.kinds.end(), kind)) /
+           static_cast<double>(sweep.kinds.size());
+  };
+  EXPECT_GT(share(EchoKind::kMirrored), 1e-3);
+  EXPECT_LT(share(EchoKind::kMirrored), 0.05);
+  EXPECT_GT(share(EchoKind::kThroughGlass), 1e-3);
+  EXPECT_LT(share(EchoKind::kThroughGlass), 0.05);
 }
 
 }  // namespace

@@ -81,6 +81,17 @@ TEST(Record, SameSeedGivesTheSameBytesOnOneAndOnTwoThreads) {
   }
 }
 
+TEST(Record, ScansOfAnotherLogOfTheDriveGiveTheSameLogAgain) {
+  const Scenario scenario = ShortHall(1.5);
+  const test::TempDir dir;
+  RecordOptions options = Options("vlp16");
+  Record(scenario, options, dir.path() / "cast", {});
+  options.scans = dir.path() / "cast" / "log.lcm";
+  Record(scenario, options, dir.path() / "copied", {});
+  EXPECT_TRUE(test::ReadText(dir.path() / "cast" / "log.lcm") ==
+              test::ReadText(dir.path() / "copied" / "log.lcm"));
+}
+
 TEST(Record, LogHoldsEveryMessageOnceInOrderAtItsTime) {
   const Scenario scenario = ShortHall(2.0);
   const test::TempDir dir;

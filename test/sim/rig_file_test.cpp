@@ -98,6 +98,13 @@ TEST_F(RigFile, AnIdealUnitGetsWhatAFilterCanUse) {
   EXPECT_DOUBLE_EQ(rig.imu.gyro_bias_std_radps, 1e-5);
 }
 
+TEST_F(RigFile, NoiseIsTheClaimedUnitsWhereThereIsOne) {
+  RecordOptions options = SomeSensors();
+  options.claimed_imu = options.imu;
+  options.claimed_imu->gyro.noise_density = 7e-4;
+  EXPECT_DOUBLE_EQ(RoundTrip(SomeScenario(), options).imu.gyro_noise_density, 7e-4);
+}
+
 TEST_F(RigFile, WithoutABoxThereIsNone) {
   Scenario scenario = SomeScenario();
   scenario.own_vehicle_box.reset();

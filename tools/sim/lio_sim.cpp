@@ -34,8 +34,9 @@ struct Arguments {
   double latitude_deg = 22.3;  // Hong Kong
   double altitude_m = 0.0;
   sim::Realism realism = sim::Realism::kField;
-  std::vector<std::string> without;
+  sim::EffectChoice effects;
   std::vector<std::string> faults;
+  std::string scans;
   bool starts_moving = false;
   bool lists = false;
   int num_threads = 1;
@@ -78,9 +79,13 @@ void AddErrors(CLI::App& app, Arguments& arguments) {
       ->transform(CLI::CheckedTransformer(grades).description(""))
       ->default_str("field")
       ->type_name("NAME");
-  app.add_option("--without", arguments.without,
+  app.add_option("--without", arguments.effects.without,
                  "effect of the field that is left out; can be given several times: " +
                      CLI::detail::join(sim::FieldEffects(), ", "))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--with", arguments.effects.with,
+                 "effect of the field that is added to a lower grade; can be given several times")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--fault", arguments.faults,
@@ -128,6 +133,11 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "altitude of the place, which sets gravity [m]")
       ->check(NumberWithin(-1000.0, 20000.0))
       ->capture_default_str();
+  app.add_option(
+         "--scans", arguments.scans,
+         "log of the same drive and lidar, without errors of the clocks, whose scans are\n"
+         "taken instead of casting them: only the IMU, clocks and faults are simulated anew")
+      ->check(CLI::ExistingFile);
   app.add_flag("--moving-start", arguments.starts_moving,
                "begin the log in motion instead of at rest");
   AddErrors(app, arguments);
@@ -150,7 +160,8 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   for (const std::string& fault : arguments.faults) {
     options.faults.push_back(sim::ParseFault(fault));
   }
-  sim::SetRealism(arguments.realism, arguments.without, options);
+  sim::SetRealism(arguments.realism, arguments.effects, options);
+  options.scans = arguments.scans;
   options.seed = arguments.seed;
   options.num_threads = arguments.num_threads;
   return options;
@@ -169,9 +180,13 @@ void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options
               scenario.name.c_str(), scenario.duration_s, static_cast<long long>(stats.num_sweeps),
               options.lidar.name.c_str(), mega_rays, 1e-6 * static_cast<double>(stats.num_points),
               static_cast<long long>(stats.num_imu));
-  std::printf("%.2f %% of the points lie between two surfaces (mixed pixels)\n",
-              100.0 * static_cast<double>(stats.num_in_between) /
-                  static_cast<double>(std::max<std::int64_t>(1, stats.num_points)));
+  const double per_cent = 100.0 / static_cast<double>(std::max<std::int64_t>(1, stats.num_points));
+  std::printf(
+      "%.2f %% of the points lie between two surfaces (mixed pixels), %.2f %% are mirrored,\n"
+      "%.2f %% lie behind glass\n",
+      per_cent * static_cast<double>(stats.num_in_between),
+      per_cent * static_cast<double>(stats.num_mirrored),
+      per_cent * static_cast<double>(stats.num_through_glass));
   std::printf("%.1f s on %d thread%s: %.2f M rays/s, %.2f in a second of CPU time\n", spent.wall_s,
               options.num_threads, options.num_threads == 1 ? "" : "s", mega_rays / spent.wall_s,
               mega_rays / spent.cpu_s);

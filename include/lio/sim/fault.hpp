@@ -28,6 +28,7 @@ enum class FaultKind {
   kClockOffset,
   kNan,
   kGyroSaturation,
+  kShaking,
   kEmptyScan,
   kSparseScan,
   kDust,

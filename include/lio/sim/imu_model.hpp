@@ -19,13 +19,19 @@ struct InertialModel {
   double misalignment_std_rad = 0.0;
   // Vibration while moving: white from sample to sample, 1 sigma, per m/s of the body's speed.
   double vibration_std_per_mps = 0.0;  // unit s/m
-  double full_scale = 0.0;             // unit; 0: no saturation
-  double step = 0.0;                   // unit; 0: no quantization
+  // The next three may be absent in a data file: 0. Each is 1 sigma of an axis.
+  double bias_per_kelvin_std = 0.0;     // unit/K
+  double bias_per_vibration_std = 0.0;  // unit per (m/s^2)^2 of vibration: rectification
+  double bias_per_force_std = 0.0;      // unit per m/s^2 of specific force: g-sensitivity
+  double full_scale = 0.0;              // unit; 0: no saturation
+  double step = 0.0;                    // unit; 0: no quantization
 };
 
 struct ImuModel {
   std::string name;
   double rate_hz = 100.0;
+  double warm_up_kelvin = 0.0;  // how much warmer it gets after it is switched on
+  double warm_up_time_s = 200.0;
   InertialModel gyro;
   InertialModel accel;
 };

@@ -7,8 +7,8 @@
 // r^2 (rough surfaces fall off slower than Lambert's cosine); polished surfaces add a lobe a few
 // degrees wide. The probability of an echo falls from 1 to 0 around the strength that a 10 % target
 // has at the range of the model's data file. Range noise grows with incidence and as the echo gets
-// weaker. When a beam straddles an edge between two columns, the two echoes merge if they are near
-// each other, else one of them is returned (mixed pixels). Random numbers are drawn by (seed,
+// weaker. A beam that straddles an edge may return a mixed pixel: seen by sub-rays of its footprint
+// (footprint.hpp) or, more simply, guessed from the next column. Random numbers are drawn by (seed,
 // column, beam), so that they do not depend on the thread.
 #pragma once
 
@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "lio/sensor/scan_chunk.hpp"
+#include "lio/sim/footprint.hpp"
 #include "lio/sim/lidar_model.hpp"
+#include "lio/sim/rotor.hpp"
 #include "lio/sim/scene.hpp"
 #include "lio/sim/trajectory.hpp"
 
@@ -33,15 +35,15 @@ struct LidarErrors {
   double noise_scale = 1.0;      // factor on the range noise
   double dropout_ratio = 0.002;  // share of echoes lost at random
   bool has_mixed_pixels = true;
-  // The echo of a beam that straddles an edge may lie in between the two surfaces, across gaps up
-  // to this and with this probability.
-  float in_between_reach_m = 3.0f;
-  double in_between_chance = 0.1;
-  bool straddles_rings = false;  // beams straddle edges above and below as well
+  bool has_footprint = false;  // mixed pixels come from sub-rays, in both directions
+  InBetween in_between;
+  bool has_glass = false;  // polished surfaces mirror, and glass lets light through
   double laser_bias_std_m = 0.0;
-  double grazing_bias_m = 0.0;      // times 1/cos(incidence) - 1, at most 4 cm
+  double grazing_bias_m = 0.0;  // times 1/cos(incidence) - 1, at most 4 cm
+  RangeWalk range_walk;
   double beam_table_std_rad = 0.0;  // errors of each laser's elevation and azimuth
-  bool has_weak_echoes = true;      // false: every surface in range returns an echo
+  RotorErrors rotor;
+  bool has_weak_echoes = true;  // false: every surface in range returns an echo
   std::vector<Dust> dust;
 };
 
@@ -57,7 +59,8 @@ struct SimulatedSweep {
   std::int64_t begin_ns = 0;  // trajectory time at which t_offset_ns = 0
   std::int64_t num_rays = 0;
   std::vector<LidarPoint> points;     // in the order of firing
-  std::int64_t num_in_between = 0;    // points that lie between two surfaces (mixed pixels)
+  std::vector<EchoKind> kinds;        // how each point came about
+  std::vector<float> off_surface_m;   // see Echo::off_surface_m
   std::vector<std::int32_t> objects;  // object that each point lies on: see Hit::object
 };
 
@@ -71,31 +74,16 @@ class LidarSimulator {
   double SweepEnd_s(std::int64_t index) const;  // trajectory time of the sweep's last firing
 
  private:
-  struct Columns;
-  struct Echoes;
-  Columns ColumnsOf(std::int64_t index) const;
-  double ColumnTime(std::int64_t column) const;
-  double HeadingAt(double t_s) const;
-  void CastTile(const Scene::Interval& interval, const Columns& columns, std::int64_t first,
-                Echoes& echoes) const;
-  void AddPoint(const Columns& columns, const Echoes& echoes, std::int64_t column, std::size_t beam,
+  struct Cast;
+  Echo GuessStraddling(const Cast& cast, std::size_t index, std::uint64_t key) const;
+  Echo EchoOf(const Cast& cast, std::size_t index, std::uint64_t key) const;
+  void AddPoint(const Cast& cast, std::int64_t column, std::size_t beam,
                 SimulatedSweep& sweep) const;
-  // A neighbour of an echo, and how much of the spacing to it the beam's half width is.
-  struct Neighbour {
-    const Hit* hit = nullptr;
-    double spacing_rad = 0.0;
-    double half_width_rad = 0.0;
-  };
-  struct Echo {
-    float range_m = 0.0f;
-    bool is_in_between = false;
-  };
-  Echo Straddle(const Echoes& echoes, std::size_t index, std::size_t beam, std::uint64_t key) const;
-  Echo Straddle(const Hit& hit, const Neighbour& other, double edge_at, double chance) const;
 
   LidarSetup setup_;
   const Scene* scene_;
   const Trajectory* trajectory_;
+  Rotor rotor_;
   // Each beam's direction when the column's heading is 0, true and as the beam table says.
   std::vector<Vector3> column_directions_;
   std::vector<Vector3> table_directions_;

@@ -42,7 +42,12 @@ enum class Purpose : std::uint64_t {
   kFault,
   kMount,
   kVibration,
-  kLaser
+  kLaser,
+  kFootprint,
+  kRotor,
+  kClock,
+  kEngine,
+  kImuField
 };
 
 // Draws a sequence of numbers from one key.

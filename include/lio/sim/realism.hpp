@@ -20,8 +20,14 @@ enum class Realism {
 // Returns the names of the effects that `field` adds, in the order of the help text.
 std::vector<std::string> FieldEffects();
 
-// Sets the errors of the sensors in `options` to those of the grade, without the effects named in
-// `without`. Throws std::invalid_argument that lists the effects when there is none of that name.
-void SetRealism(Realism realism, const std::vector<std::string>& without, RecordOptions& options);
+// Names effects of the field that are added to a grade or left out of it; left out wins.
+struct EffectChoice {
+  std::vector<std::string> with;
+  std::vector<std::string> without;
+};
+
+// Sets the errors of the sensors in `options` to those of the grade and the choice. Throws
+// std::invalid_argument that lists the effects when there is none of a name.
+void SetRealism(Realism realism, const EffectChoice& choice, RecordOptions& options);
 
 }  // namespace lio::sim

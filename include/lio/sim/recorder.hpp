@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "lio/sim/clock_errors.hpp"
 #include "lio/sim/fault.hpp"
 #include "lio/sim/imu_simulator.hpp"
 #include "lio/sim/lidar_simulator.hpp"
@@ -24,10 +26,15 @@ struct RecordOptions {
   LidarModel lidar;
   LidarErrors lidar_errors;
   ImuModel imu;
+  std::optional<ImuModel> claimed_imu;  // whose densities config.yaml has; absent: those of `imu`
   ImuVariant imu_variant = ImuVariant::kNormal;
-  bool imu_vibrates = false;
+  ImuEffects imu_effects;
+  ClockErrors clock_errors;
   double gravity_mps2 = 9.80665;
   std::vector<Fault> faults;
+  // A log of the same drive and lidar whose scans are taken instead of casting them; empty: none.
+  // Its own clocks must have been without errors.
+  std::filesystem::path scans;
   std::uint64_t seed = 1;
   int num_threads = 1;
 };
@@ -39,6 +46,8 @@ struct RecordStats {
   std::int64_t num_rays = 0;
   std::int64_t num_points = 0;
   std::int64_t num_in_between = 0;  // mixed pixels
+  std::int64_t num_mirrored = 0;
+  std::int64_t num_through_glass = 0;
 };
 
 // Creates the folder. `progress` is called with the share done, 0..1, and may be empty. Throws

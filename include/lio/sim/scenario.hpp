@@ -27,6 +27,7 @@ struct Scenario {
   std::shared_ptr<const Trajectory> trajectory;
   double begin_s = 0.0;     // trajectory time at which the log begins
   double duration_s = 0.0;  // duration of the log
+  bool is_on_car = false;   // with engine and wheels; else carried by a person
   Pose T_imu_lidar;
   std::optional<OwnVehicleBox> own_vehicle_box;  // box in the lidar frame
   double min_range_m = 1.5;                      // written into the rig

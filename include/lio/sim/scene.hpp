@@ -28,7 +28,8 @@ struct Hit {
   float range_m = std::numeric_limits<float>::infinity();
   float cos_incidence = 1.0f;  // 1: the surface faces the ray
   Material material = Material::kAsphalt;
-  int object = kNothing;  // index of the mover, or one of the above
+  int object = kNothing;                // index of the mover, or one of the above
+  Vector3f normal = Vector3f::UnitZ();  // unit vector in world, on either side of the surface
 };
 
 class Scene {
