@@ -51,10 +51,11 @@ class ModeBench {
             outputs_, stream_,
             sweeps,   convention_,
             clocks_,  imu_noise_,
-            examiner};
+            examiner, place};
   }
 
   RigExaminer examiner{options_.rig, true};
+  PlaceKnowledge place{false, false};
 
   // Units that the messages are sent in, per SI unit.
   double force_scale = 1.0;

@@ -12,6 +12,7 @@
 #include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/output_queue.hpp"
+#include "lio/pipeline/place_knowledge.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
 
@@ -31,6 +32,7 @@ struct ModeContext {
   ClockOffsetFollower& clocks;
   ImuNoiseWatch& imu_noise;
   RigExaminer& examiner;
+  const PlaceKnowledge& place;
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 };
