@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -64,6 +65,21 @@ bool HasFloat(const pcl::PCLPointCloud2& cloud, const char* name) {
   });
 }
 
+// Four finite numbers with commas between.
+std::optional<std::array<double, 4>> ParsePose(const std::string& text) {
+  std::array<double, 4> pose{};
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    const auto [stop, error] = std::from_chars(at, end, pose[i]);
+    if (error != std::errc() || !std::isfinite(pose[i])) return std::nullopt;
+    const bool is_last = i + 1 == pose.size();
+    if (is_last ? stop != end : stop == end || *stop != ',') return std::nullopt;
+    at = stop + 1;
+  }
+  return pose;
+}
+
 }  // namespace
 
 void AddInitialMapArguments(CLI::App& app, InitialMapArguments& arguments) {
@@ -81,9 +97,10 @@ void AddInitialMapArguments(CLI::App& app, InitialMapArguments& arguments) {
                  "in height and 30 deg; for places that look alike, such as storeys")
       ->type_name("X,Y,Z,YAW_DEG")
       ->needs("--initial-map")
-      ->delimiter(',')
-      ->expected(4)
-      ->check(NumberWithin(-1e6, 1e6));
+      ->check([](const std::string& text) {
+        return ParsePose(text) ? ""
+                               : "expects four numbers with commas between, not '" + text + "'";
+      });
 }
 
 std::vector<Eigen::Vector3f> LoadMapPoints(const fs::path& path) {
@@ -128,9 +145,9 @@ std::optional<int> LoadInitialMap(const std::string& program, const InitialMapAr
     fmt::print(stderr, "{}: --initial-map: {}\n", program, error.what());
     return kExitUnusableInput;
   }
-  if (!arguments.pose.empty()) {
-    const std::vector<double>& pose = arguments.pose;
-    loaded.guess = {{pose[0], pose[1], pose[2]}, pose[3] * std::numbers::pi / 180.0};
+  if (const auto pose = ParsePose(arguments.pose)) {
+    const auto& [x_m, y_m, z_m, yaw_deg] = *pose;
+    loaded.guess = {{x_m, y_m, z_m}, yaw_deg * std::numbers::pi / 180.0};
   }
   map = std::make_shared<const InitialMap>(std::move(loaded));
   return std::nullopt;

@@ -19,7 +19,7 @@ namespace lio {
 
 struct InitialMapArguments {
   std::filesystem::path map;  // empty: none
-  std::vector<double> pose;   // x, y, z [m], yaw [deg]; or empty
+  std::string pose;           // x, y, z [m], yaw [deg], with commas between; or empty
 };
 
 // `arguments` must outlive the app.
