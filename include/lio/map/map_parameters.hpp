@@ -68,8 +68,8 @@ struct SurfaceSidesParameters {
   // are 0.1 m thick and more.
   static constexpr float kOwnSheet_m = 0.07f;
   static constexpr float kMaxSheetStd_m = 0.05f;  // of the other sheet across itself; chosen
-  // Where so small a share of points is nearer than the gap, nothing joins the sheets: of a wall
-  // that stands on a floor a fifth would be. Chosen.
+  // Nothing joins the sheets if so small a share of points is nearer than the gap: of a wall that
+  // stands on a floor a fifth would be. Chosen.
   static constexpr float kGap_m = 0.15f;
   static constexpr float kMaxShareInGap = 0.08f;
   // Share of a voxel's points that have a side for it to hold: half of them are of the other sheet,
