@@ -22,7 +22,7 @@ Points Wood(unsigned seed) {
   Points points;
   for (int i = 0; i < 60; ++i) {
     const float x = coordinate(random);
-    test::AddPost({x, coordinate(random)}, {0.f, 0.f}, points);
+    test::AddColumn({x, coordinate(random)}, points);
   }
   test::AddRings(points);
   return points;
