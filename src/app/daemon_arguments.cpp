@@ -24,9 +24,10 @@ constexpr const char* kExamples =
     "  liod --config config/default.yaml --config my_rig.yaml --lcm-url "
     "'udpm://239.255.76.67:7700'\n\n"
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 6 done, but the files of --out\n"
-    "cannot be trusted (verdict.json and the log say why), 70 internal fault (the files of --out\n"
-    "are complete up to it).";
+    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map, 6 "
+    "done,\n"
+    "but the files of --out cannot be trusted (verdict.json and the log say why), 70 internal\n"
+    "fault (the files of --out are complete up to it).";
 
 }  // namespace
 
@@ -39,6 +40,7 @@ void DaemonArguments::AddTo(CLI::App& app) {
   app.add_option("--out", out, "Write the files that lio-replay writes into this folder")
       ->type_name("DIR");
   app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");
+  AddInitialMapArguments(app, initial_map);
   app.add_flag("--cloud-full", publishes_full_cloud,
                "Publish every point, in the frame map, on LIO_CLOUD_FULL; LIO_CMD may change it");
   app.add_option("--channel-prefix", channel_prefix,

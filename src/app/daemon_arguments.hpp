@@ -7,6 +7,7 @@
 
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/initial_map_file.hpp"
 
 namespace lio {
 
@@ -16,10 +17,12 @@ struct DaemonArguments {
   std::string out;
   std::string channel_prefix = kDefaultChannelPrefix;
   bool writes_map = false;
+  InitialMapArguments initial_map;
   bool publishes_full_cloud = false;
 
   // `this` must outlive the app.
   void AddTo(CLI::App& app);
+  // Without the initial map, which must be loaded.
   [[nodiscard]] LiveOptions Live() const;
 };
 

@@ -28,10 +28,10 @@ std::vector<Eigen::Vector3f> Decimate(const std::vector<Eigen::Vector3f>& points
 
 }  // namespace
 
-FilterLoop::FilterLoop(const Options& options, bool publishes_full_cloud,
+FilterLoop::FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
                        const Neighbours& neighbours)
     : to_(neighbours),
-      odometry_(options, ThreadCpuNs),
+      odometry_(options, ThreadCpuNs, start_in),
       publishes_features_(options.pipeline.publish_features),
       publishes_full_cloud_(publishes_full_cloud) {}
 

@@ -32,7 +32,8 @@ class FilterLoop {
     OutputWorker& output_worker;
   };
 
-  FilterLoop(const Options& options, bool publishes_full_cloud, const Neighbours& neighbours);
+  FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
+             const Neighbours& neighbours);
 
   // The thread's body: until the inbox is closed and empty, and the job that is out has come back.
   void Run();

@@ -44,11 +44,13 @@ void RaiseBuffer(const std::string& url, LiveOptions& live) {
                live.receive_buffer_bytes / 1024, ReceiveBufferAdvice());
 }
 
-int Run(const DaemonArguments& arguments, const Options& options) {
+int Run(const DaemonArguments& arguments, const Options& options,
+        const InitialMapPtr& initial_map) {
   const sigset_t signals = BlockSignals();
   const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
+  live.initial_map = initial_map;
   RaiseBuffer(arguments.lcm_url, live);
   LiveRunner runner(*bus, options, live);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
@@ -70,8 +72,12 @@ int main(int argc, char** argv) {
           lio::ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
     return *code;
   }
+  lio::InitialMapPtr initial_map;
+  if (const auto code = lio::LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
+    return *code;
+  }
   try {
-    return lio::Run(arguments, options);
+    return lio::Run(arguments, options, initial_map);
   } catch (const lio::TransportError& error) {
     spdlog::error("{}", error.what());
     return lio::kExitNoTransport;

@@ -18,16 +18,17 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
       publisher_(bus, live_.channels),
       board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes),
       match_worker_(
-          options, live.match_clock, live.writes_map,
+          options, live.match_clock, live.writes_map, live.initial_map,
           [this](MatchOutcome outcome) { inbox_.Put(std::move(outcome)); },
           [this](const std::string& fault) {
             OnFault(fault);
             inbox_.EndOutcomes();
           }),
       output_worker_(
-          publisher_, live.out ? &writer_.emplace(*live.out, options) : nullptr, live.version,
-          [this] { return ComposeStatus(); }, [this](const std::string& fault) { OnFault(fault); }),
-      filter_(options, live.publishes_full_cloud,
+          publisher_, live.out ? &writer_.emplace(*live.out, options, live.start_in()) : nullptr,
+          live.version, [this] { return ComposeStatus(); },
+          [this](const std::string& fault) { OnFault(fault); }),
+      filter_(options, live.start_in(), live.publishes_full_cloud,
               {inbox_, publisher_, board_, match_worker_, output_worker_}),
       receiver_(bus, live_.channels, ThreadCpuNs, inbox_, board_,
                 [this](const Command& command) { Obey(command); }),

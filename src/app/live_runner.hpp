@@ -37,7 +37,12 @@ struct LiveOptions {
   std::optional<std::filesystem::path> out;  // absent: no files
   bool writes_map = false;
   bool publishes_full_cloud = false;  // LIO_CMD may change it
-  std::optional<int> socket;          // the status reports what the kernel drops there
+  InitialMapPtr initial_map;          // null: the first scans begin a map
+
+  [[nodiscard]] StartIn start_in() const {
+    return initial_map ? StartIn::kInitialMap : StartIn::kNewMap;
+  }
+  std::optional<int> socket;  // the status reports what the kernel drops there
   std::int32_t receive_buffer_bytes = 0;
   // How long Stop goes on matching the scans that wait.
   std::chrono::milliseconds max_finish{400};

@@ -9,11 +9,14 @@
 namespace lio {
 
 MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
+                         const InitialMapPtr& initial_map,
                          std::function<void(MatchOutcome)> deliver, OnFault on_fault)
-    : worker_(options, clock, BeamElevations(options.rig.lidar.model)),
+    : worker_(options, clock, BeamElevations(options.rig.lidar.model), initial_map),
       collects_map_(collects_map),
+      has_initial_map_(initial_map != nullptr),
       deliver_(std::move(deliver)),
       thread_("match", std::move(on_fault)) {
+  if (collects_map_ && initial_map) map_cloud_.Add(initial_map->points, Pose::Identity());
   thread_.Start([this] { Run(); });
 }
 
@@ -55,13 +58,14 @@ void MatchWorker::Run() {
 }
 
 void MatchWorker::Do(const MatchJob& job) {
-  if (job.map_action == MapAction::kClear) map_cloud_.Clear();
+  if (job.map_action == MapAction::kClear && !has_initial_map_) map_cloud_.Clear();
   deliver_(worker_.Run(job));
 }
 
 void MatchWorker::Do(const InsertTask& insert) {
   worker_.Insert(insert);
-  if (collects_map_ && insert.T_map_imu) map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
+  const bool grows_map = insert.T_map_imu && worker_.is_in_map();
+  if (collects_map_ && grows_map) map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
   map_bytes_ = worker_.matcher().map_size().memory_bytes;
 }
 

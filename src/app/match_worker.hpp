@@ -13,6 +13,7 @@
 
 #include "app/worker_thread.hpp"
 #include "lio/io/map_cloud.hpp"
+#include "lio/pipeline/initial_map.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
@@ -21,8 +22,10 @@ class MatchWorker {
  public:
   // `deliver` is called on the match thread with each job's outcome, `on_fault` when a job, an
   // insertion or `deliver` has thrown.
+  // `initial_map` may be null.
   MatchWorker(const Options& options, ClockNs clock, bool collects_map,
-              std::function<void(MatchOutcome)> deliver, OnFault on_fault);
+              const InitialMapPtr& initial_map, std::function<void(MatchOutcome)> deliver,
+              OnFault on_fault);
   ~MatchWorker();  // as Finish
   MatchWorker(const MatchWorker&) = delete;
   MatchWorker& operator=(const MatchWorker&) = delete;
@@ -47,6 +50,7 @@ class MatchWorker {
   RegistrationWorker worker_;
   MapCloud map_cloud_;
   bool collects_map_;
+  bool has_initial_map_;
   std::function<void(MatchOutcome)> deliver_;
   std::atomic<std::size_t> map_bytes_ = 0;
 

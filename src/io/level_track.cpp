@@ -27,8 +27,8 @@ Matrix6 CovarianceOf(const Pose& pose, const Pose& T_world_imu, const Matrix6& w
 
 }  // namespace
 
-LevelTrack::LevelTrack(const fs::path& folder)
-    : folder_(folder), rows_path_(folder / "trajectory_level.rows") {
+LevelTrack::LevelTrack(const fs::path& folder, bool turns_map)
+    : folder_(folder), rows_path_(folder / "trajectory_level.rows"), turns_map_(turns_map) {
   std::error_code error;
   for (const char* stale : {kPoses, kCovariances}) fs::remove(folder / stale, error);
   rows_.open(rows_path_, std::ios::binary | std::ios::trunc | std::ios::in | std::ios::out);
@@ -56,7 +56,7 @@ void LevelTrack::Add(const FilterReport& filter, Duration clock_correction) {
 }
 
 Quaternion LevelTrack::R_level_map() const {
-  if (!is_level_known_) return Quaternion::Identity();
+  if (!is_level_known_ || !turns_map_) return Quaternion::Identity();
   const Vector3 up_imu = Get(last_.T_world_imu).rotation.conjugate() * Vector3::UnitZ();
   const Vector3 up_map = Get(last_.T_map_imu).rotation * up_imu;
   return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());

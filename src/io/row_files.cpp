@@ -70,10 +70,10 @@ void RowFiles::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& trac
   track.covariances.stream << CovarianceRow(pose.stamp, cov);
 }
 
-RowFiles::RowFiles(const fs::path& folder, bool has_base)
+RowFiles::RowFiles(const fs::path& folder, bool has_base, bool turns_map)
     : in_map_(OpenTrack(Created(folder), "")),
       in_world_(OpenTrack(folder, "_world")),
-      level_(folder),
+      level_(folder, turns_map),
       imu_rate_(OpenOutput(folder / "trajectory_imu_rate.tum")),
       states_(OpenOutput(folder / "states.csv")),
       registration_(OpenOutput(folder / "registration.csv")) {

@@ -56,8 +56,11 @@ fs::path RunWriter::FolderOf(int segment) const {
   return segment == 1 ? folder_ : folder_ / fmt::format("segment_{}", segment);
 }
 
-RunWriter::RunWriter(const fs::path& folder, const Options& options)
-    : folder_(folder), has_base_(options.rig.T_base_imu), whole_(folder, has_base_) {
+RunWriter::RunWriter(const fs::path& folder, const Options& options, StartIn start_in)
+    : folder_(folder),
+      has_base_(options.rig.T_base_imu),
+      turns_map_(start_in == StartIn::kNewMap),
+      whole_(folder, has_base_, turns_map_) {
   std::error_code error;
   for (const char* stale : {"stats.json", "verdict.json", "map.pcd", "map.ply", "report.html"}) {
     fs::remove(folder / stale, error);
@@ -80,7 +83,7 @@ void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
   }
   if (StepsBack(output)) {
     if (segment_) segment_->Finish();
-    segment_.emplace(FolderOf(++num_segments_), has_base_);
+    segment_.emplace(FolderOf(++num_segments_), has_base_, turns_map_);
   }
   whole_.Write(output, trust);
   if (segment_) segment_->Write(output, trust);

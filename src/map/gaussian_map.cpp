@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "lio/map/grazing_incidence.hpp"
 #include "lio/map/map_parameters.hpp"
@@ -19,6 +20,12 @@ using Parameters = GaussianMapParameters;
 // Can the voxel be expressed? False for coordinates that are not numbers, too.
 bool IsInRange(const Vector3& scaled) {
   return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
+}
+
+// Is a point, given from the voxel's centre, within three standard deviations of the plane?
+bool IsOn(const SurfacePatch& patch, const Eigen::Vector3f& local) {
+  const float off = patch.normal.dot(local - patch.mean);
+  return off * off < 9.f * patch.thickness_var;
 }
 
 }  // namespace
@@ -90,7 +97,7 @@ void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector
   } else {
     ++sums.num_points;
   }
-  sums.view += (view - sums.view) / static_cast<float>(sums.num_points);
+  if (!sums.is_kept) sums.view += (view - sums.view) / static_cast<float>(sums.num_points);
   const Vector3 before = local - sums.mean;
   sums.mean += before / sums.num_points;
   const Vector3 after = local - sums.mean;
@@ -126,12 +133,14 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
   const double min_width = Parameters::kMinWidthPerVoxel * options_.voxel_m;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
+  const bool is_view_known = !sums.view.isZero(0.f);
   const bool is_plane = variance[1] > min_width * min_width &&
                         variance[0] < Parameters::kMaxThicknessRatio * variance[1] &&
                         thickness < Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad *
                                         sums.num_points * variance[1] &&
-                        !IsGrazing(normal, sums.view);
+                        !(is_view_known && IsGrazing(normal, sums.view));
   if (!is_plane) return false;
+  if (!sums.is_kept) patch.is_two_sided = !is_view_known;
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
   patch.normal = normal.dot(sums.view) > 0.f ? Eigen::Vector3f(-normal) : normal;
@@ -176,17 +185,54 @@ void GaussianMap::FindCells() {
 
 void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
                          const Workers& workers) {
+  const auto view_of = [&](std::size_t i) -> Eigen::Vector3f {
+    return (points_map[i] - sensor_map).cast<float>().normalized();
+  };
+  Add(points_map, view_of, workers);
+  DropOldCells();
+  DropFarCells(sensor_map);
+}
+
+// Two sheets that share a cell cannot both be its surface: those that look up, and one of two
+// walls, come first. Points whose side nobody knows come last, and only onto a surface that is
+// there.
+void GaussianMap::InsertKept(std::span<const Vector3> points_map,
+                             std::span<const Eigen::Vector3f> sides, const Workers& workers) {
+  constexpr double kShare = 0.2;  // of a level direction, which tells the sides of a wall
+  const Eigen::Vector3f first = (up_map_ + kShare * up_map_.unitOrthogonal()).cast<float>();
+  std::array<std::vector<std::size_t>, 3> groups;
+  for (std::size_t i = 0; i < points_map.size(); ++i) {
+    const float towards = sides[i].dot(first);
+    groups[sides[i].isZero(0.f) ? 2 : towards < 0.f ? 1 : 0].push_back(i);
+  }
+  std::vector<std::int32_t> kept;
+  for (const std::vector<std::size_t>& group : groups) {
+    std::vector<Vector3> points;
+    for (const std::size_t i : group) points.push_back(points_map[i]);
+    const auto view_of = [&](std::size_t i) -> Eigen::Vector3f { return -sides[group[i]]; };
+    Add(points, view_of, workers);
+    kept.insert(kept.end(), touched_cells_.begin(), touched_cells_.end());
+  }
+  for (const std::int32_t cell : kept) {
+    Sums& sums = voxels_.Of<Sums>(cell);
+    if (!std::exchange(sums.is_kept, true)) ++num_kept_;
+    // Its side is that which half of its points have.
+    voxels_.Of<SurfacePatch>(cell).is_two_sided = sums.view.norm() < Parameters::kMinView;
+  }
+}
+
+template <class ViewOf>
+void GaussianMap::Add(std::span<const Vector3> points_map, const ViewOf& view_of,
+                      const Workers& workers) {
   places_.resize(points_map.size());
   workers.ForEachBlock(points_map.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) places_[i] = PlaceOf(points_map[i]);
   });
   FindCells();
-  AddPoints(points_map, sensor_map);
+  AddPoints(view_of);
   workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
   });
-  DropOldCells();
-  DropFarCells(sensor_map);
 }
 
 // Fetches the sums that AddPoints() will change.
@@ -197,7 +243,8 @@ void GaussianMap::Prefetch(std::int32_t cell) const {
   __builtin_prefetch(sums + sizeof(Sums) - 1);
 }
 
-void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& sensor_map) {
+template <class ViewOf>
+void GaussianMap::AddPoints(const ViewOf& view_of) {
   ++scan_number_;
   touched_cells_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -213,11 +260,13 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;
-    const Eigen::Vector3f view = (points_map[i] - sensor_map).cast<float>().normalized();
+    const Eigen::Vector3f view = view_of(i);
     const SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
-    if (sums.is_known && patch.kind == SurfacePatch::Kind::kPlane &&
-        IsFromBehind(patch.normal, view)) {
-      continue;
+    if (sums.is_known && patch.kind == SurfacePatch::Kind::kPlane) {
+      const bool is_seen_from_anywhere = patch.is_two_sided || view.isZero(0.f);
+      const bool is_of_another =
+          is_seen_from_anywhere ? !IsOn(patch, places_[i].local) : IsFromBehind(patch.normal, view);
+      if (is_of_another) continue;
     }
     AddPoint(sums, places_[i].local.cast<double>(), view);
   }
@@ -227,10 +276,12 @@ void GaussianMap::AddPoints(std::span<const Vector3> points_map, const Vector3& 
 // cells in order would cost a tenth of the insertion. A cell whose turn comes though it was touched
 // since then is put last.
 void GaussianMap::DropOldCells() {
-  while (num_cells() > static_cast<std::size_t>(options_.max_cells)) {
+  while (num_cells() - num_kept_ > static_cast<std::size_t>(options_.max_cells)) {
     const std::int32_t cell = voxels_.oldest();
     Sums& sums = voxels_.Of<Sums>(cell);
-    if (sums.listed == sums.touched) {
+    if (sums.is_kept) {
+      voxels_.Touch(cell);
+    } else if (sums.listed == sums.touched) {
       Remove(cell);
     } else {
       sums.listed = sums.touched;
@@ -246,7 +297,7 @@ void GaussianMap::DropFarCells(const Vector3& sensor_map) {
   for (std::size_t i = 0; i < num_to_visit; ++i) {
     if (++sweep_position_ >= cell_capacity()) sweep_position_ = 0;
     const auto cell = static_cast<std::int32_t>(sweep_position_);
-    if (!voxels_.IsUsed(cell)) continue;
+    if (!voxels_.IsUsed(cell) || voxels_.Of<Sums>(cell).is_kept) continue;
     if ((CentreOf(voxels_.key(cell)) - sensor_map).squaredNorm() > limit_sq) Remove(cell);
   }
 }

@@ -96,6 +96,12 @@ void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vecto
   for (GaussianMap& level : levels_) level.Insert(points_map, sensor_map, workers);
 }
 
+void MultiResolutionMap::InsertKept(std::span<const Vector3> points_map,
+                                    std::span<const Eigen::Vector3f> sides,
+                                    const Workers& workers) {
+  for (GaussianMap& level : levels_) level.InsertKept(points_map, sides, workers);
+}
+
 std::size_t MultiResolutionMap::num_cells() const {
   std::size_t num = 0;
   for (const GaussianMap& level : levels_) num += level.num_cells();

@@ -99,7 +99,8 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const Timestamp middle = outcome.sweep->middle();
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_place_sure = IsPlaceSure(outcome);
-  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu) && is_place_sure;
+  const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu) && is_place_sure &&
+                           !context_.place.is_map_locked();
   ScanReport report = Fuse(outcome, is_keyframe);
   if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;

@@ -55,7 +55,7 @@ PoseRow MakePoseRow(const FilterReport& filter) {
 
 class Odometry::Impl {
  public:
-  Impl(const Options& options, ClockNs clock)
+  Impl(const Options& options, ClockNs clock, StartIn start_in)
       : options_(Validated(options)),
         clock_(clock),
         stream_(MakeStreamOptions(options), counters_),
@@ -63,7 +63,10 @@ class Odometry::Impl {
         examiner_(options_.rig, options_.pipeline.use_imu),
         clocks_(options_),
         extrinsic_(options_),
-        mode_(std::make_unique<Mode>(Initializing(MakeContext(), {}))) {}
+        place_(start_in == StartIn::kInitialMap, options_.pipeline.map_locked),
+        mode_(std::make_unique<Mode>(Initializing(MakeContext(), {}))) {
+    outputs_.Mute(place_.is_seeking());
+  }
 
   void AddImu(const ImuSample& sample) {
     const std::int64_t begin_ns = NowNs();
@@ -88,6 +91,8 @@ class Odometry::Impl {
     if (in_flight_ || next >= sweeps_.size()) return std::nullopt;
     const std::int64_t begin_ns = NowNs();
     MatchJob job = std::visit([&](auto& mode) { return MakeJob(mode, sweeps_[next]); }, *mode_);
+    place_.Prepare(KindOf(*mode_) == ModeKind::kTracking, job);
+    outputs_.Mute(place_.is_seeking());
     in_flight_ = sweeps_[next];
     job.T_imu_lidar = extrinsic_.T_imu_lidar();
     job.filter_ns = std::exchange(filter_ns_, 0) + NowNs() - begin_ns;
@@ -103,6 +108,8 @@ class Odometry::Impl {
                             sweeps_[next] == in_flight;
     if (is_current) {
       GoOn(std::visit([&](auto& mode) { return Finish(mode, outcome, insert); }, *mode_));
+      if (place_.is_seeking()) TakePlace(outcome);
+      if (place_.is_map_locked()) insert.T_map_imu.reset();
       insert.points_imu = std::move(outcome.points_imu);
       insert.tags = std::move(outcome.tags);
     }
@@ -131,7 +138,9 @@ class Odometry::Impl {
     return outputs;
   }
   const Counters& counters() const { return counters_; }
-  TrackingStatus status() const { return StatusOf(*mode_); }
+  TrackingStatus status() const {
+    return place_.is_seeking() ? place_.status_while_seeking() : StatusOf(*mode_);
+  }
   Verdict Judge() const { return examiner_.Judge(counters_); }
   Trust trust() const { return examiner_.trust(); }
 
@@ -144,7 +153,8 @@ class Odometry::Impl {
             outputs_,   stream_,
             sweeps_,    convention_,
             clocks_,    extrinsic_,
-            imu_noise_, examiner_};
+            imu_noise_, examiner_,
+            place_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
   // The sweep in flight included.
@@ -155,6 +165,18 @@ class Odometry::Impl {
   std::optional<StreamEvent> NextEvent() {
     stream_.SetStampCorrection(clocks_.correction());
     return stream_.Next(NumUnmatched());
+  }
+
+  void TakePlace(const MatchOutcome& outcome) {
+    auto* tracking = std::get_if<Tracking>(mode_.get());
+    if (tracking == nullptr) return;
+    if (!outcome.place) {
+      outputs_.NotifyWaiting(outcome.sweep->end, "the place in the initial map is being sought");
+      return;
+    }
+    place_.SetFound();
+    outputs_.Mute(false);
+    tracking->EnterMap(*outcome.place, *outcome.sweep);
   }
 
   void ConsumeEvents() {
@@ -264,6 +286,7 @@ class Odometry::Impl {
   RigExaminer examiner_;
   ClockOffsetFollower clocks_;
   ExtrinsicFollower extrinsic_;
+  PlaceKnowledge place_;
   std::unique_ptr<Mode> mode_;
   SweepPtr in_flight_;  // the sweep whose job is out
   // Sweeps in the queue that one message set free together, as after a gap of the inertial stream.
@@ -271,8 +294,8 @@ class Odometry::Impl {
   std::int64_t filter_ns_ = 0;  // CPU time of the filter since the last job
 };
 
-Odometry::Odometry(const Options& options, ClockNs clock)
-    : impl_(std::make_unique<Impl>(options, clock)) {}
+Odometry::Odometry(const Options& options, ClockNs clock, StartIn start_in)
+    : impl_(std::make_unique<Impl>(options, clock, start_in)) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;

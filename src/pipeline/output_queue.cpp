@@ -10,6 +10,10 @@ constexpr double kWaitingEvery_s = 1.0;  // a person reads no faster
 }  // namespace
 
 void OutputQueue::Add(Output output) {
+  if (is_muted_) {
+    if (std::holds_alternative<NavOutput>(output)) return;
+    if (auto* scan = std::get_if<ScanOutput>(&output)) scan->filter.reset();
+  }
   outputs_.push_back(std::move(output));
 }
 

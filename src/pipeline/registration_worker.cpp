@@ -79,19 +79,23 @@ struct RegistrationWorker::ScanInWork {
 };
 
 RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
-                                       const std::vector<double>& beam_elevations_rad)
+                                       const std::vector<double>& beam_elevations_rad,
+                                       const InitialMapPtr& initial_map)
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
       clock_(clock),
       warms_up_densely_(options.pipeline.method == MatchMethod::kNdt),
       filter_(options.rig.lidar),
       reducer_(MakeReducer(options, beam_elevations_rad)),
-      matcher_(MakeMatcher(options)) {}
+      matcher_(MakeMatcher(options)) {
+  if (initial_map) initial_ = std::make_unique<InitialMapEntry>(*initial_map, MakeMatcher(options));
+}
 
 void RegistrationWorker::AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const {
   outcome.stage_ns[static_cast<std::size_t>(stage)] += Now() - since_ns;
 }
 
 void RegistrationWorker::ClearMap(const Vector3& up_map) {
+  if (initial_) initial_->Leave(matcher_);
   matcher_->Clear();
   matcher_->SetUp(up_map);
   relocalizer_.Clear();
@@ -200,10 +204,17 @@ void RegistrationWorker::FinishMatch(const Track& task, ScanInWork& scan) {
     if (task.holds_degenerate) {
       relocalizer_.HoldDegenerate(outcome.points_imu, job.prior.up_map, outcome.match);
     }
+    if (job.seeks_place && initial_) SeekPlace(scan);
     AddTime(Stage::kMatch, begin, outcome);
     relocalizer_.SetLocated(job.sweep->middle(), std::move(scan.to_match), outcome.match);
   }
-  if (job.map_action != MapAction::kKeep && warms_up_densely_) TakeDensePoints(scan);
+  const bool warms_up = job.map_action == MapAction::kWarmUp || job.map_action == MapAction::kClear;
+  if (warms_up && warms_up_densely_) TakeDensePoints(scan);
+}
+
+void RegistrationWorker::SeekPlace(ScanInWork& scan) {
+  MatchOutcome& outcome = scan.outcome;
+  outcome.place = initial_->Seek({scan.to_match, outcome.match}, outcome.points_imu, scan.budget);
 }
 
 MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
@@ -213,6 +224,10 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   outcome.sweep = job.sweep;
   if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
   if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
+  if (job.map_action == MapAction::kEnter && initial_) {
+    initial_->Enter(matcher_);
+    relocalizer_.Clear();
+  }
 
   std::int64_t begin = Now();
   scan.reduced = reducer_->Reduce(sweep);

@@ -100,13 +100,16 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool is_sought = outage_.stage() == OutageRecovery::Stage::kSeek ||
                          outage_.stage() == OutageRecovery::Stage::kCheck;
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  const bool is_keyframe = !is_sought && keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
+                           keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
-  GrowMap(outcome, report, is_keyframe, verdict.rebases_map && !is_sought, insert);
+  // An initial map is not of this path, so it never goes on from a prediction.
+  const bool rebases_map = verdict.rebases_map && !is_sought && !context_.place.is_inside();
+  GrowMap(outcome, report, is_keyframe, rebases_map, insert);
   AddScanAfterOutage(outcome, report.fused);
   if (report.fused || starts_map) {
     handover_.last_fused = end;

@@ -74,11 +74,15 @@ void Tracking::NotifyFound(Timestamp end) {
 
 // The scans after the one that was found contradict it.
 void Tracking::ForgetPlace(Timestamp end) {
+  BeginHistoryAt(AcrossOutage(outage_.before(), end));
+}
+
+void Tracking::BeginHistoryAt(const Estimate& estimate) {
   const auto& samples = context_.stream.imu().samples();
-  history_ = FilterHistory(HistoryOptionsAt(end), AcrossOutage(outage_.before(), end),
-                           SampleAt(samples, end));
+  history_ =
+      FilterHistory(HistoryOptionsAt(estimate.stamp), estimate, SampleAt(samples, estimate.stamp));
   for (const ImuSample& sample : samples) {
-    if (sample.stamp > end) (void)history_.AddImu(sample);
+    if (sample.stamp > estimate.stamp) (void)history_.AddImu(sample);
   }
 }
 

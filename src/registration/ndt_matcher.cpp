@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lio/map/grazing_incidence.hpp"
+#include "lio/map/surface_sides.hpp"
 #include "lio/registration/match_loop.hpp"
 #include "lio/registration/registration_parameters.hpp"
 #include "lio/registration/well_constrained_translation.hpp"
@@ -69,17 +70,30 @@ void NdtMatcher::SetUp(const Vector3& up_map) {
   map_.SetUp(GridFromMap().rotation * up_map);
 }
 
+std::vector<Vector3> NdtMatcher::InGrid(std::span<const Eigen::Vector3f> points,
+                                        const Pose& T_grid_points) const {
+  const Matrix3 rotation = T_grid_points.rotation.toRotationMatrix();
+  std::vector<Vector3> points_grid(points.size());
+  workers_.ForEachBlock(points_grid.size(), [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      points_grid[i] = rotation * points[i].cast<double>() + T_grid_points.translation;
+    }
+  });
+  return points_grid;
+}
+
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   sensor_imu_ = scan.sensor_imu;
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
-  const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
-  std::vector<Vector3> points_grid(scan.points_imu.size());
-  workers_.ForEachBlock(points_grid.size(), [&](const Block& block) {
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      points_grid[i] = rotation * scan.points_imu[i].cast<double>() + T_grid_imu.translation;
-    }
-  });
-  map_.Insert(points_grid, T_grid_imu * scan.sensor_imu, workers_);
+  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.sensor_imu, workers_);
+}
+
+bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
+  std::vector<Eigen::Vector3f> sides = SurfaceSides(points_map, workers_);
+  const Eigen::Matrix3f rotation = GridFromMap().rotation.toRotationMatrix().cast<float>();
+  for (Eigen::Vector3f& side : sides) side = rotation * side;
+  map_.InsertKept(InGrid(points_map, GridFromMap()), sides, workers_);
+  return true;
 }
 
 void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m) {
@@ -124,7 +138,7 @@ NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, const Eigen::Ve
   const SurfacePatch& patch = map_.patch(hit.cell);
   if (patch.kind == SurfacePatch::Kind::kVertical) {
     if (!with_vertical) return {};
-  } else if (IsFromBehind(patch.normal, view)) {
+  } else if (!patch.is_two_sided && IsFromBehind(patch.normal, view)) {
     return {};
   }
   return {hit.cell, hit.local - patch.mean};

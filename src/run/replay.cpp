@@ -16,8 +16,13 @@ namespace lio {
 Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer)
     : settings_(settings),
       writer_(writer),
-      odometry_(options, ThreadCpuNs),
-      worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model)) {}
+      odometry_(options, ThreadCpuNs,
+                settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap),
+      worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model), settings.initial_map) {
+  if (settings_.writes_map && settings_.initial_map) {
+    map_.Add(settings_.initial_map->points, Pose::Identity());
+  }
+}
 
 void Replay::Run(LogInput& input) {
   const auto begin = std::chrono::steady_clock::now();
@@ -55,7 +60,8 @@ void Replay::Match() {
     if (num_messages_to_wait_ > 0) break;
     const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
     worker_.Insert(insert);
-    if (settings_.writes_map && insert.T_map_imu) map_.Add(insert.points_imu, *insert.T_map_imu);
+    const bool grows_map = insert.T_map_imu && worker_.is_in_map();
+    if (settings_.writes_map && grows_map) map_.Add(insert.points_imu, *insert.T_map_imu);
   }
   TakeOutputs();
 }
@@ -63,7 +69,7 @@ void Replay::Match() {
 bool Replay::StartMatch() {
   const std::optional<MatchJob> job = odometry_.NextJob();
   if (!job) return false;
-  if (job->map_action == MapAction::kClear) map_.Clear();
+  if (job->map_action == MapAction::kClear && !settings_.initial_map) map_.Clear();
   outcome_ = worker_.Run(*job);
   num_messages_to_wait_ = settings_.match_lag;
   return true;

@@ -34,7 +34,7 @@ void ExpectNoFault(const std::string& fault) {
 TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {
   std::vector<std::int32_t> done;
   MatchWorker worker(
-      Options{}, ThreadCpuNs, true,
+      Options{}, ThreadCpuNs, true, nullptr,
       [&](const MatchOutcome& outcome) { done.push_back(outcome.sweep->scan_seq); }, ExpectNoFault);
   for (int i = 0; i < 20; ++i) {
     worker.Tell(SomePoints());
@@ -49,7 +49,7 @@ TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {
 
 TEST(MatchWorker, TheMapsPointsAreCollectedOnlyWhenAskedFor) {
   MatchWorker worker(
-      Options{}, ThreadCpuNs, false, [](const MatchOutcome&) {}, ExpectNoFault);
+      Options{}, ThreadCpuNs, false, nullptr, [](const MatchOutcome&) {}, ExpectNoFault);
   worker.Tell(SomePoints());
   worker.Finish();
   EXPECT_TRUE(worker.map_cloud().points_map().empty());
@@ -57,7 +57,7 @@ TEST(MatchWorker, TheMapsPointsAreCollectedOnlyWhenAskedFor) {
 
 TEST(MatchWorker, ANewMapForgetsTheOldOnesPoints) {
   MatchWorker worker(
-      Options{}, ThreadCpuNs, true, [](const MatchOutcome&) {}, ExpectNoFault);
+      Options{}, ThreadCpuNs, true, nullptr, [](const MatchOutcome&) {}, ExpectNoFault);
   worker.Tell(SomePoints());
   MatchJob job = EmptyJob(1);
   job.map_action = MapAction::kClear;
@@ -70,7 +70,7 @@ TEST(MatchWorker, AFaultIsReportedOnceAndEndsTheWork) {
   std::vector<std::string> faults;
   int num_delivered = 0;
   MatchWorker worker(
-      Options{}, ThreadCpuNs, true,
+      Options{}, ThreadCpuNs, true, nullptr,
       [&](const MatchOutcome&) {
         ++num_delivered;
         throw std::runtime_error("nobody takes it");

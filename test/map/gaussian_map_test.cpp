@@ -72,6 +72,60 @@ TEST(GaussianMap, MoreThreadsMakeTheSameMap) {
   }
 }
 
+void InsertKept(const std::vector<Vector3>& points, const Eigen::Vector3f& side, GaussianMap& map) {
+  map.InsertKept(points, std::vector<Eigen::Vector3f>(points.size(), side));
+}
+
+// A slab is thinner than a cell: its upper side is the cell's surface.
+TEST(GaussianMap, KeptCellsShowOneOfTwoSheets) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 1, 0);
+  std::vector<Vector3> points = PlanePoints(centre - Vector3(0, 0, 0.2), Vector3::UnitZ(), 60, 1);
+  std::vector<Eigen::Vector3f> sides(60, {0, 0, -1});
+  for (const Vector3& point : PlanePoints(centre + Vector3(0, 0, 0.2), Vector3::UnitZ(), 60, 2)) {
+    points.push_back(point);
+    sides.emplace_back(0, 0, 1);
+  }
+  map.InsertKept(points, sides);
+  const SurfacePatch& patch = PatchAt(map, centre);
+  EXPECT_GT(patch.thickness_var, 0.f);
+  EXPECT_GT(std::abs(patch.normal.z()), 0.9f);
+  EXPECT_NEAR(patch.mean.z(), 0.2f, 0.02f);
+}
+
+// Nobody knows from where the points of a saved map were seen, so that its walls have two sides.
+TEST(GaussianMap, KeptCellsShowSurfacesOfTwoSides) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 1, 0);
+  InsertKept(PlanePoints(centre, Vector3::UnitX(), 60), {0, 0, 0}, map);
+  EXPECT_GT(PatchAt(map, centre).thickness_var, 0.f);
+  EXPECT_TRUE(PatchAt(map, centre).is_two_sided);
+  const float before = PatchAt(map, centre).num_points;
+  for (const double sensor_x : {-20.0, 20.0}) {
+    map.Insert(PlanePoints(centre, Vector3::UnitX(), 10, 2), {sensor_x, 0, 0});
+  }
+  EXPECT_EQ(PatchAt(map, centre).num_points, before + 20.f) << "scans of both sides add to it";
+  EXPECT_TRUE(PatchAt(map, centre).is_two_sided);
+}
+
+TEST(GaussianMap, KeptCellsStayAndDoNotCountForTheBound) {
+  NdtOptions options = TestOptions();
+  options.max_cells = 10;
+  options.max_distance_m = 50.0;
+  GaussianMap map(options);
+  for (int i = 0; i < 30; ++i) {
+    InsertKept(PlanePoints(CentreOf(i, 0, 0), {0, 0, 1}, 20), {0, 0, 1}, map);
+  }
+  const std::size_t num_kept = map.num_cells();
+  EXPECT_GE(num_kept, 30u);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 far = CentreOf(1000 + 5 * i, 0, 0);
+    map.Insert(PlanePoints(far, {0, 0, 1}, 20), far);
+    EXPECT_LE(map.num_cells(), num_kept + 10);
+  }
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(Has(map, CentreOf(i, 0, 0))) << i;
+}
+
 TEST(GaussianMap, NormalsPointToTheSideThatWasSeen) {
   for (const double side : {-5.0, 5.0}) {
     GaussianMap map(TestOptions());

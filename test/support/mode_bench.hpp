@@ -53,12 +53,14 @@ class ModeBench {
             outputs_,   stream_,
             sweeps,     convention_,
             clocks_,    extrinsic_,
-            imu_noise_, examiner};
+            imu_noise_, examiner,
+            place};
   }
 
   const ExtrinsicFollower& extrinsic() const { return extrinsic_; }
 
   RigExaminer examiner;
+  PlaceKnowledge place{false, false};
 
   // Units that the messages are sent in, per SI unit.
   double force_scale = 1.0;

@@ -29,4 +29,16 @@ inline void AddPost(const Eigen::Vector2f& place, const Eigen::Vector2f& sensor,
   }
 }
 
+// Adds a column 0.3 m wide as many scans see it: on its edges a point every 0.1 m.
+inline void AddColumn(const Eigen::Vector2f& place, Points& points) {
+  for (int i = 0; i < 30; ++i) {
+    for (const Eigen::Vector2f& edge :
+         {Eigen::Vector2f(-0.15f, -0.15f), Eigen::Vector2f(0.15f, -0.15f),
+          Eigen::Vector2f(-0.15f, 0.15f), Eigen::Vector2f(0.15f, 0.15f)}) {
+      const Eigen::Vector2f at = place + edge;
+      points.emplace_back(at.x(), at.y(), -1.8f + 0.1f * static_cast<float>(i));
+    }
+  }
+}
+
 }  // namespace lio::test

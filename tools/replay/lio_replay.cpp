@@ -8,6 +8,7 @@
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
+#include "lio/io/initial_map_file.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/replay.hpp"
 
@@ -22,6 +23,7 @@ struct ReplayArguments {
   std::optional<int> num_threads;
   bool writes_map = false;
   std::string map_format = "pcd";
+  InitialMapArguments initial_map;
   double start_s = 0.0;
   double duration_s = std::numeric_limits<double>::infinity();
   int match_lag = 0;
@@ -44,9 +46,11 @@ constexpr const char* kExamples =
     "  lio-replay --config config/ulhk.yaml drive.lcm --out out/drive\n"
     "  lio-replay --config config/ulhk.yaml --set pipeline.use_imu=false drive.lcm --out "
     "out/lidar\n"
-    "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n\n"
+    "  lio-replay --config config/default.yaml --config my_rig.yaml drive.lcm --out out --map\n"
+    "  lio-replay --config my_rig.yaml next.lcm --out next --initial-map out/map.pcd\n\n"
     "Exit codes: 0 done, 2 usage, 3 configuration (also one that the log's data contradict),\n"
-    "5 damaged, missing or unusable log, 6 done, but the result cannot be trusted: verdict.json\n"
+    "5 damaged, missing or unusable log or map, 6 done, but the result cannot be trusted: "
+    "verdict.json\n"
     "and the summary on stdout say why and what to put into the configuration.";
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
@@ -67,6 +71,7 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->needs("--map")
       ->check(CLI::IsMember({"pcd", "ply"}))
       ->capture_default_str();
+  AddInitialMapArguments(app, arguments.initial_map);
   AddSpanArguments(app, arguments.start_s, arguments.duration_s);
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->type_name("NAME")
@@ -116,15 +121,20 @@ int Main(int argc, char** argv) {
     fmt::print(stderr, "lio-replay: {}\n", why);
     return kExitUnusableInput;
   }
+  ReplaySettings settings;
+  if (const auto code =
+          LoadInitialMap("lio-replay", arguments.initial_map, options, settings.initial_map)) {
+    return *code;
+  }
   LogInput input(arguments.log, input_options);
   std::optional<RunWriter> writer;
   try {
-    writer.emplace(arguments.out, options);
+    writer.emplace(arguments.out, options,
+                   settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap);
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
     return kExitUsage;
   }
-  ReplaySettings settings;
   settings.program = "lio-replay";
   settings.writes_map = arguments.writes_map;
   settings.map_format = arguments.map_format == "ply" ? MapFormat::kPly : MapFormat::kPcd;

@@ -27,6 +27,7 @@ struct Arguments {
   std::string scenario;
   std::optional<double> duration_s;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> sensor_seed;
   std::string lidar;
   std::string imu;
   std::optional<double> imu_rate_hz;
@@ -114,6 +115,9 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.seed, "seed of the world and of the noise")
       ->check(WholeNumberFromZero())
       ->capture_default_str();
+  app.add_option("--sensor-seed", arguments.sensor_seed,
+                 "seed of the sensors' errors alone: another recording of the same drive")
+      ->check(WholeNumberFromZero());
   app.add_option("--lidar", arguments.lidar,
                  "lidar model: hdl32e, vlp16, hdl64e, os1_64 or a data file like theirs");
   app.add_option("--imu", arguments.imu,
@@ -162,7 +166,7 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   }
   sim::SetRealism(arguments.realism, arguments.effects, options);
   options.scans = arguments.scans;
-  options.seed = arguments.seed;
+  options.seed = arguments.sensor_seed.value_or(arguments.seed);
   options.num_threads = arguments.num_threads;
   return options;
 }

@@ -18,12 +18,14 @@ namespace lio {
 class LevelTrack {
  public:
   // Removes the files of an earlier run. Throws std::runtime_error naming the file when it cannot
-  // be written; so do the others.
-  explicit LevelTrack(const std::filesystem::path& folder);
+  // be written; so do the others. Without `turns_map` the path stays in the map's frame: that of a
+  // map saved before.
+  explicit LevelTrack(const std::filesystem::path& folder, bool turns_map = true);
 
   // `clock_correction`: what the estimated clock offset has added to the stamp.
   void Add(const FilterReport& filter, Duration clock_correction);
-  // From the map's frame to the level one, by the last row; the identity when no gravity was felt.
+  // From the map's frame to the level one, by the last row; the identity when no gravity was felt
+  // and where the map is not turned.
   [[nodiscard]] Quaternion R_level_map() const;
   // Writes the two files, unless nothing levels the path: no gravity was felt.
   void Finish();
@@ -46,6 +48,7 @@ class LevelTrack {
   std::filesystem::path rows_path_;
   std::fstream rows_;
   Row last_;
+  bool turns_map_;
   bool is_level_known_ = false;
 };
 

@@ -21,7 +21,8 @@ class RowFiles {
  public:
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
   // naming the file when it cannot; so do the others when a file could not be written in full.
-  RowFiles(const std::filesystem::path& folder, bool has_base);
+  // `turns_map`: LevelTrack.
+  RowFiles(const std::filesystem::path& folder, bool has_base, bool turns_map = true);
 
   // A row that is not later than the one before is left out and counted. `trust` is that of the run
   // so far, where the caller knows it.

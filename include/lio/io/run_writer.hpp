@@ -21,6 +21,8 @@
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
+// A run that starts in a map saved before has all in the frame of that map: nothing is turned.
+//
 // When the clock goes back, as when a log is played again to a running daemon, these files go on
 // where the time that they have is passed. All rows from the step on stand in segment_2/ besides,
 // those from the next one on in segment_3/ and so on, under the same names.
@@ -59,7 +61,8 @@ class RunWriter {
  public:
   // Creates the folder when it is missing and overwrites the files of earlier runs. Throws
   // std::runtime_error naming the file when it cannot.
-  RunWriter(const std::filesystem::path& folder, const Options& options);
+  RunWriter(const std::filesystem::path& folder, const Options& options,
+            StartIn start_in = StartIn::kNewMap);
 
   // A row that is not later than the one before is left out and counted in stats.json; one that
   // steps back by more than 0.1 s begins a segment. `trust` is that of the run so far, where
@@ -78,6 +81,7 @@ class RunWriter {
 
   std::filesystem::path folder_;
   bool has_base_;
+  bool turns_map_;                   // LevelTrack
   RowFiles whole_;                   // the run as one
   std::optional<RowFiles> segment_;  // since the last step back of the clock
   std::optional<Timestamp> last_sweep_;

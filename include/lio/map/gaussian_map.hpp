@@ -39,6 +39,9 @@ struct alignas(64) SurfacePatch {
   float num_points = 0.f;
   Eigen::Vector3f tangent1_per_std = Eigen::Vector3f::Zero();  // tangent / sqrt(its variance)
   Eigen::Vector3f tangent2_per_std = Eigen::Vector3f::Zero();
+  // A plane whose normal may point to either side, since its points are those of a saved map.
+  // Points far off it are of another surface.
+  bool is_two_sided = false;
 };
 
 class GaussianMap {
@@ -70,6 +73,12 @@ class GaussianMap {
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
 
+  // Adds points of which nobody knows where they were seen from, such as those of a saved map.
+  // `sides` (surface_sides.hpp): of each point. Their cells stay for good: they are neither dropped
+  // nor counted for max_cells.
+  void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
+                  const Workers& workers = Workers(1));
+
   std::size_t num_cells() const { return voxels_.size(); }
   // Upper bound of cell indices, for scratch arrays beside the map.
   std::size_t cell_capacity() const { return voxels_.capacity(); }
@@ -89,12 +98,17 @@ class GaussianMap {
     std::uint32_t touched = 0;   // number of the last scan that added to it
     std::uint32_t listed = 0;    // ... when the cell was put last in the order of age
     bool is_known = false;       // the points show a plane or a vertical structure
+    bool is_kept = false;
   };
 
   Place PlaceOf(const Vector3& point_map) const;
   // Finds or makes each place's cell.
   void FindCells();
-  void AddPoints(std::span<const Vector3> points_map, const Vector3& sensor_map);
+  // `view_of(i)`: along the beam that saw the point, unit; or zero.
+  template <class ViewOf>
+  void Add(std::span<const Vector3> points_map, const ViewOf& view_of, const Workers& workers);
+  template <class ViewOf>
+  void AddPoints(const ViewOf& view_of);
   void Prefetch(std::int32_t cell) const;
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void UpdatePatch(std::int32_t cell);
@@ -114,6 +128,7 @@ class GaussianMap {
   std::vector<Place> places_;
   std::vector<std::int32_t> cells_;  // of the places
   std::vector<std::int32_t> touched_cells_;
+  std::size_t num_kept_ = 0;
   std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
   std::uint32_t scan_number_ = 0;
 };

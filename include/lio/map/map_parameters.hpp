@@ -31,6 +31,9 @@ struct GaussianMapParameters {
   // So many points a cell remembers that shows no surface yet, so that the rings of a stop do not
   // hide what is seen while driving off. Chosen.
   static constexpr int kUnknownMemory_points = 100;
+  // The mean view of a saved map's cell, whose points have views of one or zero, is at least so
+  // long if the cell has one side. Chosen: half of the points.
+  static constexpr float kMinView = 0.5f;
   // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
   // filled cell changes little with each point. Chosen.
   static constexpr double kRefitGrowth = 1.3;
@@ -55,6 +58,24 @@ struct MultiResolutionParameters {
 struct GrazingIncidenceParameters {
   // Sine of the least angle, 3.4 deg; values from 0.045 to 0.09 give the same results.
   static constexpr float kMinSine = 0.06f;
+};
+
+// The two sheets of slabs and walls in a cloud without viewpoints.
+struct SurfaceSidesParameters {
+  // Neighbours of a point count up to there [m]: floors of buildings are 0.2 to 0.4 m thick.
+  static constexpr float kRadius_m = 0.5f;
+  // Points nearer to a sheet than this lie on it [m]: three times the range noise; partition walls
+  // are 0.1 m thick and more.
+  static constexpr float kOwnSheet_m = 0.07f;
+  static constexpr float kMaxSheetStd_m = 0.05f;  // of the other sheet across itself; chosen
+  // Nothing joins the sheets if so small a share of points is nearer than the gap: of a wall that
+  // stands on a floor a fifth would be. Chosen.
+  static constexpr float kGap_m = 0.15f;
+  static constexpr float kMaxShareInGap = 0.08f;
+  // Share of a voxel's points that have a side for it to hold: half of them are of the other sheet,
+  // and those at beams and edges have none. Chosen.
+  static constexpr double kMinShare = 0.2;
+  static constexpr int kMinPoints = 4;  // of the other sheet; chosen
 };
 
 struct KeyframeMapParameters {

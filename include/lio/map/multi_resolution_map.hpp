@@ -45,6 +45,9 @@ class MultiResolutionMap {
   // Adds a scan taken from `sensor_map`, to all levels.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1));
+  // As GaussianMap::InsertKept(), in all levels.
+  void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
+                  const Workers& workers = Workers(1));
 
   std::size_t num_levels() const { return levels_.size(); }
   std::size_t num_cells() const;

@@ -14,6 +14,7 @@
 #include "lio/pipeline/outputs.hpp"
 #include "lio/registration/motion_prior.hpp"
 #include "lio/registration/scan_matcher.hpp"
+#include "lio/relocalization/place_contest.hpp"
 #include "lio/relocalization/search_request.hpp"
 #include "lio/scan/feature_tag.hpp"
 #include "lio/scan/loam_features.hpp"
@@ -45,6 +46,7 @@ enum class MapAction : std::int8_t {
   kKeep,
   kWarmUp,  // this scan is inserted with all its points, as the map is still thin
   kClear,   // forget the map and all earlier scans first; then as kWarmUp
+  kEnter,   // from this scan on the map is the initial one
 };
 
 struct MatchJob {
@@ -55,6 +57,7 @@ struct MatchJob {
   bool refines_deskew = false;  // match, deskew again along what was found, match again
   // The extrinsic that trajectory and prior are of. Absent: the rig has it.
   std::optional<Pose> T_imu_lidar = std::nullopt;
+  bool seeks_place = false;  // seek the map's place in the initial map besides
   std::variant<Track, FindVelocity, Relocalize> task;
   std::int64_t filter_ns = 0;  // CPU time the filter has spent since the job before
 };
@@ -66,6 +69,7 @@ struct MatchOutcome {
   bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
   std::optional<Vector3> v_map_imu_mps;  // of FindVelocity; absent while no velocity is clear
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
+  std::optional<FoundPlace> place;       // of the map in the initial map, with seeks_place
   int num_matches = 0;                   // full matches of the scan against the map
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;

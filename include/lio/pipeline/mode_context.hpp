@@ -13,6 +13,7 @@
 #include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/output_queue.hpp"
+#include "lio/pipeline/place_knowledge.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
 
@@ -33,6 +34,7 @@ struct ModeContext {
   ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
   RigExaminer& examiner;
+  const PlaceKnowledge& place;
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 };

@@ -46,10 +46,14 @@ struct ScanOutput {
 
 using Output = std::variant<ScanOutput, NavOutput, Notice>;
 
+// The map of the first scans: their own, or one that the registration worker was given.
+enum class StartIn : std::int8_t { kNewMap, kInitialMap };
+
 class Odometry {
  public:
   // Throws std::invalid_argument naming every fault of the options.
-  explicit Odometry(const Options& options, ClockNs clock = nullptr);
+  explicit Odometry(const Options& options, ClockNs clock = nullptr,
+                    StartIn start_in = StartIn::kNewMap);
   ~Odometry();
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;

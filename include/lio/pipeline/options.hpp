@@ -32,6 +32,7 @@ struct PipelineOptions {
   int num_threads = 1;  // matching may use so many; results do not depend on it
   double incomplete_sweep_wait_s =
       0.05;                  // an incomplete sweep is closed when the IMU is this far on
+  bool map_locked = false;   // the initial map stays as it is
   int max_queued_scans = 5;  // live only: more waiting scans than this, and the oldest is dropped
   bool publish_features = false;  // live only, method loam only: each scan's edge and surface sets
 };

@@ -116,6 +116,7 @@ void VisitFields(Visitor& visit, MaybeConst<PipelineOptions> auto& o) {
         "method ndt: threads that matching may use; results do not depend on it", Range{1, 64});
   visit("incomplete_sweep_wait_s", o.incomplete_sweep_wait_s,
         "an incomplete sweep is closed when the IMU is this far past its end [s]", Range{0, 1});
+  visit("map_locked", o.map_locked, "with --initial-map: scans leave that map as it is");
   visit("max_queued_scans", o.max_queued_scans,
         "live only: with more waiting scans the oldest is dropped", Range{1, 1000});
   visit("publish_features", o.publish_features,

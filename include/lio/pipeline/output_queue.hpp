@@ -14,6 +14,8 @@ namespace lio {
 class OutputQueue {
  public:
   void Add(Output output);
+  // While muted, poses are left out: reports of matches and notices pass.
+  void Mute(bool is_muted) { is_muted_ = is_muted; }
   void Notify(Timestamp stamp, Notice::Severity severity, std::string text);
   // Says why something still waits; once a second of sensor time at most.
   void NotifyWaiting(Timestamp stamp, std::string text);
@@ -22,6 +24,7 @@ class OutputQueue {
  private:
   std::vector<Output> outputs_;
   Timestamp last_waiting_;
+  bool is_muted_ = false;
 };
 
 }  // namespace lio

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "lio/pipeline/initial_map_entry.hpp"
 #include "lio/pipeline/match_job.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/registration/scan_matcher.hpp"
@@ -19,16 +20,20 @@ namespace lio {
 
 class RegistrationWorker {
  public:
-  // Same options as the Odometry's; throws std::invalid_argument as that does.
-  // `beam_elevations_rad`: of the lidar's model, lowest beam first; only LOAM wants them, for
-  // sweeps without rings.
+  // Same options as the Odometry's; throws std::invalid_argument as that does, and as
+  // InitialMapEntry does. `beam_elevations_rad`: of the lidar's model, lowest beam first; only LOAM
+  // wants them, for sweeps without rings.
   explicit RegistrationWorker(const Options& options, ClockNs clock = nullptr,
-                              const std::vector<double>& beam_elevations_rad = {});
+                              const std::vector<double>& beam_elevations_rad = {},
+                              const InitialMapPtr& initial_map = nullptr);
 
   [[nodiscard]] MatchOutcome Run(const MatchJob& job);
   void Insert(const InsertTask& task);
 
   const ScanMatcher& matcher() const { return *matcher_; }
+  // Scans that are inserted now go into the map that the run is about: the initial one, if there
+  // is one.
+  [[nodiscard]] bool is_in_map() const { return !initial_ || initial_->is_inside(); }
 
  private:
   struct ScanInWork;  // what the steps of one job share
@@ -45,6 +50,7 @@ class RegistrationWorker {
   void Search(const SearchRequest& request, ScanInWork& scan);
   void RefineDeskew(ScanInWork& scan);
   void FinishMatch(const Track& task, ScanInWork& scan);
+  void SeekPlace(ScanInWork& scan);
   void TakeDensePoints(ScanInWork& scan);
 
   Pose T_imu_lidar_;  // of the last job
@@ -54,6 +60,7 @@ class RegistrationWorker {
   std::unique_ptr<SweepReducer> reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
   Relocalizer relocalizer_;
+  std::unique_ptr<InitialMapEntry> initial_;  // null: no initial map
   std::int64_t last_insert_ns_ = 0;
 };
 

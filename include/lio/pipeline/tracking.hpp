@@ -39,6 +39,9 @@ class Tracking {
   // Carries the state over a gap or a step of the clock, unsure of what happened in between.
   void StartSegment(const SegmentStarts& segment);
 
+  // The map so far was found in the initial one: goes on there, from the sweep that was found.
+  void EnterMap(const FoundPlace& place, const Sweep& sweep);
+
   // Goes on without the IMU, in the same world and map.
   [[nodiscard]] Transition TakeImuAbsent(const ImuAbsent& event) const;
 
@@ -64,6 +67,7 @@ class Tracking {
   void NotifyFound(Timestamp end);
   void ForgetPlace(Timestamp end);
   void LeaveMap(Timestamp stamp);
+  void BeginHistoryAt(const Estimate& estimate);
   bool IsAfterClockStep(const Sweep& sweep) const;
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);

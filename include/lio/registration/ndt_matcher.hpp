@@ -44,6 +44,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
 
   MatchResult Match(const MatchInput& input) override;
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
+  bool InsertKept(std::span<const Eigen::Vector3f> points_map) override;
   double FixedCorrespondenceCost(const MatchInput& input, const Pose& T_map_imu) const override;
   void Clear() override;
   void SetUp(const Vector3& up_map) override;
@@ -78,6 +79,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   [[nodiscard]] std::size_t FinestLevel(const MatchInput& input, double radius_m) const {
     return input.is_far_off ? map_.num_levels() - 1 : map_.LevelFor(radius_m);
   }
+  std::vector<Vector3> InGrid(std::span<const Eigen::Vector3f> points,
+                              const Pose& T_grid_points) const;
   void Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m);
   // Counts each cell's points, in one thread. The counts set weights alone, and are kept while the
   // pose hardly moves.

@@ -75,6 +75,11 @@ class ScanMatcher {
 
   virtual MatchResult Match(const MatchInput& input) = 0;
   virtual void Insert(const ScanView& scan, const Pose& T_map_imu) = 0;
+  // Adds the points of a saved map, which stay for good. False, and nothing is added, where the
+  // method has no use for points without a scan.
+  [[nodiscard]] virtual bool InsertKept(std::span<const Eigen::Vector3f> /*points_map*/) {
+    return false;
+  }
   virtual void Clear() = 0;
   // The vertical's direction in the map, to some 10 deg; to be called before the first Insert().
   virtual void SetUp(const Vector3& /*up_map*/) {}

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace lio {
 
@@ -79,6 +80,83 @@ struct PlaceVerificationParameters {
   double much_nearer = 0.3;    // times as far, for a match that is near one of two poses; chosen
 };
 
+// Things that stand up in a cloud, in voxels.
+struct StandingPointsParameters {
+  float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
+  int min_points = 5;      // of a voxel that shows how its points spread; chosen
+  float min_std_m = 0.2f;  // of their height: a wall through the whole voxel has 0.29
+  float column_m = 0.5f;   // edge of a column, which gives one structure; as BirdsEyeView's
+};
+
+// After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
+// a pyramid of grids.
+struct MapSearchParameters {
+  float cell_m = 0.5f;                // of the finest grid; chosen: matching converges from there
+  int num_levels = 7;                 // cells of 0.5 to 32 m; chosen
+  int max_cells_per_side = 8192;      // 4 km, whose grids take 220 MB; chosen
+  float step_rad = 0.0175f;           // a cell at 30 m
+  int num_refine_steps = 4;           // fine steps to each side, over what a score is the same
+  float margin_m = 10.f;              // so far beyond the points of the map a body may be; chosen
+  std::size_t max_structures = 120;   // bounds the cost; chosen
+  float max_range_m = 40.f;           // of structures, where a step of the turn is 0.7 m
+  double min_share = 0.4;             // of the structures, that must be in the map; chosen
+  double min_score_ratio = 0.88;      // of the best score; chosen
+  std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
+  std::size_t max_nodes = 4'000'000;  // that wait; 48 MB
+  // Look-ups in a grid for one scan: about 20 ms.
+  std::int64_t max_lookups_per_scan = 4'000'000;
+};
+
+struct HeightVotesParameters {
+  float column_m = 0.5f;
+  float bin_m = 0.25f;
+  std::size_t max_points = 400;  // that vote; chosen
+  double min_vote_ratio = 0.6;   // of the votes for the best height; chosen
+  float apart_m = 1.f;           // two heights nearer than this are one; chosen
+  std::size_t max_heights = 4;   // storeys that are tried; chosen
+};
+
+struct GatheredCloudParameters {
+  float thin_m = 0.25f;              // the cloud has a point in each such voxel; as map.pcd, nearly
+  float max_range_m = 40.f;          // from the body, of what is sought; as MapSearchParameters
+  std::size_t max_points = 400'000;  // then it begins anew; chosen: some hundred metres of a street
+  std::size_t max_sample = 2000;     // points that stand for the cloud: as many as of a scan
+};
+
+struct PlaceContestParameters {
+  int num_coarse_points = 800;     // as many as come to a surface need be 50; chosen
+  int max_coarse_per_scan = 20;    // coarse matches of a scan; chosen: some milliseconds
+  std::size_t max_contenders = 8;  // places that are followed; chosen
+  double min_support_ratio = 0.5;  // of the best coarse match, for a place to be followed; chosen
+  double settled_std_m = 0.1;      // of a place that matched the scan before; chosen
+  double settled_std_rad = 0.01;
+  // Share of the points on surfaces of those that come to one, over that of the scan in its own new
+  // map: 0.96 and more at right places, 0.94 at most one storey off
+  // (docs/experiments/start_in_a_map.md).
+  double min_fit = 0.95;
+  // Points on surfaces, over those in the scan's own new map; with fewer the fit is worse. Chosen:
+  // a saved map has fewer points on near things than the last scans have.
+  double min_number_ratio = 0.6;
+  double max_step_m = 0.3;  // a right place stays where it is from scan to scan; chosen
+  double max_step_rad = 0.02;
+  int num_checks = 5;        // scans in a row that must say so; chosen: half a second
+  int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen
+  // A beaten rival's share of points that contradict it, over the winner's, ...
+  double min_misfit_ratio = 1.5;  // ... at least; chosen
+  double least_misfit = 0.02;     // the winner's is taken to be no less; chosen
+  int max_scans = 30;             // then the search begins anew; chosen
+};
+
+struct PlaceSeekerParameters {
+  std::size_t min_structures = 20;  // as BirdsEyeViewParameters
+  int min_scans = 5;                // before the first search; chosen: half a second
+  double again_after_m = 2.0;       // moved by so much, ...
+  int again_after_scans = 20;     // ... or after so many scans, another search is worth it; chosen
+  float guess_range_m = 10.f;     // around a guess, to each side, ...
+  float guess_range_rad = 0.5f;   // ... of its yaw, ...
+  float guess_range_up_m = 1.5f;  // ... and up and down: less than half a storey; chosen
+};
+
 struct RelocalizationParameters {
   BirdsEyeViewParameters view;
   VelocitySearchParameters velocity;
@@ -86,6 +164,12 @@ struct RelocalizationParameters {
   ShiftSearchParameters shift;
   PlaceCandidateParameters candidate;
   PlaceVerificationParameters verification;
+  StandingPointsParameters standing;
+  MapSearchParameters map_search;
+  HeightVotesParameters height;
+  GatheredCloudParameters gathered;
+  PlaceContestParameters contest;
+  PlaceSeekerParameters seeker;
   double aligned_std_m = 0.5;  // of a prior that was aligned: 5 m/s over a sweep; chosen
   // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
   int max_matches_per_scan = 4;

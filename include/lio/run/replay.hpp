@@ -9,6 +9,7 @@
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/run_writer.hpp"
+#include "lio/pipeline/initial_map.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 
@@ -18,6 +19,7 @@ struct ReplaySettings {
   std::string program;  // is named at the progress bar and before each notice
   bool writes_map = false;
   MapFormat map_format = MapFormat::kPcd;
+  InitialMapPtr initial_map;  // null: the first scans begin a map
   int match_lag = 0;  // messages by which each match's result is taken late; the files are the same
 };
 

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Which of several places in a saved map is the right one? Coarse matches of the gathered cloud
+// rank them all; the best few are then followed: every scan is matched at the leading place and at
+// one of its rivals, and compared with how well it fits the new map that it belongs to. A place
+// wins when several scans in a row fit it and clearly more points contradict every rival. Where
+// places look alike, none wins, and a search over more of the way has to tell.
+//
+// Frames: `map` is the new map, `initial` the saved one.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/registration/scan_matcher.hpp"
+#include "lio/relocalization/gathered_cloud.hpp"
+
+namespace lio {
+
+// Matches points against the saved map, from the pose of their axes with its covariance.
+using MatchInInitial = std::function<MatchResult(std::span<const Eigen::Vector3f> points,
+                                                 const Pose& T_initial_guess, const Matrix6& cov)>;
+
+// A scan that the new map has located.
+struct LocatedScan {
+  std::span<const Eigen::Vector3f> points_imu;  // to match
+  const MatchResult& match;                     // in the new map
+};
+
+struct FoundPlace {
+  Pose T_initial_map;
+  Matrix6 cov = Matrix6::Zero();  // of the body's pose in the saved map, right error
+};
+
+class PlaceContest {
+ public:
+  PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map);
+
+  // Ranks some more places. True: all are ranked.
+  [[nodiscard]] bool Rank(const MatchInInitial& match);
+  // After ranking. At most `max_matches` matches of the scan.
+  [[nodiscard]] std::optional<FoundPlace> Check(const LocatedScan& scan,
+                                                const MatchInInitial& match, int max_matches);
+  // No place can win any more.
+  [[nodiscard]] bool is_over() const;
+
+ private:
+  struct Contender {
+    Pose T_initial_map;
+    double support = 0.0;  // of the coarse match
+    int num_checks = 0;
+    int num_good_in_a_row = 0;
+    double fit_sum = 0.0;  // of scans: 1 where one fits as well as its new map
+    Matrix6 cov = Matrix6::Zero();
+
+    [[nodiscard]] double fit() const { return num_checks == 0 ? 1.0 : fit_sum / num_checks; }
+  };
+
+  void KeepTheBest();
+  static void CheckAt(Contender& contender, const LocatedScan& scan, const MatchInInitial& match);
+  void OrderByFit();
+  void MergeSame();
+  [[nodiscard]] bool HasWinner() const;
+
+  CloudSample sample_;
+  std::vector<Contender> contenders_;  // the leader first, once all are ranked
+  std::size_t num_ranked_ = 0;
+  int num_scans_ = 0;  // checked
+};
+
+}  // namespace lio

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The way into the initial map, while tracking.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "lio/filter/map_change.hpp"
+#include "lio/pipeline/tracking.hpp"
+
+namespace lio {
+
+void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
+  Estimate estimate = history_.At(sweep.middle());
+  ChangeMap(place.T_initial_map, place.cov, estimate);
+  BeginHistoryAt(estimate);
+  const auto& sweeps = context_.sweeps;
+  history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
+  handover_.clock_step.reset();
+  handover_.T_world_start = estimate.state.T_world_imu;
+  handover_.T_map_start = estimate.state.T_map_imu;
+  handover_.last_fix = MakeFix(estimate.stamp, estimate, g_world_);
+  keyframes_.Reset();
+  zero_velocity_.Forget();
+  context_.clocks.Interrupt();
+  context_.convention.BeginMap(sweep.end);
+  context_.examiner.record().BeginMap();
+  const Vector3& at = estimate.state.T_map_imu.translation;
+  context_.outputs.Notify(
+      sweep.end, Notice::Severity::kInfo,
+      fmt::format("found in the initial map, at x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f} deg",
+                  at.x(), at.y(), at.z(),
+                  YawOf(estimate.state.T_map_imu.rotation) * 180.0 / std::numbers::pi));
+}
+
+}  // namespace lio

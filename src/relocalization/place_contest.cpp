@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/relocalization/place_contest.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "lio/relocalization/parameters.hpp"
+#include "lio/relocalization/tried_places.hpp"
+#include "relocalization/place_candidates.hpp"
+
+namespace lio {
+namespace {
+
+constexpr PlaceContestParameters kContest = kRelocalization.contest;
+
+double ShareOf(const MatchResult& match) {
+  return match.num_in_map == 0 ? 0.0 : static_cast<double>(match.num_matched) / match.num_in_map;
+}
+
+double SupportOf(const MatchResult& match) {
+  const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
+  return may_be_there ? ShareOf(match) * match.num_matched : 0.0;
+}
+
+// How well the scan fits the saved map there: the share of points that nothing contradicts, over
+// that in its own new map; less where the saved map shows little.
+double FitOf(const MatchResult& there, const MatchResult& in_new_map) {
+  if (!there.IsUsable()) return 0.0;
+  const double number = static_cast<double>(there.num_matched) / in_new_map.num_matched;
+  return std::min(1.0, ShareOf(there) / ShareOf(in_new_map)) *
+         std::min(1.0, number / kContest.min_number_ratio);
+}
+
+Matrix6 SettledCov() {
+  Matrix6 cov = Matrix6::Zero();
+  cov.diagonal() << Vector3::Constant(kContest.settled_std_m * kContest.settled_std_m),
+      Vector3::Constant(kContest.settled_std_rad * kContest.settled_std_rad);
+  return cov;
+}
+
+bool HasStayed(const Pose& before, const Pose& after) {
+  const Pose step = before.Inverse() * after;
+  return step.translation.norm() < kContest.max_step_m &&
+         LogSo3(step.rotation).norm() < kContest.max_step_rad;
+}
+
+}  // namespace
+
+PlaceContest::PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map)
+    : sample_(std::move(sample)) {
+  for (const Pose& place : T_initial_map) contenders_.push_back({.T_initial_map = place});
+}
+
+bool PlaceContest::is_over() const {
+  return contenders_.empty() || num_scans_ >= kContest.max_scans;
+}
+
+bool PlaceContest::Rank(const MatchInInitial& match) {
+  const Pose T_map_sample{Quaternion::Identity(), sample_.centre_map};
+  for (int i = 0; i < kContest.max_coarse_per_scan && num_ranked_ < contenders_.size(); ++i) {
+    Contender& contender = contenders_[num_ranked_++];
+    const MatchResult there =
+        match(sample_.points, contender.T_initial_map * T_map_sample, CandidateCov());
+    contender.support = SupportOf(there);
+    if (contender.support > 0.0) {
+      contender.T_initial_map = there.T_map_imu * T_map_sample.Inverse();
+    }
+  }
+  if (num_ranked_ < contenders_.size()) return false;
+  KeepTheBest();
+  return true;
+}
+
+void PlaceContest::KeepTheBest() {
+  std::stable_sort(contenders_.begin(), contenders_.end(),
+                   [](const auto& a, const auto& b) { return a.support > b.support; });
+  MergeSame();
+  const double least =
+      contenders_.empty() ? 0.0 : kContest.min_support_ratio * contenders_.front().support;
+  std::erase_if(contenders_,
+                [&](const Contender& c) { return !(c.support > 0.0 && c.support >= least); });
+  if (contenders_.size() > kContest.max_contenders) contenders_.resize(kContest.max_contenders);
+}
+
+// Two that have come to one place are one: the first stays.
+void PlaceContest::MergeSame() {
+  const Pose T_map_sample{Quaternion::Identity(), sample_.centre_map};
+  std::vector<Contender> kept;
+  for (Contender& contender : contenders_) {
+    const auto is_same = [&](const Contender& other) {
+      return IsSamePlace(contender.T_initial_map * T_map_sample,
+                         other.T_initial_map * T_map_sample);
+    };
+    if (std::none_of(kept.begin(), kept.end(), is_same)) kept.push_back(std::move(contender));
+  }
+  contenders_ = std::move(kept);
+}
+
+void PlaceContest::CheckAt(Contender& contender, const LocatedScan& scan,
+                           const MatchInInitial& match) {
+  const Pose& T_map_imu = scan.match.T_map_imu;
+  const bool is_settled = contender.num_checks > 0;
+  const MatchResult there = match(scan.points_imu, contender.T_initial_map * T_map_imu,
+                                  is_settled ? SettledCov() : CandidateCov());
+  const Pose T_initial_map = there.T_map_imu * T_map_imu.Inverse();
+  const double fit = FitOf(there, scan.match);
+  const bool has_stayed =
+      !is_settled || HasStayed(contender.T_initial_map * T_map_imu, there.T_map_imu);
+  const bool is_good = fit >= kContest.min_fit && there.degenerate_mask == 0 && has_stayed;
+  ++contender.num_checks;
+  contender.num_good_in_a_row = is_good ? contender.num_good_in_a_row + 1 : 0;
+  contender.fit_sum += fit;
+  if (!there.IsUsable()) return;
+  contender.T_initial_map = T_initial_map;
+  contender.cov = there.cov;
+}
+
+void PlaceContest::OrderByFit() {
+  std::stable_sort(contenders_.begin(), contenders_.end(),
+                   [](const auto& a, const auto& b) { return a.fit() > b.fit(); });
+}
+
+bool PlaceContest::HasWinner() const {
+  const Contender& leader = contenders_.front();
+  if (leader.num_good_in_a_row < kContest.num_checks) return false;
+  const double misfit = std::max(1.0 - leader.fit(), kContest.least_misfit);
+  return std::all_of(contenders_.begin() + 1, contenders_.end(), [&](const Contender& rival) {
+    return rival.num_checks >= kContest.num_rival_checks &&
+           1.0 - rival.fit() >= kContest.min_misfit_ratio * misfit;
+  });
+}
+
+std::optional<FoundPlace> PlaceContest::Check(const LocatedScan& scan, const MatchInInitial& match,
+                                              int max_matches) {
+  if (is_over() || max_matches <= 0 || !scan.match.IsUsable()) return {};
+  ++num_scans_;
+  CheckAt(contenders_.front(), scan, match);
+  if (max_matches > 1 && contenders_.size() > 1) {
+    const auto rival =
+        std::min_element(contenders_.begin() + 1, contenders_.end(),
+                         [](const auto& a, const auto& b) { return a.num_checks < b.num_checks; });
+    CheckAt(*rival, scan, match);
+  }
+  MergeSame();
+  if (HasWinner()) return FoundPlace{contenders_.front().T_initial_map, contenders_.front().cov};
+  OrderByFit();
+  return {};
+}
+
+}  // namespace lio

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/pipeline/place_knowledge.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lio {
+namespace {
+
+MatchJob JobWith(MapAction action) {
+  MatchJob job;
+  job.map_action = action;
+  return job;
+}
+
+TEST(PlaceKnowledge, WithoutAnInitialMapJobsStayAsTheyAre) {
+  PlaceKnowledge place(false, true);
+  for (const MapAction action : {MapAction::kClear, MapAction::kKeep}) {
+    MatchJob job = JobWith(action);
+    place.Prepare(true, job);
+    EXPECT_EQ(job.map_action, action);
+    EXPECT_FALSE(job.seeks_place);
+  }
+  EXPECT_FALSE(place.is_seeking());
+  EXPECT_FALSE(place.is_map_locked());
+}
+
+TEST(PlaceKnowledge, SeeksWhileTheFilterTracksThenEntersOnce) {
+  PlaceKnowledge place(true, false);
+  EXPECT_TRUE(place.is_seeking());
+  EXPECT_EQ(place.status_while_seeking(), TrackingStatus::kInit);
+  MatchJob job = JobWith(MapAction::kKeep);
+  place.Prepare(false, job);
+  EXPECT_FALSE(job.seeks_place);
+  place.Prepare(true, job);
+  EXPECT_TRUE(job.seeks_place);
+  place.SetFound();
+  EXPECT_TRUE(place.is_inside());
+  job = JobWith(MapAction::kKeep);
+  place.Prepare(true, job);
+  EXPECT_EQ(job.map_action, MapAction::kEnter);
+  EXPECT_FALSE(job.seeks_place);
+  job = JobWith(MapAction::kKeep);
+  place.Prepare(true, job);
+  EXPECT_EQ(job.map_action, MapAction::kKeep);
+  EXPECT_FALSE(place.is_map_locked());
+}
+
+TEST(PlaceKnowledge, NewMapIsSoughtInTheInitialOneAgain) {
+  PlaceKnowledge place(true, true);
+  place.SetFound();
+  EXPECT_TRUE(place.is_map_locked());
+  MatchJob job = JobWith(MapAction::kClear);
+  place.Prepare(true, job);
+  EXPECT_EQ(job.map_action, MapAction::kClear);
+  EXPECT_TRUE(place.is_seeking());
+  EXPECT_FALSE(place.is_map_locked()) << "the new map is no longer the initial one";
+  EXPECT_EQ(place.status_while_seeking(), TrackingStatus::kLost);
+}
+
+}  // namespace
+}  // namespace lio
