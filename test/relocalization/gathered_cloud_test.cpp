@@ -26,18 +26,18 @@ TEST(GatheredCloud, ScansThatShowTheSameAddNothing) {
 
 TEST(GatheredCloud, ASampleHasWhatIsNearInTheMapsAxes) {
   Points points;
-  test::AddColumn({5.f, 5.f}, points);
+  test::AddColumn({5.5f, 5.5f}, points);
   test::AddColumn({45.f, 0.f}, points);
   GatheredCloud cloud;
   cloud.Add(points, kAhead);
   const CloudSample sample = cloud.SampleAround(kAhead.translation);
   ASSERT_FALSE(sample.structures.empty());
   for (const Eigen::Vector2f& structure : sample.structures) {
-    EXPECT_LT((structure - Eigen::Vector2f(15.f, 5.f)).norm(), 0.25f);
+    EXPECT_LT((structure - Eigen::Vector2f(15.5f, 5.5f)).norm(), 0.25f);
   }
   ASSERT_FALSE(sample.points.empty());
   for (const Eigen::Vector3f& point : sample.points) {
-    EXPECT_LT((point.head<2>() - Eigen::Vector2f(5.f, 5.f)).norm(), 0.25f);
+    EXPECT_LT((point.head<2>() - Eigen::Vector2f(5.5f, 5.5f)).norm(), 0.25f);
   }
   EXPECT_EQ(sample.centre_map, kAhead.translation);
 }
