@@ -24,10 +24,9 @@ constexpr const char* kExamples =
     "  liod --config config/default.yaml --config my_rig.yaml --lcm-url "
     "'udpm://239.255.76.67:7700'\n\n"
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map, 6 "
-    "done,\n"
-    "but the files of --out cannot be trusted (verdict.json and the log say why), 70 internal\n"
-    "fault (the files of --out are complete up to it).";
+    "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map,\n"
+    "6 done, but the files of --out cannot be trusted (verdict.json and the log say why),\n"
+    "70 internal fault (the files of --out are complete up to it).";
 
 }  // namespace
 
