@@ -208,6 +208,7 @@ void GaussianMap::InsertKept(std::span<const Vector3> points_map,
   std::vector<std::int32_t> kept;
   for (const std::vector<std::size_t>& group : groups) {
     std::vector<Vector3> points;
+    points.reserve(group.size());
     for (const std::size_t i : group) points.push_back(points_map[i]);
     const auto view_of = [&](std::size_t i) -> Eigen::Vector3f { return -sides[group[i]]; };
     Add(points, view_of, workers);

@@ -20,6 +20,27 @@ float TurnBetween(float a_rad, float b_rad) {
   return std::abs(std::remainder(a_rad - b_rad, kWholeTurn_rad));
 }
 
+// The mean of the poses that score best.
+class MeanOfBest {
+ public:
+  void Add(int score, const Eigen::Vector3f& pose) {
+    if (score < best_) return;
+    if (score > best_) *this = MeanOfBest(score);
+    ++num_;
+    sum_ += pose;
+  }
+  [[nodiscard]] Eigen::Vector3f Mean() const { return sum_ / static_cast<float>(num_); }
+
+  MeanOfBest() = default;
+
+ private:
+  explicit MeanOfBest(int score) : best_(score) {}
+
+  int best_ = -1;
+  int num_ = 0;
+  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
+};
+
 }  // namespace
 
 // A total order, so that the search depends on the points alone.
@@ -149,9 +170,7 @@ PlanarPose MapSearch::Refined(const PlanarPose& pose) {
   constexpr PlaceSearchParameters kPlace = kRelocalization.place;
   constexpr int kSteps = kSearch.num_refine_steps;
   const Eigen::Vector2f at = Eigen::Rotation2Df(pose.turn_rad) * centre_ + pose.shift_m;
-  int best = -1;
-  int num_best = 0;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  MeanOfBest best;
   for (int k = -kSteps; k <= kSteps; ++k) {
     const float turn_rad = pose.turn_rad + static_cast<float>(k) * kPlace.fine_step_rad;
     const Eigen::Rotation2Df rotation(turn_rad);
@@ -163,20 +182,12 @@ PlanarPose MapSearch::Refined(const PlanarPose& pose) {
       for (int x = -kSteps; x <= kSteps; ++x) {
         const Eigen::Vector2f steps(static_cast<float>(x), static_cast<float>(y));
         const Eigen::Vector2f shift = at + kPlace.fine_step_m * steps;
-        const int num = NumExactlyOnMap(turned, shift);
-        if (num < best) continue;
-        if (num > best) {
-          best = num;
-          num_best = 0;
-          sum.setZero();
-        }
-        ++num_best;
-        sum += Eigen::Vector3f(shift.x(), shift.y(), turn_rad);
+        best.Add(NumExactlyOnMap(turned, shift), {shift.x(), shift.y(), turn_rad});
       }
     }
   }
   lookups_left_ -= (2 * kSteps + 1) * (2 * kSteps + 1) * (2 * kSteps + 1) * num_structures_;
-  const Eigen::Vector3f mean = sum / static_cast<float>(num_best);
+  const Eigen::Vector3f mean = best.Mean();
   return {Eigen::Vector2f(mean.head<2>()) - Eigen::Rotation2Df(mean.z()) * centre_, mean.z()};
 }
 
