@@ -46,7 +46,9 @@ bool MixedPixelFinder::LinkAsSent() {
     newest_[ring] = i;
     neighbours_[i].before = before;
     if (before == kNone) continue;
-    if (points[i].t_offset_ns <= points[before].t_offset_ns) return false;
+    const std::uint32_t now_ns = points[i].t_offset_ns;
+    const std::uint32_t before_ns = points[before].t_offset_ns;
+    if (now_ns == before_ns || now_ns + kParameters.max_jitter_ns < before_ns) return false;
     neighbours_[before].after = i;
   }
   return true;

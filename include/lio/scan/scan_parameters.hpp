@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace lio {
 
@@ -48,6 +49,10 @@ struct MixedPixelParameters {
   float tolerance_per_range = 0.005f;
   // Cosine of the largest angle to the beams beside it, 1 deg: three beams of a coarse lidar.
   float min_cos = 0.99985f;
+  // Points of a ring that step back in time by no more than this are in the order of measurement as
+  // they were sent: packets are stamped with jitter. Chosen: ten times the 0.1 ms that the sweeps
+  // of KITTI scatter by.
+  std::uint32_t max_jitter_ns = 1'000'000;
 };
 
 struct ScanParameters {
