@@ -18,7 +18,8 @@ Matrix3 TiltCov(const Matrix3& R_world_imu, double std_rad) {
   return R_world_imu.transpose() * in_world * R_world_imu;
 }
 
-// The turn about the vertical that is nearest to a rotation in world (swing and twist).
+// The twist about the vertical of a rotation in world. It is not YawOf, the heading of the x axis,
+// which the tilt in the rotation would move.
 Quaternion YawPart(const Quaternion& rotation) {
   return Quaternion(rotation.w(), 0.0, 0.0, rotation.z()).normalized();
 }

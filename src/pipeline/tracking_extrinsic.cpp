@@ -40,22 +40,14 @@ void Tracking::LookAtRig(Timestamp end) {
   }
 }
 
-// All others that remember poses of the imu forget them.
 void Tracking::CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end) {
   const ImuRig& rig = context_.options.rig.imu;
-  const auto& samples = context_.stream.imu().samples();
-  const ImuSample sample = SampleAt(samples, end);
+  const ImuSample sample = SampleAt(context_.stream.imu().samples(), end);
   Estimate estimate = history_.At(end);
   CorrectExtrinsic(T_old_new, sample.w_imu_radps - estimate.state.gyro_bias,
                    {rig.gyro_bias_std_radps, rig.accel_bias_std_mps2}, estimate);
-  history_ = FilterHistory(HistoryOptionsAt(end), estimate, sample);
-  for (const ImuSample& later : samples) {
-    if (later.stamp > end) (void)history_.AddImu(later);
-  }
-  zero_velocity_.Forget();
-  keyframes_.Reset();
-  context_.clocks.Interrupt();
-  context_.convention.BeginMap(end);
+  BeginHistoryAt(estimate);
+  ForgetPoses(end);
 }
 
 }  // namespace lio

@@ -20,10 +20,7 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
   handover_.T_world_start = estimate.state.T_world_imu;
   handover_.T_map_start = estimate.state.T_map_imu;
   handover_.last_fix = MakeFix(estimate.stamp, estimate, g_world_);
-  keyframes_.Reset();
-  zero_velocity_.Forget();
-  context_.clocks.Interrupt();
-  context_.convention.BeginMap(sweep.end);
+  ForgetPoses(sweep.end);
   context_.examiner.record().BeginMap();
   const Vector3& at = estimate.state.T_map_imu.translation;
   context_.outputs.Notify(
@@ -31,6 +28,14 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
       fmt::format("found in the initial map, at x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f} deg",
                   at.x(), at.y(), at.z(),
                   YawOf(estimate.state.T_map_imu.rotation) * 180.0 / std::numbers::pi));
+}
+
+// All that remember earlier poses of the imu, in another map or of another body, forget them.
+void Tracking::ForgetPoses(Timestamp stamp) {
+  keyframes_.Reset();
+  zero_velocity_.Forget();
+  context_.clocks.Interrupt();
+  context_.convention.BeginMap(stamp);
 }
 
 }  // namespace lio

@@ -15,7 +15,7 @@ Pose At(double x) {
   return {Quaternion::Identity(), Vector3(x, 0, 0)};
 }
 
-// What a match sees at two places; nothing is seen elsewhere.
+// Matches see something at two places, and nothing elsewhere.
 struct Scenery {
   Pose here = At(30.0);
   Pose there = At(-40.0);

@@ -73,12 +73,23 @@ TEST(RigExaminer, ContradictionIsTheFirstCause) {
   EXPECT_EQ(verdict.causes[0].kind, CauseKind::kImuUnits);
 }
 
-TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
+Rig WrongRig() {
   Rig rig = ExampleRig();
   rig.T_imu_lidar->translation.x() += 1.0;
+  return rig;
+}
+
+// A drive with that rig.
+RigExaminer ExaminerOfWrongRig() {
+  const Rig rig = WrongRig();
   RigExaminer examiner(rig, true);
   examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
   AddRows(40.0, examiner);
+  return examiner;
+}
+
+TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
+  RigExaminer examiner = ExaminerOfWrongRig();
   int num_told = 0;
   for (int t_s = 0; t_s < 100; ++t_s) {
     const auto findings = examiner.Look(StampAt(t_s));
@@ -94,16 +105,12 @@ TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
 }
 
 TEST(RigExaminer, AnExtrinsicThatIsCorrectedLeavesDoubtAndItsFix) {
-  Rig rig = ExampleRig();
-  rig.T_imu_lidar->translation.x() += 1.0;
-  RigExaminer examiner(rig, true);
-  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
-  AddRows(40.0, examiner);
+  RigExaminer examiner = ExaminerOfWrongRig();
   EXPECT_FALSE(examiner.Look(StampAt(0.0)));
   const auto findings = examiner.Look(StampAt(50.0));
   ASSERT_TRUE(findings && findings->T_imu_lidar);
   examiner.SetExtrinsic(*findings, *findings->T_imu_lidar,
-                        *rig.T_imu_lidar * findings->T_imu_lidar->Inverse());
+                        *WrongRig().T_imu_lidar * findings->T_imu_lidar->Inverse());
   EXPECT_EQ(examiner.trust(), Trust::kDoubtful);
   const Verdict verdict = examiner.Judge(CleanRun());
   EXPECT_EQ(verdict.trust, Trust::kDoubtful);
@@ -114,11 +121,7 @@ TEST(RigExaminer, AnExtrinsicThatIsCorrectedLeavesDoubtAndItsFix) {
 }
 
 TEST(RigExaminer, OtherConventionForgetsTheMotion) {
-  Rig rig = ExampleRig();
-  rig.T_imu_lidar->translation.x() += 1.0;
-  RigExaminer examiner(rig, true);
-  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = *rig.T_imu_lidar});
-  AddRows(40.0, examiner);
+  RigExaminer examiner = ExaminerOfWrongRig();
   examiner.SetConvention(ConventionOf(ImuUnits::kDeg));
   EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kYes);
 }

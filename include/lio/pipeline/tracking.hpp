@@ -68,6 +68,7 @@ class Tracking {
   void ForgetPlace(Timestamp end);
   void LeaveMap(Timestamp stamp);
   void BeginHistoryAt(const Estimate& estimate);
+  void ForgetPoses(Timestamp stamp);
   bool IsAfterClockStep(const Sweep& sweep) const;
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);

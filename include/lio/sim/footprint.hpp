@@ -3,8 +3,8 @@
 // Makes one echo of a beam that is as wide as a real one: besides its centre, four sub-rays on its
 // rim, left, right, below and above, tell which other surfaces it meets.
 //
-// Where a sub-ray meets another surface than the centre, an edge runs between them, at a place of
-// the half width that is drawn. The edge cuts a disc, so the part of the light beyond it is that of
+// An edge runs between a sub-ray and the centre if they meet different surfaces, at a place of the
+// half width that is drawn. The edge cuts a disc, so the part of the light beyond it is that of
 // a circle's segment. Two surfaces within reach of each other may give one echo in between, at
 // their mean weighted by the light that each sends back; else the stronger one is returned.
 #pragma once
