@@ -83,8 +83,7 @@ void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   ErrorMatrix& P = estimate.cov;
   P.middleRows<6>(kMapPose) *= keep;
   P.middleCols<6>(kMapPose) *= keep;
-  P.block<6, 6>(kMapPose, kMapPose) +=
-      measurement.new_content_share * measurement.blend_cov + measurement.drift_cov;
+  P.block<6, 6>(kMapPose, kMapPose) += measurement.new_content_share * measurement.blend_cov;
   if (measurement.is_level) {
     estimate.state.T_map_imu = LevelMapPose(estimate.state, measurement.new_content_share);
   }

@@ -135,6 +135,8 @@ ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   if (!outcome.match.IsUsable()) return report;
   FusionSettings settings;
   settings.grows_map = is_keyframe;
+  context_.sensor_errors.Add(outcome.match);
+  settings.sensor_error_cov = context_.sensor_errors.CovOf(outcome.match);
   settings.force =
       outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
   const EventOutcome fused =

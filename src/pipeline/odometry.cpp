@@ -153,8 +153,8 @@ class Odometry::Impl {
             outputs_,   stream_,
             sweeps_,    convention_,
             clocks_,    extrinsic_,
-            imu_noise_, examiner_,
-            place_};
+            imu_noise_, sensor_errors_,
+            examiner_,  place_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
   // The sweep in flight included.
@@ -283,6 +283,7 @@ class Odometry::Impl {
   std::deque<SweepPtr> sweeps_;
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
+  SensorFixedErrors sensor_errors_;
   RigExaminer examiner_;
   ClockOffsetFollower clocks_;
   ExtrinsicFollower extrinsic_;

@@ -60,6 +60,7 @@ SweepTimes TimesOf(const Sweep& sweep) {
 
 struct RegistrationWorker::ScanInWork {
   const MatchJob& job;
+  Pose T_imu_lidar;
   ReducedScan reduced = {};
   StampedPoses motion;  // the trajectory that the points are deskewed by
   MatchOutcome outcome = {};
@@ -74,7 +75,9 @@ struct RegistrationWorker::ScanInWork {
             .is_far_off = job.refines_deskew,
             .tags = tags_to_match,
             .scan_points_imu = outcome.points_imu,
-            .shift_std_m = job.prior.shift_std_m};
+            .shift_std_m = job.prior.shift_std_m,
+            .from_mid_sweep_s = {},
+            .T_imu_lidar = T_imu_lidar};
   }
 };
 
@@ -219,10 +222,10 @@ void RegistrationWorker::SeekPlace(ScanInWork& scan) {
 
 MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   const Sweep& sweep = *job.sweep;
-  ScanInWork scan{.job = job, .motion = job.T_any_imu};
+  if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
+  ScanInWork scan{.job = job, .T_imu_lidar = T_imu_lidar_, .motion = job.T_any_imu};
   MatchOutcome& outcome = scan.outcome;
   outcome.sweep = job.sweep;
-  if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
   if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
   if (job.map_action == MapAction::kEnter && initial_) {
     initial_->Enter(matcher_);

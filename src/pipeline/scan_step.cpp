@@ -26,19 +26,6 @@ Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_
   return cov;
 }
 
-// The drift of the map over `moved_m`. Errors that move with the sensor (biases of lasers, errors
-// of the beam table) bend the map the same way scan after scan, so no number of scans averages them
-// away. Each time the surroundings have been replaced by others, the errors of the next ones are
-// added to the position: the nearer they are, the more often that is.
-Matrix6 ShapeDriftCov(double moved_m, double lever_m) {
-  const double nearness = std::max(1.0, kScanStep.shape_drift_lever_m / lever_m);
-  const auto variance = [moved_m](double per_sqrt_m) { return per_sqrt_m * per_sqrt_m * moved_m; };
-  Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(nearness * variance(kScanStep.shape_drift_m_per_sqrt_m)),
-      Vector3::Constant(variance(kScanStep.shape_drift_rad_per_sqrt_m));
-  return cov;
-}
-
 }  // namespace
 
 MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
@@ -73,9 +60,8 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
   event.measurement.cov *= settings.alike_factor;
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;
-    event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov;
-    event.measurement.drift_cov =
-        ShapeDriftCov(settings.moved_m, MetresPerRad(outcome.match.information));
+    event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov +
+                                  kScanStep.num_alike_replacements * settings.sensor_error_cov;
     event.measurement.is_level = settings.is_level;
   }
   event.is_clock_set = outcome.is_clock_set;

@@ -153,7 +153,8 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
   settings.is_level = FeelsGravity();
-  settings.moved_m = keyframes_.MovedSince_m(outcome.match.T_map_imu);
+  context_.sensor_errors.Add(outcome.match);
+  settings.sensor_error_cov = context_.sensor_errors.CovOf(outcome.match);
   settings.replaces_motion = outage_.stage() == OutageRecovery::Stage::kSeek;
   settings.force =
       outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);

@@ -77,16 +77,19 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_
   return split;
 }
 
-Vector6 StepInObservableDirections(const DirectionSplit& split, const Vector6& gradient) {
-  const Vector6 inverse_scale = split.Scale().cwiseInverse();
-  const Vector6 scaled_gradient = inverse_scale.cwiseProduct(gradient);
-  Vector6 step = Vector6::Zero();
+Matrix6 ObservableInverse(const DirectionSplit& split) {
+  Matrix6 inverse = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {
     if (split.degenerate_mask & (1u << i)) continue;
     const Vector6 v = split.directions.col(i);
-    step -= v * (v.dot(scaled_gradient) / split.eigenvalues[i]);
+    inverse += v * v.transpose() / split.eigenvalues[i];
   }
-  return inverse_scale.cwiseProduct(step);
+  const Vector6 inverse_scale = split.Scale().cwiseInverse();
+  return inverse_scale.asDiagonal() * inverse * inverse_scale.asDiagonal();
+}
+
+Vector6 StepInObservableDirections(const DirectionSplit& split, const Vector6& gradient) {
+  return -ObservableInverse(split) * gradient;
 }
 
 Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step) {
@@ -100,17 +103,8 @@ Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& ste
   return scale.cwiseInverse().cwiseProduct(scaled);
 }
 
-Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov) {
-  const Vector6 inverse_scale = split.Scale().cwiseInverse();
-  const Matrix6 scores = inverse_scale.asDiagonal() * score_cov * inverse_scale.asDiagonal();
-  Matrix6 inverse = Matrix6::Zero();
-  for (int i = 0; i < 6; ++i) {
-    if (split.degenerate_mask & (1u << i)) continue;
-    const Vector6 v = split.directions.col(i);
-    inverse += v * v.transpose() / split.eigenvalues[i];
-  }
-  const Matrix6 scaled = inverse * scores * inverse;
-  const Matrix6 cov = inverse_scale.asDiagonal() * scaled * inverse_scale.asDiagonal();
+Matrix6 CovarianceFromScores(const Matrix6& inverse, const Matrix6& score_cov) {
+  const Matrix6 cov = inverse * score_cov * inverse;
   return 0.5 * (cov + cov.transpose());
 }
 

@@ -151,7 +151,7 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
 }
 
 MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radius,
-                                 PoseScores* scores) {
+                                 MatchScores* scores) {
   uses_rank_deficient_ = false;
   const MatchSums sums = SumTerms(T_map_imu, radius, scores);
   const bool is_observable =
@@ -162,11 +162,11 @@ MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radi
 }
 
 MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radius,
-                                PoseScores* scores) const {
+                                MatchScores* scores) const {
   MatchSums sums;
   const Eigen::Matrix3f rotation = T_map_imu.rotation.toRotationMatrix().cast<float>();
   VoxelIndex clusters;
-  if (scores != nullptr) scores->Reset(pairs_.size());
+  if (scores != nullptr) scores->Reset(pairs_.size(), T_imu_lidar_);
   for (const Pair& pair : pairs_) {
     const Eigen::Vector3f& point = source_[static_cast<std::size_t>(pair.point)].position;
     const double std = radius.StdAt(point.norm());
@@ -185,7 +185,7 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
     const Vector3 place = (T_map_imu * point.cast<double>()) / Parameters::kClusterVoxel_m;
     const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v)); };
     const VoxelKey key = PackVoxel(cell(place.x()), cell(place.y()), cell(place.z()));
-    scores->Add(clusters.FindOrAdd(key).voxel, score);
+    scores->Add(clusters.FindOrAdd(key).voxel, point, score);
   }
   return sums;
 }
@@ -223,6 +223,7 @@ double GicpMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_i
 
 void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
   const SearchRadius none(Matrix6::Zero());
+  T_imu_lidar_ = input.T_imu_lidar;
   Associate(T_map_imu, none);
   const MatchSums sums = Linearize(T_map_imu, none, &scores_);
   result.T_map_imu = T_map_imu;
@@ -232,7 +233,8 @@ void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  TakeLastStep(Summarise(sums, scores_.Covariance(), result), result);
+  TakeLastStep(Summarise(sums, scores_.by_part.Covariance(), result), result);
+  result.beam_scores = scores_.by_beam.ByDirection();
 }
 
 MatchResult GicpMatcher::Match(const MatchInput& input) {

@@ -58,7 +58,7 @@ void LoamMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
 void LoamMatcher::Associate(const MatchInput& input, const Pose& T_map_imu,
                             const SearchRadius& radius) {
   terms_->Clear();
-  scores_.Reset(surface_map_.block_capacity() + edge_map_.block_capacity());
+  scores_.Reset(surface_map_.block_capacity() + edge_map_.block_capacity(), input.T_imu_lidar);
   const auto first_edge_block = static_cast<std::int32_t>(surface_map_.block_capacity());
   const int wanted = options_.num_neighbours;
   for (std::size_t i = 0; i < input.points_imu.size(); ++i) {
@@ -120,7 +120,8 @@ void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  TakeLastStep(Summarise(sums, scores_.Covariance(), result), result);
+  TakeLastStep(Summarise(sums, scores_.by_part.Covariance(), result), result);
+  result.beam_scores = scores_.by_beam.ByDirection();
 }
 
 MatchResult LoamMatcher::Match(const MatchInput& input) {

@@ -90,7 +90,7 @@ void LoamScanMatcher::AddPlane(std::int32_t number, const Eigen::Vector3f& place
 void LoamScanMatcher::Associate(const MatchInput& input, std::span<const float> sweep_ratios,
                                 const Pose& T_last_imu, const SearchRadius& radius) {
   terms_->Clear();
-  scores_.Reset(edges_->num_parts() + surfaces_->num_parts());
+  scores_.Reset(edges_->num_parts() + surfaces_->num_parts(), input.T_imu_lidar);
   for (std::size_t i = 0; i < input.points_imu.size(); ++i) {
     const FeatureKind kind = input.tags[i].kind;
     if (kind != FeatureKind::kSharp && kind != FeatureKind::kFlat) continue;
@@ -131,7 +131,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
     }
   }
   const MatchSums sums = terms_->Linearize(points, T_last_imu, scores_);
-  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
+  const Vector6 last_step = Summarise(sums, scores_.by_part.Covariance(), result);
   if (sweep_ratios.empty()) TakeLastStep(last_step, result);
 }
 

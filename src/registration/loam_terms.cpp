@@ -53,15 +53,15 @@ Pose LoamTerms::Solve(std::span<const Eigen::Vector3f> points_imu,
 }
 
 MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
-                               const Pose& T_target_imu, PoseScores& scores) {
+                               const Pose& T_target_imu, MatchScores& scores) {
   MatchSums sums;
   const Matrix3 to_imu = T_target_imu.rotation.conjugate().toRotationMatrix();
   const auto row = [&](const Eigen::Vector3f& point, const Vector3& direction) {
     return JacobianRow(point, (to_imu * direction).cast<float>());
   };
-  const auto add_score = [&](std::int32_t part, const Vector6f& score) {
+  const auto add_score = [&](const auto& term, const Vector6f& score) {
     sums.gradient += score.cast<double>();
-    scores.Add(part, score);
+    scores.Add(term.part, points_imu[static_cast<std::size_t>(term.point)], score);
   };
   for (PlaneTerm& term : planes_) {
     const Eigen::Vector3f& point = points_imu[static_cast<std::size_t>(term.point)];
@@ -75,7 +75,7 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
       sums.noise_information.Add(row(point, term.axes.col(j + 1)),
                                  static_cast<float>(term.weight * term.normal_var[j]));
     }
-    add_score(term.part, static_cast<float>(term.weight * residual) * normal_row);
+    add_score(term, static_cast<float>(term.weight * residual) * normal_row);
     Count(kernel, term.weight, residual * residual, sums);
   }
   for (EdgeTerm& term : edges_) {
@@ -89,7 +89,7 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
     for (const Vector3& axis : {side, other_side}) {
       const Vector6f side_row = row(point, axis);
       sums.information.Add(side_row, static_cast<float>(term.weight));
-      add_score(term.part, static_cast<float>(term.weight * axis.dot(across)) * side_row);
+      add_score(term, static_cast<float>(term.weight * axis.dot(across)) * side_row);
     }
     sums.noise_information.Add(row(point, term.direction),
                                static_cast<float>(2.0 * term.weight * term.direction_var));

@@ -50,7 +50,7 @@ class LoamTerms {
              const Pose& T_target_imu);
   // Sets the terms' weights. Information in units of 1 / surface variance.
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
-                      PoseScores& scores);
+                      MatchScores& scores);
   // The cost with the weights of the last Linearize.
   double FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
                                  const Pose& T_target_imu) const;

@@ -46,7 +46,8 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
   result.degenerate_mask = split.degenerate_mask;
-  result.observable_cov = CovarianceFromScores(split, score_cov / (curvature * curvature));
+  result.shift_per_score = ObservableInverse(split) / curvature;
+  result.observable_cov = CovarianceFromScores(result.shift_per_score, score_cov);
   result.cov = result.observable_cov + DegenerateCovariance(split);
   result.residual_rms_m = std::sqrt(sums.residual_sq_sum / sums.weight_sum);
   if (split.degenerate_mask != 0 && result.status == MatchStatus::kConverged) {

@@ -233,20 +233,20 @@ double NdtMatcher::NewContentShare() const {
   return share.count == 0 ? 1.0 : share.sum / static_cast<double>(share.count);
 }
 
-Matrix6 NdtMatcher::ScoreCovariance() {
-  gradients_.Reset(map_.cell_capacity());
+Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {
+  gradients_.Reset(map_.cell_capacity(), input.T_imu_lidar);
   for (PoseScores& per_metre : per_metre_) per_metre.Reset(map_.cell_capacity());
   for (std::size_t k = 0; k < scores_.size(); ++k) {
     const auto num_rows = static_cast<std::size_t>(scores_[k].num_rows);
     for (std::size_t i = 0; i < num_rows; ++i) {
       const PointScore::OfRow& row = scores_[k].rows[i];
-      gradients_.Add(pairs_[k].cell, row.gradient);
+      gradients_.Add(pairs_[k].cell, input.points_imu[k], row.gradient);
       if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, row.weight * row.jacobian);
     }
   }
   constexpr double kSharedStd_m = Parameters::kSharedVerticalStd_m;
   const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
-  return gradients_.Covariance() + kSharedStd_m * kSharedStd_m * sides;
+  return gradients_.by_part.Covariance() + kSharedStd_m * kSharedStd_m * sides;
 }
 
 TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
@@ -280,7 +280,8 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  TakeLastStep(Summarise(sums, ScoreCovariance(), result), result);
+  TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
+  result.beam_scores = gradients_.by_beam.ByDirection();
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }

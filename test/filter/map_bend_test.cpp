@@ -30,9 +30,7 @@ void MeasureTilt(double tilt_rad, double variance, Estimate& estimate) {
 }
 
 void LetMapDrift(double variance, Estimate& estimate) {
-  PoseMeasurement measurement;
-  measurement.drift_cov.diagonal().tail<3>().setConstant(variance);
-  BlendMapPose(estimate, measurement);
+  estimate.cov.block<3, 3>(kMapPose + 3, kMapPose + 3).diagonal().array() += variance;
 }
 
 TEST(MapBend, TheStartsErrorIsThatOfBothRotations) {

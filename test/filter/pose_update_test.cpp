@@ -209,22 +209,6 @@ TEST(PoseUpdate, BlendShrinksTheMapPoseErrorByTheShareOfNewContent) {
   EXPECT_EQ(BoxMinus(estimate.state, before.state).norm(), 0.0);
 }
 
-TEST(PoseUpdate, DriftOfTheMapIsAddedWhateverTheShareOfNewContent) {
-  std::mt19937_64 random(13);
-  Estimate estimate = RandomEstimate(random, 0.1);
-  Estimate drifted = estimate;
-  PoseMeasurement measurement;
-  measurement.new_content_share = 0.25;
-  BlendMapPose(estimate, measurement);
-  measurement.drift_cov = test::RandomCovariance<6>(random, 0.1);
-  BlendMapPose(drifted, measurement);
-  ErrorMatrix added = drifted.cov - estimate.cov;
-  const Matrix6 added_to_map = added.block<6, 6>(kMapPose, kMapPose);
-  EXPECT_LT((added_to_map - measurement.drift_cov).norm(), 1e-15);
-  added.block<6, 6>(kMapPose, kMapPose).setZero();
-  EXPECT_TRUE(added.isZero(0.0));
-}
-
 TEST(PoseUpdate, WhollyNewMapForgetsTheMapPoseError) {
   std::mt19937_64 random(11);
   Estimate estimate = RandomEstimate(random, 0.1);

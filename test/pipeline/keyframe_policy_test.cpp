@@ -62,16 +62,6 @@ TEST(KeyframePolicy, CreepingGrowsItByTheWayNotByTheTime) {
   EXPECT_EQ(num_grown, 4 * 8);  // at 0 and after each 134th scan, the first one beyond 20 cm
 }
 
-TEST(KeyframePolicy, DistanceIsFromTheLastPlaceThatWasMovedTo) {
-  KeyframePolicy policy;
-  EXPECT_EQ(policy.MovedSince_m(At(3.0)), 0.0);
-  policy.Accept(At(1.0));
-  policy.Accept(At(1.1));
-  EXPECT_DOUBLE_EQ(policy.MovedSince_m(At(1.5)), 0.5);
-  policy.Accept(At(1.5));
-  EXPECT_EQ(policy.MovedSince_m(At(1.5)), 0.0);
-}
-
 TEST(KeyframePolicy, AskingChangesNothing) {
   KeyframePolicy policy;
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(policy.IsKeyframe(At(0.0)));
@@ -81,7 +71,6 @@ TEST(KeyframePolicy, ResetBeginsAnew) {
   KeyframePolicy policy;
   NumGrown(policy, At(0.0), 100);
   policy.Reset();
-  EXPECT_EQ(policy.MovedSince_m(At(3.0)), 0.0);
   EXPECT_EQ(NumGrown(policy, At(0.0), 100), 4);
 }
 

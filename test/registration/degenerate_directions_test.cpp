@@ -67,7 +67,8 @@ TEST(DegenerateDirections, CovarianceIsTheSandwichWhereAllIsObservable) {
   const Matrix6 H = FullInformation(random);
   const Matrix6 scores = FullInformation(random);
   const Matrix6 expected = H.inverse() * scores * H.inverse();
-  const Matrix6 cov = CovarianceFromScores(SplitDirections(H, SmallNoise()), scores);
+  const Matrix6 cov =
+      CovarianceFromScores(ObservableInverse(SplitDirections(H, SmallNoise())), scores);
   EXPECT_LT((cov - expected).norm(), 1e-9 * expected.norm());
 }
 
@@ -95,7 +96,7 @@ TEST(DegenerateDirections, DegenerateDirectionHasALargeVariance) {
   const Matrix6 weak = DegenerateCovariance(split);
   EXPECT_GT(weak(0, 0), 1e3);  // of (100 m)^2, less what of the direction is rotation
   EXPECT_LT((H * weak).norm(), 1e-6 * H.norm() * weak.norm()) << "along the weak one alone";
-  const Matrix6 held = CovarianceFromScores(split, H);
+  const Matrix6 held = CovarianceFromScores(ObservableInverse(split), H);
   const Vector6 v = split.Scale().cwiseProduct(split.directions.col(0));
   EXPECT_LT(std::abs(v.dot(held * v)), 1e-9);
 }
@@ -117,7 +118,7 @@ TEST(DegenerateDirections, NoInformationAtAllIsAllDegenerate) {
   const DirectionSplit split = SplitDirections(Matrix6::Zero(), Matrix6::Zero());
   EXPECT_EQ(split.num_degenerate(), 6);
   EXPECT_TRUE(StepInObservableDirections(split, Vector6::Ones()).isZero());
-  EXPECT_TRUE(CovarianceFromScores(split, Matrix6::Identity()).isZero());
+  EXPECT_TRUE(ObservableInverse(split).isZero());
 }
 
 // In a tunnel the axis may have as much information by noise as another direction has by the scene.

@@ -54,14 +54,14 @@ class LoamTermsTest : public ::testing::Test {
     points_.push_back((kTruth.Inverse() * seen).cast<float>());
   }
   MatchSums LinearizeAt(const Pose& pose) {
-    scores_.Reset(12);
+    scores_.Reset(12, Pose::Identity());
     return terms_.Linearize(points_, pose, scores_);
   }
 
   LoamOptions options_;
   LoamTerms terms_{options_};
   std::vector<Eigen::Vector3f> points_;
-  PoseScores scores_;
+  MatchScores scores_;
 };
 
 // The gradient by central differences of the cost with constant weights.
@@ -92,10 +92,10 @@ TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
     term.part = 0;
     one.Add(term);
   }
-  scores_.Reset(1);
+  scores_.Reset(1, Pose::Identity());
   const MatchSums of_one = one.Linearize(points_, kTruth * ExpSe3(0.01 * Vector6::Ones()), scores_);
   const Matrix6 square = of_one.gradient * of_one.gradient.transpose();
-  EXPECT_LT((scores_.SumOfSquares() - square).norm(), 1e-4 * square.norm());
+  EXPECT_LT((scores_.by_part.SumOfSquares() - square).norm(), 1e-4 * square.norm());
 }
 
 // A point that is 5 times Huber's limit off has a weight of a fifth and adds no curvature, and its

@@ -53,8 +53,8 @@ class ModeBench {
             outputs_,   stream_,
             sweeps,     convention_,
             clocks_,    extrinsic_,
-            imu_noise_, examiner,
-            place};
+            imu_noise_, sensor_errors_,
+            examiner,   place};
   }
 
   const ExtrinsicFollower& extrinsic() const { return extrinsic_; }
@@ -158,6 +158,7 @@ class ModeBench {
   SensorStream stream_;
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
+  SensorFixedErrors sensor_errors_;
   ClockOffsetFollower clocks_;
   ExtrinsicFollower extrinsic_;
   std::int32_t num_sweeps_ = 0;

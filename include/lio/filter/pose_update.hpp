@@ -21,7 +21,6 @@ struct PoseMeasurement {
   Matrix6 cov = Matrix6::Zero();        // right error [m; rad]; large in degenerate directions
   double new_content_share = 0.0;       // 0..1, share of the matched map that this scan brings
   Matrix6 blend_cov = Matrix6::Zero();  // covariance added per share of new content
-  Matrix6 drift_cov = Matrix6::Zero();  // covariance added besides, when there is new content
   bool is_level = false;                // the scan is inserted at LevelMapPose (map_bend.hpp)
 };
 

@@ -27,10 +27,6 @@ class KeyframePolicy {
   // moving. Call Accept() when it did.
   bool IsKeyframe(const Pose& T_map_imu) const;
   void Accept(const Pose& T_map_imu);
-  // The distance from the last scan that grew the map after moving; zero before there is one.
-  [[nodiscard]] double MovedSince_m(const Pose& T_map_imu) const {
-    return last_ ? (T_map_imu.translation - last_->translation).norm() : 0.0;
-  }
   void Reset() { *this = {}; }
 
  private:

@@ -14,6 +14,7 @@
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/output_queue.hpp"
 #include "lio/pipeline/place_knowledge.hpp"
+#include "lio/pipeline/sensor_fixed_errors.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
 
@@ -33,6 +34,7 @@ struct ModeContext {
   ClockOffsetFollower& clocks;
   ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
+  SensorFixedErrors& sensor_errors;
   RigExaminer& examiner;
   const PlaceKnowledge& place;
 

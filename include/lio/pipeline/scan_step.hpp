@@ -19,17 +19,11 @@ struct ScanStepParameters {
   // A shift since the last located scan that is less sure than this is beyond what matching
   // reaches: correlative alignment betters the prior.
   double align_prior_from_std_m = 0.7;
-  // Drift of a growing map by errors that move with the sensor, as a random walk over the path: 1
-  // cm in 100 m. Fitted to the simulator: NEES of eight drives nearest to one
-  // (docs/experiments/field_realism.md).
-  double shape_drift_m_per_sqrt_m = 1e-3;
-  // The shortest lever (MetresPerRad()) of those drives, the 5 % quantile of garage and hall. Below
-  // it the variance grows with its inverse: in an office, at 2.4 m, it is four times as large
-  // (docs/experiments/narrow_places.md).
-  double shape_drift_lever_m = 10.0;
-  // The drift of its rotation: 0.03 deg in 100 m, whatever the lever. Fitted likewise, against the
-  // tilt lost in tunnels.
-  double shape_drift_rad_per_sqrt_m = 5e-5;
+  // Each time the surroundings have been replaced by others, the map is bent once more by errors
+  // that move with the sensor, the same way for a while: after n times, n^2 of their covariance, of
+  // which n times this is the same after eight. Chosen: several hundred metres of road; the NEES of
+  // 24 drives is between .14 and 1.5 with it (docs/experiments/sensor_fixed_errors.md).
+  double num_alike_replacements = 8.0;
   // The least time that a prior is taken to have run free, so that rates by it stay finite.
   double min_since_last_fix_s = 0.01;
 };
@@ -45,10 +39,10 @@ struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
   // Factor on the covariance of matches, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
-  bool grows_map = false;        // the scan will be inserted
-  bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
-  double moved_m = 0.0;          // since the last scan that was inserted at another place
-  bool force = false;            // fuse even beyond the gate
+  bool grows_map = false;  // the scan will be inserted
+  bool is_level = false;   // ... level, with the map's bend taken back (map_bend.hpp)
+  Matrix6 sensor_error_cov = Matrix6::Zero();  // SensorFixedErrors::CovOf()
+  bool force = false;                          // fuse even beyond the gate
   bool replaces_motion = false;  // nothing is known of the motion since the last fused scan
 };
 

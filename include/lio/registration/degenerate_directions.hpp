@@ -49,9 +49,12 @@ struct DirectionSplit {
 // A step without its part along the degenerate directions, [translation; rotation].
 [[nodiscard]] Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step);
 
-// The sandwich H^-1 S H^-1 within the observable directions, zero along the degenerate ones. S:
-// covariance of the gradient.
-[[nodiscard]] Matrix6 CovarianceFromScores(const DirectionSplit& split, const Matrix6& score_cov);
+// The inverse of the information within the observable directions, zero along the degenerate ones.
+[[nodiscard]] Matrix6 ObservableInverse(const DirectionSplit& split);
+
+// The sandwich H^-1 S H^-1, with the inverse as ObservableInverse() has it. S: covariance of the
+// gradient.
+[[nodiscard]] Matrix6 CovarianceFromScores(const Matrix6& inverse, const Matrix6& score_cov);
 
 // A variance of (100 m)^2 along the degenerate directions, zero along the observable ones.
 [[nodiscard]] Matrix6 DegenerateCovariance(const DirectionSplit& split);

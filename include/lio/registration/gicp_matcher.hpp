@@ -76,8 +76,8 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   Term TermOf(const Pair& pair, const Eigen::Matrix3f& rotation, float radius_var) const;
   // Sums the terms of points with normals, and those of all points where the former leave a
   // direction degenerate and rank-deficient points were taken in.
-  MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores);
-  MatchSums SumTerms(const Pose& T_map_imu, const SearchRadius& radius, PoseScores* scores) const;
+  MatchSums Linearize(const Pose& T_map_imu, const SearchRadius& radius, MatchScores* scores);
+  MatchSums SumTerms(const Pose& T_map_imu, const SearchRadius& radius, MatchScores* scores) const;
   bool IsKeyframe(const Pose& T_map_imu) const;
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);
@@ -94,7 +94,8 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   bool is_far_off_ = false;              // MatchInput::is_far_off
   bool has_rank_deficient_ = false;      // source_ includes points without a normal
   bool uses_rank_deficient_ = false;     // they count in the present sums
-  PoseScores scores_;
+  MatchScores scores_;
+  Pose T_imu_lidar_;         // of the scan that is matched
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
 

@@ -45,7 +45,7 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
   PointMap edge_map_;
   PointMap surface_map_;
   std::unique_ptr<LoamTerms> terms_;  // of the current round
-  PoseScores scores_;                 // by block, the edge map's after the surface map's
+  MatchScores scores_;                // by block, the edge map's after the surface map's
 };
 
 }  // namespace lio

@@ -50,7 +50,7 @@ class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::unique_ptr<RingGrid> edges_;
   std::unique_ptr<RingGrid> surfaces_;
   std::unique_ptr<LoamTerms> terms_;  // of the current round
-  PoseScores scores_;                 // by part, the edges' after the surfaces'
+  MatchScores scores_;                // by part, the edges' after the surfaces'
 };
 
 }  // namespace lio

@@ -5,6 +5,7 @@
 // unit direction of the map and w a robust weight that the derivative takes as constant.
 #pragma once
 
+#include "lio/registration/beam_scores.hpp"
 #include "lio/registration/cluster_scores.hpp"
 #include "lio/registration/degenerate_directions.hpp"
 #include "lio/registration/registration_parameters.hpp"
@@ -86,6 +87,21 @@ struct MatchSums {
 };
 
 [[nodiscard]] DirectionSplit SplitDirections(const MatchSums& sums);
+
+// The scores of a match at its solution.
+struct MatchScores {
+  PoseScores by_part;  // of the map
+  BeamScores by_beam;
+
+  void Reset(std::size_t num_parts, const Pose& T_imu_lidar) {
+    by_part.Reset(num_parts);
+    by_beam.Reset(T_imu_lidar);
+  }
+  void Add(std::int32_t part, const Eigen::Vector3f& point_imu, const Vector6f& score) {
+    by_part.Add(part, score);
+    by_beam.Add(point_imu, score);
+  }
+};
 
 // Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
 // turns kConverged into kDegenerate where a direction is degenerate. `score_cov`: covariance of the

@@ -98,7 +98,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
   double NewContentShare() const;
-  Matrix6 ScoreCovariance();
+  Matrix6 ScoreCovariance(const MatchInput& input);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
@@ -110,7 +110,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell
   std::vector<PointScore> scores_;        // of the last match, one a point
-  PoseScores gradients_;                  // by cell
+  MatchScores gradients_;                 // by cell and by beam
   std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;

@@ -43,6 +43,7 @@ struct MatchInput {
   double shift_std_m = 1.0;
   // The time of each of points_imu; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
+  Pose T_imu_lidar = {};  // tells the points' beams apart
 };
 
 struct [[nodiscard]] MatchResult {
@@ -62,6 +63,11 @@ struct [[nodiscard]] MatchResult {
   double residual_rms_m = 0.0;
   // The error of the turn rate that the scan was deskewed by; where asked for and the method can.
   std::optional<TurnRate> turn_rate_error;
+  // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
+  std::vector<Vector6> beam_scores;
+  // How far a unit of gradient shifts the pose, right error: the robust cost's curvature inverted,
+  // without degenerate directions.
+  Matrix6 shift_per_score = Matrix6::Zero();
   double new_content_share = 1.0;  // of the matched cells after this scan is inserted: 0..1
 
   [[nodiscard]] bool IsUsable() const {
