@@ -50,7 +50,7 @@ class BeamScores {
 
  private:
   static std::size_t ElevationOf(const Eigen::Vector3f& view) {
-    constexpr float kHalf = kElevations / 2;
+    constexpr float kHalf = 0.5f * kElevations;
     const float sine = view.z() / std::max(view.norm(), 1e-6f);
     return static_cast<std::size_t>(std::clamp(kHalf + kHalf * sine, 0.f, kElevations - 1.f));
   }
