@@ -20,10 +20,10 @@ struct ScanStepParameters {
   // reaches: correlative alignment betters the prior.
   double align_prior_from_std_m = 0.7;
   // Each time the surroundings have been replaced by others, the map is bent once more by errors
-  // that move with the sensor, the same way for a while: after n times, n^2 of their covariance, of
-  // which n times this is the same after eight. Chosen: several hundred metres of road; the NEES of
-  // 24 drives is between .14 and 1.5 with it (docs/experiments/sensor_fixed_errors.md).
-  double num_alike_replacements = 8.0;
+  // that move with the sensor, the same way for a while: after n times it is n^2 of their
+  // covariance, as much as n times this factor after twelve. Chosen: some 300 m of road; most
+  // drives have a NEES between .2 and 1.4 with it (docs/experiments/sensor_fixed_errors.md).
+  double num_alike_replacements = 12.0;
   // The least time that a prior is taken to have run free, so that rates by it stay finite.
   double min_since_last_fix_s = 0.01;
 };
