@@ -46,14 +46,15 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
   result.degenerate_mask = split.degenerate_mask;
-  result.shift_per_score = ObservableInverse(split) / curvature;
+  const Matrix6 inverse = ObservableInverse(split);
+  result.shift_per_score = inverse / curvature;
   result.observable_cov = CovarianceFromScores(result.shift_per_score, score_cov);
   result.cov = result.observable_cov + DegenerateCovariance(split);
   result.residual_rms_m = std::sqrt(sums.residual_sq_sum / sums.weight_sum);
   if (split.degenerate_mask != 0 && result.status == MatchStatus::kConverged) {
     result.status = MatchStatus::kDegenerate;
   }
-  return StepInObservableDirections(split, sums.gradient);
+  return -inverse * sums.gradient;
 }
 
 void TakeLastStep(const Vector6& step, MatchResult& result) {

@@ -9,53 +9,26 @@
 #include <numbers>
 #include <random>
 
-#include "lio/pipeline/sensor_fixed_errors.hpp"
-#include "lio/registration/beam_scores.hpp"
-#include "support/method_bench.hpp"
+#include "support/matcher_drive.hpp"
 
 namespace lio {
 namespace {
 
 using test::CastTurn;
+using test::DrivePose;
+using test::DriveSweeps;
+using test::GrowMap;
 using test::GuessCov;
+using test::kNumMapScans;
+using test::kTruth;
+using test::Lidar;
 using test::MethodBench;
 using test::MethodScan;
 using test::Moved;
 using test::RayScene;
 using test::SensorAt;
-using test::SpinningLidar;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-SpinningLidar Lidar(double range_std_m = 0.0, double start_azimuth_rad = 0.0) {
-  SpinningLidar lidar = SpinningLidar::Hdl32e();
-  lidar.num_columns = 1200;
-  lidar.range_std_m = range_std_m;
-  lidar.start_azimuth_rad = start_azimuth_rad;
-  return lidar;
-}
-
-// The map is made from a drive of 4 m with a little of every motion.
-constexpr int kNumMapScans = 11;
-Pose DrivePose(int i) {
-  return SensorAt(-2.0 + 0.4 * i, 0.3 * std::sin(i), 0.02 * std::sin(2.0 * i),
-                  0.01 * std::sin(1.3 * i), 0.01 * std::cos(1.7 * i));
-}
-
-std::vector<Sweep> DriveSweeps(const RayScene& scene, double range_std_m) {
-  std::vector<Sweep> sweeps;
-  for (int i = 0; i < kNumMapScans; ++i) {
-    const auto seed = static_cast<std::uint32_t>(100 + i);
-    sweeps.push_back(CastTurn(scene, Lidar(range_std_m, 0.013 * i), DrivePose(i), seed).sweep);
-  }
-  return sweeps;
-}
-
-void GrowMap(MethodBench& bench, const std::vector<Sweep>& sweeps) {
-  for (int i = 0; i < kNumMapScans; ++i) {
-    bench.Insert(bench.Reduce(sweeps[static_cast<std::size_t>(i)]), DrivePose(i));
-  }
-}
 
 Vector6 Tangent(double x, double y, double z, double roll, double pitch, double yaw) {
   Vector6 tangent;
@@ -79,8 +52,6 @@ void ExpectConverged(const MatchResult& result) {
   EXPECT_TRUE(result.information.allFinite());
   EXPECT_TRUE(result.cov.allFinite());
 }
-
-const Pose kTruth = SensorAt(0.17, 0.21, 0.05, 0.013, -0.007);
 
 class MatcherContract : public testing::TestWithParam<MatchMethod> {};
 
@@ -307,57 +278,6 @@ TEST_P(MatcherContract, CovarianceAgreesWithMonteCarlo) {
   EXPECT_LT(ratio, 1.5);
 }
 
-TEST_P(MatcherContract, ItsScoresCountOnceByElevationAndOnceByOctant) {
-  const RayScene scene = test::StreetScene();
-  MethodBench bench(GetParam());
-  GrowMap(bench, DriveSweeps(scene, 0.01));
-  const MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(0.01, 0.31), kTruth, 3).sweep);
-  const auto scores = bench.Match(scan, kTruth, GuessCov(0.02, 0.002)).beam_scores;
-  ASSERT_EQ(scores.size(), BeamScores::kNumDirections);
-  Vector6 by_elevation = Vector6::Zero();
-  Vector6 by_octant = Vector6::Zero();
-  double size = 0.0;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    (i < BeamScores::kElevations ? by_elevation : by_octant) += scores[i];
-    size += scores[i].norm();
-  }
-  EXPECT_GT(size, 0.0);
-  EXPECT_LT((by_elevation - by_octant).norm(), 1e-4 * size);
-}
-
-// Lets each ring read too long or too short by the same amount.
-void BiasRings(double bias_m, Sweep& sweep) {
-  for (LidarPoint& point : sweep.points) {
-    const double range_m = std::hypot(point.x_m, point.y_m, point.z_m);
-    const bool is_long = point.ring % 3 == 0;
-    const auto factor = static_cast<float>(1.0 + (is_long ? bias_m : -bias_m) / range_m);
-    for (float* coordinate : {&point.x_m, &point.y_m, &point.z_m}) *coordinate *= factor;
-  }
-}
-
-// The same biases in map and scans show in matches from other places than the map was seen from.
-TEST(NdtScores, BiasesOfRingsShowInTheirMeanOverManyScans) {
-  const RayScene scene = test::StreetScene();
-  const auto std_m = [&](double bias_m) {
-    MethodBench bench(MatchMethod::kNdt);
-    std::vector<Sweep> sweeps = DriveSweeps(scene, 0.01);
-    for (Sweep& sweep : sweeps) BiasRings(bias_m, sweep);
-    GrowMap(bench, sweeps);
-    SensorFixedErrors errors;
-    MatchResult match;
-    for (int i = 0; i < 30; ++i) {
-      const Pose pose = SensorAt(2.5 + 0.05 * i, 0.21, 0.03);
-      const auto seed = static_cast<std::uint32_t>(i);
-      Sweep sweep = CastTurn(scene, Lidar(0.01, 0.31 + 0.01 * i), pose, seed).sweep;
-      BiasRings(bias_m, sweep);
-      match = bench.Match(bench.Reduce(sweep), pose, GuessCov(0.02, 0.002));
-      errors.Add(match);
-    }
-    return std::sqrt(errors.CovOf(match).topLeftCorner<3, 3>().trace());
-  };
-  EXPECT_GT(std_m(0.02), 3.0 * std_m(0.0));
-}
-
 TEST_P(MatcherContract, ShareOfNewContentFallsAsThePlaceBecomesKnown) {
   const RayScene scene = test::StreetScene();
   MethodBench bench(GetParam());
@@ -391,14 +311,9 @@ TEST_P(MatcherContract, MapStaysBounded) {
   }
 }
 
-std::string NameOf(const testing::TestParamInfo<MatchMethod>& info) {
-  constexpr std::array kNames{"Ndt", "Loam", "Gicp"};
-  return kNames.at(static_cast<std::size_t>(info.param));
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, MatcherContract,
                          testing::Values(MatchMethod::kNdt, MatchMethod::kLoam, MatchMethod::kGicp),
-                         NameOf);
+                         test::NameOfMethod);
 
 }  // namespace
 }  // namespace lio
