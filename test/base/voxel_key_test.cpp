@@ -34,6 +34,16 @@ TEST(VoxelKey, DifferentVoxelsHaveDifferentKeys) {
   EXPECT_EQ(keys.size(), num_voxels);
 }
 
+// Clouds hold such coordinates where a driver marks a missing return.
+TEST(VoxelKey, CoordinatesFarAwayOrNoNumbersLieAtTheLimit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(VoxelOf({kNan, kInfinity, -kInfinity}),
+            (VoxelCell{kVoxelCoordinateLimit, kVoxelCoordinateLimit, -kVoxelCoordinateLimit}));
+  EXPECT_EQ(VoxelOf({1e300, -1e300, -0.5}),
+            (VoxelCell{kVoxelCoordinateLimit, -kVoxelCoordinateLimit, -1}));
+}
+
 // A street's voxels are spread over the slots of a table twice as large: a random hash leaves 0.39
 // of the slots' runs alone; clusters would show as long searches.
 TEST(VoxelKey, NeighbouringVoxelsSpreadOverTheTable) {

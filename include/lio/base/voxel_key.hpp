@@ -15,7 +15,7 @@ using VoxelKey = std::uint64_t;
 
 inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| is below this
 
-// floor() without the library call: exact for |x| < 2^31.
+// floor() without the library call: exact for |x| < 2^31, undefined for all other x and for NaN.
 template <class Float>
 [[nodiscard]] std::int32_t FloorToInt(Float x) {
   const auto truncated = static_cast<std::int32_t>(x);
@@ -25,11 +25,12 @@ template <class Float>
 // A voxel's coordinates along x, y, z.
 using VoxelCell = std::array<std::int32_t, 3>;
 
-// The voxel around a point whose coordinates are given in voxel edges, clamped to the limit.
+// The voxel around a point whose coordinates are given in voxel edges, clamped to the limit. A
+// coordinate that is no number lies at the upper limit.
 [[nodiscard]] inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   const auto coordinate = [](double x) {
     constexpr double kLimit = kVoxelCoordinateLimit;
-    return FloorToInt(std::clamp(x, -kLimit, kLimit));
+    return FloorToInt(std::max(-kLimit, std::min(kLimit, x)));  // this order turns NaN to kLimit
   };
   return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
