@@ -27,6 +27,7 @@ using test::MethodScan;
 using test::Moved;
 using test::RayScene;
 using test::SensorAt;
+using test::StreetSweeps;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -58,7 +59,7 @@ class MatcherContract : public testing::TestWithParam<MatchMethod> {};
 TEST_P(MatcherContract, RecoversOffsetsUpToAMetreAndFiveDegrees) {
   const RayScene scene = test::StreetScene();
   MethodBench bench(GetParam());
-  GrowMap(bench, DriveSweeps(scene, 0.02));
+  GrowMap(bench, StreetSweeps(0.02));
   const MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(0.02, 0.3), kTruth, 7).sweep);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -98,7 +99,7 @@ TEST_P(MatcherContract, IsRightOnAnotherSamplingOfTheSameSurfaces) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const RayScene scene = test::StreetScene(seed);
     MethodBench bench(GetParam());
-    GrowMap(bench, DriveSweeps(scene, 0.0));
+    GrowMap(bench, StreetSweeps(0.0, seed));
     const MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(0.0, 0.31), kTruth).sweep);
     const Pose guess = kTruth * ExpSe3(Tangent(0.03, -0.02, 0.01, 0.002, 0.001, -0.003));
     const MatchResult result = bench.Match(scan, guess, GuessCov(0.03, 0.2 * kDegree));
@@ -145,7 +146,7 @@ TEST_P(MatcherContract, SaysThatTheMapIsEmpty) {
 TEST_P(MatcherContract, SaysThatAScanIsTooSmallOrElsewhere) {
   const RayScene scene = test::StreetScene();
   MethodBench bench(GetParam());
-  GrowMap(bench, DriveSweeps(scene, 0.0));
+  GrowMap(bench, StreetSweeps(0.0));
   MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(), kTruth).sweep);
   const MatchResult elsewhere = bench.Match(scan, SensorAt(5000, 0), GuessCov(0.1, 0.01));
   EXPECT_EQ(elsewhere.status, MatchStatus::kTooFewPoints);
@@ -171,7 +172,7 @@ TEST_P(MatcherContract, ForgetsItsMapWhenToldTo) {
 
 TEST_P(MatcherContract, DoesNotDependOnTheOrderOfPoints) {
   const RayScene scene = test::StreetScene();
-  std::vector<Sweep> sweeps = DriveSweeps(scene, 0.02);
+  std::vector<Sweep> sweeps = StreetSweeps(0.02);
   Sweep sweep = CastTurn(scene, Lidar(0.02), kTruth, 7).sweep;
   const Pose guess = kTruth * ExpSe3(Tangent(0.03, -0.02, 0.01, 0.002, 0.001, -0.003));
   std::vector<MatchResult> results;
@@ -191,7 +192,7 @@ TEST_P(MatcherContract, DoesNotDependOnTheOrderOfPoints) {
 
 TEST_P(MatcherContract, DoesNotDependOnTheNumberOfThreads) {
   const RayScene scene = test::StreetScene();
-  const std::vector<Sweep> sweeps = DriveSweeps(scene, 0.02);
+  const std::vector<Sweep>& sweeps = StreetSweeps(0.02);
   const Sweep sweep = CastTurn(scene, Lidar(0.02), kTruth, 7).sweep;
   const Pose guess = kTruth * ExpSe3(Tangent(0.03, -0.02, 0.01, 0.002, 0.001, -0.003));
   const auto match_with = [&](int num_threads) {
@@ -216,7 +217,7 @@ TEST_P(MatcherContract, DoesNotDependOnTheNumberOfThreads) {
 TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   const RayScene scene = test::StreetScene();
   MethodBench bench(GetParam());
-  GrowMap(bench, DriveSweeps(scene, 0.0));  // no noise: small residuals
+  GrowMap(bench, StreetSweeps(0.0));  // no noise: small residuals
   const MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(0.0, 0.31), kTruth).sweep);
   const MatchInput input = MethodBench::InputFor(scan, kTruth, GuessCov(0.01, 0.001));
   const MatchResult result = bench.matcher().Match(input);
@@ -247,7 +248,7 @@ TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
 TEST_P(MatcherContract, CovarianceAgreesWithMonteCarlo) {
   const RayScene scene = test::StreetScene(2);
   MethodBench bench(GetParam());
-  GrowMap(bench, DriveSweeps(scene, 0.0));
+  GrowMap(bench, StreetSweeps(0.0, 2));
   const Sweep exact = CastTurn(scene, Lidar(0.0, 0.31), kTruth).sweep;
   constexpr int kNumDraws = 60;
   std::mt19937 random(1);
@@ -288,7 +289,7 @@ TEST_P(MatcherContract, ShareOfNewContentFallsAsThePlaceBecomesKnown) {
     return bench.Match(scan, pose, GuessCov(0.02, 0.002)).new_content_share;
   };
   const double at_first = share();
-  GrowMap(bench, DriveSweeps(scene, 0.0));
+  GrowMap(bench, StreetSweeps(0.0));
   const double later = share();
   EXPECT_GT(at_first, 0.05);
   EXPECT_LE(at_first, 1.0);

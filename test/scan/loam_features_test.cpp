@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "support/ray_scene.hpp"

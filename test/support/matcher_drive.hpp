@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/method_bench.hpp"
@@ -35,6 +37,15 @@ inline std::vector<Sweep> DriveSweeps(const RayScene& scene, double range_std_m)
     const auto seed = static_cast<std::uint32_t>(100 + i);
     sweeps.push_back(CastTurn(scene, Lidar(range_std_m, 0.013 * i), DrivePose(i), seed).sweep);
   }
+  return sweeps;
+}
+
+// Returns the sweeps of the drive through StreetScene(street); they are cast once a process, since
+// casting them takes most of a test's time under the sanitizers.
+inline const std::vector<Sweep>& StreetSweeps(double range_std_m, unsigned street = 1) {
+  static std::map<std::pair<double, unsigned>, std::vector<Sweep>> cast;
+  std::vector<Sweep>& sweeps = cast[{range_std_m, street}];
+  if (sweeps.empty()) sweeps = DriveSweeps(StreetScene(street), range_std_m);
   return sweeps;
 }
 
