@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -37,7 +38,10 @@ class LogInput::Impl {
     if (!options_.reads_ahead) return Read();
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return !ahead_.empty(); });
-    if (!ahead_.front()) return std::nullopt;  // the end stays there for further calls
+    if (!ahead_.front()) {  // the end stays there for further calls
+      if (fault_) std::rethrow_exception(fault_);
+      return std::nullopt;
+    }
     std::optional<InputItem> item = std::move(ahead_.front());
     ahead_.pop_front();
     room_.notify_one();
@@ -54,6 +58,8 @@ class LogInput::Impl {
   std::int64_t Now() const { return options_.clock == nullptr ? 0 : options_.clock(); }
   std::optional<InputItem> Read();
   bool Decode(InputItem& item);
+  // Returns false after the end and when the input is to be destroyed.
+  bool PutAhead(std::optional<InputItem> item);
   void ReadAhead();
 
   LogInputOptions options_;
@@ -69,7 +75,8 @@ class LogInput::Impl {
   std::condition_variable room_;
   std::deque<std::optional<InputItem>> ahead_;
   bool is_stopped_ = false;
-  std::jthread thread_;  // last: it ends before the rest does
+  std::exception_ptr fault_;  // ended the reading ahead; Next throws it on its caller's thread
+  std::jthread thread_;       // last: it ends before the rest does
 };
 
 bool LogInput::Impl::Decode(InputItem& item) {
@@ -100,14 +107,22 @@ std::optional<InputItem> LogInput::Impl::Read() {
   return std::nullopt;
 }
 
+bool LogInput::Impl::PutAhead(std::optional<InputItem> item) {
+  std::unique_lock lock(mutex_);
+  room_.wait(lock, [this] { return ahead_.size() < kMaxAhead || is_stopped_; });
+  if (is_stopped_) return false;
+  ahead_.push_back(std::move(item));
+  filled_.notify_one();
+  return ahead_.back().has_value();
+}
+
 void LogInput::Impl::ReadAhead() {
-  for (bool is_at_end = false; !is_at_end;) {
-    std::optional<InputItem> item = Read();
-    is_at_end = !item;
-    std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return ahead_.size() < kMaxAhead || is_stopped_; });
-    if (is_stopped_) return;
-    ahead_.push_back(std::move(item));
+  try {
+    while (PutAhead(Read())) continue;
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    fault_ = std::current_exception();
+    ahead_.emplace_back(std::nullopt);
     filled_.notify_one();
   }
 }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -79,6 +81,17 @@ TEST_P(LogInputTest, ChannelsFollowThePrefix) {
 TEST_P(LogInputTest, MayBeLeftBeforeItsEnd) {
   LogInput input(path_, Options());
   EXPECT_TRUE(input.Next());
+}
+
+[[noreturn]] std::int64_t FailingClock() {
+  throw std::runtime_error("no clock");
+}
+
+TEST_P(LogInputTest, WhatReadingThrowsReachesTheCaller) {
+  LogInputOptions options = Options();
+  options.clock = FailingClock;
+  LogInput input(path_, options);
+  EXPECT_THROW((void)input.Next(), std::runtime_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, LogInputTest, ::testing::Bool(),

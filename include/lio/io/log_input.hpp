@@ -39,7 +39,8 @@ class LogInput {
   LogInput(const LogInput&) = delete;
   LogInput& operator=(const LogInput&) = delete;
 
-  // The next item; nothing at the end.
+  // Returns the next item, or nothing at the end. Throws what reading or decoding throws, e.g.
+  // std::bad_alloc, also when a further thread reads ahead; the items before it come first.
   [[nodiscard]] std::optional<InputItem> Next();
 
   [[nodiscard]] std::int64_t size_bytes() const;
