@@ -71,24 +71,21 @@ MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
   return job;
 }
 
-// Updates the tracker; returns its pose, the mean of match and prediction, for insertion.
-Pose ScanPoses::UpdateTracker(Timestamp middle, const MatchResult& match) {
-  tracker_->AddMatch(middle, match);
-  return tracker_->history().At(middle).state.T_map_imu;
-}
-
 void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
   const Timestamp middle = sweep->middle();
   MatchJob job = path_ != nullptr ? JobAlongPath(std::move(sweep)) : JobByTracker(std::move(sweep));
   if (!last_found_) job.map_action = MapAction::kClear;  // the first scan makes the map
   MatchOutcome outcome = matching_.Run(job);
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  if (!outcome.match.IsUsable() && !starts_map) {
+  const bool is_known = path_ == nullptr ? tracker_->AddMatch(middle, outcome.match)
+                                         : starts_map || outcome.match.IsUsable();
+  if (!is_known) {
     ++num_unmatched_;
     return;
   }
-  const Pose T_map_lidar =
-      path_ != nullptr ? outcome.match.T_map_imu : UpdateTracker(middle, outcome.match);
+  // The tracker's pose is the mean of match and prediction.
+  const Pose T_map_lidar = path_ != nullptr ? outcome.match.T_map_imu
+                                            : tracker_->history().At(middle).state.T_map_imu;
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
     keyframes_.Accept(T_map_lidar);
     matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});

@@ -100,6 +100,7 @@ ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerO
 void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
   if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
   last_rate_ = sample.w_imu_radps;
+  // The history cannot refuse it: it is newer than all that came.
   (void)history_.AddImu(Rate(sample.stamp, last_rate_));
 }
 
@@ -109,20 +110,21 @@ void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
     at = std::min(at + kConstantVelocity.step, stamp);
+    // The history cannot refuse it: it is newer than all that came.
     (void)history_.AddImu(Rate(at, last_rate_));
   }
 }
 
-void ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
+bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
   if (match.IsUsable()) {
     PoseEvent event;
     event.measurement.T_map_imu = match.T_map_imu;
     event.measurement.cov = match.cov;
     event.force = true;
-    (void)history_.AddPose(middle, event);
-  } else if (match.status == MatchStatus::kEmptyMap) {
-    (void)history_.AddRebase(middle);
+    return history_.AddPose(middle, event) == EventOutcome::kApplied;
   }
+  return match.status == MatchStatus::kEmptyMap &&
+         history_.AddRebase(middle) == EventOutcome::kApplied;
 }
 
 Estimate ConstantVelocityTracker::AtEnd(Timestamp middle, Timestamp end,

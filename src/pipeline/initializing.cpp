@@ -93,8 +93,8 @@ void Initializing::FinishVelocitySearch(const MatchOutcome& outcome) {
 
 void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();
-  const bool is_matched = outcome.match.IsUsable();
-  tracker_->AddMatch(middle, outcome.match);
+  const bool is_fused = tracker_->AddMatch(middle, outcome.match);
+  const bool is_matched = is_fused && outcome.match.IsUsable();
   const Estimate estimate = tracker_->history().At(middle);
   const NavState& state = estimate.state;
   if (LargestStd(estimate, kMapPose) < kInitializing.max_insert_std_m) {

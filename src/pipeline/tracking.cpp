@@ -32,6 +32,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
       is_first_scan_(!std::exchange(handover_.keeps_map, false)) {
   history_.KeepFrom(start.estimate.stamp);
   for (const ImuSample& sample : context_.stream.imu().samples()) {
+    // The history cannot refuse it: the stream's samples rise, and it begins before them.
     if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
   }
 }

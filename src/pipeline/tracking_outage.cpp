@@ -82,6 +82,7 @@ void Tracking::BeginHistoryAt(const Estimate& estimate) {
   history_ =
       FilterHistory(HistoryOptionsAt(estimate.stamp), estimate, SampleAt(samples, estimate.stamp));
   for (const ImuSample& sample : samples) {
+    // The history cannot refuse it: the stream's samples rise, and it begins before them.
     if (sample.stamp > estimate.stamp) (void)history_.AddImu(sample);
   }
 }

@@ -137,6 +137,21 @@ TEST(ConstantVelocityTracker, ASweepsEndIsByTheTurnRateThatItShows) {
   EXPECT_EQ(tracker.history().head().state.gyro_bias, Vector3(Vector3::Zero()));
 }
 
+TEST(ConstantVelocityTracker, SaysWhetherItTookAMatch) {
+  ConstantVelocityTracker tracker(StampAt(1.0), {});
+  tracker.AdvanceTo(StampAt(1.1));
+  MatchResult match;
+  match.cov = 1e-4 * Matrix6::Identity();
+  match.T_map_imu.translation.x() = 0.1;
+  match.status = MatchStatus::kTooFewPoints;
+  EXPECT_FALSE(tracker.AddMatch(StampAt(1.05), match));
+  match.status = MatchStatus::kConverged;
+  EXPECT_FALSE(tracker.AddMatch(StampAt(0.5), match));
+  EXPECT_EQ(tracker.history().head().state.T_map_imu.translation.x(), 0.0);
+  EXPECT_TRUE(tracker.AddMatch(StampAt(1.05), match));
+  EXPECT_GT(tracker.history().head().state.T_map_imu.translation.x(), 0.05);
+}
+
 TEST(ConstantVelocityTracker, AGyroTurnsItAndForcesDoNotMoveIt) {
   ConstantVelocityTracker tracker(StampAt(0.0), WithGyro({0, 0, 0.2}));
   EXPECT_DOUBLE_EQ(StdOf(tracker.history().head(), kGyroBias), 0.02);

@@ -86,6 +86,7 @@ CASES = (
     Case("clock-offset", faulty("campus", XSENS, "clock_offset:offset=0.02")),
     Case("nan", faulty("street", XSENS, "nan:ratio=0.05")),
     Case("gyro-saturation", faulty("hall", XSENS, "gyro_saturation:limit=0.4,start=5,duration=4")),
+    Case("shaking", faulty("street", XSENS, "shaking:start=6,duration=4")),
     Case("empty-sparse", faulty("suburb", XSENS, "empty_scan:start=5,duration=1",
                                 "sparse_scan:start=8,duration=2")),
     Case("dust", faulty("garage", CONSUMER, "dust:start=6,duration=4")),

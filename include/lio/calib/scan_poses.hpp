@@ -38,7 +38,6 @@ class ScanPoses {
   void Match(std::shared_ptr<const Sweep> sweep);
   MatchJob JobByTracker(std::shared_ptr<const Sweep> sweep);
   MatchJob JobAlongPath(std::shared_ptr<const Sweep> sweep) const;
-  Pose UpdateTracker(Timestamp middle, const MatchResult& match);
 
   const SweepPath* path_;
   Counters counters_;

@@ -73,8 +73,9 @@ class ConstantVelocityTracker {
   // continues there as by SetClock().
   void AdvanceTo(Timestamp stamp);
   // Fuses what matching found at the middle of a sweep, without a gate. A usable match moves the
-  // estimate; an empty map begins at the estimate.
-  void AddMatch(Timestamp middle, const MatchResult& match);
+  // estimate; an empty map begins at the estimate. Returns false when the match tells nothing, and
+  // when its time lies before the history, which then stays as it is.
+  [[nodiscard]] bool AddMatch(Timestamp middle, const MatchResult& match);
   // The estimate at the end of a sweep whose middle is the newest match's, by the turn rate that
   // the sweep itself shows, if it does. The filter does not use that rate: its systematic errors
   // would enter the next sweeps' deskew and, with them, the map, and grow.
