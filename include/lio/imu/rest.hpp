@@ -25,7 +25,7 @@ struct VibrationLevel {
   double accel_std_mps2 = 0.0;
 };
 
-// At the start, over a second.
+// The tests of rest at the start, over a second. All values are chosen.
 struct RestAtStart {
   // Scan matching moves by less than this, ...
   double max_shift_m = 0.05;

@@ -13,6 +13,7 @@
 
 namespace lio {
 
+// All values are chosen, from the ways in which cars, robots and walkers move.
 struct ConstantVelocityParameters {
   Duration max_unseen{10'000'000'000};  // after a longer time the clock was set, or all is new
   Duration max_sweep{500'000'000};      // no lidar turns slower than twice a second

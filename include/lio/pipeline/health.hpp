@@ -19,6 +19,7 @@
 
 namespace lio {
 
+// All values are chosen: an early verdict costs a map, a late one a wrong pose said to be right.
 struct HealthParameters {
   double lost_after_s = 2.0;  // without a match; a car has gone 20 to 60 m
   // Scans in a row that see enough and match nowhere: then the map goes on from where the IMU says

@@ -15,6 +15,7 @@
 
 namespace lio {
 
+// All values are chosen: counts of scans that tell a wrong convention from a bad second.
 struct ConventionMonitorParameters {
   // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
   std::size_t min_scans = 8;

@@ -27,6 +27,7 @@
 
 namespace lio {
 
+// All values are chosen. A start that looks back longer begins later, and is surer.
 struct InitializingParameters {
   double max_rest_wait_s = 1.4;  // shaken, but not moved for this long, counts as rest
   // An initialization looks back this far at most; the inertial buffer holds more.

@@ -11,6 +11,7 @@
 
 namespace lio {
 
+// All values are chosen.
 struct KeyframeParameters {
   // A scan after this much motion shows other surfaces: a fifth of a cell of the map, and the same
   // for what is 7 m away.

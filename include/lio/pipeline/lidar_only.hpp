@@ -14,6 +14,7 @@
 
 namespace lio {
 
+// Both values are chosen.
 struct LidarOnlyParameters {
   int warm_up_scans = 10;          // with fewer a map is thin, and its cells are rank-deficient
   double turn_unseen_for_s = 0.5;  // a body that is not seen goes on turning for so long

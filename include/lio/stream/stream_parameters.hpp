@@ -9,6 +9,8 @@
 
 namespace lio {
 
+// All values of this file are chosen, by how far real messages come late, jump or stand out: a
+// line says what each one has to tell apart.
 struct StreamParameters {
   // The mean of the time before stands in for a gap (kImuGap.bridged). It spans both steps of a
   // walker (1.8 steps a second): over one alone the body turns.
