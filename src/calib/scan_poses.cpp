@@ -84,8 +84,8 @@ void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
     return;
   }
   // The tracker's pose is the mean of match and prediction.
-  const Pose T_map_lidar = path_ != nullptr ? outcome.match.T_map_imu
-                                            : tracker_->history().At(middle).state.T_map_imu;
+  const Pose T_map_lidar =
+      path_ != nullptr ? outcome.match.T_map_imu : tracker_->history().At(middle).state.T_map_imu;
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
     keyframes_.Accept(T_map_lidar);
     matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lio/base/chi_square.hpp"
+#include "lio/pipeline/health.hpp"
 #include "lio/pipeline/mode.hpp"
 
 namespace lio {
@@ -139,7 +140,7 @@ class Odometry::Impl {
   }
   const Counters& counters() const { return counters_; }
   TrackingStatus status() const {
-    return place_.is_seeking() ? place_.status_while_seeking() : StatusOf(*mode_);
+    return place_.is_seeking() ? Health::StatusWhileSeeking(place_.was_inside()) : StatusOf(*mode_);
   }
   Verdict Judge() const { return examiner_.Judge(counters_); }
   Trust trust() const { return examiner_.trust(); }

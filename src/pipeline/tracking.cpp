@@ -78,7 +78,7 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   const NavState& predicted = history_.At(sweep->middle()).state;
   job.prior.up_map = predicted.T_map_imu.rotation *
                      (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
-  if (outage_.is_lost()) {
+  if (outage_.is_running()) {
     SetTaskAfterOutage(job);
   } else if (handover_.last_located && IsAfterClockStep(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),

@@ -27,7 +27,7 @@ std::string TextFor(const RigFindings& findings, const Pose& T_imu_lidar) {
 
 // The lidar's place must be known. A wrong extrinsic has matches gated, so the filter's may not.
 void Tracking::LookAtRig(Timestamp end) {
-  if (health_.num_unmatched_in_a_row() > 0 || outage_.is_lost()) return;
+  if (health_.num_unmatched_in_a_row() > 0 || outage_.is_running()) return;
   const auto findings = context_.examiner.Look(end);
   if (!findings) return;
   if (const auto T_old_new = context_.extrinsic.Take(*findings)) {

@@ -38,7 +38,7 @@ void Tracking::SetTaskAfterOutage(MatchJob& job) const {
 }
 
 void Tracking::AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused) {
-  if (!outage_.is_lost()) {
+  if (!outage_.is_running()) {
     if (is_fused) outage_.NoteMatch(outcome.match);
     return;
   }

@@ -116,7 +116,7 @@ std::optional<Pose> Tracking::PoseIfClockSet(const Sweep& sweep,
 
 void Tracking::SettleClockStep(const MatchOutcome& outcome) {
   if (!IsAfterClockStep(*outcome.sweep)) return;
-  if (outcome.is_clock_set && !outage_.is_lost()) {
+  if (outcome.is_clock_set && !outage_.is_running()) {
     const ClockStep& stamps = handover_.clock_step->stamps;
     ++context_.counters.num_clock_jumps;
     context_.outputs.Notify(

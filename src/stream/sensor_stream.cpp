@@ -67,10 +67,10 @@ bool SensorStream::RefuseForeign(const ImuSample& sample) {
   return true;
 }
 
-// Another lidar is taken once the first one has been silent for a second.
+// Another lidar is taken once the first one has been silent for long.
 bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
   const bool is_kept = !senders_.lidar || senders_.lidar->sensor_id == chunk.sensor_id ||
-                       Abs(chunk.stamp - senders_.lidar->newest) > kClockStep.silence;
+                       Abs(chunk.stamp - senders_.lidar->newest) > kStream.replaces_lidar_after;
   if (is_kept) {
     senders_.lidar = {chunk.sensor_id, chunk.stamp};
     return false;

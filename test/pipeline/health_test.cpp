@@ -244,5 +244,14 @@ TEST_F(HealthTest, GapOfTwoSecondsLosesTheWayOnce) {
   EXPECT_FALSE(health.AddGap(At(13.0)));
 }
 
+TEST_F(HealthTest, StatusIsLostUntilAnOutageIsOver) {
+  Health health = With(true);
+  (void)health.AddScan(At(10.1), kGood, kManyPoints, true);
+  EXPECT_EQ(health.status(true), TrackingStatus::kLost);
+  EXPECT_EQ(health.status(false), TrackingStatus::kOk);
+  EXPECT_EQ(Health::StatusWhileSeeking(true), TrackingStatus::kLost);
+  EXPECT_EQ(Health::StatusWhileSeeking(false), TrackingStatus::kInit);
+}
+
 }  // namespace
 }  // namespace lio

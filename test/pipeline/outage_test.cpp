@@ -84,7 +84,7 @@ TEST(AcrossOutage, YearsLeaveACovarianceThatCanBeFused) {
 }
 
 TEST(OutageRecovery, NothingIsLostBeforeAnOutage) {
-  EXPECT_FALSE(OutageRecovery().is_lost());
+  EXPECT_FALSE(OutageRecovery().is_running());
 }
 
 TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
@@ -93,9 +93,9 @@ TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
   recovery.AddScan(Scan(1000, 0), true, true);
   EXPECT_EQ(recovery.stage(), Stage::kCheck);
   recovery.AddScan(Scan(700, 400), true, true);
-  EXPECT_TRUE(recovery.is_lost());
+  EXPECT_TRUE(recovery.is_running());
   recovery.AddScan(Scan(700, 400), true, true);
-  EXPECT_FALSE(recovery.is_lost());
+  EXPECT_FALSE(recovery.is_running());
 }
 
 TEST(OutageRecovery, PlaceThatFitsLargeCellsAloneIsGivenUp) {
@@ -124,7 +124,7 @@ TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
   recovery.AddScan(first_of_map, false, true);
   EXPECT_EQ(recovery.stage(), Stage::kConfirm);
   recovery.AddScan(Scan(300, 100), true, true);
-  EXPECT_FALSE(recovery.is_lost());
+  EXPECT_FALSE(recovery.is_running());
 }
 
 TEST(OutageRecovery, MapBeginsWithoutAVelocityWhereNoneIsClear) {

@@ -28,7 +28,7 @@ TEST(PlaceKnowledge, WithoutAnInitialMapJobsStayAsTheyAre) {
 TEST(PlaceKnowledge, SeeksWhileTheFilterTracksThenEntersOnce) {
   PlaceKnowledge place(true, false);
   EXPECT_TRUE(place.is_seeking());
-  EXPECT_EQ(place.status_while_seeking(), TrackingStatus::kInit);
+  EXPECT_FALSE(place.was_inside());
   MatchJob job = JobWith(MapAction::kKeep);
   place.Prepare(false, job);
   EXPECT_FALSE(job.seeks_place);
@@ -55,7 +55,7 @@ TEST(PlaceKnowledge, NewMapIsSoughtInTheInitialOneAgain) {
   EXPECT_EQ(job.map_action, MapAction::kClear);
   EXPECT_TRUE(place.is_seeking());
   EXPECT_FALSE(place.is_map_locked()) << "the new map is no longer the initial one";
-  EXPECT_EQ(place.status_while_seeking(), TrackingStatus::kLost);
+  EXPECT_TRUE(place.was_inside());
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 //   matched                          kOk, or kDegenerate where a direction is not observable
 //   not matched for less than 2 s    kCoasting
 //   not matched for longer           kLost
+//   after an outage of all sensors   kLost, until a scan is found and confirmed (outage.hpp)
+//   place in a given map sought      kLost if it was known before, kInit otherwise
 #pragma once
 
 #include <cstdint>
@@ -60,7 +62,14 @@ class Health {
   // No scan came up to `until`. True: newly lost.
   [[nodiscard]] bool AddGap(Timestamp until);
 
-  TrackingStatus status() const { return status_; }
+  // `recovers`: after an outage, no scan has confirmed the place yet.
+  TrackingStatus status(bool recovers = false) const {
+    return recovers ? TrackingStatus::kLost : status_;
+  }
+  // The status while the place in a given map is sought.
+  static TrackingStatus StatusWhileSeeking(bool was_known) {
+    return was_known ? TrackingStatus::kLost : TrackingStatus::kInit;
+  }
   std::optional<Timestamp> last_fused() const { return last_fused_; }
   int num_unmatched_in_a_row() const { return num_unmatched_in_a_row_; }
   // How many of the last five matched scans were beyond the gate?

@@ -64,7 +64,7 @@ class OutageRecovery {
   // No search is believed in a scene that did not hold all directions: a new map begins at once.
   void Begin(const Estimate& before);
   Stage stage() const { return stage_; }
-  bool is_lost() const { return stage_ != Stage::kNone; }
+  bool is_running() const { return stage_ != Stage::kNone; }
   // The next scan is the first one of the stage.
   bool is_first() const { return num_scans_ == 0; }
   // A scan of the present stage was dealt with. `sees_enough`: it has points to be found by.

@@ -13,7 +13,6 @@
 #include <cstdint>
 
 #include "lio/pipeline/match_job.hpp"
-#include "lio/pipeline/outputs.hpp"
 
 namespace lio {
 
@@ -29,10 +28,8 @@ class PlaceKnowledge {
   }
   // Scans must not grow the map.
   [[nodiscard]] bool is_map_locked() const { return is_inside() && is_map_locked_; }
-  // While it is being sought: lost, if it was known before.
-  [[nodiscard]] TrackingStatus status_while_seeking() const {
-    return was_inside_ ? TrackingStatus::kLost : TrackingStatus::kInit;
-  }
+  // The place was known before it was lost.
+  [[nodiscard]] bool was_inside() const { return was_inside_; }
 
   // Completes a job of the mode. `may_find`: the filter tracks.
   void Prepare(bool may_find, MatchJob& job) {

@@ -50,9 +50,7 @@ class Tracking {
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
 
-  TrackingStatus status() const {
-    return outage_.is_lost() ? TrackingStatus::kLost : health_.status();
-  }
+  TrackingStatus status() const { return health_.status(outage_.is_running()); }
   Timestamp begin() const { return history_.start_stamp(); }
 
  private:

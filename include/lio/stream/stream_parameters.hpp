@@ -24,6 +24,8 @@ struct StreamParameters {
   // An IMU that comes up after the lidar is used once its samples span this much: a stray sample
   // does not count.
   Duration imu_appears_after{500'000'000};
+  // Another lidar on the channel is taken once the first one has been silent for so long.
+  Duration replaces_lidar_after{1'000'000'000};
   // Clocks that are farther apart than this are different clocks: no message is as late.
   double clocks_apart_s = 2.0;
   // A sweep may begin this much before the first inertial sample: the first reading holds there.

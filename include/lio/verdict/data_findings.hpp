@@ -17,8 +17,7 @@ struct DataFindingParameters {
   double max_clipped_share = 0.02;
   double max_doubled_share = 0.2;  // two senders of equal rate double one half
   double max_bad_chunk_share = 0.1;
-  // s. A sensor is missing at the end for longer than an outage that is carried over: after two
-  // seconds without samples lidar-only odometry begins (docs/recovery.md).
+  // s. A sensor is missing at the end: lidar-only odometry began a second before (kImuGap.segment).
   double max_without_s = 2.0;
   // The IMU's noise over the rig's. Engines and roads in the simulator and KITTI give up to 16.
   double max_noise_ratio = 64.0;
