@@ -10,7 +10,7 @@ namespace lio {
 namespace {
 
 // An offset is announced that is known so well, and so large that it matters: 1 cm at 10 m/s, and
-// three standard deviations of it.
+// three standard deviations of it. Chosen.
 constexpr double kKnownStd_s = 1e-3;
 constexpr double kToldOffset_s = 3e-3;
 

@@ -35,12 +35,13 @@ std::string_view NameOf(Trigger trigger) {
 }
 
 Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context) {
-  const std::optional<ModeKind> to = TargetOf(KindOf(mode), transition.trigger);
-  if (!to) {
+  const std::optional<TransitionRule> rule = FindRule(KindOf(mode), transition.trigger);
+  if (!rule) {
     throw std::logic_error(fmt::format("no transition from {} by '{}'", NameOf(KindOf(mode)),
                                        NameOf(transition.trigger)));
   }
-  switch (*to) {
+  if (rule->is_restart) ++context.counters.num_restarts;
+  switch (rule->to) {
     case ModeKind::kInitializing:
       return Initializing(context, std::move(transition.handover), transition.initializing_since);
     case ModeKind::kTracking:

@@ -192,11 +192,6 @@ class Odometry::Impl {
   // Changes the mode where that is asked for.
   void GoOn(Next transition) {
     if (transition) {
-      if (transition->trigger != Trigger::kStarted && transition->trigger != Trigger::kNoImu &&
-          transition->trigger != Trigger::kRetry && transition->trigger != Trigger::kContradicted &&
-          transition->trigger != Trigger::kImuReturned) {
-        ++counters_.num_restarts;
-      }
       mode_ = std::make_unique<Mode>(BuildNext(*mode_, std::move(*transition), MakeContext()));
     }
     const auto* tracking = std::get_if<Tracking>(mode_.get());

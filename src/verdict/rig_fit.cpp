@@ -70,7 +70,7 @@ std::vector<RigFit::Bend> RigFit::FindBends(double span_s, int map) const {
     const auto is_joined = [&](std::size_t i) {
       return i < steps.size() && steps[i].track == steps[k].track;
     };
-    const double slack_s = 0.25 * steps[k].span_s();  // stamps jitter
+    const double slack_s = 0.25 * steps[k].span_s();  // stamps jitter; a quarter is chosen
     std::size_t first = k;
     while (first > 0 && is_joined(first - 1) &&
            SecondsBetween(steps[first].from.stamp, middle) < span_s - slack_s) {

@@ -65,11 +65,21 @@ TEST(Mode, EveryRuleOfTheTableIsBuilt) {
   }
 }
 
+TEST(Mode, RestartsAreCounted) {
+  for (const TransitionRule& rule : kTransitions) {
+    Rest rest;
+    const std::int64_t before = rest.bench.context().counters.num_restarts;
+    (void)rest.Next(rule.from, rule.trigger);
+    EXPECT_EQ(rest.bench.context().counters.num_restarts - before, rule.is_restart ? 1 : 0)
+        << NameOf(rule.from) << " by " << NameOf(rule.trigger);
+  }
+}
+
 TEST(Mode, TransitionThatTheTableDoesNotNameThrows) {
   Rest rest;
   for (const ModeKind from : kKinds) {
     for (const Trigger trigger : kTriggers) {
-      if (TargetOf(from, trigger)) continue;
+      if (FindRule(from, trigger)) continue;
       EXPECT_THROW((void)rest.Next(from, trigger), std::logic_error)
           << NameOf(from) << " by " << NameOf(trigger);
     }

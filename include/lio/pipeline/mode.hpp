@@ -25,7 +25,8 @@ TrackingStatus StatusOf(const Mode& mode);
 // Index of the sweep to match next in the queue of those that wait.
 std::size_t NextSweepOf(const Mode& mode);
 
-// Builds the mode that the table names; throws std::logic_error where it names none.
+// Builds the mode that the table names, and counts it where the table calls that a restart; throws
+// std::logic_error where it names none.
 [[nodiscard]] Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context);
 
 }  // namespace lio

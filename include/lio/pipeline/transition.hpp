@@ -33,26 +33,27 @@ struct TransitionRule {
   ModeKind from;
   Trigger trigger;
   ModeKind to;
+  bool is_restart;  // counted in num_restarts: what was known of the motion is begun anew
 };
 
 inline constexpr std::array kTransitions{
-    TransitionRule{ModeKind::kInitializing, Trigger::kStarted, ModeKind::kTracking},
-    TransitionRule{ModeKind::kInitializing, Trigger::kNoImu, ModeKind::kLidarOnly},
-    TransitionRule{ModeKind::kInitializing, Trigger::kRetry, ModeKind::kInitializing},
-    TransitionRule{ModeKind::kInitializing, Trigger::kContradicted, ModeKind::kRejected},
-    TransitionRule{ModeKind::kInitializing, Trigger::kImuAppeared, ModeKind::kInitializing},
-    TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing},
-    TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing},
-    TransitionRule{ModeKind::kTracking, Trigger::kImuAbsent, ModeKind::kLidarOnly},
-    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuReturned, ModeKind::kTracking},
-    TransitionRule{ModeKind::kLidarOnly, Trigger::kLost, ModeKind::kInitializing},
-    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuAppeared, ModeKind::kInitializing},
+    TransitionRule{ModeKind::kInitializing, Trigger::kStarted, ModeKind::kTracking, false},
+    TransitionRule{ModeKind::kInitializing, Trigger::kNoImu, ModeKind::kLidarOnly, false},
+    TransitionRule{ModeKind::kInitializing, Trigger::kRetry, ModeKind::kInitializing, false},
+    TransitionRule{ModeKind::kInitializing, Trigger::kContradicted, ModeKind::kRejected, false},
+    TransitionRule{ModeKind::kInitializing, Trigger::kImuAppeared, ModeKind::kInitializing, true},
+    TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing, true},
+    TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing, true},
+    TransitionRule{ModeKind::kTracking, Trigger::kImuAbsent, ModeKind::kLidarOnly, true},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuReturned, ModeKind::kTracking, false},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kLost, ModeKind::kInitializing, true},
+    TransitionRule{ModeKind::kLidarOnly, Trigger::kImuAppeared, ModeKind::kInitializing, true},
 };
 
 // Absent: there is no such transition.
-constexpr std::optional<ModeKind> TargetOf(ModeKind from, Trigger trigger) {
+[[nodiscard]] constexpr std::optional<TransitionRule> FindRule(ModeKind from, Trigger trigger) {
   for (const TransitionRule& rule : kTransitions) {
-    if (rule.from == from && rule.trigger == trigger) return rule.to;
+    if (rule.from == from && rule.trigger == trigger) return rule;
   }
   return std::nullopt;
 }
