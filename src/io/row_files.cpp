@@ -26,7 +26,7 @@ std::string RegistrationHeader() {
   for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
   for (std::size_t i = 0; i < LevelCounts().size(); ++i)
     header += fmt::format(",matched_level_{}", i);
-  header += ",matches";
+  header += ",matches,coarse_matches";
   for (const char* stage : kStageNames) header += fmt::format(",{}_ms", stage);
   return header + "\n";
 }
@@ -41,7 +41,7 @@ std::string RegistrationRow(const ScanReport& scan) {
     row += fmt::format(",{:.9e}", eigenvalue);
   }
   for (const int num : scan.num_matched_at) row += fmt::format(",{}", num);
-  row += fmt::format(",{}", scan.num_matches);
+  row += fmt::format(",{},{}", scan.num_matches, scan.num_coarse_matches);
   for (const std::int64_t ns : scan.stage_ns) row += fmt::format(",{:.6f}", Milliseconds(ns));
   return row + "\n";
 }

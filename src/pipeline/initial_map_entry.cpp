@@ -30,6 +30,7 @@ std::optional<FoundPlace> InitialMapEntry::Seek(const LocatedScan& scan,
         return budget.Take() ? match(points, guess, cov) : MatchResult{};
       },
       [&](std::span<const Eigen::Vector3f> points, const Pose& guess, const Matrix6& cov) {
+        budget.CountCoarse();
         std::vector<Eigen::Vector3f> few;
         for (const std::uint32_t i :
              SpreadIndices(points.size(), kRelocalization.contest.num_coarse_points)) {

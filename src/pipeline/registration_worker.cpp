@@ -157,6 +157,7 @@ void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) 
                                    input.points_imu = few_points;
                                    input.tags = few_tags;
                                    input.is_far_off = false;
+                                   scan.budget.CountCoarse();
                                    return matcher_->Match(input);
                                  },
                                  scan.budget.num_left() - num_for_deskew};
@@ -180,10 +181,9 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   begin = Now();
   scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
   const std::vector<float> from_mid_sweep_s = TimesFromMidSweep(times, scan.reduced);
-  outcome.match =
-      MatchFully({scan.to_match, outcome.match.T_map_imu, Matrix6::Zero(), true, scan.tags_to_match,
-                  outcome.points_imu, job.prior.shift_std_m, from_mid_sweep_s},
-                 scan);
+  MatchInput input = scan.InputFrom(outcome.match.T_map_imu, Matrix6::Zero());
+  input.from_mid_sweep_s = from_mid_sweep_s;
+  outcome.match = MatchFully(input, scan);
   if (const auto& error = outcome.match.turn_rate_error; error && scan.motion.size() > 1) {
     outcome.turn_rate = Corrected(*error, scan.motion);
   }
@@ -251,6 +251,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;
   last_insert_ns_ = 0;
   outcome.num_matches = scan.budget.num_taken();
+  outcome.num_coarse_matches = scan.budget.num_coarse();
   return std::move(scan.outcome);
 }
 

@@ -83,6 +83,7 @@ ScanReport MakeScanReport(const MatchOutcome& outcome) {
   report.num_matched = outcome.match.num_matched;
   report.num_matched_at = outcome.match.num_matched_at;
   report.num_matches = outcome.num_matches;
+  report.num_coarse_matches = outcome.num_coarse_matches;
   report.iterations = outcome.match.iterations;
   report.status = outcome.match.status;
   report.residual_rms_m = outcome.match.residual_rms_m;

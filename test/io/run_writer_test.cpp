@@ -126,16 +126,17 @@ TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
   EXPECT_THAT(rows[1], HasSubstr(",empty_map,0,"));
 }
 
-TEST_F(RunWriterTest, ARowSaysHowManyFullMatchesItTook) {
+TEST_F(RunWriterTest, ARowSaysHowManyMatchesItTook) {
   ScanOutput scan = Scan(kStamp);
   scan.scan.num_matches = 3;
+  scan.scan.num_coarse_matches = 13;
   WriteRun(scan);
   const auto rows = Lines(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0],
               HasSubstr(",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
-                        "matched_level_3,matches,decode_ms,"));
-  EXPECT_THAT(rows[1], HasSubstr(",3,0.000000,"));
+                        "matched_level_3,matches,coarse_matches,decode_ms,"));
+  EXPECT_THAT(rows[1], HasSubstr(",3,13,0.000000,"));
 }
 
 TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {

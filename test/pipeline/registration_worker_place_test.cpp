@@ -75,15 +75,19 @@ TEST(RegistrationWorkerPlace, AtMostFourFullMatchesRunForAScan) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);
   int most = 0;
+  int num_coarse = 0;
   for (int i = 0; i < 4; ++i) {
     MatchJob job = UnsureJobFor(6.0 + 0.1 * i, Vector6::Zero());
     job.prior.T_map_imu = Driving()(1.0) * ExpSe3(FarAhead());
     job.task = Relocalize{{}, {SearchRegion::kAnywhere, Driving()(0.5)}};
-    const int num_matches = side.Run(job).num_matches;
+    const MatchOutcome outcome = side.Run(job);
+    const int num_matches = outcome.num_matches;
+    num_coarse += outcome.num_coarse_matches;
     EXPECT_LE(num_matches, 4);
     most = std::max(most, num_matches);
   }
   EXPECT_GE(most, 3) << "it was searched for";
+  EXPECT_GE(num_coarse, 4) << "candidates were ranked";
 }
 
 TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {

@@ -23,8 +23,9 @@ WORK = pathlib.Path("out/golden")
 ENVIRONMENT = dict(os.environ, GLIBC_TUNABLES="glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4")
 TRAJECTORIES = ("trajectory.tum", "trajectory_world.tum", "trajectory_imu_rate.tum")
 COVARIANCES = ("covariance.csv", "covariance_world.csv")
-# The columns computed for a scan, but for the count of matches: searches may be cut differently.
+# These columns are no part of the registration's hash: searches may be cut differently.
 COUNT_OF_MATCHES = "matches"
+COUNTS_OF_MATCHES = (COUNT_OF_MATCHES, "coarse_matches")
 COLUMNS = ("case", "log", "exit", "trajectory", "covariance", "registration", "counters", "matches")
 
 
@@ -88,7 +89,7 @@ def rows_of(path):
     with open(path, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     kept = [[value for key, value in row.items()
-             if not key.endswith("_ms") and key != COUNT_OF_MATCHES] for row in rows]
+             if not key.endswith("_ms") and key not in COUNTS_OF_MATCHES] for row in rows]
     counts = [row.get(COUNT_OF_MATCHES, "-") for row in rows]
     return repr(kept).encode(), repr(counts).encode()
 

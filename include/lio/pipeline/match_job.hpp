@@ -71,6 +71,7 @@ struct MatchOutcome {
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
   std::optional<FoundPlace> place;       // of the map in the initial map, with seeks_place
   int num_matches = 0;                   // full matches of the scan against the map
+  int num_coarse_matches = 0;            // of a few hundred of its points
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle

@@ -90,8 +90,9 @@ struct ScanReport {
   int num_used = 0;
   int num_matched = 0;           // points
   LevelCounts num_matched_at{};  // of them by level of the map, finest first; method ndt
-  int num_matches = 0;  // full matches against the map, of guesses and after another deskew
-  int iterations = 0;   // of the last match
+  int num_matches = 0;         // full matches against the map, of guesses and after another deskew
+  int num_coarse_matches = 0;  // of a few hundred points, which rank the candidates of a search
+  int iterations = 0;          // of the last match
   MatchStatus status = MatchStatus::kConverged;
   bool fused = false;
   double residual_rms_m = 0.0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Counts the full matches of one scan, that is of all its points to match, and bounds them, so that
-// a search cannot hold up the scans behind.
+// Counts the matches of one scan. Full ones, of all its points to match, are bounded here, so that
+// a search cannot hold up the scans behind; coarse ones, of a few hundred points, are bounded by the
+// searches that rank their candidates by them.
 #pragma once
 
 namespace lio {
@@ -17,12 +18,16 @@ class MatchBudget {
     ++num_taken_;
     return true;
   }
+  void CountCoarse() { ++num_coarse_; }
+
   int num_left() const { return num_left_; }
   int num_taken() const { return num_taken_; }
+  int num_coarse() const { return num_coarse_; }
 
  private:
   int num_left_;
   int num_taken_ = 0;
+  int num_coarse_ = 0;
 };
 
 }  // namespace lio
