@@ -68,7 +68,7 @@ sanitized() {
 
 # Tests of core that take 40 minutes of processor time and more under ASan: drives through a map and
 # at many delays.
-slowest_of_core=InitialMapEntry.*:OdometryReading.*
+slowest_of_core=InitialMapEntry.*:OdometryImuConvention.*
 slowest_of_core+=:Odometry.SameBytesWheneverJobsAreFinished:Odometry.StepsOneAfterTheOther*
 run_asan() {
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}

@@ -23,7 +23,7 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(PointXYZIRT,
   (std::uint16_t, ring, ring)(float, time, time))
 // clang-format on
 
-// What a driver would give.
+// Makes the cloud that a driver would give.
 pcl::PointCloud<PointXYZIRT> CloudAt(double begin_s) {
   const lio::LidarSweep sweep = room::SweepAt(begin_s);
   pcl::PointCloud<PointXYZIRT> cloud;

@@ -20,7 +20,7 @@ inline lio::Timestamp StampAt(double t_s) {
   return lio::Timestamp{1'700'000'000'000'000'000} + lio::Duration::FromSeconds(t_s);
 }
 
-// Where the IMU is [m]; it begins in the origin.
+// The IMU has this x [m]; it begins in the origin.
 inline double TrueX(double t_s) {
   const double moving_s = std::max(0.0, t_s - kRest_s);
   return 0.5 * kAcceleration_mps2 * moving_s * moving_s;

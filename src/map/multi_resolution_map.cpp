@@ -35,7 +35,7 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
     at_level.max_cells = ShareOfCells(level, options);
     if (!is_coarsest) {
       at_level.max_distance_m =
-          std::min(options.max_distance_m, Parameters::kReach_edges * at_level.voxel_m);
+          std::min(options.max_distance_m, Parameters::kMaxDistance_edges * at_level.voxel_m);
     }
     levels_.emplace_back(at_level, is_coarsest);
     edges_m_.push_back(at_level.voxel_m);

@@ -69,7 +69,7 @@ Estimate Start(Timestamp start, const TrackerOptions& options) {
   return estimate;
 }
 
-// For a while that nobody knows, about half a second.
+// Allows for a pause of unknown length, about half a second.
 void AllowUnseenHalfSecond(Estimate& estimate) {
   const double shift_std_m =
       std::max(kConstantVelocity.unseen_shift_m,

@@ -150,7 +150,8 @@ std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segmen
   context_.sweeps.clear();
   ++context_.counters.num_restarts;
   context_.outputs.Notify(segment.first.stamp, Notice::Severity::kWarning,
-                          "the IMU's stamps jumped: initialization begins again");
+                          "the IMU's stamps jumped: initialization begins again; look for lost "
+                          "messages or a clock that was set");
   return Transition{.trigger = Trigger::kRetry, .handover = std::move(handover)};
 }
 
@@ -160,7 +161,8 @@ std::optional<Transition> Initializing::TakeImuAbsent() const {
 
 std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
   context_.outputs.Notify(event.first, Notice::Severity::kWarning,
-                          "inertial samples have come: initialization begins again, with them");
+                          "inertial samples have come: initialization begins again, with them, and "
+                          "nothing need be done");
   Handover handover = handover_;
   if (handover.origin == Handover::Origin::kLostLidar) {
     handover.origin = Handover::Origin::kLidar;

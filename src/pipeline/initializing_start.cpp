@@ -25,7 +25,7 @@ std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
 }
 
-// The extrinsic in the axes that the messages were found to have; its translation stays as it was.
+// Turns the extrinsic into the axes that the messages were found to have; its translation stays.
 Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
   const Pose T = rig.T_imu_lidar.value_or(Pose{});
   return {(Quaternion(found.R_imu_sent).conjugate() * T.rotation).normalized(), T.translation};
@@ -64,7 +64,7 @@ bool Initializing::IsInDoubt(Timestamp stamp) const {
   return has_restarted && context_.convention.IsInDoubt(handover_.last_fix.stamp, stamp);
 }
 
-// A transition when what was tracked is of no use any more.
+// Gives a transition when the tracked poses are of no use any more.
 std::optional<Transition> Initializing::JudgeConvention(Timestamp stamp) {
   ImuConventionMonitor& convention = context_.convention;
   const std::vector<ImuSample> samples =
@@ -220,7 +220,7 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   return Retry();
 }
 
-// Reads all samples so, those of the past seconds included, and begins again with them.
+// Reads all samples by this convention, also those of the past seconds, and begins again with them.
 Transition Initializing::SetConvention(const ImuConvention& found, const std::string& evidence,
                                        Timestamp stamp) {
   const Rig& rig = context_.options.rig;
@@ -256,7 +256,8 @@ void Initializing::TurnHandover(const ImuConvention& found) {
   if (!handover_.is_map_by_lidar) fix.T_map_imu = handover_.T_map_start * turn * since_start;
 }
 
-// The body has turned since; as far as its samples are still here.
+// Turns the earlier fix by the rotation since then, integrated from the samples that are still in
+// the buffer.
 void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier) const {
   const std::vector<ImuSample> samples = context_.stream.imu().Between(earlier.stamp, now.stamp);
   if (samples.empty()) return;

@@ -163,9 +163,10 @@ Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {
   handover.origin = Handover::Origin::kLostLidar;
   handover.w_imu_radps = -estimate.state.gyro_bias;
   handover.pose_cov = estimate.cov.topLeftCorner<6, 6>();
-  context_.outputs.Notify(sweep_end, Notice::Severity::kWarning,
-                          "lost: scans see enough but match the map nowhere, so the map begins "
-                          "anew at the last pose that was found");
+  context_.outputs.Notify(
+      sweep_end, Notice::Severity::kWarning,
+      "lost: scans see enough but match the map nowhere, so the map begins "
+      "anew at the last pose that was found; if it happens often, an IMU helps");
   return {.trigger = Trigger::kLost, .handover = std::move(handover)};
 }
 
@@ -174,11 +175,12 @@ std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
     is_imu_back_ = true;
     context_.outputs.Notify(event.first, Notice::Severity::kWarning,
                             "inertial samples come again: the next scan that matches goes on with "
-                            "them");
+                            "them, and nothing need be done");
     return std::nullopt;
   }
   context_.outputs.Notify(event.first, Notice::Severity::kWarning,
-                          "inertial samples have come: initialization begins again, with them");
+                          "inertial samples have come: initialization begins again, with them, and "
+                          "nothing need be done");
   Handover handover = handover_;
   handover.origin = Handover::Origin::kLidar;
   handover.is_map_by_lidar = true;

@@ -158,7 +158,7 @@ class Odometry::Impl {
             examiner_,  place_};
   }
   std::int64_t NowNs() const { return clock_ == nullptr ? 0 : clock_(); }
-  // The sweep in flight included.
+  // The count includes the sweep in flight.
   std::size_t NumUnmatched() const {
     const std::size_t next = std::min(NextSweepOf(*mode_), sweeps_.size());
     return std::max<std::size_t>(sweeps_.size() - next, in_flight_ ? 1 : 0);

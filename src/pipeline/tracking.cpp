@@ -221,7 +221,8 @@ std::optional<Transition> Tracking::JudgeSelf(Timestamp sweep_end, bool restarts
   if (!restarts) return std::nullopt;
   return Restart(Trigger::kLost, sweep_end,
                  "lost: scans see enough but match the map nowhere, so initialization begins "
-                 "again at the last pose that was found");
+                 "again at the last pose that was found; if it happens often, check the rig and "
+                 "the IMU");
 }
 
 Transition Tracking::Restart(Trigger trigger, Timestamp stamp, const std::string& why) const {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correction of a wrong extrinsic, while tracking.
+// Tracking corrects a wrong extrinsic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 std::string TextFor(const RigFindings& findings, const Pose& T_imu_lidar) {
   if (!findings.T_imu_lidar) {
     const Vector3& lever = T_imu_lidar.translation;
-    return fmt::format("the extrinsic is bettered: its translation is [{:.3f}, {:.3f}, {:.3f}] m",
+    return fmt::format("the extrinsic is refined: its translation is [{:.3f}, {:.3f}, {:.3f}] m",
                        lever.x(), lever.y(), lever.z());
   }
   const auto cause = std::ranges::find_if(findings.causes, IsOfExtrinsic);

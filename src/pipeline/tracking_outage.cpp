@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The way back from an outage, while tracking.
+// Tracking finds the way back from an outage.
 #include <fmt/format.h>
 
 #include "lio/filter/sample_lookup.hpp"
@@ -69,7 +69,8 @@ void Tracking::NotifyFound(Timestamp end) {
   const char* why = moved_m < kOutage.stayed_m ? ": the body stayed there, or clocks were set" : "";
   context_.outputs.Notify(
       end, Notice::Severity::kWarning,
-      fmt::format("found again in the map, {:.1f} m from where it was{}", moved_m, why));
+      fmt::format("found again in the map, {:.1f} m from where it was{}; nothing need be done",
+                  moved_m, why));
 }
 
 // The scans after the one that was found contradict it.
@@ -96,7 +97,7 @@ void Tracking::LeaveMap(Timestamp stamp) {
   context_.outputs.Notify(
       stamp, Notice::Severity::kWarning,
       "the place is not found in the map, so a new map begins in the same world; "
-      "the covariance says how sure its place there is");
+      "nothing need be done, the covariance says how sure its place there is");
 }
 
 }  // namespace lio

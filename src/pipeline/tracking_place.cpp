@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The way into the initial map, while tracking.
+// Tracking finds the way into the initial map.
 #include <fmt/format.h>
 
 #include <numbers>

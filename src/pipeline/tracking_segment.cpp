@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Gaps of the inertial stream and steps of its clock, while tracking.
+// Tracking goes on across gaps of the inertial stream and steps of its clock.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double UnknownAtSetClock_s(ImuPreprocessor::Step step, double jump_s) {
   return std::clamp(jump_s, kTracking.clock_set_s, kMaxUnknown_s);
 }
 
-// Straight on for so long, without turning, as unsure as after a gap of the samples.
+// The body goes straight on for so long, without turning, as unsure as after a gap of the samples.
 Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& options) {
   if (unknown_s <= 0.0) return estimate;
   ImuSample coast;
@@ -68,7 +68,9 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
   Estimate estimate = Coasted(before, unknown_s, options);
   context_.outputs.Notify(
       first, Notice::Severity::kWarning,
-      fmt::format("the IMU's stamps jumped by {:.3f} s: the state is carried over", jump_s));
+      fmt::format("the IMU's stamps jumped by {:.3f} s: the state is carried over; look for lost "
+                  "messages or a clock that was set",
+                  jump_s));
   if (is_gap) {
     if (health_.AddGap(first)) NotifyLost(first, context_.outputs);
   } else {
@@ -103,7 +105,8 @@ bool Tracking::IsAfterClockStep(const Sweep& sweep) const {
   return handover_.clock_step && sweep.middle() > handover_.clock_step->stamps.before;
 }
 
-// The pose of a sweep after the step if no time has passed there: the motion since, from before it.
+// Gives the pose that a sweep after the step has if no time passed there: the motion since the step
+// is added to the pose before it.
 std::optional<Pose> Tracking::PoseIfClockSet(const Sweep& sweep,
                                              const Pose& T_map_imu_predicted) const {
   if (!IsAfterClockStep(sweep)) return std::nullopt;

@@ -23,7 +23,7 @@ double MeanVariance(double density, double other_std, double span_s) {
   return density * density / span_s + other_std * other_std;
 }
 
-// Neither turning nor speeding up, as far as the filter can tell.
+// The body neither turns nor speeds up, as far as the filter can tell.
 bool IsUnmoved(const ImuStatistics& seen, const ImuRig& imu, const Estimate& estimate,
                const Vector3& g_world) {
   const NavState& state = estimate.state;

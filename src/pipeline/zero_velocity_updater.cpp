@@ -6,8 +6,8 @@
 
 namespace lio {
 
-// Measurements whose errors last for a time t tell, d apart, as much as independent ones of 2 t / d
-// times the variance.
+// The errors of measurements in a row are correlated for a time t. Measurements at intervals d tell
+// as much as independent ones whose variance is 2 t / d times as large.
 bool ZeroVelocityUpdater::AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world,
                                        FilterHistory& history) {
   if (outcome.match.degenerate_mask != 0) {

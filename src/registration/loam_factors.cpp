@@ -7,7 +7,7 @@
 namespace lio {
 namespace {
 
-// The point moved by the part s of the pose.
+// Moves the point by the part s of the pose.
 template <class T>
 Eigen::Matrix<T, 3, 1> Move(const T* block, const Vector3& point, double s) {
   const Eigen::Map<const Eigen::Quaternion<T>> rotation(block);

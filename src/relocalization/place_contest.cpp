@@ -124,10 +124,10 @@ void PlaceContest::OrderByFit() {
 bool PlaceContest::HasWinner() const {
   const Contender& leader = contenders_.front();
   if (leader.num_good_in_a_row < kContest.num_checks) return false;
-  const double misfit = std::max(1.0 - leader.fit(), kContest.least_misfit);
+  const double residual = std::max(1.0 - leader.fit(), kContest.least_residual);
   return std::all_of(contenders_.begin() + 1, contenders_.end(), [&](const Contender& rival) {
     return rival.num_checks >= kContest.num_rival_checks &&
-           1.0 - rival.fit() >= kContest.min_misfit_ratio * misfit;
+           1.0 - rival.fit() >= kContest.min_residual_ratio * residual;
   });
 }
 

@@ -31,23 +31,23 @@ Grid Halved(const Grid& grid, const Eigen::Vector2i& size, const Eigen::Vector2i
   return halved;
 }
 
-// Marks the cells up to `reach` before each marked one, along x and y; the result begins as many
-// cells before the grid.
-Grid Reaching(const Grid& grid, const Eigen::Vector2i& size, int reach) {
-  const Eigen::Vector2i wide(size.x() + reach, size.y());
-  const Eigen::Vector2i result_size(size.x() + reach, size.y() + reach);
+// Marks the cells up to `tolerance` before each marked one, along x and y; the result begins as
+// many cells before the grid.
+Grid Widened(const Grid& grid, const Eigen::Vector2i& size, int tolerance) {
+  const Eigen::Vector2i wide(size.x() + tolerance, size.y());
+  const Eigen::Vector2i result_size(size.x() + tolerance, size.y() + tolerance);
   Grid along_x(IndexOf(0, wide.y(), wide), 0);
   for (int y = 0; y < size.y(); ++y) {
     for (int x = 0; x < size.x(); ++x) {
       if (grid[IndexOf(x, y, size)] == 0) continue;
-      for (int by = 0; by <= reach; ++by) along_x[IndexOf(x + by, y, wide)] = 1;
+      for (int by = 0; by <= tolerance; ++by) along_x[IndexOf(x + by, y, wide)] = 1;
     }
   }
   Grid result(IndexOf(0, result_size.y(), result_size), 0);
   for (int y = 0; y < wide.y(); ++y) {
     for (int x = 0; x < wide.x(); ++x) {
       if (along_x[IndexOf(x, y, wide)] == 0) continue;
-      for (int by = 0; by <= reach; ++by) result[IndexOf(x, y + by, result_size)] = 1;
+      for (int by = 0; by <= tolerance; ++by) result[IndexOf(x, y + by, result_size)] = 1;
     }
   }
   return result;
@@ -90,9 +90,9 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
       marked_size = half;
     }
     // A block begins anywhere in a cell, so that it may touch one more than it is wide.
-    added.reach = added.shift > 0 ? 4 : (1 << level) - 1;
-    added.size = marked_size.array() + added.reach;
-    added.grid = added.reach == 0 ? marked : Reaching(marked, marked_size, added.reach);
+    added.tolerance = added.shift > 0 ? 4 : (1 << level) - 1;
+    added.size = marked_size.array() + added.tolerance;
+    added.grid = added.tolerance == 0 ? marked : Widened(marked, marked_size, added.tolerance);
   }
 }
 

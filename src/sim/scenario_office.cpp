@@ -112,8 +112,8 @@ void AddDoor(World& world, const Door& door, const std::shared_ptr<const Drive>&
        }});
 }
 
-// Rooms' doors open into the rooms, the stairwell's into the corridor. That of the storey between
-// stays shut.
+// Rooms' doors open into the rooms, the stairwell's into the corridor. The stairwell's door on the
+// storey between stays shut.
 void AddDoors(World& world, const std::shared_ptr<const Drive>& drive,
               const std::shared_ptr<const Floor>& floor) {
   constexpr double y = Shape::kHalfCorridor_m + 0.5 * Shape::kWall_m;

@@ -57,7 +57,8 @@ bool ImuPreprocessor::MayBeSetRight(Timestamp stamp) const {
   return stamp >= first && IsAsLong(ClockStepTo_s(first), is_behind_s_);
 }
 
-// Is it of a time of which other samples have told, and none of them itself?
+// A sample contradicts the recent ones if its stamp lies where they leave no room for it, unless it
+// is a copy of the one with its stamp.
 bool ImuPreprocessor::Contradicts(const ImuSample& sample) const {
   const auto next = FirstNotBefore(recent_, sample.stamp);
   if (next == recent_.begin()) return true;  // it would have been told before the first that was

@@ -6,7 +6,8 @@
 
 namespace lio {
 
-// Is it of the kept sender's row, by its number and its stamp alike? A repeated sample has both.
+// A sample goes on with the kept sender's sequence if its number and its stamp advance by the same
+// count of steps. A repeated sample advances by none in both.
 bool SenderWatch::GoesOn(const Newest& sample) {
   // The difference is modulo 2^32, as numbers wrap.
   const std::int64_t apart = static_cast<std::int32_t>(sample.seq - kept_->seq);

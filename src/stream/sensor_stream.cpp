@@ -262,8 +262,8 @@ void SensorStream::GoLidarOnly(const std::string& evidence) {
   events_.emplace_back(std::move(absent));
 }
 
-// The samples have ended; the sweeps since then go on without. Samples that come later are none
-// that follow these, so that no pause is taken for a clock that was set.
+// The samples have ended, and sweeps from then on are matched without them. Samples that come later
+// begin a new series, so that the pause between is not taken for a clock that was set.
 void SensorStream::LoseImu() {
   state_ = State::kFlowing;
   ++counters_->num_imu_gaps;

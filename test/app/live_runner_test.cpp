@@ -37,7 +37,7 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
   EXPECT_EQ(Stats()["num_chunks_queue_dropped"], 0);
 }
 
-// Of the clouds, newer ones replace one that still waits to be sent. So the log is held up while
+// A newer cloud replaces one that still waits to be sent. So the log is held up while
 // the last full cloud is too many scans old, and then enough of them must have been sent however
 // slow the machine is.
 TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
@@ -77,7 +77,7 @@ TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
   EXPECT_GE(num_messages[channels.cloud], 4);  // due every fifth scan
 }
 
-// Of two messages of one instant: base's pose and motion are imu's, moved by hand.
+// Both messages are of one instant: base's pose and motion are imu's, moved by hand.
 void ExpectMoved(const odometry_t& imu, const odometry_t& base, const Pose& T_base_imu) {
   const auto pose_of = [](const odometry_t& m) {
     return Pose{Quaternion(m.quat[0], m.quat[1], m.quat[2], m.quat[3]), Vector3(m.pos)};

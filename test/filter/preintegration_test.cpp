@@ -63,7 +63,7 @@ TEST(Preintegration, ErrorFallsByFourWhenTheRateDoubles) {
   }
 }
 
-TEST(Preintegration, NeighbouringStretchesComposeToTheWhole) {
+TEST(Preintegration, NeighbouringIntervalsComposeToTheWhole) {
   const SmoothMotion motion = WalkMotion();
   // On a sample's stamp both halves use the same samples as the whole.
   const Preintegration whole = Exact(motion, 0.1, 1.1, 100);

@@ -32,7 +32,7 @@ TEST(Rest, StatisticsOfNothingAreZero) {
 }
 
 // The data are 100 steps of 10 ms with noise of 0.01 rad/s and 0.02 m/s^2.
-TEST(Rest, CalmIsWhatNoiseAndUnrestExplain) {
+TEST(Rest, CalmIsWhatNoiseAndVibrationExplain) {
   const ImuRig imu;
   ImuStatistics statistics;
   statistics.num_samples = 101;

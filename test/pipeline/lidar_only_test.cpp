@@ -216,7 +216,8 @@ TEST(LidarOnly, ImuThatAppearsGetsTheWorldAndTheMap) {
   EXPECT_NEAR(transition->handover.last_fix.T_map_imu.translation.x(), 0.95 * kSpeed_mps, 0.05);
 }
 
-// What the inertial filter knew at second 0: the map has drifted from the world by two metres.
+// The state is what the inertial filter knew at second 0: the map has drifted from the world by two
+// metres.
 StartState Inertial() {
   StartState start;
   start.g_world = Vector3(0, 0, -9.81);

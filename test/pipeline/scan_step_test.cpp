@@ -24,7 +24,7 @@ SweepPtr SweepOf(double start_s, double end_s) {
   return sweep;
 }
 
-// What is unknown at the start, 1 sigma.
+// Standard deviations say how little is known at the start.
 struct Unknown {
   Vector3 velocity_mps = Vector3::Zero();  // in world
   double gyro_bias_radps = 0.0;

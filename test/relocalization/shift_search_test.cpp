@@ -64,7 +64,7 @@ TEST(ShiftSearch, FindsHowFarTheSensorHasGoneAlongARoad) {
 }
 
 // Rails alone determine the lateral position, but not the one along them.
-TEST(ShiftSearch, SaysThatAStretchOfRoadLooksTheSame) {
+TEST(ShiftSearch, SaysThatAPieceOfRoadLooksTheSame) {
   const auto rails = [](const Eigen::Vector2f& sensor) {
     Points points;
     for (float x = -59.f; x < 59.f; x += 0.2f) {

@@ -32,7 +32,7 @@ struct Buffer {
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
 
-  // What the sample adds.
+  // Returns the samples that become ready with this one.
   std::vector<ImuReady> Add(const ImuSample& sample) {
     std::vector<ImuReady> ready;
     EXPECT_TRUE(imu.Add(sample, ready));

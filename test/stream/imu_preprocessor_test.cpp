@@ -133,7 +133,7 @@ TEST(ImuPreprocessor, OneWrongStampIsDroppedAndTheStreamGoesOn) {
   }
 }
 
-TEST(ImuPreprocessor, LongGapBeginsANewStretchOnceConfirmedAndLosesNoSample) {
+TEST(ImuPreprocessor, LongGapBeginsANewSegmentOnceConfirmedAndLosesNoSample) {
   Counters counters;
   ImuPreprocessor intake(counters);
   bool jumped = false;
@@ -144,7 +144,7 @@ TEST(ImuPreprocessor, LongGapBeginsANewStretchOnceConfirmedAndLosesNoSample) {
   EXPECT_EQ(counters.num_clock_jumps, 0);
 }
 
-TEST(ImuPreprocessor, ClockSetBackBeginsANewStretchAndIsCounted) {
+TEST(ImuPreprocessor, ClockSetBackBeginsANewSegmentAndIsCounted) {
   Counters counters;
   ImuPreprocessor intake(counters);
   bool jumped = false;
@@ -154,7 +154,7 @@ TEST(ImuPreprocessor, ClockSetBackBeginsANewStretchAndIsCounted) {
   EXPECT_EQ(counters.num_clock_jumps, 1);
 }
 
-TEST(ImuPreprocessor, WildStampsNeverBecomeAStretch) {
+TEST(ImuPreprocessor, WildStampsNeverBecomeASegment) {
   Counters counters;
   ImuPreprocessor intake(counters);
   Feed(intake, 0.0, 10);
@@ -182,7 +182,7 @@ std::vector<Step> StepsOf(double clock_error_s, double rate_Hz, Counters& counte
   return steps;
 }
 
-TEST(ImuPreprocessor, ClockSetBackByLessThanASecondAndRightAgainBeginsNewStretches) {
+TEST(ImuPreprocessor, ClockSetBackByLessThanASecondAndRightAgainBeginsNewSegments) {
   for (const double error_s : {-0.15, -0.3, -0.5, -0.5037, -0.9, -1.7}) {
     for (const double rate_Hz : {50.0, 100.0, 400.0}) {
       Counters counters;

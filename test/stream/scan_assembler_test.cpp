@@ -274,7 +274,7 @@ TEST(ScanAssembler, SweepCutByAJumpBackDoesNotStayOpen) {
   EXPECT_EQ(sweeps[0].num_missing_chunks, kChunks - 1);
 }
 
-TEST(ScanAssembler, StretchThatIsOverIsClosedAndNothingElse) {
+TEST(ScanAssembler, SegmentThatIsOverIsClosedAndNothingElse) {
   Assembly a;
   a.Add(MakeChunk(7, 0));
   a.Add(SetBack(MakeChunk(7, 1)));

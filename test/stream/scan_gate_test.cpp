@@ -160,7 +160,7 @@ TEST(ScanGate, FlushLetsInTheSweepThatIsHeld) {
   EXPECT_EQ(g.gate.Force()->end, StampAt(5.0));
 }
 
-TEST(ScanGate, NewStretchInThePastForgetsTheFuture) {
+TEST(ScanGate, NewSegmentInThePastForgetsTheFuture) {
   Gate g;
   g.gate.Add(SweepEnding(100.0));
   g.gate.StartSegment(StampAt(0.0));
@@ -170,7 +170,7 @@ TEST(ScanGate, NewStretchInThePastForgetsTheFuture) {
   EXPECT_EQ(g.counters.num_scans_late, 0);
 }
 
-TEST(ScanGate, NewStretchAheadKeepsWhatWaits) {
+TEST(ScanGate, NewSegmentAheadKeepsWhatWaits) {
   Gate g;
   g.gate.Add(SweepEnding(100.0));
   g.gate.StartSegment(StampAt(100.0));

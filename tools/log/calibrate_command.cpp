@@ -160,7 +160,7 @@ void WriteJson(const std::string& file, const RotationCalibrationResult& result,
   json["correlation"] = found.correlation;
   json["sweep_std_deg"] = kDegrees * found.sweep_std_rad;
   json["turn_std_deg"] = kDegrees * found.turn_std_rad;
-  json["misfit"] = found.residual_ratio;
+  json["residual_ratio"] = found.residual_ratio;
   WriteText(file, json.dump(2) + "\n");
 }
 

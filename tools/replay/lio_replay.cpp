@@ -67,7 +67,7 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->check(CLI::Range(1, 64));
   app.add_flag("--map", arguments.writes_map, "Write map.pcd with one point per voxel of 0.2 m");
   app.add_option("--map-format", arguments.map_format,
-                 "Of the map: pcd, or ply to have map.ply in place of map.pcd")
+                 "Format of the map: pcd, or ply to have map.ply in place of map.pcd")
       ->needs("--map")
       ->check(CLI::IsMember({"pcd", "ply"}))
       ->capture_default_str();

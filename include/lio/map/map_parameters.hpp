@@ -48,7 +48,7 @@ struct GaussianMapParameters {
 struct MultiResolutionParameters {
   // Cells of the finer levels farther away than this many of their edges are dropped: the beams of
   // spinning lidars are 0.35 deg and more apart, and a cell there has one ring at most.
-  static constexpr double kReach_edges = 120.0;
+  static constexpr double kMaxDistance_edges = 120.0;
   // A level serves a guess that may be off by this share of its cells' edge, one standard
   // deviation: most points then lie in their own cell. Chosen.
   static constexpr double kMaxOff_edges = 0.25;

@@ -15,8 +15,8 @@ namespace lio {
 // its middle, where its first pose will be.
 [[nodiscard]] Timestamp TrackStart(const Sweep& sweep, const MotionSeed& seed);
 
-// Roughly up in imu, in whatever unit and sign forces come. Where gravity is not in them they point
-// anywhere: then along the lidar's axis.
+// The result points roughly up in imu, in whatever unit and sign forces come. Forces without
+// gravity point anywhere, and the lidar's axis is taken in their place.
 [[nodiscard]] Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig);
 
 // A sweep that ends before the tracker's newest event means that stamps went back: the tracker goes

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The initial map on the side of the points: its matcher waits beside that of the new map, which
-// scans make until their place is found; then both change places. What scans add while they are
-// inside stays in it.
+// The initial map's matcher waits beside that of the new map, which scans make until their place in
+// the initial map is found; then both change places. Points that scans add after that stay in the
+// initial map.
 #pragma once
 
 #include <memory>

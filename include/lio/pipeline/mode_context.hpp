@@ -43,7 +43,8 @@ struct ModeContext {
 
 inline void NotifyLost(Timestamp stamp, OutputQueue& outputs) {
   outputs.Notify(stamp, Notice::Severity::kWarning,
-                 "lost: no scan has matched the map for two seconds; the pose drifts");
+                 "lost: no scan has matched the map for two seconds; the pose drifts until one "
+                 "matches again, so look at what the lidar sees there");
 }
 
 }  // namespace lio

@@ -93,7 +93,7 @@ void VisitFields(Visitor& visit, MaybeConst<ImuRig> auto& o) {
   visit("accel_bias_std_mps2", o.accel_bias_std_mps2, "turn-on bias, 1 sigma [m/s^2]",
         Range{0, 10});
   visit("units", o.units,
-        "of its messages: m/s^2 or g, rad/s or deg/s; auto finds out, turned axes too");
+        "units of its messages: m/s^2 or g, rad/s or deg/s; auto also finds turned axes");
   visit("gravity", o.gravity, "is gravity part of the accelerometer's reading; auto finds out");
 }
 
@@ -157,7 +157,7 @@ void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
         Range{3, 1000});
   visit("max_cell_points", o.max_cell_points, "a cell with as many points is frozen",
         Range{3, 1000000});
-  visit("max_iterations", o.max_iterations, "of one match", Range{1, 1000});
+  visit("max_iterations", o.max_iterations, "most iterations of one match", Range{1, 1000});
   visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
         Range{0, 1});
   visit("converged_step_rad", o.converged_step_rad, "the rotation step is smaller [rad]",
@@ -172,7 +172,7 @@ void VisitFields(Visitor& visit, MaybeConst<NdtOptions> auto& o) {
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<LoamFeatureOptions> auto& o) {
-  visit("num_sectors", o.num_sectors, "of a ring, each picked from alone", Range{1, 100});
+  visit("num_sectors", o.num_sectors, "sectors of a ring, each picked from alone", Range{1, 100});
   visit("num_sharp", o.num_sharp, "sharpest edge points of a sector", Range{0, 1000});
   visit("num_less_sharp", o.num_less_sharp, "edge points of a sector, sharp ones included",
         Range{0, 1000});
@@ -192,7 +192,7 @@ void VisitFields(Visitor& visit, MaybeConst<LoamFeatureOptions> auto& o) {
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<LoamOptions> auto& o) {
-  visit("target", o.target, "what scans are matched against: the map, or the scan before");
+  visit("target", o.target, "target of the matches: the map, or the scan before");
   visit("edge_leaf_m", o.edge_leaf_m, "voxel of the edge map, one point each [m]", Range{0.05, 10});
   visit("surface_leaf_m", o.surface_leaf_m, "voxel of the surface map [m]; A-LOAM 0.8",
         Range{0.05, 10});
@@ -200,15 +200,16 @@ void VisitFields(Visitor& visit, MaybeConst<LoamOptions> auto& o) {
         Range{1, 1000000});
   visit("num_neighbours", o.num_neighbours, "points that a line or a plane is laid through",
         Range{3, 8});
-  visit("min_line_ratio", o.min_line_ratio, "of a line's spread to the next largest",
-        Range{1, 1000});
+  visit("min_line_ratio", o.min_line_ratio,
+        "least ratio of a line's spread along it to the next largest", Range{1, 1000});
   visit("max_plane_error_m", o.max_plane_error_m, "a plane fits none of its points worse [m]",
         Range{0.001, 10});
   visit("huber_m", o.huber_m, "residuals above count linearly [m]", Range{0.001, 10});
   visit("edge_std_m", o.edge_std_m, "how well an edge point tells where the edge is [m]",
         Range{1e-4, 10});
   visit("surface_std_m", o.surface_std_m, "the same of a surface point [m]", Range{1e-4, 10});
-  visit("max_iterations", o.max_iterations, "of Ceres in one round", Range{1, 1000});
+  visit("max_iterations", o.max_iterations, "most iterations of Ceres in one round",
+        Range{1, 1000});
   visit("max_rounds", o.max_rounds, "correspondences are sought anew in each; A-LOAM always 2",
         Range{1, 1000});
   visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
@@ -234,10 +235,11 @@ void VisitFields(Visitor& visit, MaybeConst<GicpOptions> auto& o) {
   visit("min_keyframe_m", o.min_keyframe_m, "but at least so far apart [m]", Range{0, 1000});
   visit("max_keyframe_m", o.max_keyframe_m, "and at most [m]", Range{0, 1000});
   visit("keyframe_deg", o.keyframe_deg, "or after turning this much [deg]", Range{0, 360});
-  visit("num_near_keyframes", o.num_near_keyframes, "of the submap", Range{1, 10000});
-  visit("num_hull_keyframes", o.num_hull_keyframes, "of the submap, from the convex hull of all",
-        Range{0, 10000});
-  visit("max_iterations", o.max_iterations, "of one match", Range{1, 1000});
+  visit("num_near_keyframes", o.num_near_keyframes, "nearest keyframes in the submap",
+        Range{1, 10000});
+  visit("num_hull_keyframes", o.num_hull_keyframes,
+        "nearest keyframes on the convex hull of all, also in the submap", Range{0, 10000});
+  visit("max_iterations", o.max_iterations, "most iterations of one match", Range{1, 1000});
   visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
         Range{0, 1});
   visit("converged_step_rad", o.converged_step_rad, "the rotation step is smaller [rad]",
@@ -269,12 +271,12 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Options> auto& o) {
-  visit("rig", o.rig, "what is fixed about the vehicle");
-  visit("pipeline", o.pipeline, "what runs");
+  visit("rig", o.rig, "sensors as they are mounted on the vehicle");
+  visit("pipeline", o.pipeline, "method, threads and queues");
   visit("start", o.start, "how the filter finds its first state, at rest or in motion");
   visit("reduce", o.reduce, "how a sweep is thinned before it is deskewed and matched");
   visit("ndt", o.ndt, "the normal-distributions map and its matcher");
-  visit("loam_features", o.loam_features, "what counts as an edge or a surface (method loam)");
+  visit("loam_features", o.loam_features, "choice of edge and surface points (method loam)");
   visit("loam", o.loam, "LOAM's maps and matcher");
   visit("gicp", o.gicp, "direct matching against keyframes");
   visit("filter", o.filter, "the error-state filter");

@@ -142,9 +142,9 @@ struct PlaceContestParameters {
   int num_checks = 5;        // scans in a row that must say so; chosen: half a second
   int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen
   // A beaten rival's share of points that contradict it, over the winner's, ...
-  double min_misfit_ratio = 1.5;  // ... at least; chosen
-  double least_misfit = 0.02;     // the winner's is taken to be no less; chosen
-  int max_scans = 30;             // then the search begins anew; chosen
+  double min_residual_ratio = 1.5;  // ... at least; chosen
+  double least_residual = 0.02;     // the winner's is taken to be no less; chosen
+  int max_scans = 30;               // then the search begins anew; chosen
 };
 
 struct PlaceSeekerParameters {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which of several places in a saved map is the right one? Coarse matches of the gathered cloud
-// rank them all; the best few are then followed: every scan is matched at the leading place and at
-// one of its rivals, and compared with how well it fits the new map that it belongs to. A place
-// wins when several scans in a row fit it and clearly more points contradict every rival. Where
-// places look alike, none wins, and a search over more of the way has to tell.
+// The contest tells which of several places in a saved map is the right one. Coarse matches of the
+// gathered cloud rank them all; the best few are then followed: every scan is matched at the
+// leading place and at one of its rivals, and compared with how well it fits the new map that it
+// belongs to. A place wins when several scans in a row fit it and clearly more points contradict
+// every rival. None wins among places that look alike, and a search over more of the way has to
+// tell.
 //
 // Frames: `map` is the new map, `initial` the saved one.
 #pragma once

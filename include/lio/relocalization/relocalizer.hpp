@@ -50,7 +50,7 @@ class Relocalizer {
   void Clear() { *this = Relocalizer(); }
 
   // In the map's axes, from this and all scans that were given since Clear(); absent while no
-  // velocity is clear. Of the prior only the rotation and the vertical count.
+  // velocity is clear. The prior gives only its rotation and its vertical.
   [[nodiscard]] std::optional<Vector3> FindVelocity(const DeskewedScan& scan,
                                                     const MotionPrior& prior);
 

@@ -28,8 +28,8 @@ class StructurePyramid {
   // anything from zero to 2^k - 1 cells along x and y?
   [[nodiscard]] bool MayStand(int level, const Eigen::Vector2i& cell) const {
     const Level& at = levels_[static_cast<std::size_t>(level)];
-    const int x = (cell.x() >> at.shift) + at.reach;
-    const int y = (cell.y() >> at.shift) + at.reach;
+    const int x = (cell.x() >> at.shift) + at.tolerance;
+    const int y = (cell.y() >> at.shift) + at.tolerance;
     return x >= 0 && y >= 0 && x < at.size.x() && y < at.size.y() &&
            at.grid[static_cast<std::size_t>(y) * static_cast<std::size_t>(at.size.x()) +
                    static_cast<std::size_t>(x)] != 0;
@@ -48,7 +48,8 @@ class StructurePyramid {
   using Grid = std::vector<std::uint8_t>;  // row after row
   struct Level {
     int shift = 0;  // a cell is 2^shift of the finest ones wide
-    int reach = 0;  // a block reaches this many cells further; as many are before the first one
+    // A block may lie this many cells further on; as many cells are before the first one.
+    int tolerance = 0;
     Eigen::Vector2i size = Eigen::Vector2i::Zero();
     Grid grid;
   };

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Did the lidar's clock step when the inertial unit's did? Where one host stamps both they step
-// together; where each sensor has its own clock, one may step alone. And is a step forth one at
-// all, or a gap? The order in which messages come tells, since chunks of sweeps come a steady while
-// after inertial samples of the same time. No wall clock is asked.
+// The arbiter tells whether the lidar's clock stepped when the IMU's did, and whether a step forth
+// is one at all or a gap. Both clocks step together if one host stamps both sensors; if each sensor
+// has its own clock, one may step alone. The order in which messages come tells, since chunks of
+// sweeps come a steady while after inertial samples of the same time. No wall clock is asked.
 #pragma once
 
 #include <deque>

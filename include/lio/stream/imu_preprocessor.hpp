@@ -74,7 +74,7 @@ class ImuPreprocessor {
   double hole_s_ = 0.0;              // the last one in the stream; perhaps a step forth
   Timestamp step_after_;             // stamp of the first sample after the last step
   std::deque<ImuSample> recent_;     // accepted, by stamp
-  std::vector<ImuSample> suspects_;  // perhaps of a new stretch of time, not yet believed
+  std::vector<ImuSample> suspects_;  // perhaps of a new segment, not yet believed
 };
 
 }  // namespace lio

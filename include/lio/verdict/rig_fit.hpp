@@ -77,7 +77,7 @@ struct FreeErrors {
 struct RigFitResult {
   RigErrors errors;
   RigMatrix cov = RigMatrix::Zero();
-  int num_clusters = 0;  // stretches of time that count as independent
+  int num_clusters = 0;  // time intervals that count as independent
   double cost = 0.0;     // robust, in variances: comparable between fits of one RigFit
 };
 

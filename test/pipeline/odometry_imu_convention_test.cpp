@@ -76,20 +76,20 @@ void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuConvention& read
   EXPECT_EQ(run.counters.num_imu_out_of_range, 0);
 }
 
-TEST(OdometryReading, AStartInMotionIsRightFromItsFirstRow) {
+TEST(OdometryImuConvention, AStartInMotionIsRightFromItsFirstRow) {
   const Messages plain = test::MovingStartDrive(6.0);
   for (const ImuConvention& reading : {kInG, kInDeg, kInBoth, kZDown, kTurned}) {
     ExpectTracksFromTheFirstRow(RunOdometry(SentAs(plain, reading), test::DriveRig()), reading);
   }
 }
 
-TEST(OdometryReading, PlainMessagesCauseNoTalk) {
+TEST(OdometryImuConvention, PlainMessagesCauseNoTalk) {
   EXPECT_FALSE(IsAnyCalled(RunOdometry(test::MovingStartDrive(6.0), test::DriveRig())));
   EXPECT_FALSE(IsAnyCalled(RunOdometry(test::StaticStartDrive(), test::DriveRig())));
   EXPECT_EQ(Refusal(RunOdometry(test::StaticStartDrive(), WithUnits(ImuUnits::kSi))), nullptr);
 }
 
-TEST(OdometryReading, UnitsOfForceAreFoundAtRest) {
+TEST(OdometryImuConvention, UnitsOfForceAreFoundAtRest) {
   const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), kInG), test::DriveRig());
   EXPECT_TRUE(test::HasNotice(run, "inertial messages: accelerometer in g, gyro in rad/s"));
   ASSERT_FALSE(run.scans.empty());
@@ -98,7 +98,7 @@ TEST(OdometryReading, UnitsOfForceAreFoundAtRest) {
 }
 
 // After a start at rest, axes show with the first turns: rows end before they are wrong.
-TEST(OdometryReading, RatesAndAxesAreFoundAfterAStartAtRest) {
+TEST(OdometryImuConvention, RatesAndAxesAreFoundAfterAStartAtRest) {
   for (const ImuConvention& reading : {kInDeg, kZDown, kTurned}) {
     SCOPED_TRACE(Describe(reading));
     const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), test::DriveRig());
@@ -110,13 +110,13 @@ TEST(OdometryReading, RatesAndAxesAreFoundAfterAStartAtRest) {
   }
 }
 
-TEST(OdometryReading, TheSameComesOutHoweverSlowMatchingIs) {
+TEST(OdometryImuConvention, TheSameComesOutHoweverSlowMatchingIs) {
   const Messages messages = SentAs(test::MovingStartDrive(4.0), kInDeg);
   EXPECT_TRUE(test::Bytes(RunOdometry(messages, test::DriveRig()).scans) ==
               test::Bytes(RunOdometry(messages, test::DriveRig(), 11).scans));
 }
 
-TEST(OdometryReading, StatedUnitsAreTaken) {
+TEST(OdometryImuConvention, StatedUnitsAreTaken) {
   const struct {
     ImuUnits units;
     ImuConvention reading;
@@ -128,7 +128,7 @@ TEST(OdometryReading, StatedUnitsAreTaken) {
   }
 }
 
-TEST(OdometryReading, UnitsOtherThanStatedAreRefusedWithTheFix) {
+TEST(OdometryImuConvention, UnitsOtherThanStatedAreRefusedWithTheFix) {
   const struct {
     ImuConvention reading;
     std::string fix;
@@ -150,7 +150,7 @@ TEST(OdometryReading, UnitsOtherThanStatedAreRefusedWithTheFix) {
   }
 }
 
-TEST(OdometryReading, TheExtrinsicThatARefusalNamesIsRight) {
+TEST(OdometryImuConvention, TheExtrinsicThatARefusalNamesIsRight) {
   Options options = WithUnits(ImuUnits::kSi);
   const Pose T_sent_imu{Quaternion(Matrix3(kTurned.R_imu_sent.transpose())), Vector3::Zero()};
   options.rig.T_imu_lidar = T_sent_imu * *options.rig.T_imu_lidar;
@@ -159,7 +159,7 @@ TEST(OdometryReading, TheExtrinsicThatARefusalNamesIsRight) {
   EXPECT_FALSE(run.scans.empty());
 }
 
-TEST(OdometryReading, GravityOtherThanStatedIsRefusedWithTheFix) {
+TEST(OdometryImuConvention, GravityOtherThanStatedIsRefusedWithTheFix) {
   test::DriveOptions drive;
   drive.to_s = 5.0;
   for (const bool starts_at_rest : {true, false}) {
@@ -178,7 +178,7 @@ TEST(OdometryReading, GravityOtherThanStatedIsRefusedWithTheFix) {
   }
 }
 
-TEST(OdometryReading, ForcesOfNoKnownUnitDoNotStart) {
+TEST(OdometryImuConvention, ForcesOfNoKnownUnitDoNotStart) {
   Messages messages = test::StaticStartDrive();
   for (Message& message : messages) message.sample.f_imu_mps2 *= 0.5;
   messages.erase(std::remove_if(messages.begin(), messages.end(),
@@ -191,7 +191,7 @@ TEST(OdometryReading, ForcesOfNoKnownUnitDoNotStart) {
 
 // A turn that would be beyond any gyro in rad/s: nothing depends on whether it came before it was
 // known to be in deg/s.
-TEST(OdometryReading, FastTurnsInDegreesAreKeptHoweverSlowMatchingIs) {
+TEST(OdometryImuConvention, FastTurnsInDegreesAreKeptHoweverSlowMatchingIs) {
   test::DriveOptions drive;
   drive.motion = [](double t_s) {
     const Pose spin{ExpSo3(Vector3(0, 0, 1.1 * (1.0 - std::cos(2.2 * t_s)))), Vector3::Zero()};
@@ -212,7 +212,7 @@ TEST(OdometryReading, FastTurnsInDegreesAreKeptHoweverSlowMatchingIs) {
 }
 
 // Rates beyond any gyro's are dropped in whatever unit they turn out to be.
-TEST(OdometryReading, ImpossibleRatesInDegreesAreDropped) {
+TEST(OdometryImuConvention, ImpossibleRatesInDegreesAreDropped) {
   Messages messages = SentAs(test::StaticStartDrive(), kInDeg);
   for (Message& message : messages) {
     const double t_s = SecondsOf(message.arrival);
