@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Counts the matches of one scan. Full ones, of all its points to match, are bounded here, so that
-// a search cannot hold up the scans behind; coarse ones, of a few hundred points, are bounded by the
-// searches that rank their candidates by them.
+// a search cannot hold up the scans behind; coarse ones, of a few hundred points, are bounded by
+// the searches that rank their candidates by them.
 #pragma once
 
 namespace lio {
