@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: MIT
 """Tests faults of a walk with a VLP-16 and no IMU: gaps of seconds, lost sweeps, a clock step. If
 the scene still overlaps the map, the pose is found again; if not, a new map begins there. Long gaps
-and lost sweeps are judged by the median of three draws of the sensors' errors: one draw in five
-loses the way, and which one it is changes with any effect of the simulator."""
+and lost sweeps are judged by the median of seven draws of the sensors' errors: one draw in four
+loses the way (2 and 3 of 10 with two builds that differ by rounding), and which one it is changes
+with any effect of the simulator. With three draws the median fails by chance once in six times."""
 import statistics
 import unittest
 
@@ -23,7 +24,7 @@ class LidarOnlyRecovery(unittest.TestCase):
         return ape_m, restarts
 
     def median_of_draws(self, fault):
-        draws = [self.run_with(fault, sensor_seed=seed) for seed in (1, 2, 3)]
+        draws = [self.run_with(fault, sensor_seed=seed) for seed in range(1, 8)]
         return [statistics.median(values) for values in zip(*draws)]
 
     def test_the_place_is_found_again_after_a_second_unseen(self):
