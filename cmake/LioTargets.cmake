@@ -41,7 +41,8 @@ function(lio_library name)
     list(APPEND sources ${module_sources})
   endforeach()
   add_library(${name} STATIC ${sources})
-  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>
+    PRIVATE ${CMAKE_SOURCE_DIR}/src) # "MODULE/..." private headers
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:lio_warnings>)
   lio_precompile(${name})
@@ -92,7 +93,7 @@ function(lio_test name)
     return()
   endif()
   add_executable(${name} ${sources})
-  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/test)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/test ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS} GTest::gtest GTest::gmock
     GTest::gtest_main)
   lio_precompile(${name} <gmock/gmock.h> <gtest/gtest.h>)

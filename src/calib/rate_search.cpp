@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/calib/calibration_parameters.hpp"
+#include "calib/calibration_parameters.hpp"
 #include "lio/sensor/gap.hpp"
 
 namespace lio {

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/calibration_parameters.hpp"
 #include "calib/rate_search.hpp"
 #include "calib/turn_fit.hpp"
-#include "lio/calib/calibration_parameters.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/sensor/gap.hpp"
 

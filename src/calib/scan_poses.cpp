@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lio/calib/calibration_parameters.hpp"
+#include "calib/calibration_parameters.hpp"
 
 namespace lio {
 namespace {

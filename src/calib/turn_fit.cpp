@@ -9,8 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "calib/calibration_parameters.hpp"
 #include "lio/base/so3.hpp"
-#include "lio/calib/calibration_parameters.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "lio/filter/sample_lookup.hpp"
 

@@ -3,8 +3,8 @@
 // Converts one cloud of a recording to one sweep, by the rules derived from its first clouds.
 #pragma once
 
+#include "convert/sweep_to_chunks.hpp"
 #include "lio/convert/rosbag_convert.hpp"
-#include "lio/convert/sweep_to_chunks.hpp"
 
 namespace lio {
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "lio/convert/sweep_to_chunks.hpp"
+#include "convert/sweep_to_chunks.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/trajectory_file.hpp"
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "lio/convert/ordered_log.hpp"
-#include "lio/convert/sweep_to_chunks.hpp"
+#include "convert/ordered_log.hpp"
+#include "convert/sweep_to_chunks.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/stream_stats.hpp"
 #include "lio/io/trajectory_file.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/convert/ordered_log.hpp"
+#include "convert/ordered_log.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "cloud_to_sweep.hpp"
-#include "lio/convert/ordered_log.hpp"
+#include "convert/ordered_log.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "lio/convert/ordered_log.hpp"
+#include "convert/ordered_log.hpp"
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/trajectory_file.hpp"
 

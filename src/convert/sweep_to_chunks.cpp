@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/convert/sweep_to_chunks.hpp"
+#include "convert/sweep_to_chunks.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "lio/filter/inertial_increment.hpp"
+#include "filter/inertial_increment.hpp"
 
 namespace lio {
 namespace {

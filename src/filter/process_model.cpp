@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lio/filter/inertial_increment.hpp"
+#include "filter/inertial_increment.hpp"
 
 namespace lio {
 namespace {

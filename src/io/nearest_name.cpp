@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/io/nearest_name.hpp"
+#include "io/nearest_name.hpp"
 
 #include <algorithm>
 #include <limits>

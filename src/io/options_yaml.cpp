@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
+#include "io/nearest_name.hpp"
 #include "lio/io/beam_table.hpp"
-#include "lio/io/nearest_name.hpp"
 #include "lio/pipeline/options_fields.hpp"
 #include "yaml_rotations.hpp"
 #include "yaml_values.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/io/ply_file.hpp"
+#include "io/ply_file.hpp"
 
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>

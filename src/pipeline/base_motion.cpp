@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/base_motion.hpp"
+#include "pipeline/base_motion.hpp"
 
 namespace lio {
 

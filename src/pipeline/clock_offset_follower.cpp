@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/clock_offset_follower.hpp"
+#include "pipeline/clock_offset_follower.hpp"
 
 #include <fmt/format.h>
 

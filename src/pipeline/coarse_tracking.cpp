@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/coarse_tracking.hpp"
+#include "pipeline/coarse_tracking.hpp"
 
 #include <cmath>
 
 #include "lio/imu/rest.hpp"
-#include "lio/pipeline/scan_step.hpp"
+#include "pipeline/scan_step.hpp"
 
 namespace lio {
 

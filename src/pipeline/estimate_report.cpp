@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/estimate_report.hpp"
+#include "pipeline/estimate_report.hpp"
 
 #include <iterator>
 
 #include "lio/filter/published_estimate.hpp"
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/pipeline/base_motion.hpp"
+#include "pipeline/base_motion.hpp"
 
 namespace lio {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/extrinsic_follower.hpp"
+#include "pipeline/extrinsic_follower.hpp"
 
 #include <utility>
 

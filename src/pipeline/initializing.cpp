@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/initializing.hpp"
+#include "pipeline/initializing.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/pipeline/coarse_tracking.hpp"
+#include "pipeline/coarse_tracking.hpp"
 
 namespace lio {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "lio/filter/preintegration.hpp"
-#include "lio/pipeline/estimate_report.hpp"
-#include "lio/pipeline/initializing.hpp"
 #include "lio/pipeline/options_fields.hpp"
 #include "lio/verdict/rig_findings.hpp"
+#include "pipeline/estimate_report.hpp"
+#include "pipeline/initializing.hpp"
 
 namespace lio {
 namespace {

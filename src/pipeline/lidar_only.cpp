@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/lidar_only.hpp"
+#include "pipeline/lidar_only.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "lio/filter/process_model.hpp"
-#include "lio/pipeline/coarse_tracking.hpp"
-#include "lio/pipeline/estimate_report.hpp"
-#include "lio/pipeline/scan_step.hpp"
+#include "pipeline/coarse_tracking.hpp"
+#include "pipeline/estimate_report.hpp"
+#include "pipeline/scan_step.hpp"
 
 namespace lio {
 

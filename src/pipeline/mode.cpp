@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/mode.hpp"
+#include "pipeline/mode.hpp"
 
 #include <fmt/format.h>
 

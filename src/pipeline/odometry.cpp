@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "lio/base/chi_square.hpp"
-#include "lio/pipeline/health.hpp"
-#include "lio/pipeline/mode.hpp"
+#include "pipeline/health.hpp"
+#include "pipeline/mode.hpp"
 
 namespace lio {
 namespace {

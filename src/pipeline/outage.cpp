@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/outage.hpp"
+#include "pipeline/outage.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/output_queue.hpp"
+#include "pipeline/output_queue.hpp"
 
 namespace lio {
 namespace {

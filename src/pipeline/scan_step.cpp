@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/scan_step.hpp"
+#include "pipeline/scan_step.hpp"
 
 #include <algorithm>
 #include <cmath>

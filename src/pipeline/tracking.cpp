@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/tracking.hpp"
 
 #include <utility>
 
 #include "lio/filter/map_bend.hpp"
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/pipeline/estimate_report.hpp"
-#include "lio/pipeline/scan_step.hpp"
+#include "pipeline/estimate_report.hpp"
+#include "pipeline/scan_step.hpp"
 
 namespace lio {
 

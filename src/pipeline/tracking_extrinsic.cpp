@@ -7,7 +7,7 @@
 
 #include "lio/filter/extrinsic_correction.hpp"
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lio/filter/map_change.hpp"
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/pipeline/tracking.hpp"
 #include "lio/sensor/gap.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio {
 namespace {

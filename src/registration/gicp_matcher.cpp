@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "lio/registration/match_loop.hpp"
 #include "lio/registration/registration_parameters.hpp"
-#include "lio/registration/well_constrained_translation.hpp"
+#include "registration/match_loop.hpp"
 #include "registration/scan_normals.hpp"
+#include "registration/well_constrained_translation.hpp"
 
 namespace lio {
 namespace {

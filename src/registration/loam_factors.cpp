@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/loam_factors.hpp"
+#include "registration/loam_factors.hpp"
 
 #include <ceres/autodiff_cost_function.h>
 

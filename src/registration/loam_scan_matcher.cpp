@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lio/registration/match_loop.hpp"
 #include "lio/registration/registration_parameters.hpp"
 #include "registration/loam_terms.hpp"
+#include "registration/match_loop.hpp"
 #include "registration/ring_grid.hpp"
 
 namespace lio {

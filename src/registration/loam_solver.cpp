@@ -6,7 +6,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include "lio/registration/pose_manifold.hpp"
+#include "registration/pose_manifold.hpp"
 
 namespace lio {
 namespace {

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "lio/registration/loam_factors.hpp"
+#include "registration/loam_factors.hpp"
 
 namespace lio {
 

@@ -8,10 +8,10 @@
 
 #include "lio/map/grazing_incidence.hpp"
 #include "lio/map/surface_sides.hpp"
-#include "lio/registration/match_loop.hpp"
 #include "lio/registration/registration_parameters.hpp"
-#include "lio/registration/well_constrained_translation.hpp"
+#include "registration/match_loop.hpp"
 #include "registration/ndt_term.hpp"
+#include "registration/well_constrained_translation.hpp"
 
 namespace lio {
 namespace {

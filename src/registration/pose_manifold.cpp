@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/pose_manifold.hpp"
+#include "registration/pose_manifold.hpp"
 
 namespace lio {
 namespace {

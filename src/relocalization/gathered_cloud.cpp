@@ -5,7 +5,7 @@
 #include "lio/base/voxel_key.hpp"
 #include "lio/relocalization/birds_eye_view.hpp"
 #include "lio/relocalization/parameters.hpp"
-#include "lio/relocalization/standing_points.hpp"
+#include "relocalization/standing_points.hpp"
 
 namespace lio {
 namespace {

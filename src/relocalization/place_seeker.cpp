@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lio/relocalization/parameters.hpp"
-#include "lio/relocalization/standing_points.hpp"
+#include "relocalization/standing_points.hpp"
 
 namespace lio {
 namespace {

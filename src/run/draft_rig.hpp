@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lio/run/recording.hpp"
-#include "lio/run/sensor_facts.hpp"
+#include "run/sensor_facts.hpp"
 
 namespace lio {
 

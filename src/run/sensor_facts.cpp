@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/run/sensor_facts.hpp"
+#include "run/sensor_facts.hpp"
 
 #include <fmt/format.h>
 

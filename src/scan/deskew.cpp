@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lio/scan/scan_parameters.hpp"
+#include "scan/scan_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lio/scan/point_filter.hpp"
-#include "lio/scan/scan_parameters.hpp"
+#include "scan/scan_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "lio/base/rotation.hpp"
 #include "lio/scan/loam_feature_options.hpp"
-#include "lio/scan/scan_parameters.hpp"
 #include "lio/sensor/scan_chunk.hpp"
+#include "scan/scan_parameters.hpp"
 
 namespace lio {
 

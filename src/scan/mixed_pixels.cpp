@@ -7,7 +7,7 @@
 
 #include "lio/scan/point_filter.hpp"
 #include "lio/scan/ring_order.hpp"
-#include "lio/scan/scan_parameters.hpp"
+#include "scan/scan_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lio/scan/scan_parameters.hpp"
 #include "lio/scan/sweep.hpp"
+#include "scan/scan_parameters.hpp"
 
 namespace lio {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sim/drive.hpp"
+#include "sim/drive.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "lio/sim/polished.hpp"
 #include "lio/sim/random.hpp"
+#include "sim/polished.hpp"
 #include "sweep_caster.hpp"
 
 namespace lio::sim {

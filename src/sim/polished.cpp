@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sim/polished.hpp"
+#include "sim/polished.hpp"
 
 #include <cmath>
 

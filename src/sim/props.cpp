@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sim/props.hpp"
+#include "sim/props.hpp"
 
 #include <cmath>
 #include <numbers>

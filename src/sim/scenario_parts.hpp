@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lio/sim/scenario.hpp"
-#include "lio/sim/town.hpp"
+#include "sim/town.hpp"
 
 namespace lio::sim {
 

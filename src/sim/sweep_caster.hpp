@@ -10,8 +10,8 @@
 
 #include "lio/sim/footprint.hpp"
 #include "lio/sim/lidar_simulator.hpp"
-#include "lio/sim/polished.hpp"
 #include "lio/sim/rotor.hpp"
+#include "sim/polished.hpp"
 
 namespace lio::sim {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "lio/sim/props.hpp"
+#include "sim/props.hpp"
 
 namespace lio::sim {
 namespace {

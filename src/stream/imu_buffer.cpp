@@ -6,7 +6,7 @@
 #include "lio/imu/imu_noise_estimator.hpp"
 #include "lio/imu/rest.hpp"
 #include "lio/sensor/gap.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 

@@ -9,7 +9,7 @@
 
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/sensor/gap.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 void SaturationDetector::Mark(ImuSample& sample, double rate_scale, double force_scale) {

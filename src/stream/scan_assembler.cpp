@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lio/sensor/gap.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 void ScanGate::Add(Sweep sweep) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lio/sensor/gap.hpp"
 #include "lio/stream/sensor_stream.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 
 namespace lio {
 

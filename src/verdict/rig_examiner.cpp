@@ -9,8 +9,8 @@
 #include <iterator>
 #include <utility>
 
-#include "lio/verdict/data_findings.hpp"
 #include "lio/verdict/rig_findings.hpp"
+#include "verdict/data_findings.hpp"
 
 namespace lio {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lio/verdict/rig_fit.hpp"
+#include "verdict/rig_fit.hpp"
 
 namespace lio {
 namespace {

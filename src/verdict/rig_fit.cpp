@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/verdict/rig_fit.hpp"
+#include "verdict/rig_fit.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>

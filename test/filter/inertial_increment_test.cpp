@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/filter/inertial_increment.hpp"
+#include "filter/inertial_increment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/coarse_tracking.hpp"
+#include "pipeline/coarse_tracking.hpp"
 
 #include <gtest/gtest.h>
 

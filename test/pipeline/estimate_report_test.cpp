@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/estimate_report.hpp"
+#include "pipeline/estimate_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/handover.hpp"
+#include "pipeline/handover.hpp"
 
 #include <gtest/gtest.h>
 

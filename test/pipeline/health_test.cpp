@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/health.hpp"
+#include "pipeline/health.hpp"
 
 #include <gtest/gtest.h>
 

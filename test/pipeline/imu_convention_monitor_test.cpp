@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/imu_convention_monitor.hpp"
+#include "pipeline/imu_convention_monitor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/imu_noise_watch.hpp"
+#include "pipeline/imu_noise_watch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "lio/pipeline/initializing.hpp"
-#include "support/initializing_bench.hpp"
+#include "pipeline/initializing.hpp"
+#include "pipeline/initializing_bench.hpp"
 
 namespace lio {
 namespace {

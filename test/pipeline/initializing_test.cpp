@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/initializing.hpp"
+#include "pipeline/initializing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "support/initializing_bench.hpp"
+#include "pipeline/initializing_bench.hpp"
 
 namespace lio {
 namespace {

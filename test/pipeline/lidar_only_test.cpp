@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/lidar_only.hpp"
+#include "pipeline/lidar_only.hpp"
 
 #include <gtest/gtest.h>
 
-#include "support/mode_bench.hpp"
+#include "pipeline/mode_bench.hpp"
 
 namespace lio {
 namespace {

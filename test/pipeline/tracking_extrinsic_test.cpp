@@ -3,7 +3,7 @@
 // A rig whose extrinsic is wrong, while tracking.
 #include <gtest/gtest.h>
 
-#include "support/tracking_bench.hpp"
+#include "pipeline/tracking_bench.hpp"
 #include "verdict/rig_drive.hpp"
 
 namespace lio {

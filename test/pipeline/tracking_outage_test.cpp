@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lio/pipeline/tracking.hpp"
-#include "support/tracking_bench.hpp"
+#include "pipeline/tracking.hpp"
+#include "pipeline/tracking_bench.hpp"
 
 namespace lio {
 namespace {

@@ -3,8 +3,8 @@
 // The way into the initial map, while tracking.
 #include <gtest/gtest.h>
 
-#include "lio/pipeline/tracking.hpp"
-#include "support/tracking_bench.hpp"
+#include "pipeline/tracking.hpp"
+#include "pipeline/tracking_bench.hpp"
 
 namespace lio {
 namespace {

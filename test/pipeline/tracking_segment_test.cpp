@@ -3,8 +3,8 @@
 // Gaps of the inertial stream and steps of its clock, while tracking.
 #include <gtest/gtest.h>
 
-#include "lio/pipeline/tracking.hpp"
-#include "support/tracking_bench.hpp"
+#include "pipeline/tracking.hpp"
+#include "pipeline/tracking_bench.hpp"
 
 namespace lio {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/tracking.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "support/tracking_bench.hpp"
+#include "pipeline/tracking_bench.hpp"
 
 namespace lio {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/transition.hpp"
+#include "pipeline/transition.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lio/pipeline/imu_convention_monitor.hpp"
+#include "pipeline/imu_convention_monitor.hpp"
 #include "support/motion.hpp"
 
 namespace lio {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/zero_velocity_updater.hpp"
+#include "pipeline/zero_velocity_updater.hpp"
 
 #include <gtest/gtest.h>
 

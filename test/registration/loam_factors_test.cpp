@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/loam_factors.hpp"
+#include "registration/loam_factors.hpp"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -9,7 +9,7 @@
 
 #include <random>
 
-#include "lio/registration/pose_manifold.hpp"
+#include "registration/pose_manifold.hpp"
 #include "support/numeric_jacobian.hpp"
 
 namespace lio {

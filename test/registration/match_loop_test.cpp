@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/match_loop.hpp"
+#include "registration/match_loop.hpp"
 
 #include <gtest/gtest.h>
 

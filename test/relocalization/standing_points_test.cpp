@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/relocalization/standing_points.hpp"
+#include "relocalization/standing_points.hpp"
 
 #include <gtest/gtest.h>
 

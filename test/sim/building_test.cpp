@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sim/building.hpp"
+#include "sim/building.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/sim/ground.hpp"
+#include "sim/ground.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Tests all props except vehicles, which have vehicles_test.cpp.
-#include "lio/sim/props.hpp"
+#include "sim/props.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include <stdexcept>
 
-#include "lio/sim/drive.hpp"
 #include "lio/sim/random.hpp"
+#include "sim/drive.hpp"
 
 namespace lio::sim {
 namespace {

@@ -3,8 +3,8 @@
 // Tests MakeVehicle and VehicleSize.
 #include <gtest/gtest.h>
 
-#include "lio/sim/props.hpp"
 #include "sim/mesh_checks.hpp"
+#include "sim/props.hpp"
 
 namespace lio::sim {
 namespace {

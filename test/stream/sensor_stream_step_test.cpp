@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lio/stream/sensor_stream.hpp"
-#include "lio/stream/stream_parameters.hpp"
+#include "stream/stream_parameters.hpp"
 #include "support/stream_feed.hpp"
 
 namespace lio {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/verdict/data_findings.hpp"
+#include "verdict/data_findings.hpp"
 
 #include <gtest/gtest.h>
 

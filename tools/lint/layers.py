@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Checks the includes between folders against tools/lint/layers.txt, and the drawing of them in
-docs/design.md. A private header (src/FOLDER/*.hpp) belongs to its folder and to tests alone.
+docs/design.md. A private header (src/FOLDER/*.hpp) belongs to its folder and to tests alone; a
+public one (include/lio/FOLDER/*.hpp) serves another folder.
   --draw    print the drawing
   --update  write it into docs/design.md"""
 import pathlib
@@ -13,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = "tools/lint/layers.txt"
 DESIGN = ROOT / "docs" / "design.md"
 BEGIN, END = "<!-- layers: begin -->", "<!-- layers: end -->"
-INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]((?<=")[^"]+|lio/[^>]+)[">]')
 
 
 def read_table():
@@ -101,6 +102,27 @@ def check_tests():
     return faults
 
 
+def check_public():
+    """Each public header serves another folder: it is included there, or by a header that is."""
+    headers = {path.relative_to(ROOT / "include").as_posix(): path
+               for path in sorted((ROOT / "include/lio").glob("*/*.hpp"))}
+    serving = set()
+    for base in ("src", "include/lio", "tools", "test", "examples"):
+        for path in sorted((ROOT / base).rglob("*.[ch]pp")):
+            parts = path.relative_to(ROOT).parts
+            folder = parts[1] if base in ("src", "test") else folder_of(path)
+            serving |= {text for _, text, target, _ in includes(path)
+                        if text in headers and target != folder}
+    to_follow = list(serving)
+    while to_follow:
+        inner = {text for _, text, _, _ in includes(headers[to_follow.pop()])
+                 if text in headers} - serving
+        serving |= inner
+        to_follow += inner
+    return [f"include/{text}: no other folder includes it: move it to src/{text[4:]}"
+            for text in headers if text not in serving]
+
+
 def reached(allowed, folder):
     """All folders that a folder depends on, through others, too."""
     found = set(allowed[folder])
@@ -133,7 +155,7 @@ def main():
     if sys.argv[1:] == ["--update"]:
         DESIGN.write_text(block.sub(lambda _: draw(allowed), page))
         return 0
-    faults += check_includes(allowed, to_mend) + check_tests()
+    faults += check_includes(allowed, to_mend) + check_tests() + check_public()
     if draw(allowed) not in page:
         faults.append("docs/design.md does not draw tools/lint/layers.txt as it is: run "
                       "tools/lint/layers.py --update")

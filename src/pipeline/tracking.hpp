@@ -10,13 +10,13 @@
 #include <optional>
 #include <string>
 
-#include "lio/pipeline/estimate_report.hpp"
-#include "lio/pipeline/health.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
-#include "lio/pipeline/mode_context.hpp"
-#include "lio/pipeline/outage.hpp"
-#include "lio/pipeline/transition.hpp"
-#include "lio/pipeline/zero_velocity_updater.hpp"
+#include "pipeline/estimate_report.hpp"
+#include "pipeline/health.hpp"
+#include "pipeline/mode_context.hpp"
+#include "pipeline/outage.hpp"
+#include "pipeline/transition.hpp"
+#include "pipeline/zero_velocity_updater.hpp"
 
 namespace lio {
 

@@ -6,9 +6,9 @@
 
 #include <variant>
 
-#include "lio/pipeline/initializing.hpp"
-#include "lio/pipeline/lidar_only.hpp"
-#include "lio/pipeline/tracking.hpp"
+#include "pipeline/initializing.hpp"
+#include "pipeline/lidar_only.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio {
 

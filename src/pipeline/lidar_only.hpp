@@ -7,10 +7,10 @@
 
 #include <optional>
 
-#include "lio/pipeline/health.hpp"
 #include "lio/pipeline/keyframe_policy.hpp"
-#include "lio/pipeline/mode_context.hpp"
-#include "lio/pipeline/transition.hpp"
+#include "pipeline/health.hpp"
+#include "pipeline/mode_context.hpp"
+#include "pipeline/transition.hpp"
 
 namespace lio {
 

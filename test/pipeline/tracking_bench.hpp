@@ -8,8 +8,8 @@
 #include <cmath>
 #include <optional>
 
-#include "lio/pipeline/tracking.hpp"
-#include "support/mode_bench.hpp"
+#include "pipeline/mode_bench.hpp"
+#include "pipeline/tracking.hpp"
 
 namespace lio::test {
 

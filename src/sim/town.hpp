@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "lio/sim/building.hpp"
-#include "lio/sim/drive.hpp"
-#include "lio/sim/ground.hpp"
-#include "lio/sim/props.hpp"
 #include "lio/sim/random.hpp"
 #include "lio/sim/world.hpp"
+#include "sim/building.hpp"
+#include "sim/drive.hpp"
+#include "sim/ground.hpp"
+#include "sim/props.hpp"
 
 namespace lio::sim {
 

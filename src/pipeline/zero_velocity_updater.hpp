@@ -7,7 +7,7 @@
 
 #include "lio/filter/filter_history.hpp"
 #include "lio/pipeline/match_job.hpp"
-#include "lio/pipeline/zero_velocity_detector.hpp"
+#include "pipeline/zero_velocity_detector.hpp"
 
 namespace lio {
 

@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "lio/imu/moving_start.hpp"
-#include "lio/pipeline/mode_context.hpp"
-#include "lio/pipeline/transition.hpp"
+#include "pipeline/mode_context.hpp"
+#include "pipeline/transition.hpp"
 
 namespace lio {
 

@@ -11,7 +11,7 @@
 
 #include "lio/imu/start_state.hpp"
 #include "lio/pipeline/constant_velocity_tracker.hpp"
-#include "lio/pipeline/handover.hpp"
+#include "pipeline/handover.hpp"
 
 namespace lio {
 

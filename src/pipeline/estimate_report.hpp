@@ -6,11 +6,11 @@
 
 #include "lio/filter/nav_state.hpp"
 #include "lio/imu/start_state.hpp"
-#include "lio/pipeline/clock_offset_follower.hpp"
-#include "lio/pipeline/extrinsic_follower.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/stream/imu_buffer.hpp"
+#include "pipeline/clock_offset_follower.hpp"
+#include "pipeline/extrinsic_follower.hpp"
 
 namespace lio {
 

@@ -7,16 +7,16 @@
 #include <deque>
 
 #include "lio/base/counters.hpp"
-#include "lio/pipeline/clock_offset_follower.hpp"
-#include "lio/pipeline/extrinsic_follower.hpp"
-#include "lio/pipeline/imu_convention_monitor.hpp"
-#include "lio/pipeline/imu_noise_watch.hpp"
 #include "lio/pipeline/options.hpp"
-#include "lio/pipeline/output_queue.hpp"
-#include "lio/pipeline/place_knowledge.hpp"
 #include "lio/pipeline/sensor_fixed_errors.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
+#include "pipeline/clock_offset_follower.hpp"
+#include "pipeline/extrinsic_follower.hpp"
+#include "pipeline/imu_convention_monitor.hpp"
+#include "pipeline/imu_noise_watch.hpp"
+#include "pipeline/output_queue.hpp"
+#include "pipeline/place_knowledge.hpp"
 
 namespace lio {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "lio/base/chi_square.hpp"
-#include "lio/pipeline/mode_context.hpp"
+#include "pipeline/mode_context.hpp"
 #include "support/motion.hpp"
 
 namespace lio::test {

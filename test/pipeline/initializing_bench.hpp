@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "lio/pipeline/initializing.hpp"
-#include "support/mode_bench.hpp"
+#include "pipeline/initializing.hpp"
+#include "pipeline/mode_bench.hpp"
 
 namespace lio::test {
 
