@@ -13,7 +13,8 @@ namespace lio {
 
 using VoxelKey = std::uint64_t;
 
-inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;  // |coordinate| is below this
+// |coordinate| is below this, in voxels. Arithmetic: three coordinates of 21 bits fit a 64-bit key.
+inline constexpr std::int32_t kVoxelCoordinateLimit = 1 << 20;
 
 // floor() without the library call: exact for |x| < 2^31, undefined for all other x and for NaN.
 template <class Float>
@@ -35,7 +36,8 @@ using VoxelCell = std::array<std::int32_t, 3>;
   return {coordinate(scaled.x()), coordinate(scaled.y()), coordinate(scaled.z())};
 }
 
-// Maps keep voxels in blocks of this many along each edge.
+// Maps keep voxels in blocks of this many along each edge. Arithmetic: a 64-bit mask has a bit for
+// each of the 64 voxels.
 inline constexpr int kBlockEdge = 4;
 [[nodiscard]] inline VoxelCell BlockOf(const VoxelCell& voxel) {
   return {voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};

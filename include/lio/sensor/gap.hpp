@@ -32,14 +32,15 @@ struct ImuGapParameters {
   Duration sparse{30'000'000};
   // Chosen: a sweep at 10 Hz, so that no sweep is without samples of its own.
   Duration unmeasured{100'000'000};
-  // Samples are missing, whatever the unit: one and a half periods at 10 Hz, the slowest.
+  // Samples are missing, whatever the unit. Arithmetic: one and a half periods at 10 Hz, the
+  // slowest.
   Duration bridged{150'000'000};
-  // One stamp alone may be wrong, so a step of two periods at 10 Hz is believed only when more
-  // samples follow it.
+  // One stamp alone may be wrong, so a step of this length is believed only when more samples
+  // follow it. Chosen: two periods at 10 Hz.
   Duration confirmed{200'000'000};
-  // 3 m/s^2 of unknown acceleration (ImuOutageParameters) displace the body by 1.5 m meanwhile,
-  // about as far as matching searches (CorrespondenceParameters::kMaxStd_m). A lidar goes on
-  // without a unit that has been silent for so long.
+  // A lidar goes on without a unit that has been silent for so long. Arithmetic: 3 m/s^2 of unknown
+  // acceleration (ImuOutageParameters) displace the body by 1.5 m meanwhile, about as far as
+  // matching searches (CorrespondenceParameters::kMaxStd_m).
   Duration segment{1'000'000'000};
   // A longer one is an outage (pipeline/outage.hpp): the doubt about the motion is 13 m by then,
   // and the place is sought. At a clock step the doubt does not grow beyond that of so long a time.
@@ -49,7 +50,8 @@ struct ImuGapParameters {
 inline constexpr ImuGapParameters kImuGap;
 
 struct ScanGapParameters {
-  // From the end of one sweep to the start of the next: two sweeps of a 10 Hz lidar.
+  // From the end of one sweep to the start of the next. Chosen: two missing sweeps of a 10 Hz lidar
+  // leave 200 ms; the rest is for stamps that jitter.
   Duration missing{250'000'000};
   // From the end of one sweep to the end of another. Chosen: five periods at 10 Hz.
   Duration unrelated{500'000'000};
