@@ -43,10 +43,11 @@ struct CovarianceInflation {
 // Settings of one history; defaults of the last two groups are those of filter_parameters.hpp.
 struct HistoryOptions {
   ProcessNoise noise;
-  Vector3 g_world = Vector3(0, 0, -9.80665);  // m/s^2; zero when the samples hold no gravity
-  double span_s = 3.0;                        // length of the window, s
+  // m/s^2; zero when the samples hold no gravity. Standard gravity (CGPM 1901).
+  Vector3 g_world = Vector3(0, 0, -9.80665);
+  double span_s = 3.0;       // length of the window, s; as FilterOptions::history_s
   double nis_limit = 22.46;  // gate of poses: 99.9 % of chi-square with 6 degrees of freedom
-  double zero_velocity_nis_limit = kChiSquare3At999;
+  double zero_velocity_nis_limit = kChiSquare3At999;  // their gate: the same of 3; customary
   // Upper bounds of the inflation. A bound of one switches it off: for poses whose errors are
   // white, or whose consistency is checked elsewhere.
   CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,

@@ -7,25 +7,28 @@
 namespace lio {
 
 struct FilterOptions {
-  // s. How late a measurement may come and still be fused at its own time. Chosen; more costs
-  // memory.
+  // s. How late a measurement may come and still be fused at its own time. Chosen: far above
+  // the time of a match (docs/results.md), so that a busy machine's still count; more costs memory.
   double history_s = 3.0;
   // Quantile of chi-square with 6 degrees of freedom beyond which a pose is gated. Customary.
   double gate_probability = 0.999;
   // After so many gated poses in a row the next is fused by force: the body has moved unseen.
+  // Measured: docs/experiments/gated_in_a_row.md.
   int max_gated_in_a_row = 2;
-  // Zero-velocity updates at rest (docs/filter.md, Zero-velocity update).
+  // Zero-velocity updates at rest (docs/filter.md, Zero-velocity update). Measured:
+  // docs/experiments/zero_velocity.md.
   bool use_zero_velocity = true;
-  // Estimates the clock offset between lidar and IMU (clock_offset.hpp).
+  // Estimates the clock offset between lidar and IMU (clock_offset.hpp). Measured:
+  // docs/experiments/clock_offset.md.
   bool estimate_clock_offset = true;
   // Corrects rig.T_imu_lidar where the motion shows that it is surely wrong
-  // (extrinsic_follower.hpp).
+  // (extrinsic_follower.hpp). Measured: docs/experiments/extrinsic.md.
   bool estimate_extrinsic = true;
-  // Factor k on the covariance of matches; more trusts matches less. Fitted to the simulator: NIS/6
-  // is 1.0 at 1.6 (docs/consistency.md).
+  // Factor k on the covariance of matches; more trusts matches less. Measured on the simulator: NIS
+  // per degree of freedom is 1.0 (docs/experiments/covariance_of_a_match.md).
   double registration_cov_scale = 1.6;
-  // Random walk q of a map that grows from scans. Fitted to the simulator: NEES of street and
-  // suburb nearest to one (docs/consistency.md).
+  // Random walk q of a map that grows from scans, per share of new content. Measured on the
+  // simulator: NEES of street and loop nearest to one (docs/experiments/map_walk.md).
   double map_walk_scale = 0.5;
 };
 

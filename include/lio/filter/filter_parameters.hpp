@@ -18,16 +18,16 @@ struct InflationParameters {
   // A larger NIS (3 degrees of freedom) counts as this. Chosen: a wrong match alone multiplies the
   // factor by 4.2 at most.
   double max_nis = 100.0;
-  // Largest factor on the covariance. Fitted on 32 drives of the simulator, where 1, 3 and 9 were
-  // tried; without a cap the filter diverged on EuRoC V1_01 (docs/filter.md).
+  // Largest factor on the covariance. Measured on 32 drives of the simulator with 1, 3 and 9;
+  // without a cap the filter diverged on EuRoC V1_01 (docs/experiments/nis_inflation.md).
   double max_factor = 9.0;
 };
 
 // How a pose beyond the gate is fused when it must be (docs/filter.md, Pose update).
 struct ForcedUpdateParameters {
-  // Smaller residuals are registration errors: the pose's covariance is scaled until it fits.
-  // Larger ones are motion that no sample showed. Found on drives of the simulator, where a map of
-  // parked scans pulls by centimetres.
+  // m, rad. Smaller residuals are registration errors: the pose's covariance is scaled until it
+  // fits. Larger ones are motion that no sample showed. Chosen on drives of the simulator, where a
+  // map of parked scans pulls by centimetres.
   double max_registration_error_m = 0.15;
   double max_registration_error_rad = 0.03;
   // s. Unseen motion is taken to have lasted this long, which gives its velocity. Chosen: one or
@@ -37,17 +37,19 @@ struct ForcedUpdateParameters {
 
 // Process noise added where inertial samples are missing or saturated.
 struct ImuOutageParameters {
-  // Samples that are farther apart have a gap between them.
+  // Samples that are farther apart have a gap between them: as sensor/gap.hpp defines it.
   Duration gap = kImuGap.sparse;
-  // Unknown acceleration (m/s^2) and rate (rad/s) in a gap, 1 sigma: those of a walking person
-  // (simulated campus walk; docs/filter.md, Propagation).
+  // Unknown acceleration (m/s^2) and rate (rad/s) in a gap, 1 sigma: those of a walking person.
+  // Found on 24 simulated walks, with StreamParameters::mean_before_gap_s
+  // (docs/experiments/imu_gaps.md).
   double gap_accel_std_mps2 = 3.0;
   double gap_gyro_std_radps = 0.5;
-  // s. The error of a saturated sample lasts this long: one sweep at 10 Hz.
+  // s. The error of a saturated sample lasts this long. Chosen: one sweep at 10 Hz, after which a
+  // scan tells.
   double saturated_s = 0.1;
-  // Acceleration (m/s^2) and rate (rad/s) beyond the end of the range, 1 sigma. Chosen so that
-  // simulated drives with clipped gyros keep their path (docs/recovery.md; a sports
-  // hall with rates 2 rad/s beyond the range is lost).
+  // Acceleration (m/s^2) and rate (rad/s) beyond the end of the range, 1 sigma. The rate is
+  // measured: drives with clipped gyros keep their path, and a sports hall with 2 rad/s beyond the
+  // range is lost (docs/experiments/gyro_saturation.md). The acceleration is chosen: 1 g.
   double saturated_accel_std_mps2 = 10.0;
   double saturated_gyro_std_radps = 2.0;
 };
@@ -61,7 +63,7 @@ struct ClockOffsetParameters {
   // lies within it as it should be.
   double rate_span_s = 0.04;
   // rad/s. Turns whose rate changes less are left out. Chosen above the sway of a car's body on a
-  // straight road.
+  // straight road; rates of single samples needed 0.05 (docs/experiments/clock_offset.md).
   double min_rate_change_radps = 0.02;
   // The same limit in standard deviations of the change. Statistics: noise of the rate makes the
   // estimate too small by 1/(1 + sigmas^2), here 3 %.
@@ -75,13 +77,13 @@ struct ClockOffsetParameters {
   double max_scatter_ratio = 9.0;
   // s/sqrt(s). Random walk of the offset. Chosen: oscillators differ by about 10 us per second.
   double walk_s_per_sqrt_s = 2e-5;
-  // s. Standard deviation at the start, and its upper bound. Chosen.
+  // s. Standard deviation at the start, and its upper bound. Chosen: 2.5 of it are max_offset_s.
   double max_std_s = 0.02;
   // s. Below this standard deviation the stamps are moved. Chosen: an offset of 2 ms turns a scan
   // by 2 mrad at 1 rad/s.
   double known_std_s = 2e-3;
-  // Standard deviations. The stamps are moved before that where they are off for sure: without an
-  // offset one estimate in 370 of a normal distribution lies so far from zero.
+  // Standard deviations. The stamps are moved before that where they are off for sure. Statistics:
+  // without an offset one estimate in 370 of a normal distribution lies so far from zero.
   double sure_sigmas = 3.0;
   // Turns before stamps are moved. Chosen: one wrong match, or two, do not show an offset.
   int min_turns = 5;
