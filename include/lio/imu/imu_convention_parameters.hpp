@@ -16,27 +16,29 @@ namespace lio {
 struct MotionEvidenceParameters {
   // Steps that are kept: 10 s at 10 Hz. Chosen; more costs time and takes longer to forget.
   std::size_t max_steps = 100;
-  // m, rad. Motion over the last ten steps from which the body counts as moving. Chosen.
+  // m, rad. Motion over the last ten steps from which the body counts as moving. Chosen: 0.3 m/s
+  // and 0.1 rad/s at 10 Hz, beyond what matching errs by at rest.
   double min_motion_m = 0.3;
   double min_motion_rad = 0.1;
   // rad. Error of a step's turn, 1 sigma: skewed scans and maps during warm-up. Fitted to the
-  // simulator.
+  // simulator's drives of docs/experiments/imu_convention.md.
   double turn_std_rad = 0.003;
-  // rad/s. Gyro bias before anything is known, 1 sigma: the turn-on bias of the worst units.
+  // rad/s. Gyro bias before anything is known, 1 sigma. Chosen: 3 deg/s, the turn-on bias of the
+  // worst units.
   double gyro_bias_std_radps = 0.05;
   // s. Time between the positions of a second difference. Chosen: longer averages noise, shorter
-  // sees livelier motion.
+  // sees livelier motion, such as a walker's step.
   double second_difference_span_s = 0.5;
-  // Share of that time which must exist on either side. Chosen.
+  // Share of that time which must exist on either side. Chosen: a sweep of 0.1 s may be missing.
   double min_span_share = 0.8;
   // m/s^2. Error of a second difference, 1 sigma: 1 cm in each position at 0.5 s. Fitted to the
-  // simulator.
+  // same drives.
   double second_difference_std_mps2 = 0.15;
   // m/s^2. Error of the mean force's length in one map, 1 sigma: the accelerometer's bias. Chosen
   // for consumer units.
   double gravity_std_mps2 = 0.15;
   // A rate is a spike when it is beyond any gyro and this many times the median of its step.
-  // Chosen.
+  // Chosen: no turn triples within a sweep; a smaller one takes lively rates in deg/s for spikes.
   double spike_ratio = 3.0;
 };
 
@@ -64,16 +66,17 @@ struct ImuClassifierParameters {
   double absurd_ratio = 5.0;
   // Steps. Clock offset under which the expected convention is tried, too. Chosen: two sweeps.
   double max_clock_shift_steps = 2.0;
-  double clock_shift_grid_steps = 0.5;
+  double clock_shift_grid_steps = 0.5;  // their grid; chosen: turns change little within
   // Share. A mean force at rest within this of 1 g (in either unit) tells the unit. Chosen: bias
   // and scale of poor units, vibration.
   double force_tolerance = 0.25;
   // g. A mean force at rest below this contains no gravity. Half way between 0 and 1.
   double max_force_without_gravity = 0.5;
-  // rad/s. Noise of rates from which deg/s is considered: above what engines and hands cause at
-  // rest. Chosen.
+  // rad/s. Noise of rates from which deg/s is considered. Chosen: above what engines and hands
+  // cause at rest.
   double min_noise_radps = 0.1;
-  // Share of the rig's gyro noise that the samples must have when taken as deg/s. Chosen.
+  // Share of the rig's gyro noise that the samples must have when taken as deg/s. Chosen: rigs
+  // claim about twice the data sheet (sensor/rig.hpp), so that half is left, less some margin.
   double min_noise_share = 0.4;
 };
 

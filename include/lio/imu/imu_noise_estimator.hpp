@@ -20,9 +20,13 @@
 namespace lio {
 
 struct ImuNoiseParameters {
-  double window_s = 1.0;  // samples to look at: 30 degrees of freedom at 100 Hz
+  // s. Samples to look at. Chosen: 30 degrees of freedom at 100 Hz tell a variance to a quarter;
+  // longer lags behind a road that changes.
+  double window_s = 1.0;
+  // Faster units are averaged down to this. Chosen: below most sensors' own low-pass filters.
   double max_rate_hz = 100.0;
-  // Neighbours are this many mean steps apart. Beyond that samples are missing or made up. Chosen.
+  // Neighbours are this many mean steps apart. Beyond that samples are missing or made up. Chosen:
+  // jitter of half a step passes, and a missing sample, two steps, does not.
   double min_step_ratio = 0.4;
   double max_step_ratio = 1.8;
 };

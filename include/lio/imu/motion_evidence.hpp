@@ -66,6 +66,7 @@ class MotionEvidence {
   double RateError_radps(double score) const;
   static double ForceError_mps2(std::span<const Bend> bends, double score);
 
+  // Steps that HasMoved() looks at. Chosen: a second at 10 Hz.
   static constexpr std::ptrdiff_t kRecentSteps = 10;
 
  private:

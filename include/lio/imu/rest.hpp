@@ -25,35 +25,42 @@ struct VibrationLevel {
   double accel_std_mps2 = 0.0;
 };
 
-// The tests of rest at the start, over a second. All values are chosen.
+// The tests of rest at the start, over a second.
 struct RestAtStart {
-  // Scan matching moves by less than this, ...
+  // Scan matching moves by less than this, ... Chosen: more than it errs by over a second; the turn
+  // moves what is 5 m away by as much.
   double max_shift_m = 0.05;
   double max_turn_rad = 0.01;
   // ... but where the IMU is calmer than any ride, traffic and bare ground may deceive it by more,
-  // and a vehicle that moves without shaking at all is fast.
+  // and a vehicle that moves without shaking at all is fast. Chosen: no more than an idling engine
+  // (RestOnTheWay::idle), and ten times what traffic on a simulated motorway feigned.
   VibrationLevel calm{0.005, 0.05};
   double max_shift_calm_m = 0.5;
 };
 
 // On the way. A creep of max_shift_m / window_s that begins without being felt goes undetected.
 struct RestOnTheWay {
+  // s. Chosen: shorter lets faster creeps pass, longer sees a short stop late.
   double window_s = 1.5;
   // The length of a straight line through where the window's scans were matched, and how far a
-  // single one may lie off it. Chosen: single matches of few points scatter by centimetres.
+  // single one may lie off it. Chosen: single matches of few points scatter by centimetres; a bound
+  // of 2 cm on each cut standstills short (docs/experiments/zero_velocity.md).
   double max_shift_m = 0.02;
   double max_scatter_m = 0.05;
-  // An idling engine adds this to the sensors' noise.
+  // An idling engine adds this to the sensors' noise. Chosen: idling cars have 0.05 to 0.15 m/s^2
+  // at floor and seat rail by the literature on noise and vibration, and turn little.
   VibrationLevel idle{0.005, 0.08};
-  // The engine, and errors of the sensors that the filter does not know, leave this in means.
+  // The engine, and errors of the sensors that the filter does not know, leave this in means. The
+  // force is measured: what a second of rest tells (docs/experiments/zero_velocity.md). The rate is
+  // chosen: 0.03 deg/s, above a consumer unit's bias instability.
   double mean_rate_std_radps = 5e-4;
   double mean_force_std_mps2 = 0.01;
 };
 
-// Over a whole run. Chosen: twice the noise of the map at rest, and a nod.
+// Over a whole run.
 struct RestOfRun {
-  double max_path_m = 0.5;
-  double max_turn_rad = 0.05;
+  double max_path_m = 0.5;     // chosen: twice the noise of the map at rest
+  double max_turn_rad = 0.05;  // chosen: a nod of 3 deg
 };
 
 struct RestParameters {
