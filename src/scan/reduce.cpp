@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kInitialSlots = 1u << 14;  // grows as needed
+constexpr std::size_t kInitialSlots = 1u << 14;  // chosen: three a target point; grows as needed
 constexpr std::uint32_t kBitsPerWord = 64;
 constexpr ThinningParameters kParameters = kScanParameters.thinning;
 

@@ -35,7 +35,7 @@ struct LoamFeatureParameters {
   // noise, more smooths edges away.
   std::size_t slope_half_window = 2;
   // Share of the rise that a single step may have in a slope; more is a jump. Chosen: 0.25 is even,
-  // 1 is a single jump.
+  // 1 is a single jump; between, rough surfaces stay slopes.
   float max_step_share = 0.6f;
   // Largest share of edges among the matched points. Chosen: edges are few and constrain directions
   // that surfaces leave free.
@@ -44,10 +44,12 @@ struct LoamFeatureParameters {
 
 struct MixedPixelParameters {
   // m, and share of the range. A return must lie so far from both surfaces: five times the range
-  // noise of a spinning lidar (2 cm), and, chosen, 5 mm a metre for rough ground.
+  // noise of a spinning lidar (2 cm by the data sheets), and, chosen, 5 mm a metre for rough
+  // ground. What is found and lost so: docs/experiments/mixed_pixels.md.
   float tolerance_m = 0.1f;
   float tolerance_per_range = 0.005f;
-  // Cosine of the largest angle to the beams beside it, 1 deg: three beams of a coarse lidar.
+  // Cosine of the largest angle to the beams beside it, 1 deg. Chosen: three beams of a coarse
+  // lidar (OS1-64, 0.35 deg); beams farther apart see different things.
   float min_cos = 0.99985f;
   // Points of a ring that step back in time by no more than this are in the order of measurement as
   // they were sent: packets are stamped with jitter. Chosen: ten times the 0.1 ms that the sweeps
