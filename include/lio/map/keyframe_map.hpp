@@ -19,11 +19,12 @@
 namespace lio {
 
 struct KeyframeMapOptions {
-  double voxel_m = 0.5;           // edge; best about as long as the distance of a nearest point
-  int max_points = 1000000;       // memory bound
-  double max_distance_m = 150.0;  // keyframes farther from the newest one are dropped
-  int num_near = 20;              // keyframes of a submap that are nearest, ...
-  int num_hull = 10;              // ... and that are nearest on the convex hull
+  double voxel_m = 0.5;      // edge; as GicpParameters::kMapVoxel_m
+  int max_points = 1000000;  // memory bound; as GicpOptions
+  // Keyframes farther from the newest one are dropped; as GicpOptions.
+  double max_distance_m = 150.0;
+  int num_near = 20;  // keyframes of a submap that are nearest, ...
+  int num_hull = 10;  // ... and that are nearest on the convex hull; both as GicpOptions
 };
 
 class KeyframeMap {
@@ -69,7 +70,7 @@ class KeyframeMap {
   bool IsInSubmap(std::int32_t keyframe) const { return keyframes_[ToIndex(keyframe)].is_chosen; }
 
  private:
-  static constexpr int kNodeSize = 8;
+  static constexpr int kNodeSize = 8;  // points; chosen: two SSE registers of floats
   static constexpr std::int32_t kNone = -1;
   using Blocks = VoxelBlocks<std::int32_t>;  // the first node of each voxel's chain
 

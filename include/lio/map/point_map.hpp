@@ -15,16 +15,18 @@
 namespace lio {
 
 struct PointMapOptions {
-  double voxel_m = 0.4;
-  int max_voxel_points = 20;  // a voxel with as many is frozen
-  int max_voxels = 100000;    // the memory bound; blocks without new points for longest go first
-  double max_distance_m = 200.0;
+  double voxel_m = 0.4;       // edge; as LoamOptions::surface_leaf_m
+  int max_voxel_points = 20;  // a voxel with as many is frozen; as LoamOptions::max_leaf_points
+  // The memory bound; blocks without new points for longest go first. Chosen: half of
+  // LoamOptions::max_leaves, which LOAM sets instead.
+  int max_voxels = 100000;
+  double max_distance_m = 200.0;  // blocks farther away are dropped; as NdtOptions::max_distance_m
 };
 
 class PointMap {
  public:
   using Mean = Eigen::Vector4f;  // of a voxel's points, from the block's corner [m]; their number
-  static constexpr int kMaxNeighbours = 8;
+  static constexpr int kMaxNeighbours = 8;  // room in Neighbours; as the range of num_neighbours
 
   // Throws std::invalid_argument when an option is out of its range.
   explicit PointMap(const PointMapOptions& options);
