@@ -9,34 +9,37 @@
 
 namespace lio {
 
-// All values of this file are chosen, by how far real messages come late, jump or stand out: a
-// line says what each one has to tell apart.
 struct StreamParameters {
-  // The mean of the time before stands in for a gap (kImuGap.bridged). It spans both steps of a
-  // walker (1.8 steps a second): over one alone the body turns.
+  // s. The mean of the time before stands in for a gap (kImuGap.bridged). Measured: both steps of a
+  // walker, at 1.8 a second; over one alone the body turns (docs/experiments/imu_gaps.md).
   double mean_before_gap_s = 1.1;
-  // Made-up samples stand this far from the measured ones at both edges of a gap.
+  // Made-up samples stand this far from the measured ones at both edges of a gap. Chosen: less than
+  // the period of any unit, so that the line between them takes no time.
   Duration gap_edge{1'000'000};
-  // Raw samples that are kept for an initialization that looks back over 3.5 s of sweeps, twice.
+  // s. Raw samples that are kept for an initialization that looks back, twice. Chosen: 3.5 s of
+  // sweeps (InitializingParameters::max_window_s), and margin for those that wait.
   double imu_buffer_s = 6.0;
-  // Sweeps alone for this long mean that the log has no IMU: IMUs start within a second.
+  // s. Sweeps alone for this long mean that the log has no IMU. Chosen: IMUs start within a second.
   double no_imu_after_s = 2.0;
-  // An IMU that comes up after the lidar is used once its samples span this much: a stray sample
-  // does not count.
+  // An IMU that comes up after the lidar is used once its samples span this much. Chosen: a stray
+  // sample does not count, and a start needs no more (docs/experiments/late_imu.md).
   Duration imu_appears_after{500'000'000};
-  // Another lidar on the channel is taken once the first one has been silent for so long.
+  // Another lidar on the channel is taken once the first one has been silent for so long. Chosen: a
+  // lidar that lives is silent for a sweep, 0.2 s, and lost ones.
   Duration replaces_lidar_after{1'000'000'000};
-  // Clocks that are farther apart than this are different clocks: no message is as late.
+  // s. Clocks that are farther apart than this are different clocks. Chosen: no message is as late.
   double clocks_apart_s = 2.0;
-  // A sweep may begin this much before the first inertial sample: the first reading holds there.
+  // A sweep may begin this much before the first inertial sample, whose reading holds there.
+  // Chosen: two samples at 100 Hz.
   Duration stamp_slack{20'000'000};
   // A step of the inertial clock is held back so long, by its stamps, until a sweep tells whether
-  // the lidar's clock stepped as well; ten sweeps of a slow lidar.
+  // the lidar's clock stepped as well. Chosen: ten sweeps at 10 Hz; longer delays all poses.
   Duration wait_for_lidar{1'000'000'000};
-  // The same as a count of messages, where stamps do not advance.
+  // The same as a count of messages, where stamps do not advance. Chosen: some seconds of a 400 Hz
+  // IMU and a lidar's chunks.
   std::size_t max_judged_messages = 3000;
-  // Messages that wait while a match is out, at most: two minutes of a 400 Hz IMU. More are
-  // dropped, newest first, and counted.
+  // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
+  // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
 };
 
@@ -44,12 +47,17 @@ inline constexpr StreamParameters kStream;
 
 // The bounds on an inertial sample before anything is integrated (imu_preprocessor.hpp).
 struct ImuPreprocessorParameters {
-  double max_force_mps2 = 2000.0;   // beyond any accelerometer (200 g)
-  Duration jitter{80'000'000};      // a shorter step back is none: drivers deliver in bursts
-  double hole_in_mean_steps = 1.5;  // a sample is missing from here on
-  std::size_t confirmations = 5;    // a stray stamp does not come five times in a row
-  // A clock that is set right steps forward by as much as it had gone back, but for so much, and no
-  // more than this share of it.
+  // Chosen: 200 g, beyond any accelerometer that a vehicle carries.
+  double max_force_mps2 = 2000.0;
+  // A shorter step back is none. Chosen: drivers deliver in bursts of some samples.
+  Duration jitter{80'000'000};
+  // A sample is missing from here on. Arithmetic: half way between one step and two.
+  double hole_in_mean_steps = 1.5;
+  // Samples in a row that tell of a time already told. Chosen: a stray stamp does not come five
+  // times; so the clock steps of docs/experiments/clock_steps.md were judged.
+  std::size_t confirmations = 5;
+  // s, share. A clock that is set right steps forward by as much as it had gone back, but for so
+  // much, and no more than this share of it. Chosen, as before: a gap of another length is none.
   double max_set_right_error_s = 0.1;
   double set_right_share = 0.25;
 };
@@ -57,9 +65,11 @@ inline constexpr ImuPreprocessorParameters kImuPreprocessor;
 
 // An axis at the end of its range (saturation_detector.hpp).
 struct SaturationParameters {
-  int min_equal = 5;  // equal readings in a row; fewer may be chance where readings are coarse
-  // No sensor's range is smaller. An axis that never reads anything, or gravity without noise, is
-  // not saturated.
+  // Equal readings in a row. Chosen: fewer may be chance where readings are coarse; used in
+  // docs/experiments/gyro_saturation.md.
+  int min_equal = 5;
+  // No sensor's range is smaller. Chosen: an axis that never reads anything (2 deg/s), or gravity
+  // without noise (1.2 g), is not saturated.
   double min_rate_radps = 0.04;
   double min_force_mps2 = 12.0;
 };
@@ -67,31 +77,46 @@ inline constexpr SaturationParameters kSaturation;
 
 // Did the lidar's clock step as well? (clock_step_arbiter.hpp)
 struct ClockStepParameters {
-  // The step lies somewhere between two inertial samples, which need not come on time.
+  // The step lies somewhere between two inertial samples, which need not come on time. Chosen: as
+  // kImuGap.sparse, three periods at 100 Hz.
   Duration step_uncertainty{30'000'000};
-  Duration wild{5'000'000'000};     // a chunk that is so far off tells nothing
-  Duration silence{1'000'000'000};  // a lidar without chunks for so long is not seen
-  std::size_t num_chunks = 4;       // that are remembered
-  std::size_t num_lags = 9;         // the lidar may step a message earlier, so their median counts
+  // A chunk that is so far off tells nothing. Chosen: no message is delayed by as much.
+  Duration wild{5'000'000'000};
+  // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
+  Duration silence{1'000'000'000};
+  std::size_t num_chunks = 4;  // that are remembered; chosen: a step among them shows
+  // Differences between the streams' stamps whose median counts. Chosen: the lidar may step a
+  // message earlier, and the odd burst is outvoted.
+  std::size_t num_lags = 9;
 };
 inline constexpr ClockStepParameters kClockStep;
 
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
-  Duration max_sweep_span{500'000'000};  // no lidar turns slower than twice a second
-  Duration jitter{20'000'000};           // of a sweep's length
-  Duration apart{1'000'000'000};         // sweeps that follow each other are nearer
-  std::size_t max_open_sweeps = 2;
-  std::size_t max_closed_names = 16;  // later stragglers are dropped as late sweeps
+  // Longer sweeps are wrong stamps. Chosen: no lidar turns slower than twice a second; data sheets
+  // end at five.
+  Duration max_sweep_span{500'000'000};
+  Duration jitter{20'000'000};      // of a sweep's length; chosen: a fifth of one at 10 Hz
+  Duration apart{1'000'000'000};    // sweeps that follow each other are nearer; chosen: two spans
+  std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
+  // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
+  std::size_t max_closed_names = 16;
 };
 inline constexpr ScanAssemblerParameters kScanAssembler;
 
 // When sweeps leave for matching (scan_gate.hpp).
 struct ScanGateParameters {
-  double max_wait_s = 5.0;            // for inertial samples that come late
-  Duration far_ahead{2'000'000'000};  // a longer step forward may be a wrong stamp
-  Duration bears_out{500'000'000};    // no second wrong stamp comes so near to the first
-  int max_late_in_a_row = 5;          // then the lidar's clock has moved back for good
+  // s. Sweeps wait so long for inertial samples that come late. Chosen: longer is a clock that is
+  // ahead, and what waits fills the memory.
+  double max_wait_s = 5.0;
+  // A longer step forward may be a wrong stamp. Chosen: most gaps are shorter, and pass at once.
+  Duration far_ahead{2'000'000'000};
+  // The next sweep bears such a step out when it is so near. Chosen: five periods at 10 Hz; no
+  // second wrong stamp comes so near to the first.
+  Duration bears_out{500'000'000};
+  // Late sweeps in a row, after which the lidar's clock has moved back for good. Chosen: half a
+  // second at 10 Hz; wild stamps do not come five times.
+  int max_late_in_a_row = 5;
 };
 inline constexpr ScanGateParameters kScanGate;
 

@@ -17,7 +17,7 @@ struct SenderWatchParameters {
   // Numbers that are farther apart are not of one row, whatever the stamps. Chosen: ten seconds of
   // a 100 Hz IMU.
   std::int64_t max_apart = 1000;
-  int min_evidence = 3;  // a row that a bit error begins does not go on three times; chosen
+  int min_evidence = 3;  // chosen: a row that a bit error begins does not go on three times
   // So many in a row without one of the first sender, and for so long: that one is gone. Chosen:
   // more than a fast IMU sends between two samples of a slow one.
   int gone_after = 20;

@@ -36,13 +36,14 @@
 namespace lio {
 
 struct StreamOptions {
-  bool use_imu = true;
-  ImuUnits units = ImuUnits::kAutomatic;
-  double lidar_clock_offset_s = 0.0;  // added to the lidar's stamps
+  bool use_imu = true;                    // as PipelineOptions
+  ImuUnits units = ImuUnits::kAutomatic;  // as ImuRig
+  double lidar_clock_offset_s = 0.0;      // added to the lidar's stamps; as LidarRig
   // Sweeps are moved by the clock offset that matched ones show. The next sweep waits while so many
   // have not been matched; absent: no sweep is moved.
   std::optional<std::size_t> max_unmatched;
-  double incomplete_sweep_wait_s = 0.05;  // a sweep is closed when stamps are this far past its end
+  // A sweep is closed when stamps are this far past its end; as PipelineOptions.
+  double incomplete_sweep_wait_s = 0.05;
 };
 
 class SensorStream {
