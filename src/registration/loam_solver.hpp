@@ -12,10 +12,10 @@
 namespace lio {
 
 struct LoamSolverOptions {
-  double huber_m = 0.1;
-  double edge_weight = 1.0;  // of a squared edge residual against a plane's
-  int max_iterations = 4;
-  bool uses_qr = false;  // else normal equations, measured faster
+  double huber_m = 0.1;      // as LoamOptions::huber_m
+  double edge_weight = 1.0;  // of a squared edge residual against a plane's; A-LOAM's
+  int max_iterations = 4;    // as LoamOptions::max_iterations
+  bool uses_qr = false;      // else normal equations, measured faster
 };
 
 class LoamSolver {

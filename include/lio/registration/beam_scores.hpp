@@ -20,7 +20,9 @@ namespace lio {
 class BeamScores {
  public:
   using Score = Eigen::Matrix<float, 6, 1>;
-  // Elevations are told apart by their sine, by 1 deg near the horizon.
+  // Elevations are told apart by their sine, by 1 deg near the horizon. Chosen: the beams of a
+  // VLP-16 are 2 deg apart; 24 sectors in place of 8 octants are the same
+  // (docs/experiments/sensor_fixed_errors.md).
   static constexpr int kElevations = 120;
   static constexpr int kOctants = 8;
   static constexpr std::size_t kNumDirections = kElevations + kOctants;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// LOAM's maps and matcher. A-LOAM's value is named where ours differs.
+// LOAM's maps and matcher.
 #pragma once
 
 namespace lio {
@@ -11,22 +11,31 @@ enum class LoamTarget {
 };
 
 struct LoamOptions {
-  LoamTarget target = LoamTarget::kMap;
-  double edge_leaf_m = 0.4;        // voxel of the edge map: one point each
-  double surface_leaf_m = 0.4;     // of the surface map (A-LOAM 0.8)
-  int max_leaf_points = 20;        // a voxel with as many points is frozen
-  int num_neighbours = 5;          // a line or a plane is laid through so many points; at most 8
-  double min_line_ratio = 3.0;     // of the largest to the second eigenvalue of a line's points
-  double max_plane_error_m = 0.2;  // a plane fits none of its points worse
-  double huber_m = 0.1;            // residuals above count linearly
-  double edge_std_m = 0.1;         // of an edge point's distance from its edge: the beams' gap
-  double surface_std_m = 0.03;     // of a surface point's distance: range noise and roughness
-  int max_iterations = 4;          // of Ceres in one round
-  int max_rounds = 8;              // correspondences are sought anew in each (A-LOAM always 2)
-  double converged_step_m = 1e-3;  // a round's step smaller than both ends the match
+  LoamTarget target = LoamTarget::kMap;  // chosen: it drifts less (docs/results.md)
+  double edge_leaf_m = 0.4;              // voxel of the edge map: one point each; A-LOAM's
+  // Voxel of the surface map. Chosen, A-LOAM has 0.8: more points to lay planes through indoors.
+  double surface_leaf_m = 0.4;
+  // A voxel with as many is frozen. Chosen: the mean of 20 has a quarter of the range noise.
+  int max_leaf_points = 20;
+  int num_neighbours = 5;  // a line or a plane is laid through so many points; at most 8; A-LOAM's
+  double min_line_ratio = 3.0;     // largest to second eigenvalue of a line's points; A-LOAM's
+  double max_plane_error_m = 0.2;  // a plane fits none of its points worse; A-LOAM's
+  double huber_m = 0.1;            // residuals above count linearly; A-LOAM's
+  // Standard deviation of an edge point's distance from its edge. Chosen: the beams' gap decides
+  // where an edge is hit.
+  double edge_std_m = 0.1;
+  // Standard deviation of a surface point's distance. Chosen: range noise and roughness.
+  double surface_std_m = 0.03;
+  int max_iterations = 4;  // of Ceres in one round; A-LOAM's
+  // Correspondences are sought anew in each. Chosen, A-LOAM always has 2: rounds end by converging.
+  int max_rounds = 8;
+  // A round's step smaller than both ends the match. Chosen: as NdtOptions.
+  double converged_step_m = 1e-3;
   double converged_step_rad = 1e-4;
-  int max_leaves = 200000;        // each map's memory bound; the least recently seen go first
-  double max_distance_m = 150.0;  // leaves farther from the vehicle are dropped
+  // Each map's memory bound; the least recently seen go first. Chosen: some ten megabytes.
+  int max_leaves = 200000;
+  // Leaves farther from the vehicle are dropped. Chosen: beyond LidarRig::max_range_m.
+  double max_distance_m = 150.0;
 };
 
 }  // namespace lio
