@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The tuning constants of relocalization (docs/recovery.md). "Measured" values come from the
-// experiments named there on simulated drives and walks; "chosen" ones follow from geometry or cost
-// and were not searched for.
+// The tuning constants of relocalization (docs/recovery.md). "Chosen" values follow from geometry
+// or cost and were not searched for; "measured" ones name the page or the drives, all simulated.
 #pragma once
 
 #include <cstddef>
@@ -12,108 +11,133 @@ namespace lio {
 
 struct BirdsEyeViewParameters {
   float half_width_m = 60.f;  // of the view's square; chosen: farther off a VLP-16 sees little
-  float column_m = 0.5f;      // edge of a column that points are gathered in; chosen
+  float column_m = 0.5f;      // edge of a column of points; chosen: wider than trunks and posts
   float min_height_m = 0.4f;  // from a column's lowest to its highest point; chosen: above kerbs
-  float cell_m = 0.25f;       // edge of the cells that say how near is near; chosen
-  int coarse_cell = 4;        // edge of the coarse cells, in cells; chosen: 1 m
-  std::size_t min_structures = 20;   // fewer do not tell one place from another; chosen
-  std::size_t max_structures = 300;  // bounds the cost of a score; chosen
+  // Edge of the cells that say how near is near. Chosen: matching converges from there.
+  float cell_m = 0.25f;
+  int coarse_cell = 4;  // edge of the coarse cells, in cells; chosen: 1 m, as the coarse step
+  std::size_t min_structures = 20;   // chosen: fewer do not tell one place from another
+  std::size_t max_structures = 300;  // chosen: bounds the cost of a score
   // A structure with others in line on both sides, so far each way, says nothing of the position
-  // along that line (a wall, a rail). Chosen.
+  // along that line (a wall, a rail). Chosen: longer than a parked car is wide.
   int line_half_length_m = 3;
-  int num_line_directions = 24;    // 7.5 deg apart; chosen
-  std::size_t min_off_lines = 40;  // with fewer off all lines, those on lines count as well; chosen
+  int num_line_directions = 24;  // chosen: 7.5 deg apart, 0.4 m at 3 m, within a column
+  // With fewer off all lines, those on lines count as well. Chosen: twice min_structures.
+  std::size_t min_off_lines = 40;
 };
 
 struct VelocitySearchParameters {
-  float step_mps = 0.5f;      // of the grid; chosen: 5 cm between two sweeps, well within a cell
-  int max_steps = 90;         // to each side: 45 m/s; chosen
-  float peak_width_m = 1.f;   // what is farther from the best shift is a rival; chosen
-  double min_lead = 2.0;      // of the best score over its rivals, in roots of the score; measured
-  double flat_top = 0.88;     // scores above this share of the best are averaged; measured
-  std::size_t min_scans = 3;  // a single pair is ambiguous among repeating structures; measured
+  float step_mps = 0.5f;     // of the grid; chosen: 5 cm between two sweeps, well within a cell
+  int max_steps = 90;        // to each side: 45 m/s; chosen: faster than cars drive on motorways
+  float peak_width_m = 1.f;  // chosen: what is farther from the best shift is a rival
+  // Lead of the best score over its rivals, in roots of the score. Chosen: two standard deviations
+  // of a count; nine starts on a motorway are all clear by it.
+  double min_lead = 2.0;
+  // Scores above this share of the best are averaged. Measured at nine starts on a motorway,
+  // with ConstantVelocityParameters::velocity_seed_std_mps: five begin at the first try, two
+  // before.
+  double flat_top = 0.88;
+  // Scans from which a velocity is believed. Measured: a single pair is ambiguous among repeating
+  // structures (docs/experiments/starts_in_motion.md).
+  std::size_t min_scans = 3;
 };
 
 // After E. Olson, "Real-Time Correlative Scan Matching", ICRA 2009: coarse grid, then fine grid.
 struct PlaceSearchParameters {
-  float coarse_step_m = 1.f;               // half of it is what a coarse cell forgives; chosen
-  float coarse_step_rad = 0.035f;          // 1 m at 30 m; chosen
-  float fine_step_m = 0.25f;               // a cell of the view; chosen
-  float fine_step_rad = 0.00875f;          // 0.25 m at 30 m; chosen
-  std::size_t max_coarse_structures = 60;  // bounds the cost; chosen
-  std::size_t max_refined = 100;           // coarse poses that are refined; chosen
-  std::size_t max_found = 12;              // measured: places on a walk that look alike
-  float same_m = 2.f;                      // found poses nearer than both of these are the same
+  float coarse_step_m = 1.f;               // chosen: half of it is what a coarse cell forgives
+  float coarse_step_rad = 0.035f;          // chosen: 1 m at 30 m
+  float fine_step_m = 0.25f;               // chosen: a cell of the view
+  float fine_step_rad = 0.00875f;          // chosen: 0.25 m at 30 m
+  std::size_t max_coarse_structures = 60;  // chosen: bounds the cost
+  std::size_t max_refined = 100;           // coarse poses that are refined; chosen: bounds the cost
+  // Found poses, at most. Chosen: so many places of a walk may look alike; used in
+  // docs/experiments/relocalization.md.
+  std::size_t max_found = 12;
+  // Found poses nearer than both of these are the same. Chosen: two and three coarse steps.
+  float same_m = 2.f;
   float same_rad = 0.1f;
 };
 
+// Without an inertial filter a match is held along degenerate directions: the values are those of
+// docs/experiments/open_road.md.
 struct ShiftSearchParameters {
-  float step_m = 0.25f;         // a cell of the view; chosen
-  double min_std_m = 0.2;       // of a result: a cell's width; chosen
-  double log_odds = 6.0;        // a score lower by its chance is e^-6 as likely; measured
-  double range_sigmas = 3.0;    // of the match, that are searched, ...
-  double min_range_m = 1.5;     // ... at least, ...
-  double max_range_m = 5.0;     // ... at most; chosen by cost
-  std::size_t max_views = 8;    // of earlier scans; measured on a motorway
-  float view_spacing_m = 1.5f;  // between them; measured
+  float step_m = 0.25f;    // chosen: a cell of the view
+  double min_std_m = 0.2;  // of a result; chosen: about a cell's width
+  // A score that is lower by its chance is e^-6 as likely. Chosen with the starts of that page.
+  double log_odds = 6.0;
+  double range_sigmas = 3.0;  // of the match, that are searched, ... statistics: 99.7 %
+  double min_range_m = 1.5;   // ... at least, ... chosen: six steps, so that a peak shows its sides
+  double max_range_m = 5.0;   // ... at most; chosen by cost
+  std::size_t max_views = 8;  // of earlier scans; chosen by cost, used in that page
+  float view_spacing_m = 1.5f;  // between them; chosen: posts look new; used in that page
 };
 
 struct PlaceCandidateParameters {
-  double range_sigmas = 2.0;  // of the prior, that are searched; chosen
-  double max_shift_m = 60.0;  // farther off the views do not overlap
-  double std_m = 0.5;         // of a candidate: a fine step, and what structures lack; chosen
+  double range_sigmas = 2.0;  // of the prior, that are searched; chosen by cost: 95 % of each axis
+  double max_shift_m = 60.0;  // chosen: farther off less than half of the views overlaps
+  // Standard deviation of a candidate. Chosen: a fine step and what structures lack in place, and
+  // about a coarse step of the turn.
+  double std_m = 0.5;
   double std_rad = 0.03;
 };
 
 struct PlaceVerificationParameters {
   // A prior with a smaller standard deviation, felt by points at the lever, is within reach of
-  // matching. Chosen: the largest correspondence radius.
+  // matching. Chosen: as CorrespondenceParameters::kMaxStd_m and kLever_m.
   double max_prior_std_m = 2.0;
   double lever_m = 20.0;
-  // The share of points on a surface of the map, of those that come to one, was 98 % at the true
-  // pose on the worst walks and 78 % at most elsewhere: so much of the last scan's share is enough.
+  // Share of the points on a surface of the map, of those that come to one, over the last scan's.
+  // Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
+  // (docs/experiments/relocalization.md).
   double min_share = 0.9;
-  double min_number = 0.2;     // points on surfaces, of those of the last scan; chosen
-  double plenty_number = 0.6;  // as many end the search and overrule inertial prediction; measured
-  double apart_m = 0.5;        // two poses nearer than this are not told apart; chosen
-  double clearly_more = 1.2;   // times the points on surfaces, for a better match; measured
-  double much_nearer = 0.3;    // times as far, for a match that is near one of two poses; chosen
+  double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
+  // As many end the search and overrule inertial prediction. Chosen; used in
+  // docs/experiments/clock_steps.md.
+  double plenty_number = 0.6;
+  double apart_m = 0.5;  // chosen: two poses nearer than this are not told apart by matching
+  // Times the points on surfaces, for a better match. Chosen; used in
+  // docs/experiments/clock_steps.md.
+  double clearly_more = 1.2;
+  double much_nearer = 0.3;  // times as far, for a match near one of two poses; chosen: a third
 };
 
 // Things that stand up in a cloud, in voxels.
 struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
-  int min_points = 5;      // of a voxel that shows how its points spread; chosen
-  float min_std_m = 0.2f;  // of their height: a wall through the whole voxel has 0.29
+  int min_points = 5;      // of a voxel that shows their spread; chosen: fewer spread by chance
+  float min_std_m = 0.2f;  // of their height; chosen: a wall through the whole voxel has 0.29
   float column_m = 0.5f;   // edge of a column, which gives one structure; as BirdsEyeView's
 };
 
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  float cell_m = 0.5f;                // of the finest grid; chosen: matching converges from there
-  int num_levels = 7;                 // cells of 0.5 to 32 m; chosen
-  int max_cells_per_side = 8192;      // 4 km, whose grids take 220 MB; chosen
-  float step_rad = 0.0175f;           // a cell at 30 m
-  int num_refine_steps = 4;           // fine steps to each side, over what a score is the same
-  float margin_m = 10.f;              // so far beyond the points of the map a body may be; chosen
-  std::size_t max_structures = 120;   // bounds the cost; chosen
-  float max_range_m = 40.f;           // of structures, where a step of the turn is 0.7 m
-  double min_share = 0.4;             // of the structures, that must be in the map; chosen
-  double min_score_ratio = 0.88;      // of the best score; chosen
+  float cell_m = 0.5f;            // of the finest grid; chosen: matching converges from there
+  int num_levels = 7;             // chosen: cells of 0.5 to 32 m, a few of which cover a map
+  int max_cells_per_side = 8192;  // chosen by memory: 4 km, whose grids take 220 MB
+  float step_rad = 0.0175f;       // chosen: a cell at 30 m
+  // Fine steps to each side, over what a score is the same. Arithmetic: four of
+  // PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts as well.
+  int num_refine_steps = 4;
+  float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
+  std::size_t max_structures = 120;  // chosen: bounds the cost
+  float max_range_m = 40.f;          // of structures; chosen: a step of the turn is 0.7 m there
+  double min_share = 0.4;  // of the structures, in the map; chosen: scans see new things, too
+  double min_score_ratio = 0.88;      // of the best score; chosen: as for velocities (flat_top)
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
-  std::size_t max_nodes = 4'000'000;  // that wait; 48 MB
-  // Look-ups in a grid for one scan: about 20 ms.
+  std::size_t max_nodes = 4'000'000;  // that wait; chosen by memory: 48 MB
+  // Look-ups in a grid for one scan. Chosen by time: about 20 ms; a search of a street of 440 m
+  // takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
   std::int64_t max_lookups_per_scan = 4'000'000;
 };
 
 struct HeightVotesParameters {
-  float column_m = 0.5f;
-  float bin_m = 0.25f;
-  std::size_t max_points = 400;  // that vote; chosen
-  double min_vote_ratio = 0.6;   // of the votes for the best height; chosen
-  float apart_m = 1.f;           // two heights nearer than this are one; chosen
-  std::size_t max_heights = 4;   // storeys that are tried; chosen
+  float column_m = 0.5f;         // edge of a column of the map; chosen: MapSearchParameters::cell_m
+  float bin_m = 0.25f;           // of heights; chosen: matching converges from half a metre
+  std::size_t max_points = 400;  // that vote; chosen: bounds the cost
+  double min_vote_ratio = 0.6;   // of those for the best height; chosen: storeys look nearly alike
+  float apart_m = 1.f;          // chosen: two heights nearer than this are one, no storey is as low
+  std::size_t max_heights = 4;  // storeys that are tried; chosen by cost
 };
 
 struct GatheredCloudParameters {
@@ -124,37 +148,48 @@ struct GatheredCloudParameters {
 };
 
 struct PlaceContestParameters {
-  int num_coarse_points = 800;     // as many as come to a surface need be 50; chosen
+  // Points of a coarse match. Chosen: 50 of them must come to a surface
+  // (MatchParameters::kMinMatched), and in a strange place few do.
+  int num_coarse_points = 800;
   int max_coarse_per_scan = 20;    // coarse matches of a scan; chosen: some milliseconds
-  std::size_t max_contenders = 8;  // places that are followed; chosen
-  double min_support_ratio = 0.5;  // of the best coarse match, for a place to be followed; chosen
-  double settled_std_m = 0.1;      // of a place that matched the scan before; chosen
+  std::size_t max_contenders = 8;  // places that are followed; chosen: two matches a scan, in turn
+  double min_support_ratio = 0.5;  // of the best coarse match, to be followed; chosen: half
+  // Standard deviation of a place that matched the scan before. Chosen: above what a scan's match
+  // moves it by, below max_step_m and max_step_rad.
+  double settled_std_m = 0.1;
   double settled_std_rad = 0.01;
   // Share of the points on surfaces of those that come to one, over that of the scan in its own new
-  // map: 0.96 and more at right places, 0.94 at most one storey off
+  // map. Measured: 0.96 and more at right places, 0.94 at most one storey off
   // (docs/experiments/start_in_a_map.md).
   double min_fit = 0.95;
   // Points on surfaces, over those in the scan's own new map; with fewer the fit is worse. Chosen:
   // a saved map has fewer points on near things than the last scans have.
   double min_number_ratio = 0.6;
-  double max_step_m = 0.3;  // a right place stays where it is from scan to scan; chosen
+  // A right place stays where it is from scan to scan. Chosen: three settled_std_m, and two of the
+  // turn.
+  double max_step_m = 0.3;
   double max_step_rad = 0.02;
   int num_checks = 5;        // scans in a row that must say so; chosen: half a second
-  int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen
-  // A beaten rival's share of points that contradict it, over the winner's, ...
-  double min_residual_ratio = 1.5;  // ... at least; chosen
-  double least_residual = 0.02;     // the winner's is taken to be no less; chosen
-  int max_scans = 30;               // then the search begins anew; chosen
+  int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
+  // A beaten rival's share of points that contradict it, over the winner's, ... Chosen; no wrong
+  // place won by it (docs/experiments/start_in_a_map.md).
+  double min_residual_ratio = 1.5;
+  double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things
+  int max_scans = 30;            // then the search begins anew; chosen: three seconds at 10 Hz
 };
 
 struct PlaceSeekerParameters {
   std::size_t min_structures = 20;  // as BirdsEyeViewParameters
   int min_scans = 5;                // before the first search; chosen: half a second
-  double again_after_m = 2.0;       // moved by so much, ...
-  int again_after_scans = 20;     // ... or after so many scans, another search is worth it; chosen
-  float guess_range_m = 10.f;     // around a guess, to each side, ...
-  float guess_range_rad = 0.5f;   // ... of its yaw, ...
-  float guess_range_up_m = 1.5f;  // ... and up and down: less than half a storey; chosen
+  // Moved by so much, or after so many scans, another search is worth it. Chosen: other things are
+  // in view, or two seconds have brought more of them.
+  double again_after_m = 2.0;
+  int again_after_scans = 20;
+  // Around a guess, to each side, of its yaw, and up and down. Chosen: a parking lot's error by
+  // hand or GNSS, 30 deg, and less than half a storey.
+  float guess_range_m = 10.f;
+  float guess_range_rad = 0.5f;
+  float guess_range_up_m = 1.5f;
 };
 
 struct RelocalizationParameters {
@@ -170,12 +205,15 @@ struct RelocalizationParameters {
   GatheredCloudParameters gathered;
   PlaceContestParameters contest;
   PlaceSeekerParameters seeker;
-  double aligned_std_m = 0.5;  // of a prior that was aligned: 5 m/s over a sweep; chosen
+  double aligned_std_m = 0.5;  // of a prior that was aligned; chosen: 5 m/s over a sweep
   // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
+  // Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;
-  // Points of a coarse match, which ranks candidates: an eighth of a full match's. Chosen.
+  // Points of a coarse match, which ranks candidates. Chosen: an eighth of a full match's.
   int num_coarse_points = 300;
-  double tried_same_m = 1.0;  // a place nearer than both of these to one that was tried is the same
+  // A place nearer than both of these to one that was tried is the same. Chosen: matching converges
+  // from there.
+  double tried_same_m = 1.0;
   double tried_same_rad = 0.1;
 };
 
