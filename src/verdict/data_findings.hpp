@@ -13,13 +13,16 @@
 namespace lio {
 
 struct DataFindingParameters {
-  // Shares of messages. Chosen; the simulator's and the field's faults are below.
+  // Shares of messages. Chosen; drives with a right rig stay below all three
+  // (docs/experiments/verdict.md).
   double max_clipped_share = 0.02;
-  double max_doubled_share = 0.2;  // two senders of equal rate double one half
-  double max_bad_chunk_share = 0.1;
-  // s. A sensor is missing at the end: lidar-only odometry began a second before (kImuGap.segment).
+  double max_doubled_share = 0.2;    // chosen: two senders of equal rate double one half
+  double max_bad_chunk_share = 0.1;  // chosen: what a lossy network tears is less
+  // s. A sensor is missing at the end. Chosen: lidar-only odometry began a second before
+  // (kImuGap.segment).
   double max_without_s = 2.0;
-  // The IMU's noise over the rig's. Engines and roads in the simulator and KITTI give up to 16.
+  // The IMU's noise over the rig's. Measured: engines and roads in the simulator and KITTI give up
+  // to 16 (docs/experiments/verdict.md); two powers of two above.
   double max_noise_ratio = 64.0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 // Median of chi-square with three degrees of freedom.
 constexpr double kMedianChiSquare3 = 2.366;
-constexpr std::size_t kMinSteps = 30;  // three seconds at 10 Hz: twice the parameters. Chosen
+constexpr std::size_t kMinSteps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
 
 int LongestMap(const std::deque<MotionStep>& steps) {
   std::map<int, int> num_of;

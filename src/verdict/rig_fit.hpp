@@ -35,8 +35,8 @@ struct RigFitParameters {
   double long_span_s = 0.5;   // as MotionEvidenceParameters::second_difference_span_s
   double cluster_s = 2.0;     // longer than a step of a walker and the lag of the map. Chosen
   int num_iterations = 4;     // Gauss-Newton; linear but for the rotation. Chosen
-  // Huber's threshold in standard deviations of one axis, for residuals of three. Chosen, as in
-  // calib.
+  // Huber's threshold in standard deviations of one axis, for residuals of three. Customary, as in
+  // TurnFitParameters.
   double huber = 3.0;
   // Standard deviations before anything is known. The rotation has none.
   double offset_prior_s = 0.2;          // rates are linear in the offset for less. Chosen

@@ -16,15 +16,17 @@
 namespace lio {
 
 struct RunTallyParameters {
-  // s. A start may take so long before it counts as missing: the longest moving window
-  // (StartOptions::moving_window_s).
+  // s. A start may take so long before it counts as missing: the longest moving window that
+  // StartOptions::moving_window_s may have.
   double start_s = 3.0;
   // s. A pose covers the time since the one before up to so long: two and a half sweeps at 10 Hz,
   // as in lio-eval's association.
   double max_step_s = 0.25;
-  // m. A shorter path says nothing of drift per 100 m. Chosen.
+  // m. A shorter path says nothing of drift per 100 m. Chosen: on it the start's uncertainty alone
+  // would be told.
   double min_path_m = 10.0;
-  // Bins of the IMU's noise over the rig's, by powers of two. Wider than any unit's. Chosen.
+  // Bins of the IMU's noise over the rig's, by powers of two. Chosen: up to 32 768, wider than any
+  // unit's.
   static constexpr std::size_t kNumNoiseBins = 16;
 };
 
