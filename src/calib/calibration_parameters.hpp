@@ -12,20 +12,22 @@ struct ScanPosesParameters {
   // s. A sweep that is still incomplete so long after a later chunk's stamp is closed. Chosen:
   // three sweeps at 10 Hz.
   double wait_s = 0.3;
-  // m, rad. Uncertainty of a pose along a known path, 1 sigma. Chosen; more lets matching search
-  // farther.
+  // m, rad. Uncertainty of a pose along a known path, 1 sigma. Chosen: some times what matching
+  // errs by; more lets matching search farther.
   double path_std_m = 0.05;
   double path_std_rad = 0.005;
-  // s. Least time since the last match that matching is told. Arithmetic guard.
+  // s. Least time since the last match that matching is told. Chosen: a guard against division by
+  // zero, a tenth of a sweep.
   double min_since_last_s = 0.01;
 };
 
 // The turns that are used.
 struct TurnSelectionParameters {
-  // A turn longer than this times the median spans a missing sweep. Between 1 and 2, half way.
+  // A turn longer than this times the median spans a missing sweep. Arithmetic: half way between
+  // one and two.
   double max_span_ratio = 1.5;
-  // s. Samples are needed so far beyond a turn, because the least squares may move the offset by
-  // about that much.
+  // s. Samples are needed so far beyond a turn, because the least squares may move the offset.
+  // Chosen: two steps of the search's grid.
   double offset_margin_s = 0.02;
 };
 
@@ -35,7 +37,8 @@ struct RateSearchParameters {
   // hands and vehicles change little in 10 ms.
   double grid_step_s = 0.01;
   double fine_step_s = 0.001;
-  // Fewest turns for a correlation. Chosen; 2 s at 10 Hz.
+  // Fewest turns for a correlation. Chosen: 2 s at 10 Hz; of fewer any two series are alike
+  // somewhere.
   int min_turns = 20;
 };
 
@@ -51,7 +54,8 @@ struct CalibrationAcceptance {
   // Least ratio of the second singular value of the rates to the first. Chosen: below it all turns
   // are about one axis.
   double min_second_axis_ratio = 1e-3;
-  // s. An offset so near to the limit of the search is refused. Half a step of the grid.
+  // s. An offset so near to the limit of the search is refused. Arithmetic: half a step of the
+  // grid.
   double limit_margin_s = 0.005;
 };
 
@@ -71,13 +75,13 @@ struct TurnFitParameters {
   // Sigmas. Huber's threshold. Customary: 3 sigma.
   double huber_sigmas = 3.0;
   // A residual larger than this times the median does not count in the estimate of the noise.
-  // Chosen.
+  // Chosen: of normal residuals less than one in a million is.
   double max_residual_ratio = 4.0;
   // rad. Least standard deviation of a sweep's rotation and of a turn. Chosen: below any lidar's;
   // it keeps the weights finite on exact data.
   double min_std_rad = 1e-5;
-  // Least ratio of a turn's own standard deviation to a sweep's. Chosen: keeps the problem well
-  // conditioned.
+  // Least ratio of a turn's own standard deviation to a sweep's. Chosen: with less the problem is
+  // badly conditioned.
   double min_turn_share = 0.05;
 };
 

@@ -33,8 +33,9 @@ struct SweepRotation {
 };
 
 struct RotationCalibrationOptions {
-  double max_offset_s = 0.5;  // the search covers +- this
-  // A result with larger standard deviations is not sure: the motion does not determine it.
+  double max_offset_s = 0.5;  // the search covers +- this; chosen: more takes longer
+  // A result with larger standard deviations is not sure: the motion does not determine it. Chosen:
+  // 24 times and 5 times those of 40 s of a walk (docs/calibration.md, Figures).
   double max_offset_std_s = 1e-3;
   double max_rotation_std_rad = 0.2 * 0.017453292519943295;
 };
