@@ -20,7 +20,7 @@ void Health::AddFusion(EventOutcome outcome) {
 }
 
 int Health::NumGatedLately() const {
-  constexpr std::uint32_t kLastScans = 0b11111;
+  constexpr std::uint32_t kLastScans = 0b11111;  // chosen: five scans, half a second at 10 Hz
   return std::popcount(gated_scans_ & kLastScans);
 }
 

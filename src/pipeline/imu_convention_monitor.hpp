@@ -15,20 +15,25 @@
 
 namespace lio {
 
-// All values are chosen: counts of scans that tell a wrong convention from a bad second.
+// These tell a wrong convention from a bad second; docs/experiments/imu_convention.md has what they
+// lead to.
 struct ConventionMonitorParameters {
-  // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
+  // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker. Chosen:
+  // as ImuClassifierParameters::min_steps.
   std::size_t min_scans = 8;
-  // Poses from one verdict to the next while tracking: half a second at 10 Hz.
+  // Poses from one verdict to the next while tracking. Chosen: half a second at 10 Hz, for the time
+  // of a verdict.
   int poses_per_verdict = 5;
-  // A gyro that reads this much over half a second while nothing is matched has other units: no
-  // vehicle turns by a radian a second for long.
+  // A gyro that reads this much over half a second while nothing is matched has other units.
+  // Chosen: no vehicle turns by a radian a second for long; hands do, but their scans match.
   int wild_after_unmatched = 5;
   Duration wild_span{500'000'000};
   double wild_rate_radps = 1.0;
-  // Two of the last five scans beyond the gate make another convention likely.
+  // Two of the last five scans beyond the gate make another convention likely. Chosen: one may be a
+  // wrong match.
   int max_gated_lately = 2;
-  // Without turns a doubt cannot be settled: then the start goes on after this long.
+  // s. Without turns a doubt cannot be settled: then the start goes on after this long. Chosen: the
+  // time over which evidence is kept (MotionEvidenceParameters::max_steps).
   double max_doubt_s = 10.0;
 };
 

@@ -17,9 +17,9 @@ namespace lio {
 [[nodiscard]] ImuRig RaisedTo(const ImuNoise& shown, ImuRig rig);
 
 struct ImuNoiseWatchParameters {
-  double min_ratio = 3.0;     // less is within what data sheets leave open. Chosen
-  double tell_again = 3.0;    // said again when it has grown by so much. Chosen
-  int min_scans_in_row = 20;  // two seconds: a kerb is no vibration. Chosen
+  double min_ratio = 3.0;     // chosen: less is within what data sheets leave open
+  double tell_again = 3.0;    // said again when it has grown by so much; chosen: as min_ratio
+  int min_scans_in_row = 20;  // chosen: two seconds at 10 Hz; a kerb is no vibration
 };
 
 inline constexpr ImuNoiseWatchParameters kImuNoiseWatch;

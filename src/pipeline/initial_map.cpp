@@ -11,7 +11,7 @@ namespace {
 
 constexpr MapSearchParameters kSearch = kRelocalization.map_search;
 constexpr float kMaxExtent_m = kSearch.cell_m * kSearch.max_cells_per_side - 2.f * kSearch.margin_m;
-// A float holds 8 mm there.
+// A coordinate beyond this is no map's. Arithmetic: a float holds 8 mm there.
 constexpr float kMaxCoordinate_m = 100e3f;
 
 }  // namespace

@@ -27,20 +27,26 @@
 
 namespace lio {
 
-// All values are chosen. A start that looks back longer begins later, and is surer.
+// A start that looks back longer begins later, and is surer.
 struct InitializingParameters {
-  double max_rest_wait_s = 1.4;  // shaken, but not moved for this long, counts as rest
-  // An initialization looks back this far at most; the inertial buffer holds more.
+  // s. Shaken, but not moved for this long, counts as rest. Chosen: StartOptions::rest_s and four
+  // sweeps; an idling truck shakes as much as a slow ride.
+  double max_rest_wait_s = 1.4;
+  // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
+  // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
-  std::size_t min_scans_at_rest = 3;
-  std::size_t min_samples_at_rest = 3;
+  std::size_t min_scans_at_rest = 3;    // chosen: two steps between them say that it does not move
+  std::size_t min_samples_at_rest = 3;  // chosen: fewer have no spread
   // Scans from which the motion may be known, and after which lidar-only odometry begins anyway.
+  // Chosen: the first ones are skewed by a motion that is not known; waiting longer loses them.
   std::size_t min_scans_for_motion = 4;
   std::size_t max_scans_for_motion = 8;
-  double motion_velocity_std_mps = 1.0;  // the motion is known when it is surer than this
-  // The track starts from rest if no velocity is clear after so many scans.
+  // The motion is known when it is surer than this. Chosen: it skews a sweep of 0.1 s by 10 cm.
+  double motion_velocity_std_mps = 1.0;
+  // The track starts from rest if no velocity is clear after so many scans. Measured against five:
+  // docs/experiments/starts_in_motion.md.
   std::size_t max_scans_for_velocity = 8;
-  // A scan whose place in the map is less sure would blur the map.
+  // m. A scan whose place in the map is less sure would blur the map. Chosen: a third of a cell.
   double max_insert_std_m = 0.3;
 };
 

@@ -14,10 +14,14 @@
 
 namespace lio {
 
-// Both values are chosen.
+// Both are those of docs/experiments/relocalization.md.
 struct LidarOnlyParameters {
-  int warm_up_scans = 10;          // with fewer a map is thin, and its cells are rank-deficient
-  double turn_unseen_for_s = 0.5;  // a body that is not seen goes on turning for so long
+  // Scans that go into a map unthinned. Chosen: with fewer it is thin, and its cells are
+  // rank-deficient.
+  int warm_up_scans = 10;
+  // s. A body that is not seen goes on turning for so long. Chosen: after more
+  // the turn may have ended, and the new map would be turned too far.
+  double turn_unseen_for_s = 0.5;
 };
 
 inline constexpr LidarOnlyParameters kLidarOnly;

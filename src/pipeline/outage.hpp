@@ -19,32 +19,33 @@
 namespace lio {
 
 struct OutageParameters {
-  // Who stood or crawled before may go on as fast as this: a runner, a car that drives off. Chosen.
+  // Who stood or crawled before may go on as fast as this. Chosen: a runner, a car that drives off.
   double min_speed_mps = 5.0;
-  // A road climbs by at most this in its length: the steepest residential streets of cities do.
+  // A road climbs by at most this in its length. Chosen: but for a few streets none is steeper.
   double slope = 0.2;
-  // Change of roll and pitch, 1 sigma: that slope, halved as it is seldom met.
+  // Change of roll and pitch, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
   // The turn rate while unseen, 1 sigma: that of a gap (ImuOutageParameters), ...
   double turn_rate_std_radps = 0.5;
-  // ... but a yaw that is anywhere has pi / sqrt(3), as a uniform distribution.
+  // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;
   // Nothing is known of the velocity: a vehicle in a city (as ConstantVelocityParameters).
   double velocity_std_mps = 15.0;
   // Beyond this standard deviation, numbers in double precision would leave too few digits for the
-  // millimetres of the next match: 1e8 m^2 beside 1e-6 m^2.
+  // millimetres of the next match. Arithmetic: 1e8 m^2 beside 1e-6 m^2.
   double max_std_m = 1e4;
-  // Scans that are sought before the map is given up: with three for the velocity, less than a
-  // second passes at 10 Hz. Chosen.
+  // Scans that are sought before the map is given up. Chosen: with three for the velocity, less
+  // than a second passes at 10 Hz.
   int max_scans_sought = 4;
   // The scan that is found is matched with large cells, which any ground and any wall fit. Those
   // after it must match as many points, and as many in the finest cells, as this share of the
-  // number before the outage: 0.7 and more at the right place, 0.53 and 0.05 at most on a motorway
-  // 138 m off (docs/experiments/outages.md).
+  // number before the outage. Measured: 0.7 and more at the right place, 0.53 and 0.05 at most on a
+  // motorway 138 m off (docs/experiments/outages.md).
   double min_share_matched = 0.6;
-  int num_checks = 2;         // scans that must; chosen
-  int max_scans_checked = 4;  // among so many; chosen
-  double stayed_m = 2.0;      // found nearer to the old place than this, it stayed there; chosen
+  int num_checks = 2;         // scans that must; chosen: one may match by chance
+  int max_scans_checked = 4;  // among so many; chosen: half may be hidden by traffic
+  // Found nearer to the old place than this, it stayed there. Chosen: less than any drive of 3 s.
+  double stayed_m = 2.0;
   int max_scans_for_velocity = 8;  // then the new map begins without; as InitializingParameters
   double found_velocity_std_mps = 1.5;  // by bird's-eye views; as ConstantVelocityParameters
 };

@@ -5,7 +5,7 @@
 namespace lio {
 namespace {
 
-constexpr double kWaitingEvery_s = 1.0;  // a person reads no faster; chosen
+constexpr double kWaitingEvery_s = 1.0;  // chosen: a person reads no faster
 
 }  // namespace
 

@@ -13,11 +13,12 @@
 namespace lio {
 
 struct ScanStepParameters {
-  // A sweep with missing inertial samples may be bent by more than this after the deskew (10 cm at
-  // 20 m): it is deskewed again along the motion that the match found.
+  // A sweep with missing inertial samples may be bent by more than this after the deskew: it is
+  // deskewed again along the motion that the match found. Chosen: 10 cm at 20 m; used in
+  // docs/experiments/imu_gaps.md.
   double unsure_turn_rad = 0.005;
   // A shift since the last located scan that is less sure than this is beyond what matching
-  // reaches: correlative alignment betters the prior.
+  // reaches: correlative alignment betters the prior. Chosen: two of it leave the cells of 1 m.
   double align_prior_from_std_m = 0.7;
   // Each time the surroundings have been replaced by others, errors that move with the sensor bend
   // the map once more, the same way for a while. After n replacements that is n^2 times their
@@ -25,7 +26,8 @@ struct ScanStepParameters {
   // road. Fitted to the NEES of eight drives through the simulator's street
   // (docs/experiments/sensor_fixed_errors.md).
   double num_alike_replacements = 12.0;
-  // The least time that a prior is taken to have run free, so that rates by it stay finite.
+  // The least time that a prior is taken to have run free, so that rates by it stay finite. Chosen:
+  // a tenth of a sweep at 10 Hz.
   double min_since_last_fix_s = 0.01;
 };
 

@@ -12,12 +12,13 @@
 namespace lio {
 
 struct ZeroVelocityParameters {
-  // A body at rest sways on its springs by so much, to and fro within so long (measured on cars
-  // with an idling engine; docs/results.md, parked).
+  // A body at rest sways on its springs by so much, to and fro within so long. Measured on a
+  // simulated car with an idling engine: docs/experiments/zero_velocity.md.
   double std_mps = 0.0025;
   double correlation_s = 0.3;
-  // At rest the same beams meet the same cells, and errors last: over five seconds they come to one
-  // to four times the variance that independent ones would have (docs/consistency.md).
+  // At rest the same beams meet the same cells, and errors last. Measured: over five seconds they
+  // come to one to four times the variance that independent ones would have
+  // (docs/experiments/zero_velocity.md).
   double matches_alike = 4.0;
 };
 

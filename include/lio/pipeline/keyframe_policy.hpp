@@ -11,13 +11,12 @@
 
 namespace lio {
 
-// All values are chosen.
 struct KeyframeParameters {
-  // A scan after this much motion shows other surfaces: a fifth of a cell of the map, and the same
-  // for what is 7 m away.
+  // A scan after this much motion shows other surfaces. Chosen: a fifth of a cell of the map, and
+  // the same for what is 7 m away; less lets rings of a crawl repeat, more leaves holes.
   double distance_m = 0.2;
   double angle_rad = 0.03;
-  int max_scans_here = 4;  // enough that cells have the points to count
+  int max_scans_here = 4;  // chosen: enough that cells have the points to count
 };
 
 inline constexpr KeyframeParameters kKeyframe;

@@ -19,21 +19,31 @@ namespace lio {
 enum class MatchMethod { kNdt, kLoam, kGicp };
 
 struct StartOptions {
-  double rest_s = 1.0;               // a static start uses this much rest; at most 1.5
-  double max_gyro_std_radps = 0.02;  // more spread than this is motion
+  // A static start uses this much rest; at most 1.5. Chosen: a second tells the accelerometer's
+  // bias to what the body sways by (docs/experiments/zero_velocity.md); more delays the first pose.
+  double rest_s = 1.0;
+  // More spread than this is motion. Chosen: above engines at rest, below any ride.
+  double max_gyro_std_radps = 0.02;
   double max_accel_std_mps2 = 0.3;
-  double moving_window_s = 2.0;  // a start in motion aligns this much of it; 1.5 to 3
-  double wait_for_rest_s = 0.0;  // in motion, rest is awaited this long first
+  // A start in motion aligns this much of it; 1.5 to 3. Measured: 2.5 and 3 s are no better
+  // (docs/experiments/starts_in_motion.md).
+  double moving_window_s = 2.0;
+  double wait_for_rest_s = 0.0;  // in motion, rest is awaited this long first; chosen: not at all
 };
 
 struct PipelineOptions {
-  bool use_imu = true;  // false: lidar-only odometry by a constant-velocity guess
+  // False: lidar-only odometry by a constant-velocity guess. Chosen: with an IMU less is lost.
+  bool use_imu = true;
+  // Measured: with the IMU NDT is the most exact in simulation (docs/results.md).
   MatchMethod method = MatchMethod::kNdt;
-  int num_threads = 1;  // matching may use so many; results do not depend on it
-  double incomplete_sweep_wait_s =
-      0.05;                  // an incomplete sweep is closed when the IMU is this far on
-  bool map_locked = false;   // the initial map stays as it is
-  int max_queued_scans = 5;  // live only: more waiting scans than this, and the oldest is dropped
+  int num_threads = 1;  // matching may use so many; results do not depend on it; chosen: few cores
+  // An incomplete sweep is closed when the IMU is this far on. Chosen: half a sweep at 10 Hz; less
+  // loses late chunks, more delays each scan with a lost one.
+  double incomplete_sweep_wait_s = 0.05;
+  bool map_locked = false;  // the initial map stays as it is; chosen: places change
+  // Live only: more waiting scans than this, and the oldest is dropped. Chosen: half a second late
+  // at 10 Hz; more is old news to whoever steers by it.
+  int max_queued_scans = 5;
   bool publish_features = false;  // live only, method loam only: each scan's edge and surface sets
 };
 
