@@ -59,7 +59,7 @@ class SynchronousOdometry::Impl {
   std::vector<std::vector<Eigen::Vector3f>> clouds_map_;
 
  private:
-  static constexpr std::int32_t kLastScanSeq = 2'000'000'000;
+  static constexpr std::int32_t kLastScanSeq = 2'000'000'000;  // chosen: below 2^31
 
   void Keep(const InsertTask& insert) {
     const Eigen::Matrix3f rotation = insert.T_map_imu->rotation.toRotationMatrix().cast<float>();

@@ -70,7 +70,8 @@ struct ImuClassifierParameters {
   // Share. A mean force at rest within this of 1 g (in either unit) tells the unit. Chosen: bias
   // and scale of poor units, vibration.
   double force_tolerance = 0.25;
-  // g. A mean force at rest below this contains no gravity. Half way between 0 and 1.
+  // g. A mean force at rest below this contains no gravity. Arithmetic: half way between
+  // 0 and 1.
   double max_force_without_gravity = 0.5;
   // rad/s. Noise of rates from which deg/s is considered. Chosen: above what engines and hands
   // cause at rest.

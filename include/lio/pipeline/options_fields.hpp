@@ -53,8 +53,11 @@ inline constexpr bool kIsGroup =
 template <class T, class Struct>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
 
-inline constexpr double kMaxDensity = 10.0;  // a sensor noisier than this is a unit mistake
-inline constexpr double kMaxQuaternionNormError = 1e-3;  // nearer to 1 is rounding: normalised
+// Sensors with a larger noise density are a unit mistake. Chosen: 1000 times a consumer unit and
+// more.
+inline constexpr double kMaxDensity = 10.0;
+// Norms nearer to 1 are rounding, and normalised. Chosen: four printed digits.
+inline constexpr double kMaxQuaternionNormError = 1e-3;
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Pose> auto& o) {

@@ -22,7 +22,7 @@ struct BirdsEyeViewParameters {
   // along that line (a wall, a rail). Chosen: longer than a parked car is wide.
   int line_half_length_m = 3;
   int num_line_directions = 24;  // chosen: 7.5 deg apart, 0.4 m at 3 m, within a column
-  // With fewer off all lines, those on lines count as well. Chosen: twice min_structures.
+  // If fewer are off all lines, those on lines count as well. Chosen: twice min_structures.
   std::size_t min_off_lines = 40;
 };
 
