@@ -25,7 +25,7 @@ struct OutageParameters {
   double slope = 0.2;
   // Change of roll and pitch, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
-  // The turn rate while unseen, 1 sigma: that of a gap (ImuOutageParameters), ...
+  // The turn rate while unseen, 1 sigma: as ImuOutageParameters has it in a gap, ...
   double turn_rate_std_radps = 0.5;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;

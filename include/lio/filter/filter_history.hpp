@@ -48,8 +48,8 @@ struct HistoryOptions {
   double span_s = 3.0;       // length of the window, s; as FilterOptions::history_s
   double nis_limit = 22.46;  // gate of poses: 99.9 % of chi-square with 6 degrees of freedom
   double zero_velocity_nis_limit = kChiSquare3At999;  // their gate: the same of 3; customary
-  // Upper bounds of the inflation. A bound of one switches it off: for poses whose errors are
-  // white, or whose consistency is checked elsewhere.
+  // Upper bounds of the inflation, as InflationParameters. A bound of one switches it off: for
+  // poses whose errors are white, or whose consistency is checked elsewhere.
   CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,
                                     kFilterParameters.inflation.max_factor};
   ImuOutageParameters imu_outage = kFilterParameters.imu_outage;
