@@ -201,5 +201,28 @@ TEST_F(EstimateReportTest, AFixIsThePoseAsItIsPublished) {
   }
 }
 
+TEST_F(EstimateReportTest, TheVerdictKeepsThePoseWithItsDriftAndTilt) {
+  const FilterReport report = MakeFilterReport(estimate_, {}, Context(kNoGravity));
+  const PoseRow row = MakePoseRow(report);
+  EXPECT_EQ(row.stamp, estimate_.stamp);
+  EXPECT_EQ(row.T_map_imu.translation, report.nav.T_map_imu.translation);
+  EXPECT_EQ(row.position_cov, (report.map_as_world_cov.topLeftCorner<3, 3>()));
+  EXPECT_EQ(row.rotation_cov, (report.nav.pose_cov.bottomRightCorner<3, 3>()));
+  EXPECT_EQ(row.R_world_imu.coeffs(), report.nav.T_world_imu.rotation.coeffs());
+}
+
+TEST_F(EstimateReportTest, OnlyAMatchedScanIsLocatedForTheVerdict) {
+  FilterReport report = MakeFilterReport(estimate_, {}, Context());
+  for (const auto status : {TrackingStatus::kOk, TrackingStatus::kDegenerate}) {
+    report.nav.status = status;
+    EXPECT_TRUE(MakePoseRow(report).is_located);
+  }
+  for (const auto status :
+       {TrackingStatus::kInit, TrackingStatus::kCoasting, TrackingStatus::kLost}) {
+    report.nav.status = status;
+    EXPECT_FALSE(MakePoseRow(report).is_located);
+  }
+}
+
 }  // namespace
 }  // namespace lio
