@@ -66,7 +66,6 @@ class KeyframeMap {
   std::size_t num_keyframes() const { return num_keyframes_; }
   std::size_t num_points() const { return num_points_; }
   std::size_t memory_bytes() const;
-  bool IsInSubmap(std::int32_t keyframe) const { return keyframes_[ToIndex(keyframe)].is_chosen; }
 
  private:
   static constexpr int kNodeSize = 8;
