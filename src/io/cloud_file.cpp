@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "io/cloud_file.hpp"
+#include "cloud_file.hpp"
 
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/cloud_file.hpp"
+#include "cloud_file.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "io/cloud_file.hpp"
+#include "cloud_file.hpp"
 
 namespace lio {
 
