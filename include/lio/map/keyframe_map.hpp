@@ -100,10 +100,11 @@ class KeyframeMap {
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
+  // keyframe_map_search.cpp
   void SearchAround(Search& search, int radius_voxels) const;
   void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;
-  std::vector<std::int32_t> HullKeyframes() const;
+  std::vector<std::int32_t> HullKeyframes(const std::vector<std::int32_t>& all) const;
 
   KeyframeMapOptions options_;
   Blocks blocks_;
