@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lio/sim/scenario.hpp"
+#include "sim/movers.hpp"
 #include "sim/town.hpp"
 
 namespace lio::sim {

@@ -89,12 +89,4 @@ class Town {
   std::vector<Footprint> taken_;
 };
 
-// Adds a person who walks where `body` says: a torso and two swinging legs.
-void AddWalker(World& world, Random& random, double speed_mps,
-               const std::function<Pose(double t_s)>& body);
-
-// Adds a vehicle that follows a path, at `distance(t)` along it, on the given ground.
-void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
-                     std::function<double(double t_s)> distance, HeightFunction height);
-
 }  // namespace lio::sim
