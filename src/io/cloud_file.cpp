@@ -39,6 +39,8 @@ CloudKind KindOfCloud(const std::filesystem::path& path) {
 }
 
 std::optional<pcl::PCLPointCloud2> ReadCloud(const std::filesystem::path& path, CloudKind kind) {
+  // PCL's reader breaks down over text that is no header of a cloud.
+  if (kind == CloudKind::kOther || KindOfCloud(path) != kind) return std::nullopt;
   const QuietPcl quiet;
   pcl::PCLPointCloud2 cloud;
   try {
