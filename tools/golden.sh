@@ -16,8 +16,9 @@ LIO_DATA or else ../shared/data; without them their cases are left out, with a m
   --list     print the cases and their commands
   --jobs N   number of cases at a time (one per core)
   CASE       run only these cases
-Exit codes: 0 the same, 1 something differs, 2 usage. The mathematics library and the ray caster
-give other last bits on other processors: a case whose simulated log differs is not compared.
+Exit codes: 0 the same, 1 something differs, 2 usage, 3 nothing was compared. The mathematics
+library and the ray caster give other last bits on other processors: a case whose simulated log
+differs is not compared.
 USAGE
 }
 

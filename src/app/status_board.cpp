@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -31,12 +30,6 @@ LatencySummary Summarise(std::vector<float>& values_ms) {
 }
 
 }  // namespace
-
-std::int64_t HostUtime() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 std::int64_t ProcessCpuMicroseconds() {
   rusage usage{};

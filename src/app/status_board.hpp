@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "lio/io/host_clock.hpp"
 #include "lio/io/status_report.hpp"
 
 namespace lio {
 
-// Host's clock, us since the epoch.
-[[nodiscard]] std::int64_t HostUtime();
 // CPU time that this process has used, all threads together, us.
 [[nodiscard]] std::int64_t ProcessCpuMicroseconds();
 

@@ -16,12 +16,12 @@ namespace lio {
 inline constexpr double kBackwardSlack = std::numbers::pi / 6.0;
 
 // Wraps an angle into [-pi, pi).
-inline double WrappedAngle(double angle) {
+[[nodiscard]] inline double WrappedAngle(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn + 0.5);
 }
 // Wraps an angle into [0, 2 pi).
-inline double PositiveTurn(double angle) {
+[[nodiscard]] inline double PositiveTurn(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::floor(angle / kTurn);
 }
@@ -32,9 +32,9 @@ struct OrderVote {
 };
 
 // `rings` is empty or has one ring per point.
-OrderVote JudgeOrder(const CloudPoints& points, std::span<const std::uint16_t> rings);
+[[nodiscard]] OrderVote JudgeOrder(const CloudPoints& points, std::span<const std::uint16_t> rings);
 
 // Returns the share of ten-degree sectors that hold points.
-double CoverageOfCircle(const CloudPoints& points);
+[[nodiscard]] double CoverageOfCircle(const CloudPoints& points);
 
 }  // namespace lio

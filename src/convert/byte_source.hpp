@@ -17,16 +17,18 @@ class ByteSource {
   virtual ~ByteSource() = default;
   // Fills `out` as far as the source goes. Returns fewer bytes than asked for only at the end of
   // the source or where it is damaged.
-  std::size_t Read(std::span<std::uint8_t> out);
+  [[nodiscard]] std::size_t Read(std::span<std::uint8_t> out);
   // Skips `count` bytes; returns how many there were.
   std::uint64_t Skip(std::uint64_t count);
-  std::uint64_t num_delivered() const { return num_delivered_; }  // read or skipped so far
+  [[nodiscard]] std::uint64_t num_delivered() const {
+    return num_delivered_;
+  }  // read or skipped so far
   // Returns true when the content contradicts the format (a broken compressed stream).
-  virtual bool damaged() const { return false; }
+  [[nodiscard]] virtual bool damaged() const { return false; }
 
  private:
-  virtual std::size_t DoRead(std::span<std::uint8_t> out) = 0;
-  virtual std::uint64_t DoSkip(std::uint64_t count);
+  [[nodiscard]] virtual std::size_t DoRead(std::span<std::uint8_t> out) = 0;
+  [[nodiscard]] virtual std::uint64_t DoSkip(std::uint64_t count);
 
   std::uint64_t num_delivered_ = 0;
 };
@@ -48,7 +50,7 @@ class FileSpan : public ByteSource {
 
 // These two inflate what `compressed` delivers: LZ4 frames (as ROS bags have them) and bzip2
 // streams.
-std::unique_ptr<ByteSource> MakeLz4Source(std::unique_ptr<ByteSource> compressed);
-std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed);
+[[nodiscard]] std::unique_ptr<ByteSource> MakeLz4Source(std::unique_ptr<ByteSource> compressed);
+[[nodiscard]] std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed);
 
 }  // namespace lio

@@ -21,12 +21,12 @@ class CloudToSweep {
   explicit CloudToSweep(const CloudRules& rules)
       : rules_(&rules), spin_rate_(rules.spin.rate_radps) {}
 
-  CloudStatus Convert(const RosCloud& cloud, TimedSweep& sweep);
-  const CloudPoints& points() const { return points_; }  // points of the last cloud
+  [[nodiscard]] CloudStatus Convert(const RosCloud& cloud, TimedSweep& sweep);
+  [[nodiscard]] const CloudPoints& points() const { return points_; }  // points of the last cloud
 
  private:
-  std::optional<std::vector<std::int64_t>> Instants(const RosCloud& cloud,
-                                                    std::span<const std::uint16_t> rings);
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> Instants(
+      const RosCloud& cloud, std::span<const std::uint16_t> rings);
 
   const CloudRules* rules_;
   SpinRate spin_rate_;

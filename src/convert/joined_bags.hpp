@@ -12,10 +12,10 @@
 namespace lio {
 
 // The .bag files of a folder, by name; empty where there are none.
-std::vector<std::filesystem::path> BagsOfFolder(const std::filesystem::path& folder);
+[[nodiscard]] std::vector<std::filesystem::path> BagsOfFolder(const std::filesystem::path& folder);
 
 // Joins the bags in the order of their first messages. Throws InputError that names the file that
 // is no bag.
-std::unique_ptr<BagReader> JoinBags(const std::vector<std::filesystem::path>& bags);
+[[nodiscard]] std::unique_ptr<BagReader> JoinBags(const std::vector<std::filesystem::path>& bags);
 
 }  // namespace lio

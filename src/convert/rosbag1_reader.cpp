@@ -258,7 +258,7 @@ bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& sourc
   if (!header.connection || topic_of_connection_.contains(*header.connection)) return true;
   BagTopic topic;
   topic.name = header.topic;
-  VisitFields(data, [&](std::string_view name, std::string_view value) {
+  (void)VisitFields(data, [&](std::string_view name, std::string_view value) {
     if (name == "type") topic.type = value;
     if (name == "message_definition") topic.definition = value;
   });

@@ -48,16 +48,17 @@ enum class RecordStatus {
 };
 
 // Reads header and data length; the data itself comes next in `source`.
-RecordStatus ReadRecordHeader(ByteSource& source, RecordHeader& header);
+[[nodiscard]] RecordStatus ReadRecordHeader(ByteSource& source, RecordHeader& header);
 
 // Reads `count` bytes into `data`, which grows only as bytes arrive. Returns false when there are
 // fewer.
-bool ReadRecordData(ByteSource& source, std::uint64_t count, std::vector<std::uint8_t>& data);
+[[nodiscard]] bool ReadRecordData(ByteSource& source, std::uint64_t count,
+                                  std::vector<std::uint8_t>& data);
 
 // Calls `visit(name, value)` for each field of a header. Returns false when the bytes are no
 // header.
 template <typename Visit>
-bool VisitFields(ByteView bytes, Visit&& visit) {
+[[nodiscard]] bool VisitFields(ByteView bytes, Visit&& visit) {
   std::size_t at = 0;
   while (at < bytes.size()) {
     if (bytes.size() - at < 4) return false;

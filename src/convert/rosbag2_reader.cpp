@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads ROS 2 bags: a folder with metadata.yaml and one or more SQLite files, in order.
+// Reads ROS 2 bags: one or more SQLite files, in order.
 #include <sqlite3.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
 
-#include "joined_bags.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/convert/byte_order.hpp"
 #include "lio/convert/ros_messages.hpp"
 #include "lio/io/input_error.hpp"
+#include "rosbag2_files.hpp"
 
 namespace lio {
 namespace {
@@ -33,11 +32,6 @@ struct FinalizeStatement {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
-
-struct BagFiles {
-  std::vector<fs::path> databases;
-  std::int64_t num_messages = -1;  // -1: not known
-};
 
 std::string Text(sqlite3_stmt* row, int column) {
   const auto* text = sqlite3_column_text(row, column);
@@ -67,54 +61,6 @@ bool IsCut(const fs::path& path) {
   return fs::file_size(path) < page_bytes * LoadAs<std::uint32_t>(header.data() + 28, true);
 }
 
-// Throws InputError for storage formats that this reader does not support.
-void CheckStorage(const YAML::Node& info, const fs::path& path) {
-  const auto storage = info["storage_identifier"].as<std::string>("sqlite3");
-  if (storage != "sqlite3") {
-    throw InputError(path.string() + ": storage '" + storage +
-                     "' is not supported: convert it with 'ros2 bag convert' to sqlite3");
-  }
-  const auto compression = info["compression_format"].as<std::string>("");
-  if (!compression.empty()) {
-    throw InputError(path.string() + ": compression '" + compression +
-                     "' is not supported: convert it with 'ros2 bag convert' to no compression");
-  }
-}
-
-BagFiles FilesOfMetadata(const fs::path& path) {
-  BagFiles files;
-  try {
-    const YAML::Node info = YAML::LoadFile(path.string())["rosbag2_bagfile_information"];
-    if (!info.IsMap()) throw InputError(path.string() + ": no metadata of a ROS 2 bag");
-    CheckStorage(info, path);
-    for (const YAML::Node& name : info["relative_file_paths"]) {
-      // Old recorders wrote the folder's own name in front.
-      const fs::path relative = name.as<std::string>();
-      const fs::path direct = path.parent_path() / relative;
-      files.databases.push_back(fs::exists(direct) ? direct
-                                                   : path.parent_path() / relative.filename());
-    }
-    files.num_messages = info["message_count"].as<std::int64_t>(-1);
-  } catch (const YAML::Exception& error) {
-    throw InputError(path.string() + ": cannot be read as YAML: " + error.what());
-  }
-  if (files.databases.empty()) throw InputError(path.string() + ": names no files");
-  return files;
-}
-
-BagFiles FindFiles(const fs::path& path) {
-  if (fs::is_regular_file(path) && path.extension() == ".db3") return {{path}, -1};
-  const fs::path metadata = fs::is_directory(path) ? path / "metadata.yaml" : path;
-  if (fs::exists(metadata)) return FilesOfMetadata(metadata);
-  BagFiles files;  // a recorder that died leaves no metadata
-  for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.path().extension() == ".db3") files.databases.push_back(entry.path());
-  }
-  std::sort(files.databases.begin(), files.databases.end());
-  if (files.databases.empty()) throw InputError(path.string() + ": no ROS 2 bag: no .db3 file");
-  return files;
-}
-
 class Rosbag2Reader : public BagReader {
  public:
   explicit Rosbag2Reader(const fs::path& path);
@@ -136,7 +82,7 @@ class Rosbag2Reader : public BagReader {
   void CloseFile(int status);
   void Damage(const std::string& reason);
 
-  BagFiles files_;
+  Rosbag2Files files_;
   std::size_t next_file_ = 0;
   Database database_;  // declared before its statement, closed after it
   Statement rows_;
@@ -150,7 +96,7 @@ class Rosbag2Reader : public BagReader {
   BagDamage damage_;
 };
 
-Rosbag2Reader::Rosbag2Reader(const fs::path& path) : files_(FindFiles(path)) {
+Rosbag2Reader::Rosbag2Reader(const fs::path& path) : files_(FindRosbag2Files(path)) {
   for (const fs::path& file : files_.databases) {
     if (!fs::exists(file)) continue;
     size_ += static_cast<std::int64_t>(fs::file_size(file));
@@ -312,21 +258,6 @@ void Rosbag2Reader::Damage(const std::string& reason) {
 
 std::unique_ptr<BagReader> OpenRosbag2(const fs::path& path) {
   return std::make_unique<Rosbag2Reader>(path);
-}
-
-std::unique_ptr<BagReader> OpenBag(const fs::path& path) {
-  if (!fs::exists(path)) throw InputError(path.string() + ": no such file or folder");
-  const fs::path extension = path.extension();
-  if (fs::is_directory(path) && !fs::exists(path / "metadata.yaml")) {
-    const std::vector<fs::path> bags = BagsOfFolder(path);
-    if (!bags.empty()) return JoinBags(bags);
-  }
-  const bool is_ros2 = fs::is_directory(path) || extension == ".db3" || extension == ".yaml";
-  if (extension == ".mcap") {
-    throw InputError(path.string() +
-                     ": MCAP is not supported: convert it with 'ros2 bag convert' to sqlite3");
-  }
-  return is_ros2 ? OpenRosbag2(path) : OpenRosbag1(path);
 }
 
 }  // namespace lio

@@ -4,69 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lio {
 namespace {
-
-// The factors after an update: an exponential mean of NIS / 3, the ratio of the innovations'
-// variance to its expected value, for translation and rotation; from 1 to `max`. The NIS was
-// computed with the inflated covariance, so it is multiplied by the factor `now`.
-CovarianceInflation NextInflation(const CovarianceInflation& inflation, const UpdateResult& update,
-                                  const CovarianceInflation& max) {
-  static constexpr InflationParameters kParameters = kFilterParameters.inflation;
-  const auto next = [](double now, double nis, double max_factor) {
-    return std::clamp(
-        now + kParameters.rate_per_pose * (now * std::min(nis, kParameters.max_nis) / 3.0 - now),
-        1.0, max_factor);
-  };
-  return {next(inflation.translation, update.nis_translation, max.translation),
-          next(inflation.rotation, update.nis_rotation, max.rotation)};
-}
-
-Matrix6 Inflated(const Matrix6& cov, const CovarianceInflation& inflation) {
-  Vector6 scale;
-  scale << Vector3::Constant(std::sqrt(inflation.translation)),
-      Vector3::Constant(std::sqrt(inflation.rotation));
-  return scale.asDiagonal() * cov * scale.asDiagonal();
-}
-
-// True when a residual beyond the gate can be an error of registration, whose covariance was then
-// too small. A larger residual means that the body moved without the samples showing it.
-bool IsRegistrationError(const Vector6& residual) {
-  constexpr ForcedUpdateParameters kParameters = kFilterParameters.forced_update;
-  return residual.head<3>().norm() < kParameters.max_registration_error_m &&
-         residual.tail<3>().norm() < kParameters.max_registration_error_rad;
-}
-
-Vector6 ResidualOf(const PoseMeasurement& measurement, const Estimate& estimate) {
-  return LogSe3(estimate.state.T_map_imu.Inverse() * measurement.T_map_imu);
-}
-
-// The clock was set, so no time has passed for the predicted motion: the poses become uncertain by
-// the residual, the velocity does not.
-void TakeBackMotion(const Vector6& residual, Estimate& estimate) {
-  AllowUnseenMotion(estimate, residual.cwiseAbs2(), Vector3::Zero());
-}
-
-// The body has moved by about the residual. Its velocity may have changed by as much or not: it
-// becomes uncertain, and the next scans determine it.
-void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
-  constexpr double kDuration_s = kFilterParameters.forced_update.unseen_motion_s;
-  const Vector6 motion_var = residual.cwiseAbs2();
-  AllowUnseenMotion(estimate, motion_var, motion_var.head<3>() / (kDuration_s * kDuration_s));
-}
-
-// Fuses a pose beyond the gate; `nis` is the value that the gate refused.
-bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
-  const Vector6 residual = ResidualOf(measurement, estimate);
-  if (IsRegistrationError(residual)) {
-    measurement.cov *= nis / nis_limit;
-  } else {
-    AllowMotionBy(residual, estimate);
-  }
-  return FusePose(estimate, measurement, std::numeric_limits<double>::infinity()).fused;
-}
 
 void RebaseMapPose(Estimate& estimate) {
   estimate.cov.middleRows<6>(kMapPose).setZero();
@@ -163,7 +103,8 @@ void FilterHistory::Step(std::size_t at) {
     case Kind::kImu:
       break;
     case Kind::kPose:
-      Fuse(node);
+      node.update = FusePoseEvent(node.pose, options_.nis_limit, options_.max_inflation,
+                                  node.inflation, node.posterior);
       break;
     case Kind::kZeroVelocity:
       node.update =
@@ -179,23 +120,6 @@ void FilterHistory::Step(std::size_t at) {
       node.noise = node.new_noise;
       break;
   }
-}
-
-void FilterHistory::Fuse(Node& node) const {
-  PoseMeasurement measurement = node.pose.measurement;
-  measurement.cov = Inflated(measurement.cov, node.inflation);
-  if (node.pose.replaces_motion) {
-    MoveTo(measurement.T_map_imu, node.posterior);
-  } else if (node.pose.is_clock_set) {
-    TakeBackMotion(ResidualOf(measurement, node.posterior), node.posterior);
-  }
-  node.update = FusePose(node.posterior, measurement, options_.nis_limit);
-  node.inflation = NextInflation(node.inflation, node.update, options_.max_inflation);
-  if (!node.update.fused && node.pose.force) {
-    node.update.fused =
-        FuseByForce(node.posterior, measurement, node.update.nis, options_.nis_limit);
-  }
-  if (node.update.fused) BlendMapPose(node.posterior, node.pose.measurement);
 }
 
 void FilterHistory::Replay(std::size_t from) {

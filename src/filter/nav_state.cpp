@@ -18,18 +18,4 @@ NavState BoxPlus(const NavState& state, const ErrorVector& error) {
   return result;
 }
 
-ErrorVector BoxMinus(const NavState& a, const NavState& b) {
-  ErrorVector error;
-  error << a.T_world_imu.translation - b.T_world_imu.translation,
-      LogSo3(b.T_world_imu.rotation.conjugate() * a.T_world_imu.rotation),
-      a.v_world_imu - b.v_world_imu, a.gyro_bias - b.gyro_bias, a.accel_bias - b.accel_bias,
-      LogSe3(b.T_map_imu.Inverse() * a.T_map_imu),
-      LogSo3(a.R_world_map_start * b.R_world_map_start.conjugate());
-  return error;
-}
-
-Matrix6 PoseCov(const Estimate& estimate) {
-  return estimate.cov.topLeftCorner<6, 6>();
-}
-
 }  // namespace lio

@@ -169,12 +169,6 @@ NavState PropagateState(const NavState& state, const ImuSample& from, const ImuS
   return next;
 }
 
-ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, const ImuSample& from,
-                             const ImuSample& to) {
-  const Step step = MakeStep(before, after, from, to);
-  return TimesTransitionTransposed(step, ErrorMatrix::Identity()).transpose();
-}
-
 void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
                const ProcessNoise& noise, const Vector3& g_world) {
   const NavState before = estimate.state;

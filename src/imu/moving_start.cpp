@@ -14,7 +14,8 @@ namespace lio {
 namespace {
 
 constexpr MovingStartParameters kParameters = kInitializationParameters.in_motion;
-constexpr double kMedianChiSquare6 = 5.348;  // median of chi-square with 6 degrees of freedom
+// ChiSquareQuantile(0.5, 6.0) is 5.348121. It stays as tables print it, for the same bits.
+constexpr double kMedianChiSquare6 = 5.348;
 
 std::string DataProblem(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from) {

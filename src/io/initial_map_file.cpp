@@ -3,20 +3,15 @@
 #include "lio/io/initial_map_file.hpp"
 
 #include <fmt/format.h>
-#include <pcl/console/print.h>
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
-#include <pcl/point_types.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
+#include "cloud_file.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
 
@@ -24,40 +19,6 @@ namespace lio {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class CloudKind { kOther, kPcd, kPly };
-
-// The first word tells: both kinds of files begin with text.
-CloudKind KindOfCloud(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string word;
-  file >> word;
-  if (word == "ply") return CloudKind::kPly;
-  const bool is_pcd = word == "VERSION" || (word == "#" && (file >> word) && word == ".PCD");
-  return is_pcd ? CloudKind::kPcd : CloudKind::kOther;
-}
-
-// PCL prints several lines for a damaged file and goes on; the error of ours is one line.
-class QuietPcl {
- public:
-  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-
- private:
-  pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
-};
-
-bool ReadCloud(const fs::path& path, CloudKind kind, pcl::PCLPointCloud2& cloud) {
-  const QuietPcl quiet;
-  try {
-    return kind == CloudKind::kPcd ? pcl::PCDReader().read(path.string(), cloud) == 0
-                                   : pcl::PLYReader().read(path.string(), cloud) == 0;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
 
 bool HasFloat(const pcl::PCLPointCloud2& cloud, const char* name) {
   return std::any_of(cloud.fields.begin(), cloud.fields.end(), [&](const auto& field) {
@@ -110,22 +71,16 @@ std::vector<Eigen::Vector3f> LoadMapPoints(const fs::path& path) {
   if (!fs::exists(path)) throw fail("does not exist");
   const CloudKind kind = KindOfCloud(path);
   if (kind == CloudKind::kOther) throw fail("is neither a PCD nor a PLY file");
-  pcl::PCLPointCloud2 raw;
-  if (!ReadCloud(path, kind, raw)) throw fail("is damaged: it cannot be read as a point cloud");
-  const std::uint64_t num_bytes = std::uint64_t{raw.width} * raw.height * raw.point_step;
-  if (num_bytes != raw.data.size()) throw fail("is damaged: it ends before its last point");
-  if (raw.data.empty()) throw fail("has no points");
-  if (!HasFloat(raw, "x") || !HasFloat(raw, "y") || !HasFloat(raw, "z")) {
+  const std::optional<pcl::PCLPointCloud2> cloud = ReadCloud(path, kind);
+  if (!cloud) throw fail("is damaged: it cannot be read as a point cloud");
+  const std::uint64_t num_bytes = std::uint64_t{cloud->width} * cloud->height * cloud->point_step;
+  if (num_bytes != cloud->data.size()) throw fail("is damaged: it ends before its last point");
+  if (cloud->data.empty()) throw fail("has no points");
+  if (!HasFloat(*cloud, "x") || !HasFloat(*cloud, "y") || !HasFloat(*cloud, "z")) {
     throw fail("has no x, y and z as floats of 4 bytes");
   }
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  pcl::fromPCLPointCloud2(raw, cloud);
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(cloud.size());
-  for (const pcl::PointXYZ& p : cloud) {
-    const Eigen::Vector3f point(p.x, p.y, p.z);
-    if (point.allFinite()) points.push_back(point);
-  }
+  std::vector<Eigen::Vector3f> points = PointsOf(*cloud);
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return !point.allFinite(); });
   if (const std::string why = WhyUnusable(points); !why.empty()) throw fail(why);
   return points;
 }

@@ -38,7 +38,8 @@ class FieldReader {
 };
 
 // kOk when `bytes` is a message of the type and has at least its fixed part.
-inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint, std::size_t fixed_bytes) {
+[[nodiscard]] inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint,
+                                            std::size_t fixed_bytes) {
   if (bytes.size() > kMaxMessageBytes) return DecodeStatus::kTooLarge;
   if (bytes.size() < sizeof(fingerprint)) return DecodeStatus::kTruncated;
   if (FieldReader(bytes.data()).Read<std::uint64_t>() != fingerprint) {
@@ -49,7 +50,7 @@ inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint, std::si
 
 // Encodes by the generated code; the counts in `message` must agree with its vectors.
 template <typename Message>
-Bytes EncodeMessage(const Message& message) {
+[[nodiscard]] Bytes EncodeMessage(const Message& message) {
   Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
   const int written = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   if (written != static_cast<int>(bytes.size())) throw std::logic_error("message did not encode");

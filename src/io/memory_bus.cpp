@@ -8,15 +8,10 @@
 #include <vector>
 
 #include "lio/io/bus.hpp"
+#include "lio/io/host_clock.hpp"
 
 namespace lio {
 namespace {
-
-std::int64_t NowUtime() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 class MemoryBus final : public Bus {
  public:
@@ -55,7 +50,7 @@ class MemoryBus final : public Bus {
         ++num_oversized_;
       } else if (subscriber.num_waiting < subscriber.queue_capacity) {
         ++subscriber.num_waiting;
-        messages_.push_back({i, NowUtime(), Bytes(data.begin(), data.end())});
+        messages_.push_back({i, HostUtime(), Bytes(data.begin(), data.end())});
       }
     }
     arrived_.notify_one();

@@ -255,7 +255,7 @@ std::vector<OptionFault> CheckLidarModel(const Options& options) {
   const std::string& model = options.rig.lidar.model;
   if (model == "generic") return {};
   try {
-    LoadBeamTable(model);
+    (void)LoadBeamTable(model);
     return {};
   } catch (const std::runtime_error& error) {
     return {{"rig.lidar.model", error.what()}};

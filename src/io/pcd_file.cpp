@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/pcd_file.hpp"
 
-#include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
 #include <stdexcept>
+
+#include "cloud_file.hpp"
 
 namespace lio {
 
@@ -27,17 +28,9 @@ void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f
 }
 
 std::vector<Eigen::Vector3f> LoadPcd(const std::filesystem::path& path) {
-  pcl::PCLPointCloud2 raw;
-  if (pcl::PCDReader().read(path.string(), raw) != 0) {
-    throw std::runtime_error("cannot read " + path.string() + " as a PCD file");
-  }
-  std::vector<Eigen::Vector3f> points;
-  if (raw.data.empty()) return points;  // PCL's conversion takes the address of the first point
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  pcl::fromPCLPointCloud2(raw, cloud);
-  points.reserve(cloud.size());
-  for (const pcl::PointXYZ& p : cloud) points.emplace_back(p.x, p.y, p.z);
-  return points;
+  const auto cloud = ReadCloud(path, CloudKind::kPcd);
+  if (!cloud) throw std::runtime_error("cannot read " + path.string() + " as a PCD file");
+  return PointsOf(*cloud);
 }
 
 }  // namespace lio

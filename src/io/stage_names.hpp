@@ -13,7 +13,7 @@ namespace lio {
 inline constexpr std::array<const char*, kNumStages> kStageNames = {
     "decode", "reduce", "deskew", "match", "insert", "filter", "total"};
 
-inline double Milliseconds(std::int64_t ns) {
+[[nodiscard]] inline double Milliseconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-6;
 }
 

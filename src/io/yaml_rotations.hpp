@@ -15,14 +15,14 @@ namespace lio {
 
 // Takes [roll, pitch, yaw] in degrees about the fixed axes x, y, z in this order, as URDF and
 // tf have it: R = Rz(yaw) Ry(pitch) Rx(roll).
-std::string ParseRpyDeg(const YAML::Node& node, Quaternion& rotation);
+[[nodiscard]] std::string ParseRpyDeg(const YAML::Node& node, Quaternion& rotation);
 
 // Takes three rows of three numbers, or nine numbers row by row. A matrix that is off from a
 // rotation by rounding becomes the nearest rotation; one that is farther off is refused.
-std::string ParseRotationMatrix(const YAML::Node& node, Quaternion& rotation);
+[[nodiscard]] std::string ParseRotationMatrix(const YAML::Node& node, Quaternion& rotation);
 
 // Takes four rows of four numbers, or sixteen numbers row by row: rotation, translation [m], and
 // the row 0 0 0 1.
-std::string ParseTransformMatrix(const YAML::Node& node, Pose& pose);
+[[nodiscard]] std::string ParseTransformMatrix(const YAML::Node& node, Pose& pose);
 
 }  // namespace lio

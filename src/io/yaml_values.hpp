@@ -16,15 +16,15 @@
 namespace lio {
 
 // Describes the contents of the node, for messages.
-std::string Describe(const YAML::Node& node);
+[[nodiscard]] std::string Describe(const YAML::Node& node);
 
-std::string ParseValue(const YAML::Node& node, double& value);
-std::string ParseValue(const YAML::Node& node, int& value);
-std::string ParseValue(const YAML::Node& node, bool& value);
-std::string ParseValue(const YAML::Node& node, std::string& value);
-std::string ParseValue(const YAML::Node& node, Vector3& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, double& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, int& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, bool& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, std::string& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, Vector3& value);
 // The quaternion is normalised when its norm is off by no more than rounding to a few digits.
-std::string ParseValue(const YAML::Node& node, Quaternion& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, Quaternion& value);
 
 template <class Enum>
 requires std::is_enum_v<Enum> std::string ParseValue(const YAML::Node& node, Enum& value) {

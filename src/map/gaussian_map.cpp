@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lio/map/gaussian_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -107,70 +105,6 @@ void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector
   sums.yy += before.y() * after.y();
   sums.yz += before.y() * after.z();
   sums.zz += before.z() * after.z();
-}
-
-void GaussianMap::UpdatePatch(std::int32_t cell) {
-  Sums& sums = voxels_.Of<Sums>(cell);
-  SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
-  patch.mean = sums.mean.cast<float>();
-  patch.num_points = static_cast<float>(sums.num_points);
-  if (sums.num_points < options_.min_cell_points) return;
-  if (sums.num_points < Parameters::kRefitGrowth * sums.fitted_at) return;
-  sums.fitted_at = sums.num_points;
-
-  Matrix3 cov;
-  cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
-  cov /= sums.num_points - 1;
-  sums.is_known = FitPlane(cov, sums, patch) || (finds_vertical_ && FitVertical(cov, patch));
-  if (!sums.is_known) patch.thickness_var = 0.f;
-}
-
-bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
-  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-  eigen.computeDirect(cov);
-  const Vector3 variance = eigen.eigenvalues();  // ascending
-  const double thickness =
-      std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
-  const double min_width = Parameters::kMinWidthPerVoxel * options_.voxel_m;
-  const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
-  const bool is_view_known = !sums.view.isZero(0.f);
-  const bool is_plane = variance[1] > min_width * min_width &&
-                        variance[0] < Parameters::kMaxThicknessRatio * variance[1] &&
-                        thickness < Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad *
-                                        sums.num_points * variance[1] &&
-                        !(is_view_known && IsGrazing(normal, sums.view));
-  if (!is_plane) return false;
-  if (!sums.is_kept) patch.is_two_sided = !is_view_known;
-  patch.kind = SurfacePatch::Kind::kPlane;
-  patch.thickness_var = static_cast<float>(thickness);
-  patch.normal = normal.dot(sums.view) > 0.f ? Eigen::Vector3f(-normal) : normal;
-  patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
-  patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
-  return true;
-}
-
-// A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
-// It must be narrow: one that fills the cell is cut off by the cell's sides.
-bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
-  const double min_height = Parameters::kMinHeightPerVoxel * options_.voxel_m;
-  if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
-  const Vector3 level1 = up_map_.unitOrthogonal();
-  const Vector3 level2 = up_map_.cross(level1);
-  Eigen::Matrix<double, 3, 2> level;
-  level << level1, level2;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-  eigen.computeDirect(level.transpose() * cov * level);
-  const double max_width = Parameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
-  if (eigen.eigenvalues()[1] > max_width * max_width) return false;
-  const Eigen::Vector2d variance =
-      eigen.eigenvalues().cwiseMax(Parameters::kMinVerticalStd_m * Parameters::kMinVerticalStd_m);
-  const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
-  patch.kind = SurfacePatch::Kind::kVertical;
-  patch.thickness_var = static_cast<float>(variance[0]);
-  patch.normal = axes.col(0).cast<float>();
-  patch.tangent1_per_std = (axes.col(1) / std::sqrt(variance[1])).cast<float>();
-  patch.tangent2_per_std.setZero();
-  return true;
 }
 
 void GaussianMap::FindCells() {

@@ -3,18 +3,16 @@
 #include "lio/map/keyframe_map.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "lio/map/map_parameters.hpp"
+#include "map/convex_hull.hpp"
 
 namespace lio {
 namespace {
 
 using Parameters = KeyframeMapParameters;
-constexpr int kMaxSearch_voxels = Parameters::kMaxSearch_voxels;
 
 std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
   if (free.empty()) return static_cast<std::int32_t>(next_new);
@@ -32,7 +30,7 @@ double DistanceSq(const Vector3& a, const Vector3& b) {
 }  // namespace
 
 KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
-    : options_(options), blocks_(options.voxel_m, kMaxSearch_voxels) {
+    : options_(options), blocks_(options.voxel_m, Parameters::kMaxSearch_voxels) {
   if (!(options.voxel_m > 0) || options.max_points < 1 || !(options.max_distance_m > 0) ||
       options.num_near < 1 || options.num_hull < 0) {
     throw std::invalid_argument("KeyframeMap: an option is out of range");
@@ -150,36 +148,13 @@ void KeyframeMap::Add(std::span<const PointWithNormal> points_kf, const Pose& T_
   }
 }
 
-// Andrew's monotone chain over the keyframes' places seen from above.
-std::vector<std::int32_t> KeyframeMap::HullKeyframes() const {
-  std::vector<std::int32_t> sorted;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(keyframes_.size()); ++i) {
-    if (keyframes_[ToIndex(i)].is_used) sorted.push_back(i);
+std::vector<std::int32_t> KeyframeMap::HullKeyframes(const std::vector<std::int32_t>& all) const {
+  std::vector<Eigen::Vector2d> places;
+  for (const std::int32_t i : all) {
+    places.emplace_back(keyframes_[ToIndex(i)].T_map_kf.translation.head<2>());
   }
-  const auto place = [&](std::int32_t i) -> Eigen::Vector2d {
-    return keyframes_[ToIndex(i)].T_map_kf.translation.head<2>();
-  };
-  std::sort(sorted.begin(), sorted.end(), [&](std::int32_t a, std::int32_t b) {
-    const Eigen::Vector2d p = place(a);
-    const Eigen::Vector2d q = place(b);
-    if (p.x() != q.x()) return p.x() < q.x();
-    return p.y() != q.y() ? p.y() < q.y() : a < b;
-  });
-  if (sorted.size() < 3) return sorted;
   std::vector<std::int32_t> hull;
-  const auto add = [&](std::int32_t i, std::size_t floor) {
-    while (hull.size() >= floor + 2) {
-      const Eigen::Vector2d a = place(hull[hull.size() - 1]) - place(hull[hull.size() - 2]);
-      const Eigen::Vector2d b = place(i) - place(hull[hull.size() - 2]);
-      if (a.x() * b.y() - a.y() * b.x() > 0) break;
-      hull.pop_back();
-    }
-    hull.push_back(i);
-  };
-  for (const std::int32_t i : sorted) add(i, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto i = sorted.rbegin() + 1; i != sorted.rend(); ++i) add(*i, lower);
-  hull.pop_back();  // the first one again
+  for (const std::size_t corner : ConvexHull(places)) hull.push_back(all[corner]);
   return hull;
 }
 
@@ -190,7 +165,7 @@ void KeyframeMap::ChooseSubmap(const Vector3& place_map) {
     keyframes_[ToIndex(i)].is_chosen = false;
     if (keyframes_[ToIndex(i)].is_used) all.push_back(i);
   }
-  const auto choose_nearest = [&](std::vector<std::int32_t>& from, int count) {
+  const auto choose_nearest = [&](std::vector<std::int32_t> from, int count) {
     const auto wanted = std::min(from.size(), static_cast<std::size_t>(count));
     const auto is_nearer = [&](std::int32_t a, std::int32_t b) {
       const double p = DistanceSq(keyframes_[ToIndex(a)].T_map_kf.translation, place_map);
@@ -206,102 +181,7 @@ void KeyframeMap::ChooseSubmap(const Vector3& place_map) {
   };
   choose_nearest(all, options_.num_near);
   if (all.size() <= static_cast<std::size_t>(options_.num_near)) return;
-  std::vector<std::int32_t> hull = HullKeyframes();
-  choose_nearest(hull, options_.num_hull);
-}
-
-struct KeyframeMap::Search {
-  Vector3 query;
-  VoxelCell voxel;
-  // Squared distance from the query to the voxels `offset` away along an axis [m^2].
-  std::array<std::array<float, 2 * kMaxSearch_voxels + 1>, 3> gap_sq;
-  float best_sq;
-  Hit best;
-};
-
-void KeyframeMap::SearchVoxel(const Blocks::Block& block, std::size_t voxel,
-                              const Eigen::Vector3f& query, Search& search) const {
-  for (std::int32_t at = block.voxels[voxel]; at != kNone; at = nodes_[ToIndex(at)].next) {
-    const Node& node = nodes_[ToIndex(at)];
-    std::array<float, kNodeSize> distance_sq;
-    for (std::size_t i = 0; i < kNodeSize; ++i) {  // all of them: this becomes vector code
-      const float dx = node.x[i] - query.x();
-      const float dy = node.y[i] - query.y();
-      const float dz = node.z[i] - query.z();
-      distance_sq[i] = dx * dx + dy * dy + dz * dz;
-    }
-    for (std::size_t i = 0; i < ToIndex(node.count); ++i) {
-      if (distance_sq[i] >= search.best_sq) continue;
-      if (!keyframes_[ToIndex(node.keyframe[i])].is_chosen) continue;
-      search.best_sq = distance_sq[i];
-      search.best.point = node.point[i];
-      search.best.from_query = Eigen::Vector3f(node.x[i], node.y[i], node.z[i]) - query;
-    }
-  }
-}
-
-// All voxels within so many voxels of the query's own, block by block, each only when it can hold
-// something nearer.
-void KeyframeMap::SearchAround(Search& search, int radius_voxels) const {
-  VoxelCell low, high;
-  for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = search.voxel[i] - radius_voxels;
-    high[i] = search.voxel[i] + radius_voxels;
-  }
-  const auto gap_sq = [&](std::size_t axis, std::int32_t voxel) {
-    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] + kMaxSearch_voxels)];
-  };
-  const auto is_outside = [&](std::size_t axis, std::int32_t voxel) {
-    return voxel < low[axis] || voxel > high[axis];
-  };
-  blocks_.ForEachBlock(low, high, [&](std::int32_t, const Blocks::Block& block) {
-    const Eigen::Vector3f query = (search.query - blocks_.CornerOf(block)).cast<float>();
-    for (std::uint64_t bits = block.occupied; bits != 0; bits &= bits - 1) {
-      const int i = std::countr_zero(bits);
-      const VoxelCell voxel{kBlockEdge * block.at[0] + (i & 3),
-                            kBlockEdge * block.at[1] + (i >> 2 & 3),
-                            kBlockEdge * block.at[2] + (i >> 4)};
-      if (is_outside(0, voxel[0]) || is_outside(1, voxel[1]) || is_outside(2, voxel[2])) continue;
-      if (gap_sq(0, voxel[0]) + gap_sq(1, voxel[1]) + gap_sq(2, voxel[2]) < search.best_sq) {
-        SearchVoxel(block, ToIndex(i), query, search);
-      }
-    }
-  });
-}
-
-KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radius_m,
-                                          std::int32_t near) const {
-  Search search{
-      query_map, blocks_.VoxelAt(query_map), {}, static_cast<float>(radius_m * radius_m), {}};
-  if (!blocks_.IsInRange(search.voxel)) return search.best;
-  if (near != kNone) {
-    const Point& point = points_[ToIndex(near)];
-    const Vector3 local = query_map - blocks_.CornerOf(blocks_.block(point.block));
-    const Eigen::Vector3f from_query = point.value.position - local.cast<float>();
-    if (from_query.squaredNorm() < search.best_sq) {
-      search.best_sq = from_query.squaredNorm();
-      search.best = {near, from_query};
-    }
-  }
-  double nearest_side = 1.0;  // of the query's voxel, in voxels
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double at =
-        blocks_.Scaled(query_map[static_cast<Eigen::Index>(axis)]) - search.voxel[axis];
-    nearest_side = std::min({nearest_side, at, 1.0 - at});
-    for (int offset = -kMaxSearch_voxels; offset <= kMaxSearch_voxels; ++offset) {
-      const double gap = offset > 0 ? offset - at : (offset < 0 ? at - offset - 1.0 : 0.0);
-      search.gap_sq[axis][ToIndex(offset + kMaxSearch_voxels)] =
-          static_cast<float>(gap * gap * options_.voxel_m * options_.voxel_m);
-    }
-  }
-  const int radius_voxels =
-      std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))), kMaxSearch_voxels);
-  for (const int shells : {0, 1, radius_voxels}) {  // a near hit makes the rest of the search short
-    SearchAround(search, std::min(shells, radius_voxels));
-    const double searched_m = options_.voxel_m * (shells + nearest_side);
-    if (searched_m > 0.0 && search.best_sq <= searched_m * searched_m) break;
-  }
-  return search.best;
+  choose_nearest(HullKeyframes(all), options_.num_hull);
 }
 
 int KeyframeMap::CountAt(const Vector3& point_map) const {

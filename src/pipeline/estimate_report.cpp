@@ -74,6 +74,19 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   return filter;
 }
 
+PoseRow MakePoseRow(const FilterReport& filter) {
+  const NavOutput& nav = filter.nav;
+  PoseRow row;
+  row.stamp = nav.stamp;
+  row.is_located = nav.status == TrackingStatus::kOk || nav.status == TrackingStatus::kDegenerate;
+  row.T_map_imu = nav.T_map_imu;
+  row.position_cov = filter.map_as_world_cov.topLeftCorner<3, 3>();
+  row.rotation_cov = nav.pose_cov.bottomRightCorner<3, 3>();
+  row.R_world_imu = nav.T_world_imu.rotation;
+  row.imu_noise = filter.imu_noise;
+  return row;
+}
+
 LastFix MakeFix(Timestamp stamp, const Estimate& estimate, const Vector3& g_world) {
   const WorldEstimate published = InPublishedWorld(estimate, g_world);
   return {stamp, published.T_world_imu, published.v_world_imu, estimate.state.T_map_imu,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // From the filter's estimate to what is published: pose, velocity and covariances in world and map,
-// and in the rig's base frame.
+// and in the rig's base frame; and the parts of it that the verdict and a new start keep.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
@@ -9,6 +9,7 @@
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/stream/imu_buffer.hpp"
+#include "lio/verdict/run_tally.hpp"
 #include "pipeline/clock_offset_follower.hpp"
 #include "pipeline/extrinsic_follower.hpp"
 
@@ -28,6 +29,8 @@ struct ReportContext {
 [[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);
 [[nodiscard]] FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report,
                                             const ReportContext& context);
+// The part of a report that the verdict keeps.
+[[nodiscard]] PoseRow MakePoseRow(const FilterReport& filter);
 // The pose of a sound scan, as published: a start made anew goes on from here.
 [[nodiscard]] LastFix MakeFix(Timestamp stamp, const Estimate& estimate, const Vector3& g_world);
 

@@ -87,16 +87,11 @@ class Initializing {
   bool IsLastScan() const;
   bool HasMovedSince(std::size_t first, bool is_calm) const;
   bool IsVeryCalm(Timestamp stamp) const;
-  bool IsInDoubt(Timestamp stamp) const;
   void ForgetOldestScan();
 
-  // initializing_start.cpp
+  // initializing_convention.cpp
+  bool IsInDoubt(Timestamp stamp) const;
   std::optional<Transition> JudgeConvention(Timestamp stamp);
-  std::optional<Transition> TryStart(Timestamp stamp);
-  std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
-  std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
-  std::optional<Transition> TryStartInMotion(Timestamp stamp);
-  std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
   std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp,
                                              bool& is_accepted);
   std::optional<Transition> CheckGravity(bool is_there, const std::string& evidence,
@@ -104,11 +99,19 @@ class Initializing {
   Transition SetConvention(const ImuConvention& found, const std::string& evidence,
                            Timestamp stamp);
   void TurnHandover(const ImuConvention& found);
-  void TurnByGyro(const Estimate& now, LastFix& earlier) const;
-  Transition Retry() const;
   Transition Reject(Timestamp stamp, const std::string& why) const;
-  Transition GoLidarOnly() const;
+
+  // initializing_start.cpp
+  std::optional<Transition> TryStart(Timestamp stamp);
+  std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
+  std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
+  std::optional<Transition> TryStartInMotion(Timestamp stamp);
+  std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
+  void TurnByGyro(const Estimate& now, LastFix& earlier) const;
   Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
+
+  Transition Retry() const;
+  Transition GoLidarOnly() const;
 
   ModeContext context_;
   Handover handover_;

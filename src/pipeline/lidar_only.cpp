@@ -8,7 +8,7 @@
 #include "lio/filter/process_model.hpp"
 #include "pipeline/coarse_tracking.hpp"
 #include "pipeline/estimate_report.hpp"
-#include "pipeline/scan_step.hpp"
+#include "pipeline/scan_fusion.hpp"
 
 namespace lio {
 
@@ -135,14 +135,7 @@ ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   if (!outcome.match.IsUsable()) return report;
   FusionSettings settings;
   settings.grows_map = is_keyframe;
-  context_.sensor_errors.Add(outcome.match);
-  settings.sensor_error_cov = context_.sensor_errors.CovOf(outcome.match);
-  settings.force =
-      outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
-  const EventOutcome fused =
-      FuseMatch(outcome, settings, context_.options.filter, tracker_->history(), report.nis);
-  health_.AddFusion(fused);
-  report.fused = fused == EventOutcome::kApplied;
+  FuseScan(outcome, settings, context_, tracker_->history(), health_, report);
   return report;
 }
 

@@ -2,25 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "lio/pipeline/options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "lio/pipeline/options_fields.hpp"
 
 namespace lio {
 namespace {
 
-std::string Text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof(buffer), "%.9g", value);
-  return buffer;
-}
-
 std::string RangeText(const Range& range) {
-  if (std::isinf(range.max)) return "at least " + Text(range.min);
-  if (std::isinf(range.min)) return "at most " + Text(range.max);
-  return "within " + Text(range.min) + " .. " + Text(range.max);
+  if (std::isinf(range.max)) return fmt::format("at least {:.9g}", range.min);
+  if (std::isinf(range.min)) return fmt::format("at most {:.9g}", range.max);
+  return fmt::format("within {:.9g} .. {:.9g}", range.min, range.max);
 }
 
 // Checks each field on its own: finite, and inside its range.
@@ -43,7 +38,7 @@ class FieldChecker {
     if (!std::isfinite(value)) {
       Fault("must be a finite number");
     } else if (value < range.min || value > range.max) {
-      Fault("is " + Text(value) + ", must be " + RangeText(range));
+      Fault(fmt::format("is {:.9g}, must be {}", value, RangeText(range)));
     }
   }
   void Check(int value, const Range& range) { Check(static_cast<double>(value), range); }
@@ -60,7 +55,7 @@ class FieldChecker {
     if (!value.coeffs().allFinite()) {
       Fault("must be finite numbers");
     } else if (std::abs(value.norm() - 1.0) > kMaxQuaternionNormError) {
-      Fault("has norm " + Text(value.norm()) + ", a rotation needs norm 1 (w first)");
+      Fault(fmt::format("has norm {:.9g}, a rotation needs norm 1 (w first)", value.norm()));
     }
   }
   void Check(const std::string& value, const Range&) {

@@ -7,7 +7,7 @@
 #include "lio/filter/map_bend.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "pipeline/estimate_report.hpp"
-#include "pipeline/scan_step.hpp"
+#include "pipeline/scan_fusion.hpp"
 
 namespace lio {
 
@@ -154,15 +154,8 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
   settings.is_level = FeelsGravity();
-  context_.sensor_errors.Add(outcome.match);
-  settings.sensor_error_cov = context_.sensor_errors.CovOf(outcome.match);
   settings.replaces_motion = outage_.stage() == OutageRecovery::Stage::kSeek;
-  settings.force =
-      outcome.is_relocalized || health_.MustForce(context_.options.filter.max_gated_in_a_row);
-  const EventOutcome fused =
-      FuseMatch(outcome, settings, context_.options.filter, history_, report.nis);
-  health_.AddFusion(fused);
-  report.fused = fused == EventOutcome::kApplied;
+  FuseScan(outcome, settings, context_, history_, health_, report);
   return report;
 }
 

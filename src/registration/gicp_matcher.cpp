@@ -208,15 +208,11 @@ double GicpMatcher::FixedCorrespondenceCost(const MatchInput& /*input*/,
 double GicpMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
   if (pairs_.empty()) return 1.0;
   if (!IsKeyframe(T_map_imu)) return 0.0;
-  // The whole scan is inserted, of which a part is matched.
-  const double inserted_per_matched =
-      static_cast<double>(std::max(input.scan_points_imu.size(), input.points_imu.size())) /
-      static_cast<double>(input.points_imu.size());
+  const double here = InsertedPerMatched(input);
   double sum = 0.0;
   for (const Pair& pair : pairs_) {
     const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
-    const int before = map_.CountAt(T_map_imu * point);
-    sum += inserted_per_matched / (before + inserted_per_matched);
+    sum += here / (map_.CountAt(T_map_imu * point) + here);
   }
   return sum / static_cast<double>(pairs_.size());
 }

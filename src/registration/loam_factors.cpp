@@ -72,10 +72,6 @@ Vector3 Move(const double* block, const Vector3& p, PointJacobian* jacobian) {
 
 constexpr double kMinLineLength_m = LoamParameters::kMinLineLength_m;
 
-bool IsLine(const Vector3& a, const Vector3& b) {
-  return (a - b).norm() >= kMinLineLength_m;
-}
-
 }  // namespace
 
 bool EdgeFactor::Evaluate(double const* const* blocks, double* residual, double** jacobians) const {
@@ -105,7 +101,7 @@ bool PlaneFactor::Evaluate(double const* const* blocks, double* residual,
 }
 
 CostPtr MakeAutoEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s) {
-  if (!IsLine(a, b)) return nullptr;
+  if ((a - b).norm() < kMinLineLength_m) return nullptr;
   return std::make_unique<ceres::AutoDiffCostFunction<AutoEdge, 3, 7>>(
       new AutoEdge{point, a, b, s});
 }
@@ -127,15 +123,6 @@ CostPtr MakeAutoPlane(const Vector3& point, const Vector3& normal, double offset
 CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s) {
   return std::make_unique<ceres::AutoDiffCostFunction<AutoPoint, 3, 7>>(
       new AutoPoint{point, target, s});
-}
-
-CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b) {
-  if (!IsLine(a, b)) return nullptr;
-  return std::make_unique<EdgeFactor>(point, a, b);
-}
-
-CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset) {
-  return std::make_unique<PlaneFactor>(point, normal, offset);
 }
 
 }  // namespace lio

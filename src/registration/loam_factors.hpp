@@ -34,7 +34,7 @@ using CostPtr = std::unique_ptr<ceres::CostFunction>;
                                     double s = 1.0);
 [[nodiscard]] CostPtr MakeAutoPoint(const Vector3& point, const Vector3& target, double s = 1.0);
 
-// |b - a| must be at least LoamParameters::kMinLineLength_m; MakeEdge refuses where it is not.
+// |b - a| must be at least LoamParameters::kMinLineLength_m.
 class EdgeFactor final : public ceres::SizedCostFunction<3, 7> {
  public:
   EdgeFactor(const Vector3& point, const Vector3& a, const Vector3& b)
@@ -57,8 +57,5 @@ class PlaneFactor final : public ceres::SizedCostFunction<1, 7> {
   Vector3 point_, normal_;
   double offset_;
 };
-
-[[nodiscard]] CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b);
-[[nodiscard]] CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset);
 
 }  // namespace lio

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/registration/loam_matcher.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -95,10 +94,7 @@ double LoamMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose&
 // Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
 double LoamMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
   if (terms_->size() == 0) return 1.0;
-  // The whole scan is inserted, of which a part, evenly spread, is matched.
-  const double here =
-      static_cast<double>(std::max(input.scan_points_imu.size(), input.points_imu.size())) /
-      static_cast<double>(input.points_imu.size());
+  const double here = InsertedPerMatched(input);
   double sum = 0.0;
   const auto add = [&](const PointMap& map, std::int32_t point) {
     const Vector3 point_imu = input.points_imu[static_cast<std::size_t>(point)].cast<double>();

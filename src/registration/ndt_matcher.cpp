@@ -9,6 +9,7 @@
 #include "lio/map/grazing_incidence.hpp"
 #include "lio/map/surface_sides.hpp"
 #include "lio/registration/registration_parameters.hpp"
+#include "registration/common_radius.hpp"
 #include "registration/match_loop.hpp"
 #include "registration/ndt_term.hpp"
 #include "registration/well_constrained_translation.hpp"
@@ -17,10 +18,9 @@ namespace lio {
 namespace {
 
 using Parameters = NdtParameters;
-using Correspondence = CorrespondenceParameters;
 
 constexpr int kMinMatched = MatchParameters::kMinMatched;
-constexpr double kLever_m = Correspondence::kLever_m;
+constexpr double kLever_m = CorrespondenceParameters::kLever_m;
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
 const Pose& GridFromMap() {
@@ -34,28 +34,6 @@ bool HasMoved(const Pose& from, const Pose& to) {
   return motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() >
          Parameters::kCountsHold_m;
 }
-
-// The correspondence radius of all points alike: how far off the guess may be, one standard
-// deviation, at a range of kLever_m.
-class CommonRadius {
- public:
-  explicit CommonRadius(const Matrix6& guess_cov) {
-    const double translation_var = guess_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
-    const double rotation_var = guess_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-    Set(std::min(std::sqrt(std::max(0.0, translation_var) +
-                           std::max(0.0, rotation_var) * kLever_m * kLever_m),
-                 Correspondence::kMaxStd_m));
-  }
-  [[nodiscard]] double std_m() const { return std_m_; }
-  [[nodiscard]] float variance() const { return static_cast<float>(std_m_ * std_m_); }
-  void Shrink() { Set(Correspondence::kShrink * std_m_); }
-  [[nodiscard]] bool IsExhausted() const { return std_m_ == 0.0; }
-
- private:
-  void Set(double std_m) { std_m_ = std_m < Correspondence::kSmallestStd_m ? 0.0 : std_m; }
-
-  double std_m_ = 0.0;
-};
 
 }  // namespace
 

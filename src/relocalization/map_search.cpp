@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "lio/relocalization/parameters.hpp"
+#include "relocalization/planar_grid.hpp"
 
 namespace lio {
 namespace {
@@ -169,23 +170,16 @@ int MapSearch::NumExactlyOnMap(const std::vector<Eigen::Vector2f>& turned,
 PlanarPose MapSearch::Refined(const PlanarPose& pose) {
   constexpr PlaceSearchParameters kPlace = kRelocalization.place;
   constexpr int kSteps = kSearch.num_refine_steps;
+  std::vector<Eigen::Vector2f> centred;
+  for (const Eigen::Vector2f& structure : structures_) centred.emplace_back(structure - centre_);
   const Eigen::Vector2f at = Eigen::Rotation2Df(pose.turn_rad) * centre_ + pose.shift_m;
+  const PlanarGrid grid{{at, pose.turn_rad}, kSteps, kSteps, kSteps, kPlace.fine_step_m,
+                        kPlace.fine_step_rad};
   MeanOfBest best;
-  for (int k = -kSteps; k <= kSteps; ++k) {
-    const float turn_rad = pose.turn_rad + static_cast<float>(k) * kPlace.fine_step_rad;
-    const Eigen::Rotation2Df rotation(turn_rad);
-    std::vector<Eigen::Vector2f> turned;
-    for (const Eigen::Vector2f& structure : structures_) {
-      turned.emplace_back(rotation * (structure - centre_));
-    }
-    for (int y = -kSteps; y <= kSteps; ++y) {
-      for (int x = -kSteps; x <= kSteps; ++x) {
-        const Eigen::Vector2f steps(static_cast<float>(x), static_cast<float>(y));
-        const Eigen::Vector2f shift = at + kPlace.fine_step_m * steps;
-        best.Add(NumExactlyOnMap(turned, shift), {shift.x(), shift.y(), turn_rad});
-      }
-    }
-  }
+  ForEachPose(centred, grid, [&](const auto& turned, const PlanarPose& tried) {
+    best.Add(NumExactlyOnMap(turned, tried.shift_m),
+             {tried.shift_m.x(), tried.shift_m.y(), tried.turn_rad});
+  });
   lookups_left_ -= (2 * kSteps + 1) * (2 * kSteps + 1) * (2 * kSteps + 1) * num_structures_;
   const Eigen::Vector3f mean = best.Mean();
   return {Eigen::Vector2f(mean.head<2>()) - Eigen::Rotation2Df(mean.z()) * centre_, mean.z()};

@@ -21,7 +21,7 @@ struct FacadeStyle {
   double balcony_chance = 0.2;
   bool has_shops = true;  // the ground floor has wide shop windows
 };
-FacadeStyle RandomFacade(Random& random);
+[[nodiscard]] FacadeStyle RandomFacade(Random& random);
 
 struct BuildingPlan {
   Vector2 size_m = {12.0, 10.0};  // along the front (x) and in depth (y)
@@ -34,6 +34,6 @@ struct BuildingPlan {
 // Makes a building in its own frame: the front lies along x at y = 0 and faces -y, from x = 0 to
 // size.x; the body extends toward +y; the floor is at z = 0. Walls reach down to z = -3 m, so that
 // they meet sloping ground.
-Mesh MakeBuilding(const BuildingPlan& plan, Random& random);
+[[nodiscard]] Mesh MakeBuilding(const BuildingPlan& plan, Random& random);
 
 }  // namespace lio::sim

@@ -32,8 +32,8 @@ class Drive {
   Drive(const Path& path, const DriveLimits& limits, const std::vector<Stop>& stops,
         double start_rest_s);
 
-  double duration_s() const;  // time at which the end of the path is reached, at rest
-  double DistanceAt(double t_s) const;
+  [[nodiscard]] double duration_s() const;  // time at which the end of the path is reached, at rest
+  [[nodiscard]] double DistanceAt(double t_s) const;
 
  private:
   std::vector<double> distances_m_;
@@ -50,14 +50,15 @@ struct BodyResponse {
 
 // Returns the knots of a body that follows `drive` on ground of `height`, until shortly after
 // `duration_s`.
-std::vector<BodyKnot> FollowDrive(const Path& path, const Drive& drive,
-                                  const HeightFunction& height, const BodyResponse& response,
-                                  double knot_interval_s, double duration_s);
+[[nodiscard]] std::vector<BodyKnot> FollowDrive(const Path& path, const Drive& drive,
+                                                const HeightFunction& height,
+                                                const BodyResponse& response,
+                                                double knot_interval_s, double duration_s);
 
 // Returns what springs, tyres and road do to a car: heave, pitch and roll at 1 to 2 Hz and wheel
 // hop at 8 to 12 Hz.
-std::vector<Oscillation> CarOscillations(std::uint64_t seed);
+[[nodiscard]] std::vector<Oscillation> CarOscillations(std::uint64_t seed);
 // Returns the motion of a hand-held sensor: steps at 1.8 Hz with sway at half that frequency.
-std::vector<Oscillation> WalkOscillations(std::uint64_t seed);
+[[nodiscard]] std::vector<Oscillation> WalkOscillations(std::uint64_t seed);
 
 }  // namespace lio::sim

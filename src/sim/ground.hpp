@@ -20,7 +20,7 @@ class Terrain {
   };
   Terrain(const Shape& shape, Random& random);
 
-  double Height(const Vector2& p_m) const;
+  [[nodiscard]] double Height(const Vector2& p_m) const;
 
  private:
   struct Wave {
@@ -43,7 +43,7 @@ class RoadNetwork {
  public:
   explicit RoadNetwork(std::vector<Road> roads, double rounding_m = 4.0);
 
-  double SignedDistance(const Vector2& p_m) const;
+  [[nodiscard]] double SignedDistance(const Vector2& p_m) const;
   const std::vector<Road>& roads() const { return roads_; }
 
  private:

@@ -40,6 +40,6 @@ struct OfficeShape {
 void AddOffice(Mesh& mesh, Random& random);
 
 // A door's leaf, hinged at the origin: it reaches along x and stands on z = 0.
-Mesh MakeDoorLeaf();
+[[nodiscard]] Mesh MakeDoorLeaf();
 
 }  // namespace lio::sim

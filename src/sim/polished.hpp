@@ -32,12 +32,12 @@ struct Behind {
 };
 
 // Returns the share of light reflected by a polished surface.
-double Reflectance(Material material, double cos_incidence);
+[[nodiscard]] double Reflectance(Material material, double cos_incidence);
 
 // Tells whether something white next to the surface, seen through it or in it, could outshine it.
-bool MayShowOthers(const Hit& surface);
+[[nodiscard]] bool MayShowOthers(const Hit& surface);
 
 // `surface` must be one that may show others. Returns its own echo or one of the two others.
-Echo EchoOfPolished(const Hit& surface, const Behind& behind);
+[[nodiscard]] Echo EchoOfPolished(const Hit& surface, const Behind& behind);
 
 }  // namespace lio::sim

@@ -11,22 +11,23 @@ namespace lio::sim {
 
 enum class VehicleKind { kCar, kVan, kBus, kTruck };
 
-Mesh MakeVehicle(VehicleKind kind, Random& random);
-Vector2 VehicleSize(VehicleKind kind);  // length and width [m]
+[[nodiscard]] Mesh MakeVehicle(VehicleKind kind, Random& random);
+[[nodiscard]] Vector2 VehicleSize(VehicleKind kind);  // length and width [m]
 
 // A person is made of two parts, so that the legs can swing about the hip at `kHipHeight_m`.
 inline constexpr double kHipHeight_m = 0.86;
-Mesh MakeTorso(Random& random);
-Mesh MakeLeg();                   // origin at the hip, hanging down
-Mesh MakePerson(Random& random);  // a standing person in one part
+[[nodiscard]] Mesh MakeTorso(Random& random);
+[[nodiscard]] Mesh MakeLeg();                   // origin at the hip, hanging down
+[[nodiscard]] Mesh MakePerson(Random& random);  // a standing person in one part
 
-Mesh MakeTree(double height_m, Random& random);  // trunk, boughs and a crown of loose leaves
-Mesh MakeBush(const Vector3& size_m, Random& random);
-Mesh MakeStreetLamp(double height_m, double arm_m);  // arm toward +x
-Mesh MakeSign(double height_m, Random& random);      // faces +x
-Mesh MakeBollard();
-Mesh MakeBin();
-Mesh MakeBench();
-Mesh MakeBusShelter();  // open toward +x
+[[nodiscard]] Mesh MakeTree(double height_m,
+                            Random& random);  // trunk, boughs and a crown of loose leaves
+[[nodiscard]] Mesh MakeBush(const Vector3& size_m, Random& random);
+[[nodiscard]] Mesh MakeStreetLamp(double height_m, double arm_m);  // arm toward +x
+[[nodiscard]] Mesh MakeSign(double height_m, Random& random);      // faces +x
+[[nodiscard]] Mesh MakeBollard();
+[[nodiscard]] Mesh MakeBin();
+[[nodiscard]] Mesh MakeBench();
+[[nodiscard]] Mesh MakeBusShelter();  // open toward +x
 
 }  // namespace lio::sim

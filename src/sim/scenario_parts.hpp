@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lio/sim/scenario.hpp"
+#include "sim/movers.hpp"
 #include "sim/town.hpp"
 
 namespace lio::sim {
@@ -19,24 +20,24 @@ void MountOnPerson(Scenario& scenario, MotionPlan plan);
 
 // Returns how long the motion must be planned [s]: past the log's end, and including the run-up of
 // a log that begins in motion.
-double PlannedSeconds(const Scenario& scenario, const ScenarioOptions& options);
+[[nodiscard]] double PlannedSeconds(const Scenario& scenario, const ScenarioOptions& options);
 
 // Lets the log begin at rest or, if asked, when the body has reached `moving_mps`.
 void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_mps);
 
 // Returns the ground as HeightFunction.
-HeightFunction HeightOf(const Terrain& terrain);
+[[nodiscard]] HeightFunction HeightOf(const Terrain& terrain);
 
 // Each of these fills in everything but the name.
-Scenario MakeStreet(const ScenarioOptions& options);
-Scenario MakeLoop(const ScenarioOptions& options);
-Scenario MakeParked(const ScenarioOptions& options);
-Scenario MakeSuburb(const ScenarioOptions& options);
-Scenario MakeTunnel(const ScenarioOptions& options);
-Scenario MakeMotorway(const ScenarioOptions& options);
-Scenario MakeGarage(const ScenarioOptions& options);
-Scenario MakeCampus(const ScenarioOptions& options);
-Scenario MakeHall(const ScenarioOptions& options);
-Scenario MakeOffice(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeStreet(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeLoop(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeParked(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeSuburb(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeTunnel(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeMotorway(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeGarage(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeCampus(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeHall(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeOffice(const ScenarioOptions& options);
 
 }  // namespace lio::sim

@@ -26,11 +26,11 @@ struct SweepHits {
   std::vector<Rim> rims;
   std::vector<Behind> behinds;
 
-  const Rim* RimOf(std::size_t ray) const {
+  [[nodiscard]] const Rim* RimOf(std::size_t ray) const {
     return rim_of.empty() || rim_of[ray] == kNone ? nullptr
                                                   : &rims[static_cast<std::size_t>(rim_of[ray])];
   }
-  const Behind* BehindOf(std::size_t ray) const {
+  [[nodiscard]] const Behind* BehindOf(std::size_t ray) const {
     return behind_of.empty() || behind_of[ray] == kNone
                ? nullptr
                : &behinds[static_cast<std::size_t>(behind_of[ray])];
@@ -47,6 +47,6 @@ struct CastSetup {
   const Trajectory& trajectory;
 };
 
-SweepHits CastSweep(const CastSetup& setup, const TurnColumns& columns);
+[[nodiscard]] SweepHits CastSweep(const CastSetup& setup, const TurnColumns& columns);
 
 }  // namespace lio::sim

@@ -45,7 +45,7 @@ class Town {
 
   Random& random() { return random_; }
   const Terrain& terrain() const { return terrain_; }
-  double GroundHeight(const Vector2& p_m) const;  // kerbs included
+  [[nodiscard]] double GroundHeight(const Vector2& p_m) const;  // kerbs included
 
   // Puts `mesh` on the ground; `heading_rad` is the direction of its x axis.
   void Place(const Mesh& mesh, const Vector2& p_m, double heading_rad);
@@ -79,7 +79,7 @@ class Town {
     Vector2 axis;
     Vector2 half;
   };
-  static bool Overlaps(const Footprint& a, const Footprint& b);
+  [[nodiscard]] static bool Overlaps(const Footprint& a, const Footprint& b);
 
   World& world_;
   Terrain terrain_;
@@ -88,13 +88,5 @@ class Town {
   Random random_;
   std::vector<Footprint> taken_;
 };
-
-// Adds a person who walks where `body` says: a torso and two swinging legs.
-void AddWalker(World& world, Random& random, double speed_mps,
-               const std::function<Pose(double t_s)>& body);
-
-// Adds a vehicle that follows a path, at `distance(t)` along it, on the given ground.
-void AddVehicleMover(World& world, VehicleKind kind, Random& random, Path path,
-                     std::function<double(double t_s)> distance, HeightFunction height);
 
 }  // namespace lio::sim

@@ -5,12 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "verdict/rig_fit.hpp"
+#include "verdict/rig_selection.hpp"
 
 namespace lio {
 namespace {
@@ -18,172 +17,51 @@ namespace {
 constexpr RigFindingParameters kParameters = kRigFindings;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-double AngleDeg(const Quaternion& rotation) {
-  return kDegPerRad * LogSo3(rotation).norm();
-}
-
-double SureSigmas(int num_clusters, double probability) {
-  const boost::math::students_t distribution(std::max(1, num_clusters - 1));
-  return boost::math::quantile(boost::math::complement(distribution, 0.5 * probability));
-}
-
-double Sigmas(const Eigen::VectorXd& value, const Eigen::MatrixXd& cov) {
-  return std::sqrt(value.dot(cov.ldlt().solve(value)));
-}
-
-// The sure part of a value is that beyond so many standard deviations, axis by axis.
-double SurePart(const Eigen::VectorXd& value, const Eigen::MatrixXd& cov, double sure_sigmas) {
-  double sum_sq = 0.0;
-  for (Eigen::Index i = 0; i < value.size(); ++i) {
-    const double sure = std::abs(value[i]) - sure_sigmas * std::sqrt(cov(i, i));
-    if (sure > 0.0) sum_sq += sure * sure;
-  }
-  return std::sqrt(sum_sq);
-}
-
 double InTolerances(const Vector3& turn_rad, const Vector3& lever_m) {
   return std::hypot(kDegPerRad * turn_rad.norm() / kParameters.rotation_tolerance_deg,
                     lever_m.norm() / kParameters.lever_tolerance_m);
 }
 
-// One of the errors that the fit estimates, as the full fit has it.
-struct Suspect {
-  CauseKind kind;
-  double in_tolerances = 0.0;  // the sure part of it
-  double sigmas = 0.0;
-};
-
-constexpr std::array kSuspects = {CauseKind::kExtrinsicRotation, CauseKind::kClockOffset,
-                                  CauseKind::kLeverArm};
-
-FreeErrors OnlyFree(const std::vector<CauseKind>& kinds) {
-  const auto has = [&](CauseKind kind) { return std::ranges::count(kinds, kind) > 0; };
-  return {has(CauseKind::kExtrinsicRotation), has(CauseKind::kClockOffset),
-          has(CauseKind::kLeverArm)};
+std::optional<Cause> JudgeUnits(const RigFit::TurnAlignment& turns) {
+  const auto is_near = [&](double scale) {
+    return std::abs(turns.ratio / scale - 1.0) < kParameters.unit_scale_tolerance;
+  };
+  const bool is_in_deg = is_near(1.0 / kDegPerRad);
+  if (!is_in_deg && !is_near(kDegPerRad)) return std::nullopt;
+  return Cause{CauseKind::kImuUnits, Trust::kNo, 0.0,
+               fmt::format("the lidar turns {:.3g} times as far as the gyro says: its rates are "
+                           "in {}",
+                           turns.ratio, is_in_deg ? "deg/s" : "rad/s"),
+               "rig:\n  imu:\n    units: auto\n"};
 }
 
-class Examination {
+// The causes that a selection of errors stands for.
+class Naming {
  public:
-  Examination(const MotionRecord& record, const Rig& rig, const ImuConvention& convention)
-      : rig_(rig),
+  Naming(const RigSelection& selection, const Rig& rig, const ImuConvention& convention,
+         double clock_correction_s)
+      : selection_(selection),
+        rig_(rig),
         R_imu_sent_(Quaternion(convention.R_imu_sent)),
-        clock_correction_s_(record.clock_correction().Seconds()),
-        fit_(record, rig.imu.accel_bias_std_mps2) {}
+        clock_correction_s_(clock_correction_s) {}
 
-  RigFindings Find() {
-    if (!fit_.HasEnough()) return {};
-    const RigFit::TurnAlignment turns = fit_.AlignTurns();
-    if (turns.correlation < kParameters.min_correlation) return {};
+  RigFindings Name() const {
     RigFindings findings;
     findings.is_checked = true;
-    if (auto units = JudgeUnits(turns)) {
-      findings.causes.push_back(std::move(*units));
-      return findings;
-    }
-    FitAll(turns);
-    Select();
     NameInverted(findings.causes);
-    for (const CauseKind kind : selected_) findings.causes.push_back(MakeCause(kind));
+    for (const CauseKind kind : selection_.selected()) findings.causes.push_back(MakeCause(kind));
     NameAxes(findings.causes);
-    findings.T_imu_lidar = WithoutErrors(solution_, IsSelected(CauseKind::kExtrinsicRotation),
-                                         IsSelected(CauseKind::kLeverArm));
+    findings.T_imu_lidar =
+        WithoutErrors(solution_, selection_.IsSelected(CauseKind::kExtrinsicRotation),
+                      selection_.IsSelected(CauseKind::kLeverArm));
     findings.T_imu_lidar_bettered = Bettered();
     return findings;
   }
 
  private:
-  static std::optional<Cause> JudgeUnits(const RigFit::TurnAlignment& turns) {
-    const auto is_near = [&](double scale) {
-      return std::abs(turns.ratio / scale - 1.0) < kParameters.unit_scale_tolerance;
-    };
-    const bool is_in_deg = is_near(1.0 / kDegPerRad);
-    if (!is_in_deg && !is_near(kDegPerRad)) return std::nullopt;
-    return Cause{CauseKind::kImuUnits, Trust::kNo, 0.0,
-                 fmt::format("the lidar turns {:.3g} times as far as the gyro says: its rates are "
-                             "in {}",
-                             turns.ratio, is_in_deg ? "deg/s" : "rad/s"),
-                 "rig:\n  imu:\n    units: auto\n"};
-  }
-
-  void FitAll(const RigFit::TurnAlignment& turns) {
-    RigFitResult first = fit_.Solve(fit_.StartAt(Quaternion::Identity()), {});
-    if (AngleDeg(turns.rotation) > kParameters.large_rotation_deg) {
-      const RigFitResult other = fit_.Solve(fit_.StartAt(turns.rotation), {});
-      if (other.cost < first.cost) first = other;
-    }
-    RigErrors start = first.errors;
-    fit_.SetNoiseFrom(start);
-    start = fit_.Solve(start, {}).errors;
-    fit_.SetNoiseFrom(start);
-    all_ = fit_.Solve(start, {});
-    sure_sigmas_ = SureSigmas(all_.num_clusters, kParameters.false_alarm_probability);
-  }
-
-  // The full fit says this of one error.
-  Suspect Judge(CauseKind kind) const {
-    const auto judge = [&](const Eigen::VectorXd& value, int at, double tolerance) {
-      const Eigen::MatrixXd cov = all_.cov.block(at, at, value.size(), value.size());
-      return Suspect{kind, SurePart(value, cov, sure_sigmas_) / tolerance, Sigmas(value, cov)};
-    };
-    switch (kind) {
-      case CauseKind::kExtrinsicRotation:
-        return judge(LogSo3(all_.errors.rotation), kRigRotation,
-                     kParameters.rotation_tolerance_deg / kDegPerRad);
-      case CauseKind::kClockOffset:
-        return judge(Eigen::VectorXd::Constant(1, all_.errors.offset_s), kRigOffset,
-                     kParameters.offset_tolerance_s);
-      default:
-        return judge(all_.errors.lever_m, kRigLever, kParameters.lever_tolerance_m);
-    }
-  }
-
-  RigFitResult SolveWith(const std::vector<CauseKind>& kinds) const {
-    const FreeErrors free = OnlyFree(kinds);
-    RigErrors start = all_.errors;
-    if (!free.rotation) start.rotation = Quaternion::Identity();
-    if (!free.offset) start.offset_s = 0.0;
-    if (!free.lever) start.lever_m = Vector3::Zero();
-    return fit_.Solve(start, free);
-  }
-
-  // Forward selection: the error that explains most, then those that explain a share of it.
-  void Select() {
-    solution_ = all_;
-    const bool has_suspect = std::ranges::any_of(
-        kSuspects, [this](CauseKind kind) { return Judge(kind).in_tolerances >= 1.0; });
-    if (!has_suspect) {  // then nothing is mended
-      solution_.errors.rotation = Quaternion::Identity();
-      return;
-    }
-    solution_ = SolveWith({});
-    double first_gain = 0.0;
-    while (selected_.size() < kSuspects.size()) {
-      std::optional<CauseKind> best;
-      RigFitResult best_result = solution_;
-      for (const CauseKind kind : kSuspects) {
-        if (std::ranges::count(selected_, kind) > 0 || Judge(kind).in_tolerances < 1.0) continue;
-        std::vector<CauseKind> kinds = selected_;
-        kinds.push_back(kind);
-        const RigFitResult result = SolveWith(kinds);
-        if (result.cost >= best_result.cost) continue;
-        best = kind;
-        best_result = result;
-      }
-      const double gain = solution_.cost - best_result.cost;
-      if (!best || gain < kParameters.min_share_of_first * first_gain) return;
-      first_gain = std::max(first_gain, gain);
-      selected_.push_back(*best);
-      solution_ = best_result;
-    }
-  }
-
   // The rotation from the axes of the messages to those that the rig makes of the lidar's.
   Quaternion R_rig_sent() const { return solution_.errors.rotation * R_imu_sent_; }
   Pose T_configured() const { return rig_.T_imu_lidar.value_or(Pose{}); }
-
-  [[nodiscard]] bool IsSelected(CauseKind kind) const {
-    return std::ranges::count(selected_, kind) > 0;
-  }
 
   // rig.T_imu_lidar in axes that R_rig_axes turns into its own, without a lever arm that it lacks.
   Pose InAxes(const Quaternion& R_rig_axes, const Vector3& lever_m) const {
@@ -195,7 +73,8 @@ class Examination {
   // The extrinsic that the fit asks for, in the axes of the messages. The translation is that of
   // the rig, but for a lever arm that was found.
   Pose Corrected() const {
-    if (IsSelected(CauseKind::kLeverArm)) return InAxes(R_rig_sent(), solution_.errors.lever_m);
+    if (selection_.IsSelected(CauseKind::kLeverArm))
+      return InAxes(R_rig_sent(), solution_.errors.lever_m);
     return {InAxes(R_rig_sent(), {}).rotation, T_configured().translation};
   }
 
@@ -223,7 +102,7 @@ class Examination {
     const Quaternion rotation = T.rotation * T.rotation;
     const Vector3 lever = -(T.rotation * T.translation) - T.translation;
     const bool differs = InTolerances(LogSo3(rotation), lever) > kParameters.tolerances_to_distrust;
-    const bool is_suspect = !selected_.empty() || AngleDeg(R_imu_sent_) > 1.0;
+    const bool is_suspect = !selection_.selected().empty() || AngleDeg(R_imu_sent_) > 1.0;
     if (!differs || !is_suspect) return;
     const Quaternion found = all_.errors.rotation * R_imu_sent_;
     const Vector3 turn_off = LogSo3(found.conjugate() * rotation);
@@ -237,8 +116,8 @@ class Examination {
             InTolerances(LogSo3(found), all_.errors.lever_m)) {
       return;  // not near, or the rig as it stands is about as near
     }
-    const double sigmas =
-        std::max(Judge(CauseKind::kExtrinsicRotation).sigmas, Judge(CauseKind::kLeverArm).sigmas);
+    const double sigmas = std::max(selection_.Judge(CauseKind::kExtrinsicRotation).sigmas,
+                                   selection_.Judge(CauseKind::kLeverArm).sigmas);
     causes.push_back(
         {CauseKind::kExtrinsicInverted, Trust::kNo, sigmas,
          fmt::format("the inverse of rig.T_imu_lidar fits the motion within {:.1f} deg "
@@ -249,7 +128,7 @@ class Examination {
   }
 
   Cause MakeCause(CauseKind kind) const {
-    const Suspect suspect = Judge(kind);
+    const RigSelection::Suspect suspect = selection_.Judge(kind);
     Cause cause{kind, Trust::kDoubtful, suspect.sigmas, "", ""};
     if (suspect.in_tolerances > kParameters.tolerances_to_distrust) cause.leaves = Trust::kNo;
     const auto std_of = [&](int at) { return std::sqrt(solution_.cov(at, at)); };
@@ -312,21 +191,30 @@ class Examination {
     causes.push_back({CauseKind::kImuAxes, leaves, sigmas, evidence, ""});
   }
 
+  const RigSelection& selection_;
+  const RigFitResult& all_ = selection_.all();
+  const RigFitResult& solution_ = selection_.solution();
   const Rig& rig_;
   Quaternion R_imu_sent_;
   double clock_correction_s_;
-  RigFit fit_;
-  RigFitResult all_;
-  double sure_sigmas_ = 0.0;
-  RigFitResult solution_;  // with the selected errors alone
-  std::vector<CauseKind> selected_;
 };
 
 }  // namespace
 
 RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
                           const ImuConvention& convention) {
-  return Examination(record, rig, convention).Find();
+  RigFit fit(record, rig.imu.accel_bias_std_mps2);
+  if (!fit.HasEnough()) return {};
+  const RigFit::TurnAlignment turns = fit.AlignTurns();
+  if (turns.correlation < kParameters.min_correlation) return {};
+  if (auto units = JudgeUnits(turns)) {
+    RigFindings findings;
+    findings.is_checked = true;
+    findings.causes.push_back(std::move(*units));
+    return findings;
+  }
+  const RigSelection selection(fit, turns);
+  return Naming(selection, rig, convention, record.clock_correction().Seconds()).Name();
 }
 
 std::string ExtrinsicYaml(const Pose& T) {

@@ -10,6 +10,7 @@
 
 #include "support/motion.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio::test {
 namespace {

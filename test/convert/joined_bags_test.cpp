@@ -83,7 +83,7 @@ TEST_F(JoinedBagsTest, APartThatIsNoBagIsNamed) {
   Write("a.bag", {1}, "/a");
   dir_.Write("b.bag", "no bag");
   try {
-    OpenBag(dir_.path());
+    (void)OpenBag(dir_.path());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("b.bag"));

@@ -33,12 +33,12 @@ TEST(KittiStamps, NameFileAndLineOfAFault) {
   const auto good = dir.Write("good.txt", "2011-09-26 13:04:32.3\r\n2011-09-26 13:04:32.4\n\n");
   EXPECT_EQ(ReadKittiStamps(good).size(), 2u);
   try {
-    ReadKittiStamps(dir.Write("bad.txt", "2011-09-26 13:04:32.3\noops\n"));
+    (void)ReadKittiStamps(dir.Write("bad.txt", "2011-09-26 13:04:32.3\noops\n"));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("bad.txt:2"), std::string::npos);
   }
-  EXPECT_THROW(ReadKittiStamps(dir.path() / "none.txt"), InputError);
+  EXPECT_THROW((void)ReadKittiStamps(dir.path() / "none.txt"), InputError);
 }
 
 TEST(KittiCalibration, GivesNumbersByKey) {
@@ -49,9 +49,9 @@ TEST(KittiCalibration, GivesNumbersByKey) {
   EXPECT_EQ(rows["T"], (std::vector<double>{0.1, 2.0, -3.0}));
   const Pose pose = ToPose(rows["R"], rows["T"], "c.txt");
   EXPECT_EQ(pose.translation.z(), -3.0);
-  EXPECT_THROW(ToPose(rows["R"], {1.0}, "c.txt"), InputError);
-  EXPECT_THROW(ToPose({1, 0, 0, 0, 2, 0, 0, 0, 1}, rows["T"], "c.txt"), InputError);
-  EXPECT_THROW(ToPose({1, 0, 0, 0, 1, 0, 0, 0, -1}, rows["T"], "c.txt"), InputError);
+  EXPECT_THROW((void)ToPose(rows["R"], {1.0}, "c.txt"), InputError);
+  EXPECT_THROW((void)ToPose({1, 0, 0, 0, 2, 0, 0, 0, 1}, rows["T"], "c.txt"), InputError);
+  EXPECT_THROW((void)ToPose({1, 0, 0, 0, 1, 0, 0, 0, -1}, rows["T"], "c.txt"), InputError);
 }
 
 // Returns rings as KITTI stores them: the top ring first, azimuth from 0 upward and around to below

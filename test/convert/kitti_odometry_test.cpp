@@ -90,18 +90,18 @@ TEST_F(KittiOdometry, PosesAreTurnedIntoTheLidarsFrame) {
 
 TEST_F(KittiOdometry, PosesCanBeNamed) {
   std::filesystem::rename(dir_.path() / "poses/05.txt", dir_.path() / "mine.txt");
-  EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
   options_.poses_file = dir_.path() / "mine.txt";
   EXPECT_EQ(ConvertKittiOdometry(options_).num_truth_rows, kNumScans);
   options_.poses_file = dir_.path() / "none.txt";
-  EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
 }
 
 TEST_F(KittiOdometry, VerticalCorrectionRaisesEveryPoint) {
-  ConvertKittiOdometry(options_);
+  (void)ConvertKittiOdometry(options_);
   const auto before = test::ReadLioLog(options_.output);
   options_.vertical_correction_deg = 0.205;
-  ConvertKittiOdometry(options_);
+  (void)ConvertKittiOdometry(options_);
   const auto after = test::ReadLioLog(options_.output);
   for (std::size_t i = 0; i < 3; ++i) {
     const LidarPoint& a = before.sweeps[0].points[i].point;
@@ -127,13 +127,13 @@ TEST_F(KittiOdometry, MissingScansAndPosesAreCounted) {
 
 TEST_F(KittiOdometry, WrongFilesAreRefused) {
   dir_.Write("sequences/05/calib.txt", "P0: 1 2 3\n");
-  EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
   options_.truth_file.reset();
-  EXPECT_NO_THROW(ConvertKittiOdometry(options_));  // the poses are not needed without truth
+  EXPECT_NO_THROW((void)ConvertKittiOdometry(options_));  // the poses are not needed without truth
   dir_.Write("sequences/05/times.txt", "0.0\n0.1\n0.1\n");
-  EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
   std::filesystem::remove_all(dir_.path() / "sequences/05/velodyne");
-  EXPECT_THROW(ConvertKittiOdometry(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
 }
 
 }  // namespace

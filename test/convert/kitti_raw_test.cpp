@@ -100,7 +100,7 @@ TEST_F(KittiRaw, PointTimesFollowTheClockwiseTurn) {
 }
 
 TEST_F(KittiRaw, ImuIsTheOxtsAtItsOwnStamps) {
-  ConvertKittiRaw(options_);
+  (void)ConvertKittiRaw(options_);
   const auto log = test::ReadLioLog(options_.output);
   ASSERT_EQ(log.imu.size(), static_cast<std::size_t>(kNumOxts));
   for (int k = 0; k < kNumOxts; ++k) {
@@ -114,7 +114,7 @@ TEST_F(KittiRaw, ImuIsTheOxtsAtItsOwnStamps) {
 
 TEST_F(KittiRaw, ImuRateInterpolatesLinearly) {
   options_.imu_rate_hz = 100.0;
-  ConvertKittiRaw(options_);
+  (void)ConvertKittiRaw(options_);
   const auto log = test::ReadLioLog(options_.output);
   ASSERT_EQ(log.imu.size(), 71u);
   for (std::size_t i = 0; i < log.imu.size(); ++i) {
@@ -126,7 +126,7 @@ TEST_F(KittiRaw, ImuRateInterpolatesLinearly) {
 
 TEST_F(KittiRaw, TruthIntegratesVelocityFromTheFirstPacket) {
   options_.truth_file = dir_.path() / "truth.tum";
-  ConvertKittiRaw(options_);
+  (void)ConvertKittiRaw(options_);
   const Trajectory truth = ReadTrajectory(*options_.truth_file);
   ASSERT_EQ(truth.poses.size(), static_cast<std::size_t>(kNumOxts));
   EXPECT_TRUE(truth.poses[0].pose.translation.isZero(1e-9));
@@ -142,7 +142,7 @@ TEST_F(KittiRaw, TruthIntegratesVelocityFromTheFirstPacket) {
 
 TEST_F(KittiRaw, RigIsTheInverseOfTheCalibration) {
   options_.rig_file = dir_.path() / "rig.yaml";
-  ConvertKittiRaw(options_);
+  (void)ConvertKittiRaw(options_);
   const LoadResult loaded = LoadOptions({*options_.rig_file}, {});
   EXPECT_TRUE(loaded.faults.empty()) << loaded.faults.front();
   const Pose& T_imu_lidar = *loaded.options.rig.T_imu_lidar;
@@ -154,9 +154,9 @@ TEST_F(KittiRaw, RigIsTheInverseOfTheCalibration) {
 
 TEST_F(KittiRaw, RigWithoutCalibrationIsRefused) {
   std::filesystem::remove(dir_.path() / "day/calib_imu_to_velo.txt");
-  EXPECT_NO_THROW(ConvertKittiRaw(options_));
+  EXPECT_NO_THROW((void)ConvertKittiRaw(options_));
   options_.rig_file = dir_.path() / "rig.yaml";
-  EXPECT_THROW(ConvertKittiRaw(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);
 }
 
 TEST_F(KittiRaw, TheDaysFolderServesWhenItHasOneDrive) {
@@ -168,7 +168,7 @@ TEST_F(KittiRaw, TheDaysFolderServesWhenItHasOneDrive) {
   std::filesystem::copy(dir_.path() / "day/drive", dir_.path() / "day/drive2",
                         std::filesystem::copy_options::recursive);
   options_.drive = dir_.path() / "day";
-  EXPECT_THROW(ConvertKittiRaw(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);
 }
 
 TEST_F(KittiRaw, MissingAndCutScansAreCountedAndTheRestConverted) {
@@ -189,11 +189,11 @@ TEST_F(KittiRaw, WithoutScansOrPacketsIsRefused) {
   for (int k = 0; k < kNumScans; ++k) {
     dir_.Write(fmt::format("day/drive/velodyne_points/data/{:010}.bin", k), "cut");
   }
-  EXPECT_THROW(ConvertKittiRaw(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);
   std::filesystem::remove_all(dir_.path() / "day/drive/oxts/data");
-  EXPECT_THROW(ConvertKittiRaw(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);
   options_.drive = dir_.path() / "none";
-  EXPECT_THROW(ConvertKittiRaw(options_), InputError);
+  EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);
 }
 
 }  // namespace

@@ -79,8 +79,9 @@ TEST(PointTime, UnitIsTheOneThatMakesASweep) {
 TEST(PointTime, SpansThatAreNoSweepAreRefused) {
   auto clouds = Observe({});
   for (auto& cloud : clouds) cloud.raw_last = cloud.raw_first + 0.0007;  // 0.7 ms or 0.7 us or ...
-  EXPECT_THROW(DetectPointTime(clouds, {}, {}), InputError);
-  EXPECT_THROW(DetectPointTime(Observe({}), {.unit = TimeUnit::kMicroseconds}, {}), InputError);
+  EXPECT_THROW((void)DetectPointTime(clouds, {}, {}), InputError);
+  EXPECT_THROW((void)DetectPointTime(Observe({}), {.unit = TimeUnit::kMicroseconds}, {}),
+               InputError);
 }
 
 TEST(PointTime, ConstantTimesAreNone) {

@@ -177,9 +177,9 @@ INSTANTIATE_TEST_SUITE_P(Compressions, Rosbag1, testing::Values("none", "lz4", "
 
 TEST(Rosbag1File, OfAnotherKindIsRefused) {
   const test::TempDir dir;
-  EXPECT_THROW(OpenRosbag1(dir.Write("a.bag", "")), InputError);
-  EXPECT_THROW(OpenRosbag1(dir.Write("b.bag", "#ROSBAG V1.2\nwhatever")), InputError);
-  EXPECT_THROW(OpenBag(dir.path() / "none.bag"), InputError);
+  EXPECT_THROW((void)OpenRosbag1(dir.Write("a.bag", "")), InputError);
+  EXPECT_THROW((void)OpenRosbag1(dir.Write("b.bag", "#ROSBAG V1.2\nwhatever")), InputError);
+  EXPECT_THROW((void)OpenBag(dir.path() / "none.bag"), InputError);
 }
 
 TEST(Rosbag1File, LeftOpenByItsRecorderGivesItsLastChunk) {

@@ -117,31 +117,11 @@ TEST_F(Rosbag2, SurvivesRandomMutations) {
   }
 }
 
-TEST_F(Rosbag2, RefusesOtherStoragesByName) {
-  Write(1000);
-  dir_.Write("drive/metadata.yaml",
-             "rosbag2_bagfile_information:\n  storage_identifier: mcap\n"
-             "  relative_file_paths: [a.mcap]\n");
-  try {
-    OpenBag(folder_);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("'mcap' is not supported"), std::string::npos);
-  }
-  dir_.Write("drive/metadata.yaml",
-             "rosbag2_bagfile_information:\n  storage_identifier: sqlite3\n"
-             "  compression_format: zstd\n  relative_file_paths: [bag_0.db3]\n");
-  EXPECT_THROW(OpenBag(folder_), InputError);
-  dir_.Write("drive/metadata.yaml", "][");
-  EXPECT_THROW(OpenBag(folder_), InputError);
-  EXPECT_THROW(OpenBag(dir_.Write("x.mcap", "?")), InputError);
-}
-
 TEST_F(Rosbag2, RefusesWhatIsNoDatabase) {
-  EXPECT_THROW(OpenBag(dir_.Write("x.db3", "not a database, but long enough to look at")),
+  EXPECT_THROW((void)OpenBag(dir_.Write("x.db3", "not a database, but long enough to look at")),
                InputError);
   std::filesystem::create_directories(dir_.path() / "empty");
-  EXPECT_THROW(OpenBag(dir_.path() / "empty"), InputError);
+  EXPECT_THROW((void)OpenBag(dir_.path() / "empty"), InputError);
 }
 
 }  // namespace

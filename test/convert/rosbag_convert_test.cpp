@@ -112,7 +112,7 @@ TEST_F(RosbagConversion, StartAndDurationCount) {
   EXPECT_NEAR(static_cast<double>(log.sweeps.size()), 10.0, 1.0);
   EXPECT_NEAR(static_cast<double>(log.imu.size()), 100.0, 1.0);
   options_.start_s = 1000.0;
-  EXPECT_THROW(Convert(), InputError);
+  EXPECT_THROW((void)Convert(), InputError);
 }
 
 TEST_F(RosbagConversion, TruthGoesToTum) {

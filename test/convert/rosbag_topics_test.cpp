@@ -22,7 +22,7 @@ const BagTopic kLivox{"/livox", "livox_ros_driver2/CustomMsg", "", RosEncoding::
 template <typename Error>
 std::string Refusal(const std::vector<BagTopic>& topics, const RosbagOptions& options = {}) {
   try {
-    ChooseTopics(topics, options);
+    (void)ChooseTopics(topics, options);
   } catch (const Error& error) {
     return error.what();
   }

@@ -79,7 +79,7 @@ TEST(UlhkSample, RebuiltTimesAgreeWithTheHiddenField) {
   const test::TempDir hidden_dir;
   const RosbagOptions options = Options(bag, dir);
   const RosbagOptions hidden = Options(HideTime(bag, hidden_dir), hidden_dir);
-  ConvertRosbag(options);
+  (void)ConvertRosbag(options);
   const RosbagReport report = ConvertRosbag(hidden);
   EXPECT_FALSE(report.rules.point_time);
   const auto with = test::ReadLioLog(options.output);
@@ -197,7 +197,7 @@ TEST(UlhkSample, GivesTheSameLogAndTruthAsARos2Bag) {
   ros1.truth_file = dir.path() / "truth.tum";
   RosbagOptions ros2 = Options(ros2_dir.path() / "drive", ros2_dir);
   ros2.truth_file = ros2_dir.path() / "truth.tum";
-  ConvertRosbag(ros1);
+  (void)ConvertRosbag(ros1);
   const RosbagReport report = ConvertRosbag(ros2);
   EXPECT_FALSE(report.IsDamaged());
   EXPECT_EQ(report.lidar.num(), 79);

@@ -35,7 +35,7 @@ TEST(TimeOffset, ShiftingChangesStampsAlone) {
 TEST(TimeOffset, FilesWithoutStampsAreRefused) {
   Trajectory rows = Drive();
   rows.format = TrajectoryFormat::kKitti;
-  EXPECT_THROW(FindTimeOffset(rows, rows, std::nullopt), std::runtime_error);
+  EXPECT_THROW((void)FindTimeOffset(rows, rows, std::nullopt), std::runtime_error);
 }
 
 }  // namespace

@@ -10,11 +10,13 @@
 
 #include "filter/tumbling_filter.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
 
 using test::AddImuUpTo;
+using test::BoxMinus;
 using test::Difference;
 using test::PoseAt;
 using test::SampleAt;

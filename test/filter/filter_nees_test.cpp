@@ -12,10 +12,12 @@
 
 #include "filter/tumbling_filter.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
 
+using test::BoxMinus;
 using test::kTumbleStep_s;
 using test::PoseAt;
 using test::SampleAt;

@@ -8,9 +8,12 @@
 #include "lio/filter/process_model.hpp"
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
+
+using test::BoxMinus;
 
 // The estimate of a level body whose world and map agree; tilt and map have these variances, rad^2.
 Estimate LevelEstimate(double tilt_var, double map_tilt_var) {

@@ -8,9 +8,12 @@
 
 #include "lio/filter/map_bend.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
+
+using test::BoxMinus;
 
 const Pose kToMap{ExpSo3(Vector3(0, 0, 2.1)), Vector3(40, -7, 3)};
 

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
+
+using test::BoxMinus;
 
 TEST(NavState, BoxMinusInvertsBoxPlus) {
   std::mt19937_64 random(1);
@@ -45,14 +48,6 @@ TEST(NavState, PositionErrorsAreInWorldAndMapPoseErrorsInTheBody) {
   const NavState moved = BoxPlus(state, error);
   EXPECT_LT((moved.T_world_imu.translation - Vector3::UnitX()).norm(), 1e-12);
   EXPECT_LT((moved.T_map_imu.translation - Vector3::UnitY()).norm(), 1e-12);
-}
-
-TEST(NavState, PoseCovIsTheBlockOfPositionAndRotation) {
-  Estimate estimate;
-  for (int i = 0; i < kStateDim; ++i) estimate.cov(i, i) = i + 1;
-  Vector6 expected;
-  expected << 1, 2, 3, 4, 5, 6;
-  EXPECT_EQ(Vector6(PoseCov(estimate).diagonal()), expected);
 }
 
 }  // namespace

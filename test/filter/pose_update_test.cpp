@@ -9,9 +9,12 @@
 
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
+
+using test::BoxMinus;
 
 constexpr double kNoGate = std::numeric_limits<double>::infinity();
 

@@ -8,6 +8,7 @@
 
 #include "lio/filter/filter_history.hpp"
 #include "support/motion.hpp"
+#include "support/state_error.hpp"
 
 namespace lio::test {
 

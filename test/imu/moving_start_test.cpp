@@ -8,10 +8,12 @@
 #include <cmath>
 
 #include "support/smooth_motion.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
 
+using test::BoxMinus;
 using test::CarMotion;
 using test::ImuErrors;
 using test::MotionPoint;

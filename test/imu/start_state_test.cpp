@@ -11,10 +11,12 @@
 
 #include "support/motion.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio {
 namespace {
 
+using test::BoxMinus;
 using test::StampAt;
 
 constexpr double kStep_s = 0.01;

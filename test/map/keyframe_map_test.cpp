@@ -85,23 +85,27 @@ TEST(KeyframeMap, SubmapIsTheNearestAndTheHullAndNoOtherStorey) {
   options.num_hull = 4;
   options.max_distance_m = 1000;
   KeyframeMap map(options);
-  // Makes a square of 5 x 5 keyframes, 10 m apart, with numbers 0..24 row by row, and one a storey
-  // up.
+  // Makes a square of 5 x 5 keyframes of one point, 10 m apart, with numbers 0..24 row by row, and
+  // one a storey up. A point is found where its keyframe was chosen.
+  std::vector<Pose> poses;
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
-      map.Add(std::vector{PointAt({0, 0, 0})}, At(10.0 * x, 10.0 * y));
+      poses.push_back(At(10.0 * x, 10.0 * y));
     }
   }
-  map.Add(std::vector{PointAt({0, 0, 0})}, At(21, 21, 3.5));
+  poses.push_back(At(21, 21, 3.5));
+  for (const Pose& pose : poses) map.Add(std::vector{PointAt({0, 0, 0})}, pose);
   map.ChooseSubmap({21, 20, 0});
-  const auto chosen = [&](int i) { return map.IsInSubmap(i); };
+  const auto chosen = [&](std::size_t i) {
+    return map.FindNearest(poses[i].translation, 0.1).point >= 0;
+  };
   EXPECT_TRUE(chosen(12));                                          // right here
   EXPECT_TRUE(chosen(13));                                          // beside
   EXPECT_TRUE(chosen(0) && chosen(4) && chosen(20) && chosen(24));  // the corners
   EXPECT_FALSE(chosen(2));                                          // on the hull's side, straight
   EXPECT_FALSE(chosen(25) && chosen(17) && chosen(7));
   int count = 0;
-  for (int i = 0; i < 26; ++i) count += chosen(i);
+  for (std::size_t i = 0; i < poses.size(); ++i) count += chosen(i);
   EXPECT_EQ(count, 7);
 }
 

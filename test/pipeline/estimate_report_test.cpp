@@ -56,7 +56,7 @@ TEST_F(EstimateReportTest, WithGravityTheWorldIsTheFilters) {
   const NavOutput nav = MakeNav(estimate_, Context());
   EXPECT_EQ(nav.T_world_imu.translation, estimate_.state.T_world_imu.translation);
   EXPECT_EQ(nav.v_world_imu_mps, estimate_.state.v_world_imu);
-  EXPECT_EQ(nav.pose_cov, PoseCov(estimate_));
+  EXPECT_EQ(nav.pose_cov, (estimate_.cov.topLeftCorner<6, 6>()));
   EXPECT_EQ(nav.velocity_cov, (estimate_.cov.block<3, 3>(kVel, kVel)));
 }
 
@@ -149,7 +149,7 @@ TEST_F(EstimateReportTest, TheFilterReportHasTheBiasesAndTheVelocityInTheMap) {
 
 TEST_F(EstimateReportTest, TheErrorOfTheMapAsWorldIsThereUnderBoth) {
   const Matrix6 expected = WithMapAsWorld(estimate_).cov.topLeftCorner<6, 6>();
-  ASSERT_GT((expected - PoseCov(estimate_)).norm(), 0.1);
+  ASSERT_GT((expected - estimate_.cov.topLeftCorner<6, 6>()).norm(), 0.1);
   for (const Vector3& g_world : {test::kGravity, kNoGravity}) {
     EXPECT_EQ(MakeFilterReport(estimate_, {}, Context(g_world)).map_as_world_cov, expected);
   }
@@ -198,6 +198,29 @@ TEST_F(EstimateReportTest, AFixIsThePoseAsItIsPublished) {
     EXPECT_EQ(fix.v_world_imu, nav.v_world_imu_mps);
     EXPECT_EQ(fix.T_map_imu.translation, nav.T_map_imu.translation);
     EXPECT_EQ(fix.pose_cov, nav.pose_cov);
+  }
+}
+
+TEST_F(EstimateReportTest, TheVerdictKeepsThePoseWithItsDriftAndTilt) {
+  const FilterReport report = MakeFilterReport(estimate_, {}, Context(kNoGravity));
+  const PoseRow row = MakePoseRow(report);
+  EXPECT_EQ(row.stamp, estimate_.stamp);
+  EXPECT_EQ(row.T_map_imu.translation, report.nav.T_map_imu.translation);
+  EXPECT_EQ(row.position_cov, (report.map_as_world_cov.topLeftCorner<3, 3>()));
+  EXPECT_EQ(row.rotation_cov, (report.nav.pose_cov.bottomRightCorner<3, 3>()));
+  EXPECT_EQ(row.R_world_imu.coeffs(), report.nav.T_world_imu.rotation.coeffs());
+}
+
+TEST_F(EstimateReportTest, OnlyAMatchedScanIsLocatedForTheVerdict) {
+  FilterReport report = MakeFilterReport(estimate_, {}, Context());
+  for (const auto status : {TrackingStatus::kOk, TrackingStatus::kDegenerate}) {
+    report.nav.status = status;
+    EXPECT_TRUE(MakePoseRow(report).is_located);
+  }
+  for (const auto status :
+       {TrackingStatus::kInit, TrackingStatus::kCoasting, TrackingStatus::kLost}) {
+    report.nav.status = status;
+    EXPECT_FALSE(MakePoseRow(report).is_located);
   }
 }
 

@@ -3,8 +3,6 @@
 // The first state from the coarse track and the inertial samples.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "pipeline/initializing.hpp"
 #include "pipeline/initializing_bench.hpp"
 
@@ -20,14 +18,7 @@ using test::StateOf;
 using test::Straight;
 
 constexpr double kStandardGravity_mps2 = 9.80665;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kDriveFrom_s = 6.0;  // WindingDrive() has its full speed of 8 m/s by then
-
-Options WithUnits(ImuUnits units) {
-  Options options;
-  options.rig.imu.units = units;
-  return options;
-}
 
 Vector3 UpOf(const Pose& T_world_imu) {
   return T_world_imu.rotation.conjugate() * Vector3::UnitZ();
@@ -104,73 +95,6 @@ TEST(InitializingStart, InMotionARestIsAwaitedWhereThatIsAskedFor) {
   EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
 }
 
-TEST(InitializingStart, ForcesInGAtRestChangeTheConventionAndBeginAgain) {
-  InitializingBench b;
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kRetry);
-  EXPECT_TRUE(b.bench.stream().imu().convention().is_in_g);
-  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_deg);
-  EXPECT_NEAR(b.bench.stream().imu().samples().back().f_imu_mps2.norm(), kStandardGravity_mps2,
-              1e-6);
-  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
-}
-
-TEST(InitializingStart, SecondTryWithTheSamplesInGStarts) {
-  InitializingBench b;
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  auto retry = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(retry);
-  b.BeginAgain(*retry);
-  const auto transition = b.MatchWaiting(Leaning());
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kStarted);
-}
-
-TEST(InitializingStart, RatesInDegreesOfADriveChangeTheConvention) {
-  InitializingBench b;
-  b.bench.rate_scale = kDegPerRad;
-  const Motion drive = test::WindingDrive(0.0);
-  double from_s = kDriveFrom_s;
-  while (!b.bench.stream().imu().convention().is_in_deg && from_s < kDriveFrom_s + 10.0) {
-    const auto transition = b.Drive(drive, from_s, from_s + 0.1);
-    from_s += 0.1;
-    if (!transition) continue;
-    ASSERT_EQ(transition->trigger, Trigger::kRetry);
-    b.BeginAgain(*transition);
-  }
-  EXPECT_TRUE(b.bench.stream().imu().convention().is_in_deg);
-  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_g);
-}
-
-TEST(InitializingStart, ForcesInGContradictConfiguredSiUnits) {
-  InitializingBench b(WithUnits(ImuUnits::kSi));
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kContradicted);
-  EXPECT_FALSE(b.bench.stream().imu().convention().is_in_g);
-  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kError));
-}
-
-TEST(InitializingStart, GravityInTheForcesContradictsARigWithoutIt) {
-  Options options;
-  options.rig.imu.gravity = GravityInput::kRemoved;
-  InitializingBench b(options);
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kContradicted);
-  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kError));
-}
-
-TEST(InitializingStart, ForceOfNoUnitIsWaitedOut) {
-  InitializingBench b;
-  b.bench.force_scale = 0.5;
-  EXPECT_FALSE(b.Drive(Leaning(), 0.0, 2.0));
-  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
-}
-
 TEST(InitializingStart, RestartGoesOnWhereTheLastFixWas) {
   Handover handover;
   handover.origin = Handover::Origin::kInertial;
@@ -202,22 +126,6 @@ TEST(InitializingStart, RestartAfterLidarOnlyLevelsTheWorldAndKeepsTheMap) {
   EXPECT_NEAR((state.T_world_imu.translation - Vector3(10, 5, 2)).norm(), 0.0, 1e-3);
   const Pose error = handover.last_fix.T_map_imu.Inverse() * state.T_map_imu;
   EXPECT_NEAR(LogSe3(error).norm(), 0.0, 1e-3);
-}
-
-TEST(InitializingStart, OtherConventionGivesTheLastFixTheShapeOfThePathInTheMap) {
-  Handover handover;
-  handover.origin = Handover::Origin::kInertial;
-  handover.last_fix.T_world_imu.translation = Vector3(9, 0, 3);  // bent by a wrong gravity
-  handover.last_fix.T_map_imu.translation = Vector3(10, 0, 0);
-  handover.T_world_start.translation = Vector3(0, 0, 1);
-  InitializingBench b({}, handover);
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  ASSERT_EQ(transition->trigger, Trigger::kRetry);
-  const LastFix& fix = transition->handover.last_fix;
-  EXPECT_NEAR((fix.T_world_imu.translation - Vector3(10, 0, 1)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((fix.T_map_imu.translation - Vector3(10, 0, 0)).norm(), 0.0, 1e-9);
 }
 
 // Each second a tenth of a second of samples is missing, which no alignment in motion accepts.

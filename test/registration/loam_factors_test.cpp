@@ -7,6 +7,7 @@
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "registration/pose_manifold.hpp"
@@ -40,6 +41,14 @@ std::vector<Pose> Poses() {
     for (int i = 0; i < 20; ++i) poses.push_back(random.NextPose(angle));
   }
   return poses;
+}
+
+CostPtr MakeEdge(const Vector3& point, const Vector3& a, const Vector3& b) {
+  return std::make_unique<EdgeFactor>(point, a, b);
+}
+
+CostPtr MakePlane(const Vector3& point, const Vector3& normal, double offset) {
+  return std::make_unique<PlaneFactor>(point, normal, offset);
 }
 
 Eigen::VectorXd Residual(const ceres::CostFunction& cost, const Pose& pose) {
@@ -163,9 +172,9 @@ TEST(LoamFactors, EdgeIsSmoothOnTheLineItself) {
 TEST(LoamFactors, ShortLinesAndNarrowTrianglesAreRefused) {
   const Vector3 point(1, 2, 3);
   const Vector3 a(4, 5, 6);
-  EXPECT_EQ(MakeEdge(point, a, a + Vector3(0.0099, 0, 0)), nullptr);
+  EXPECT_EQ(MakeAutoEdge(point, a, a + Vector3(0.0099, 0, 0)), nullptr);
   EXPECT_EQ(MakeAutoEdge(point, a, a), nullptr);
-  EXPECT_NE(MakeEdge(point, a, a + Vector3(0.0101, 0, 0)), nullptr);
+  EXPECT_NE(MakeAutoEdge(point, a, a + Vector3(0.0101, 0, 0)), nullptr);
   const Vector3 step(1, 0.5, 0);
   EXPECT_EQ(MakeAutoPlaneByPoints(point, a, a + step, a + 2 * step), nullptr);
 }

@@ -51,7 +51,7 @@ TEST_F(DataFile, MayBeAFileOfTheUsers) {
 TEST_F(DataFile, WhatIsNotThereIsToldWithWhatIs) {
   for (const std::string name : {"best", "notes", "notes.txt", "missing.yaml", ""}) {
     try {
-      FindDataFile("imus", name);
+      (void)FindDataFile("imus", name);
       FAIL() << name;
     } catch (const std::runtime_error& error) {
       EXPECT_EQ(error.what(), "no model '" + name + "' in imus; there are: cheap good");

@@ -71,7 +71,8 @@ TEST(Path, GoesStraightOnBeyondItsEnds) {
 }
 
 TEST(Path, RefusesCornersThatOverlap) {
-  EXPECT_THROW(Path::Rounded({{0, 0}, {5, 0}, {5, 5}, {0, 5}}, 8.0, false), std::invalid_argument);
+  EXPECT_THROW((void)Path::Rounded({{0, 0}, {5, 0}, {5, 5}, {0, 5}}, 8.0, false),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(LidarModel, VelodynesFireOneBeamAfterTheOther) {
 
 TEST(LidarModel, UnknownNameListsTheKnownOnes) {
   try {
-    LoadLidarModel("hdl33");
+    (void)LoadLidarModel("hdl33");
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("hdl32e"), std::string::npos) << error.what();
@@ -71,7 +71,7 @@ TEST(LidarModel, FaultyFilesNameFileAndKey) {
            {"model: x\nrotation_hz: fast\n", "rotation_hz"}}) {
     const auto file = dir.Write("own.yaml", text);
     try {
-      LoadLidarModel(file.string());
+      (void)LoadLidarModel(file.string());
       FAIL() << text;
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();

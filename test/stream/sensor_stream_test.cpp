@@ -12,7 +12,6 @@ namespace {
 using test::ImuAt;
 using test::Lines;
 using test::OnlyImu;
-using test::OnlyLidar;
 using test::Sensor;
 using test::SensorMessage;
 using test::SensorMessages;
@@ -53,31 +52,6 @@ TEST(SensorStream, OffsetOfTheLidarClockIsAddedToItsStamps) {
   EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.07)) << "the one before it begins without samples";
 }
 
-TEST(SensorStream, SweepThatMissesAChunkIsClosed50MsAfterItsEnd) {
-  StreamRun run;
-  SensorMessage half = SweepFrom(0.0);
-  half.chunk->chunk_count = 2;
-  run.Feed(OnlyImu(0.0, 0.1));
-  run.Feed({half});
-  run.Feed(OnlyImu(0.1, 0.15));
-  EXPECT_TRUE(run.SweepStarts().empty()) << "the other chunk may still come";
-  run.Feed({ImuAt(0.15)});
-  ASSERT_EQ(run.Of<SweepReady>().size(), 1u);
-  EXPECT_EQ(run.Of<SweepReady>()[0].sweep->num_missing_chunks, 1);
-}
-
-TEST(SensorStream, WithoutImuStampsOfTheLidarCloseASweep) {
-  StreamOptions options;
-  options.use_imu = false;
-  StreamRun run(options);
-  SensorMessage half = SweepFrom(0.0);
-  half.chunk->chunk_count = 2;
-  run.Feed({half});
-  EXPECT_TRUE(run.events.empty());
-  run.Feed({SweepFrom(0.15)});
-  EXPECT_EQ(Lines(run.events), (Texts{"sweep 0.000"}));
-}
-
 TEST(SensorStream, DuplicateSampleIsCountedAndGivenOnce) {
   StreamRun run;
   run.Feed(OnlyImu(0.0, 0.1));
@@ -95,40 +69,6 @@ TEST(SensorStream, SampleOfAGivenSweepIsLate) {
   run.Feed({ImuAt(0.095)});
   EXPECT_EQ(run.counters.num_imu_late, 1) << "no sweep has used this time yet";
   EXPECT_EQ(run.MeasuredStamps().size(), 12u);
-}
-
-TEST(SensorStream, SweepsBeforeTheFirstSampleAreCountedAndNotGiven) {
-  StreamRun run;
-  run.Feed(Silenced(Sensors(0.0, 1.0), Sensor::kImu, 0.0, 0.51));
-  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.5)) << "10 ms before: the first sample holds there";
-  EXPECT_EQ(run.counters.num_scans_without_imu, 5);
-}
-
-TEST(SensorStream, SweepThatBegins30MsBeforeTheFirstSampleIsNotGiven) {
-  StreamRun run;
-  run.Feed(Silenced(Sensors(0.0, 1.0), Sensor::kImu, 0.0, 0.53));
-  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.6));
-  EXPECT_EQ(run.counters.num_scans_without_imu, 6);
-}
-
-TEST(SensorStream, SweepsBeforeTheEstimatorsBeginAreNotGiven) {
-  StreamRun run;
-  run.stream.SetBegin(StampAt(0.3));
-  run.Feed(Sensors(0.0, 0.6));
-  EXPECT_EQ(run.SweepStarts().at(0), StampAt(0.3));
-  EXPECT_EQ(run.counters.num_scans_without_imu, 3);
-}
-
-TEST(SensorStream, SensorsOfDifferentClocksAreTold) {
-  for (const double apart_s : {-100.0, 100.0}) {
-    StreamRun run;
-    run.Feed(Stepped(Sensors(0.0, 1.0), Sensor::kLidar, 0.0, apart_s));
-    ASSERT_FALSE(run.Of<Notice>().empty()) << apart_s;
-    const std::string expected = apart_s > 0.0 ? " s after" : " s before";
-    EXPECT_NE(run.Of<Notice>()[0].text.find(expected), std::string::npos)
-        << run.Of<Notice>()[0].text;
-    EXPECT_TRUE(run.SweepStarts().empty());
-  }
 }
 
 TEST(SensorStream, LidarGoesOnAloneWhenTheImuFallsSilent) {
@@ -163,30 +103,6 @@ TEST(SensorStream, ImuThatComesAgainAppears) {
   EXPECT_EQ(run.SweepStarts().size(), 49u) << "no sweep is lost on either way";
 }
 
-TEST(SensorStream, LogWithoutImuGoesOnWithTheLidarAlone) {
-  StreamRun run;
-  run.Feed(OnlyLidar(0.0, 2.2));
-  EXPECT_TRUE(run.events.empty());
-  run.Feed({SweepFrom(2.1)});
-  const Texts lines = Lines(run.events);
-  ASSERT_EQ(lines.size(), 23u) << "2.1 s of sweeps have waited for an IMU";
-  EXPECT_EQ(lines[0], "absent 0.090");
-  EXPECT_EQ(lines[1], "sweep 0.000");
-  EXPECT_EQ(lines[22], "sweep 2.100");
-  EXPECT_FALSE(run.stream.has_imu());
-  run.Feed({SweepFrom(2.2)});
-  EXPECT_EQ(Lines(run.events).back(), "sweep 2.200");
-}
-
-TEST(SensorStream, ShortLogWithoutImuGivesItsSweepsAtTheEnd) {
-  StreamRun run;
-  run.Feed(OnlyLidar(0.0, 0.3));
-  EXPECT_TRUE(run.events.empty());
-  run.Finish();
-  const Texts expected = {"absent 0.090", "sweep 0.000", "sweep 0.100", "ended"};
-  EXPECT_EQ(Lines(run.events), expected);
-}
-
 TEST(SensorStream, ImuThatIsSwitchedOffIsOnlyCounted) {
   StreamOptions options;
   options.use_imu = false;
@@ -212,18 +128,6 @@ TEST(SensorStream, FlushClosesEverythingAndEndsLast) {
   const Texts expected = {"made up 0.121", "made up 0.499", "imu 0.500", "sweep 0.100", "ended"};
   EXPECT_EQ(Lines(at_end), expected);
   EXPECT_FALSE(run.stream.Next(0).has_value());
-}
-
-TEST(SensorStream, FlushGivesTheSweepThatSamplesDoNotCover) {
-  StreamRun run;
-  SensorMessage half = SweepFrom(0.1);
-  half.chunk->chunk_count = 2;
-  run.Feed(Sensors(0.0, 0.15));
-  run.Feed({half});
-  run.Finish();
-  const Texts lines = Lines(run.events);
-  const Texts last(lines.end() - 3, lines.end());
-  EXPECT_EQ(last, (Texts{"made up 0.190", "sweep 0.100", "ended"}));
 }
 
 TEST(SensorStream, RejectedStreamCountsMessagesAndDropsThem) {

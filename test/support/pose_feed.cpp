@@ -11,6 +11,7 @@
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "support/random_state.hpp"
+#include "support/state_error.hpp"
 
 namespace lio::test {
 namespace {

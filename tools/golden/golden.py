@@ -168,6 +168,17 @@ def chosen(names):
     return there
 
 
+def exit_code(verdicts):
+    """A run passes only where something was compared: see usage."""
+    if verdicts.count(False):
+        return 1
+    if verdicts.count(True):
+        return 0
+    print(f"golden: nothing was compared, so nothing is proved: run this where {RECORD} was "
+          "recorded, or record this machine's logs by --update before your change", file=sys.stderr)
+    return 3
+
+
 def main():
     given = arguments()
     if given.list:
@@ -195,7 +206,7 @@ def main():
         write_record([record[case.name] for case in CASES if case.name in record])
         print(f"golden: recorded in {RECORD}; look at its diff before you commit it")
         return 0
-    return 1 if num_other else 0
+    return exit_code(verdicts)
 
 
 if __name__ == "__main__":

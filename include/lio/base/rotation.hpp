@@ -33,8 +33,5 @@ using Quaternion = Eigen::Quaterniond;
 [[nodiscard]] inline Matrix3 RightJacobianSo3(const Vector3& phi) {
   return LeftJacobianSo3(-phi);
 }
-[[nodiscard]] inline Matrix3 RightJacobianInverseSo3(const Vector3& phi) {
-  return LeftJacobianInverseSo3(-phi);
-}
 
 }  // namespace lio

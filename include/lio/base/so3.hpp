@@ -105,14 +105,4 @@ template <class T>
   return Mat3<T>::Identity() - T(0.5) * hat + c * hat * hat;
 }
 
-// Exp(phi + d) = Exp(phi) Exp(RightJacobian(phi) d) to first order in d.
-template <class T>
-[[nodiscard]] Mat3<T> RightJacobian(const Vec3<T>& phi) {
-  return LeftJacobian<T>(-phi);
-}
-template <class T>
-[[nodiscard]] Mat3<T> RightJacobianInverse(const Vec3<T>& phi) {
-  return LeftJacobianInverse<T>(-phi);
-}
-
 }  // namespace lio::so3

@@ -40,8 +40,8 @@ struct UnwrappedSweep {
 };
 
 // `rings` is empty or has one ring per point.
-UnwrappedSweep UnwrapAzimuth(const SpinModel& model, const CloudPoints& points,
-                             std::span<const std::uint16_t> rings);
+[[nodiscard]] UnwrappedSweep UnwrapAzimuth(const SpinModel& model, const CloudPoints& points,
+                                           std::span<const std::uint16_t> rings);
 
 // Estimates the head's rate from the stamps and first azimuths of successive sweeps, with slowly
 // fading memory.
@@ -64,11 +64,12 @@ class SpinRate {
 
 // Returns the angle from the first point of a sweep to the first point of the next [rad]: of the
 // angles that differ by whole turns, the nearest to the angle that the sweep itself covers.
-double TurnBetween(double first_azimuth_rad, double next_first_azimuth_rad, double covered_rad,
-                   double direction);
+[[nodiscard]] double TurnBetween(double first_azimuth_rad, double next_first_azimuth_rad,
+                                 double covered_rad, double direction);
 
 // Returns the instants of the points [ns]; the stamp is that of the first or of the last point.
-std::vector<std::int64_t> AzimuthInstants(const UnwrappedSweep& sweep, double rate_radps,
-                                          Timestamp stamp, bool stamp_is_end);
+[[nodiscard]] std::vector<std::int64_t> AzimuthInstants(const UnwrappedSweep& sweep,
+                                                        double rate_radps, Timestamp stamp,
+                                                        bool stamp_is_end);
 
 }  // namespace lio

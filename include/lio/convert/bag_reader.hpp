@@ -41,7 +41,7 @@ struct BagDamage {
   std::int64_t num_messages_missing = 0;  // compared with the count in a ROS 2 bag's metadata
   std::string first_reason;               // e.g. "record header of 4000000000 bytes at byte 1234"
 
-  bool Any() const {
+  [[nodiscard]] bool Any() const {
     return cut_short || not_closed || num_chunks_damaged > 0 || num_messages_damaged > 0;
   }
 };
@@ -52,28 +52,28 @@ class BagReader {
 
   // Returns all topics seen so far, from the index if there is one. Indices stay valid; without an
   // index the list grows while reading.
-  virtual const std::vector<BagTopic>& topics() const = 0;
+  [[nodiscard]] virtual const std::vector<BagTopic>& topics() const = 0;
   // Returns whether the list of topics is complete already.
-  virtual bool knows_all_topics() const = 0;
+  [[nodiscard]] virtual bool knows_all_topics() const = 0;
   // Only messages of topics that `wanted` accepts are returned and copied; the default is all.
   virtual void Select(std::function<bool(const BagTopic&)> wanted) = 0;
   // Reads the next message. Returns false at the end, and at damage after which nothing can be
   // read.
-  virtual bool Next(BagMessage& message) = 0;
-  virtual const BagDamage& damage() const = 0;
+  [[nodiscard]] virtual bool Next(BagMessage& message) = 0;
+  [[nodiscard]] virtual const BagDamage& damage() const = 0;
 
   // Returns the receive time of the first message of any topic, once one was read.
-  virtual std::optional<Timestamp> begin_time() const = 0;
-  virtual std::int64_t position_bytes() const = 0;  // used by progress bars
-  virtual std::int64_t size_bytes() const = 0;
+  [[nodiscard]] virtual std::optional<Timestamp> begin_time() const = 0;
+  [[nodiscard]] virtual std::int64_t position_bytes() const = 0;  // used by progress bars
+  [[nodiscard]] virtual std::int64_t size_bytes() const = 0;
 };
 
 // Opens a ROS 1 bag (a file, or the folder of a split recording, whose bags are joined) or a ROS 2
 // bag (its folder, its metadata.yaml or one .db3 file).
 // Throws InputError that names the path when it is neither.
-std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
 
-std::unique_ptr<BagReader> OpenRosbag1(const std::filesystem::path& path);
-std::unique_ptr<BagReader> OpenRosbag2(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<BagReader> OpenRosbag1(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<BagReader> OpenRosbag2(const std::filesystem::path& path);
 
 }  // namespace lio

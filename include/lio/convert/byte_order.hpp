@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little);
 
 // The T that begins at `bytes`; sizeof(T) bytes must be there.
 template <typename T>
-T LoadAs(const std::uint8_t* bytes, bool big_endian = false) {
+[[nodiscard]] T LoadAs(const std::uint8_t* bytes, bool big_endian = false) {
   static_assert(std::is_arithmetic_v<T>);
   std::array<std::uint8_t, sizeof(T)> raw;
   std::memcpy(raw.data(), bytes, sizeof(T));

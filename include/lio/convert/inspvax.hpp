@@ -31,21 +31,22 @@ inline constexpr int kInsSolutionGood = 3;
 // Finds the row's fields by name, for the variants of novatel_oem7_msgs, novatel_msgs and UrbanNav.
 // `received` decides whether a time of week is in seconds or in milliseconds. Returns nothing when
 // a field is missing or out of range.
-std::optional<InspvaxRow> ToInspvaxRow(const RosNumbers& numbers, Timestamp received);
+[[nodiscard]] std::optional<InspvaxRow> ToInspvaxRow(const RosNumbers& numbers, Timestamp received);
 
 // Returns the definition that a ROS 2 bag without definitions needs; null for unknown types.
-const char* KnownInspvaxDefinition(std::string_view type);
+[[nodiscard]] const char* KnownInspvaxDefinition(std::string_view type);
 
 // Returns GPS minus UTC [s] at a GPS time [s since the GPS epoch, 1980-01-06].
-int LeapSeconds(std::int64_t gps_s);
+[[nodiscard]] int LeapSeconds(std::int64_t gps_s);
 
 // Returns R_enu_body = Rz(-azimuth) Rx(pitch) Ry(roll).
-Quaternion InspvaxAttitude(double roll_rad, double pitch_rad, double azimuth_rad);
+[[nodiscard]] Quaternion InspvaxAttitude(double roll_rad, double pitch_rad, double azimuth_rad);
 
 // Converts positions on WGS84 to the east-north-up frame at the first position.
 class LocalFrame {
  public:
-  Vector3 ToLocal(double latitude_rad, double longitude_rad, double ellipsoid_height_m);
+  [[nodiscard]] Vector3 ToLocal(double latitude_rad, double longitude_rad,
+                                double ellipsoid_height_m);
 
  private:
   std::optional<Vector3> origin_ecef_m_;

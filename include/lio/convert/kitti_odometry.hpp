@@ -34,18 +34,21 @@ struct KittiOdometryReport {
   std::filesystem::path poses_file;    // the file that was used
 
   // Returns true when something was lost, which means exit code 5.
-  bool IsDamaged() const { return num_scans_missing + num_scans_damaged + num_poses_missing > 0; }
+  [[nodiscard]] bool IsDamaged() const {
+    return num_scans_missing + num_scans_damaged + num_poses_missing > 0;
+  }
 };
 
 // Converts a camera pose in the first camera frame to the lidar's pose in the first lidar frame.
-Pose CameraToLidarPose(const Pose& T_camera0_camera, const Pose& T_camera_lidar);
+[[nodiscard]] Pose CameraToLidarPose(const Pose& T_camera0_camera, const Pose& T_camera_lidar);
 
 // Raises a point's elevation by `angle_rad`.
 void RaiseElevation(LidarPoint& point, double angle_rad);
 
 // Throws InputError, or std::runtime_error when an output cannot be written.
-KittiOdometryReport ConvertKittiOdometry(const KittiOdometryOptions& options);
+[[nodiscard]] KittiOdometryReport ConvertKittiOdometry(const KittiOdometryOptions& options);
 
-std::string FormatReport(const KittiOdometryReport& report, const KittiOdometryOptions& options);
+[[nodiscard]] std::string FormatReport(const KittiOdometryReport& report,
+                                       const KittiOdometryOptions& options);
 
 }  // namespace lio

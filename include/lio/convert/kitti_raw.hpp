@@ -18,7 +18,8 @@ namespace lio {
 
 // Returns a point's instant [ns]: the head faces forward at `middle` and makes one clockwise turn
 // in `turn`, which begins and ends facing backward.
-std::int64_t KittiPointInstant(const LidarPoint& point, Timestamp middle, Duration turn);
+[[nodiscard]] std::int64_t KittiPointInstant(const LidarPoint& point, Timestamp middle,
+                                             Duration turn);
 
 struct KittiRawOptions {
   std::filesystem::path drive;
@@ -45,14 +46,15 @@ struct KittiRawReport {
   double truth_length_m = 0.0;
 
   // Returns true when something was lost, which means exit code 5.
-  bool IsDamaged() const {
+  [[nodiscard]] bool IsDamaged() const {
     return num_scans_missing + num_scans_damaged + num_oxts_missing + num_oxts_damaged > 0;
   }
 };
 
 // Throws InputError, or std::runtime_error when an output cannot be written.
-KittiRawReport ConvertKittiRaw(const KittiRawOptions& options);
+[[nodiscard]] KittiRawReport ConvertKittiRaw(const KittiRawOptions& options);
 
-std::string FormatReport(const KittiRawReport& report, const KittiRawOptions& options);
+[[nodiscard]] std::string FormatReport(const KittiRawReport& report,
+                                       const KittiRawOptions& options);
 
 }  // namespace lio

@@ -22,7 +22,7 @@ class LidarSpinEstimator {
   void Add(const CloudPoints& points, std::span<const std::uint16_t> rings, Timestamp stamp);
   // `table` is the model that the user named, if any; it gives direction and offsets if the data do
   // not. Throws InputError when the points are in no known order and do not cover the whole circle.
-  SpinModel Decide(const std::optional<BeamTable>& table) const;
+  [[nodiscard]] SpinModel Decide(const std::optional<BeamTable>& table) const;
 
  private:
   struct Seen {
@@ -36,8 +36,9 @@ class LidarSpinEstimator {
 
   void AddOffsets(std::span<const std::uint16_t> rings, const Seen& seen,
                   const UnwrappedSweep& sweep);
-  std::vector<double> RingOffsets() const;
-  double Rate(double direction, PointOrder order, double fallback_hz, std::string& how) const;
+  [[nodiscard]] std::vector<double> RingOffsets() const;
+  [[nodiscard]] double Rate(double direction, PointOrder order, double fallback_hz,
+                            std::string& how) const;
 
   std::vector<Seen> seen_;
   // Histogram of offsets for each ring: its median is not affected by edges of gaps in the returns.

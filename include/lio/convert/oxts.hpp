@@ -24,14 +24,15 @@ struct OxtsRow {
 };
 
 // Returns nothing when the text is no row of at least 25 numbers.
-std::optional<OxtsRow> ParseOxts(const std::string& text);
+[[nodiscard]] std::optional<OxtsRow> ParseOxts(const std::string& text);
 
 // Returns the poses of the IMU at the rows' stamps, in an east-north-up frame with its origin at
 // the first: attitude as measured, position by integrating velocity (trapezoid).
-StampedPoses OxtsPoses(const std::vector<OxtsRow>& rows);
+[[nodiscard]] StampedPoses OxtsPoses(const std::vector<OxtsRow>& rows);
 
 // Returns samples every 1/rate_hz s from the first row's stamp on, interpolated linearly between
 // rows; without a rate, the rows themselves. The stamps of `rows` must strictly increase.
-std::vector<ImuSample> OxtsImu(const std::vector<OxtsRow>& rows, std::optional<double> rate_hz);
+[[nodiscard]] std::vector<ImuSample> OxtsImu(const std::vector<OxtsRow>& rows,
+                                             std::optional<double> rate_hz);
 
 }  // namespace lio

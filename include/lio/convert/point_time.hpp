@@ -15,11 +15,11 @@
 namespace lio {
 
 enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
-std::string_view Name(TimeUnit unit);  // "s", "ms", "us", "ns"
-double SecondsPer(TimeUnit unit);
+[[nodiscard]] std::string_view Name(TimeUnit unit);  // "s", "ms", "us", "ns"
+[[nodiscard]] double SecondsPer(TimeUnit unit);
 
 enum class StampMeaning { kSweepStart, kSweepEnd };
-std::string_view Name(StampMeaning meaning);  // "sweep start", "sweep end"
+[[nodiscard]] std::string_view Name(StampMeaning meaning);  // "sweep start", "sweep end"
 
 // The way in which a raw point time becomes an instant.
 enum class TimeAnchor {
@@ -51,8 +51,8 @@ struct StampJudgement {
 // Judges the meaning of the stamp from the clouds' receive times: a stamp at the sweep's start is
 // older by at least a sweep. `imu_delay_s` is the receive time minus the stamp of the IMU; it gives
 // the offset between sensor and host clock when the lidar's own delay is implausible.
-StampJudgement JudgeStamp(const std::vector<CloudObservation>& clouds, double sweep_s,
-                          std::optional<double> imu_delay_s);
+[[nodiscard]] StampJudgement JudgeStamp(const std::vector<CloudObservation>& clouds, double sweep_s,
+                                        std::optional<double> imu_delay_s);
 
 struct PointTimeRule {
   TimeUnit unit = TimeUnit::kSeconds;
@@ -72,13 +72,13 @@ inline constexpr double kMaxSweepSeconds = 0.5;
 // Returns nothing when all times are equal, because some drivers fill the field with zeros: then
 // azimuth must serve. Throws InputError when no unit (or not the prescribed one) makes a sweep of 5
 // to 500 ms.
-std::optional<PointTimeRule> DetectPointTime(const std::vector<CloudObservation>& clouds,
-                                             const PointTimeWishes& wishes,
-                                             std::optional<double> imu_delay_s);
+[[nodiscard]] std::optional<PointTimeRule> DetectPointTime(
+    const std::vector<CloudObservation>& clouds, const PointTimeWishes& wishes,
+    std::optional<double> imu_delay_s);
 
 // Returns the instants of a cloud's points [ns], in the order of `raw`. Returns nothing when they
 // form no sweep of at most 500 ms near the stamp: the message is damaged.
-std::optional<std::vector<std::int64_t>> PointInstants(const PointTimeRule& rule, Timestamp stamp,
-                                                       const std::vector<double>& raw);
+[[nodiscard]] std::optional<std::vector<std::int64_t>> PointInstants(
+    const PointTimeRule& rule, Timestamp stamp, const std::vector<double>& raw);
 
 }  // namespace lio

@@ -20,7 +20,7 @@ struct PointLayout {
 };
 
 // Returns nothing when x, y or z is missing or not floating point.
-std::optional<PointLayout> FindLayout(const std::vector<CloudField>& fields);
+[[nodiscard]] std::optional<PointLayout> FindLayout(const std::vector<CloudField>& fields);
 
 // Holds the points of one cloud as columns, in the message's order. Points that are not finite, at
 // the origin (a driver's "no return") or without finite time are left out.
@@ -34,13 +34,13 @@ struct CloudPoints {
   std::int64_t num_nonfinite = 0;
   std::int64_t num_zero = 0;  // points without return
 
-  std::size_t size() const { return x_m.size(); }
+  [[nodiscard]] std::size_t size() const { return x_m.size(); }
 };
 
 // Reuses the memory of `points`. `layout` must come from this cloud's fields.
 void ReadPoints(const RosCloud& cloud, const PointLayout& layout, CloudPoints& points);
 
 // Returns e.g. "x y z intensity ring(uint16) time(float32)", for the user.
-std::string DescribeFields(const std::vector<CloudField>& fields);
+[[nodiscard]] std::string DescribeFields(const std::vector<CloudField>& fields);
 
 }  // namespace lio

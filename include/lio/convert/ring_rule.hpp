@@ -33,7 +33,7 @@ class RingObserver {
  public:
   void Add(const CloudPoints& points, std::uint32_t height, std::uint32_t width);
   // `table` is the model that the user named, if any.
-  RingRule Decide(const std::optional<BeamTable>& table) const;
+  [[nodiscard]] RingRule Decide(const std::optional<BeamTable>& table) const;
 
  private:
   struct Elevations {
@@ -41,7 +41,7 @@ class RingObserver {
     std::vector<std::int64_t> count;
 
     void Add(std::size_t number, double elevation_rad);
-    std::vector<std::uint16_t> RingOfSource(std::string& order) const;
+    [[nodiscard]] std::vector<std::uint16_t> RingOfSource(std::string& order) const;
   };
 
   Elevations by_field_;
@@ -54,6 +54,7 @@ class RingObserver {
 };
 
 // Returns one ring per point; empty for kNone.
-std::vector<std::uint16_t> AssignRings(const RingRule& rule, const CloudPoints& points);
+[[nodiscard]] std::vector<std::uint16_t> AssignRings(const RingRule& rule,
+                                                     const CloudPoints& points);
 
 }  // namespace lio

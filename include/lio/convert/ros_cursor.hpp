@@ -25,7 +25,7 @@ class RosCursor {
   bool big_endian() const { return big_endian_; }
   RosEncoding encoding() const { return encoding_; }
   // Returns true when everything is read, except for the few bytes with which CDR may pad.
-  bool AtEnd() const;
+  [[nodiscard]] bool AtEnd() const;
 
   template <typename T>
   T Read() {

@@ -16,7 +16,7 @@
 namespace lio {
 
 // Converts "sensor_msgs/msg/Imu" (ROS 2) to "sensor_msgs/Imu" (ROS 1): they are the same type.
-std::string Ros1TypeName(std::string_view type);
+[[nodiscard]] std::string Ros1TypeName(std::string_view type);
 
 struct RosHeader {
   Timestamp stamp;
@@ -35,7 +35,7 @@ enum class FieldType : std::uint8_t {
   kFloat32 = 7,
   kFloat64 = 8,
 };
-int NumBytes(FieldType type);
+[[nodiscard]] int NumBytes(FieldType type);
 
 struct CloudField {
   std::string name;
@@ -56,14 +56,14 @@ struct RosCloud {
   std::uint32_t row_step = 0;  // at least width * point_step after decoding
   ByteView data;
 
-  std::size_t num_points() const { return std::size_t{height} * width; }
+  [[nodiscard]] std::size_t num_points() const { return std::size_t{height} * width; }
 };
 
-std::optional<ImuSample> DecodeRosImu(ByteView bytes, RosEncoding encoding);
+[[nodiscard]] std::optional<ImuSample> DecodeRosImu(ByteView bytes, RosEncoding encoding);
 // Returns nothing also when a field extends beyond the point, when `data` is too short for height
 // and width, and when a datatype is unknown.
-std::optional<RosCloud> DecodeRosCloud(ByteView bytes, RosEncoding encoding);
-std::optional<StampedPose> DecodeRosOdometry(ByteView bytes, RosEncoding encoding);
-std::optional<StampedPose> DecodeRosPoseStamped(ByteView bytes, RosEncoding encoding);
+[[nodiscard]] std::optional<RosCloud> DecodeRosCloud(ByteView bytes, RosEncoding encoding);
+[[nodiscard]] std::optional<StampedPose> DecodeRosOdometry(ByteView bytes, RosEncoding encoding);
+[[nodiscard]] std::optional<StampedPose> DecodeRosPoseStamped(ByteView bytes, RosEncoding encoding);
 
 }  // namespace lio

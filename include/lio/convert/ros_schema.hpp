@@ -24,10 +24,11 @@ class RosSchema {
   // `definition` lists the message's fields, then those of the types it uses, each after a line of
   // "=" and "MSG: package/Type", as ROS writes it. `type` is the message's own type,
   // "package/Type". Returns nothing when a type is missing or a line is no field.
-  static std::optional<RosSchema> Parse(std::string_view definition, std::string_view type);
+  [[nodiscard]] static std::optional<RosSchema> Parse(std::string_view definition,
+                                                      std::string_view type);
 
   // Returns nothing when the bytes are not exactly such a message.
-  std::optional<RosNumbers> Read(ByteView bytes, RosEncoding encoding) const;
+  [[nodiscard]] std::optional<RosNumbers> Read(ByteView bytes, RosEncoding encoding) const;
 
  private:
   enum class Kind { kNumber, kString, kTime, kMessage };
@@ -44,18 +45,18 @@ class RosSchema {
     std::vector<Field> fields;
   };
 
-  bool ParseLine(std::string_view line, Message& message) const;
-  bool LinkField(Field& field, const std::string& package) const;
-  bool Link();
+  [[nodiscard]] bool ParseLine(std::string_view line, Message& message) const;
+  [[nodiscard]] bool LinkField(Field& field, const std::string& package) const;
+  [[nodiscard]] bool Link();
   struct Walk {
     RosCursor cursor;
     RosNumbers numbers;
     int num_values_left;  // limits what a hostile definition can ask for
     int depth = 0;
   };
-  bool ReadMessage(Walk& walk, std::size_t message, const std::string& prefix) const;
+  [[nodiscard]] bool ReadMessage(Walk& walk, std::size_t message, const std::string& prefix) const;
   // The value is skipped when the name is empty.
-  bool ReadField(Walk& walk, const Field& field, const std::string& name) const;
+  [[nodiscard]] bool ReadField(Walk& walk, const Field& field, const std::string& name) const;
 
   std::vector<Message> messages_;  // the first is the message itself
 };

@@ -43,7 +43,8 @@ struct TopicChoice {
 // Finds topics by type if the options name none. Throws UsageError for an ambiguous topic, and for
 // a named one that is missing or of a wrong type. Throws InputError when the bag has no
 // PointCloud2; the error says so when the bag has Livox's own messages instead.
-TopicChoice ChooseTopics(const std::vector<BagTopic>& topics, const RosbagOptions& options);
+[[nodiscard]] TopicChoice ChooseTopics(const std::vector<BagTopic>& topics,
+                                       const RosbagOptions& options);
 
 // Holds the rules for reading this recording's clouds, decided from the first ones.
 struct CloudRules {
@@ -59,7 +60,7 @@ struct CloudRules {
 
 // Reads the first clouds of the bag. Throws InputError when they cannot be interpreted, and
 // UsageError for an unknown lidar model.
-CloudRules ProbeClouds(const TopicChoice& topics, const RosbagOptions& options);
+[[nodiscard]] CloudRules ProbeClouds(const TopicChoice& topics, const RosbagOptions& options);
 
 struct RosbagReport {
   TopicChoice topics;
@@ -82,13 +83,13 @@ struct RosbagReport {
   std::vector<std::string> notes;
 
   // Returns true when something was lost, which means exit code 5.
-  bool IsDamaged() const;
+  [[nodiscard]] bool IsDamaged() const;
 };
 
 // Throws UsageError, InputError, or std::runtime_error when an output cannot be written.
-RosbagReport ConvertRosbag(const RosbagOptions& options);
+[[nodiscard]] RosbagReport ConvertRosbag(const RosbagOptions& options);
 
 // Returns the summary for the user, one "name: value" per line.
-std::string FormatReport(const RosbagReport& report, const RosbagOptions& options);
+[[nodiscard]] std::string FormatReport(const RosbagReport& report, const RosbagOptions& options);
 
 }  // namespace lio

@@ -23,7 +23,8 @@ struct FrameLink {
 
 // Decodes a tf2_msgs/TFMessage (tf/tfMessage is the same). Returns nothing when its bytes are not
 // exactly one; transforms without a rotation are left out.
-std::optional<std::vector<FrameLink>> DecodeRosTransforms(ByteView bytes, RosEncoding encoding);
+[[nodiscard]] std::optional<std::vector<FrameLink>> DecodeRosTransforms(ByteView bytes,
+                                                                        RosEncoding encoding);
 
 // Holds the links between frames. tf forbids two parents of a frame, so a later link of the same
 // child replaces the earlier one.
@@ -31,7 +32,8 @@ class FrameTree {
  public:
   void Add(const FrameLink& link);
   // Returns T_target_source; nothing when the frames are not connected.
-  std::optional<Pose> Find(const std::string& target, const std::string& source) const;
+  [[nodiscard]] std::optional<Pose> Find(const std::string& target,
+                                         const std::string& source) const;
   bool empty() const { return links_.empty(); }
 
  private:
@@ -39,7 +41,7 @@ class FrameTree {
     std::string frame;
     Pose T_ancestor_frame;
   };
-  std::vector<Ancestor> AncestorsOf(const std::string& frame) const;
+  [[nodiscard]] std::vector<Ancestor> AncestorsOf(const std::string& frame) const;
 
   std::map<std::string, FrameLink> links_;  // by child
 };
@@ -53,7 +55,8 @@ struct MountedSensors {
 
 // Reads the bag's beginning, a minute of it at most, until all is known. Throws InputError when the
 // bag cannot be opened.
-MountedSensors FindMounting(const std::filesystem::path& bag, const std::string& lidar_topic,
-                            const std::string& imu_topic);
+[[nodiscard]] MountedSensors FindMounting(const std::filesystem::path& bag,
+                                          const std::string& lidar_topic,
+                                          const std::string& imu_topic);
 
 }  // namespace lio

@@ -25,7 +25,7 @@ struct TruthCounts {
 };
 
 // Returns true for nav_msgs/Odometry, geometry_msgs/PoseStamped and every INSPVAX.
-bool IsTruthType(const std::string& type);
+[[nodiscard]] bool IsTruthType(const std::string& type);
 
 class TruthSource {
  public:
@@ -39,14 +39,14 @@ class TruthSource {
 
   const TruthCounts& counts() const { return counts_; }
   // Says, for the user, in which frame the poses are and of which body.
-  std::string description() const;
+  [[nodiscard]] std::string description() const;
 
  private:
   struct Decoded {
     bool is_sound = false;
     std::optional<StampedPose> pose;  // empty for a sound row whose status is not good
   };
-  Decoded Decode(const BagMessage& message);
+  [[nodiscard]] Decoded Decode(const BagMessage& message);
 
   BagTopic topic_;
   std::optional<RosSchema> schema_;  // used for INSPVAX

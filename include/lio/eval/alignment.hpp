@@ -29,7 +29,7 @@ struct PathAlignment {
 // Minimizes the squared position errors without scale (Umeyama, TPAMI 13(4), 1991). When the path
 // does not determine the whole rotation (its spread across its main direction is below 5 cm; for
 // kYaw: in the plane), the open part is taken from the attitudes.
-PathAlignment Align(const PosePairs& pairs, AlignMode mode);
+[[nodiscard]] PathAlignment Align(const PosePairs& pairs, AlignMode mode);
 
 // Holds the constant rotation between the body frames: R_truth = R_align R_estimate
 // Inverse(rotation), up to noise; `rotation` maps the estimate's body axes to the truth's.
@@ -46,10 +46,10 @@ struct RotationOffset {
 };
 
 // `se3` must be Align(pairs, kSe3): with another alignment a turned world looks like a turned body.
-RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3);
+[[nodiscard]] RotationOffset FindRotationOffset(const PosePairs& pairs, const PathAlignment& se3);
 
 // Returns the rotation with the smallest sum of squared chordal distances (Markley et al.,
 // "Averaging quaternions", 2007). At least one rotation is required.
-Quaternion MeanRotation(const std::vector<Quaternion>& rotations);
+[[nodiscard]] Quaternion MeanRotation(const std::vector<Quaternion>& rotations);
 
 }  // namespace lio

@@ -42,16 +42,17 @@ struct Association {
 
 // Throws std::runtime_error that says what to do when there are fewer than three pairs, when a
 // stamped and an unstamped file differ in rows, or when a stamped file has a single pose.
-Association Associate(const Trajectory& truth, const Trajectory& estimate,
-                      std::optional<double> max_gap_s = std::nullopt);
+[[nodiscard]] Association Associate(const Trajectory& truth, const Trajectory& estimate,
+                                    std::optional<double> max_gap_s = std::nullopt);
 
 // Interpolates `poses` at `stamp`, across gaps of at most `max_gap_s`.
 enum class LookUp { kFound, kOutside, kInGap };
-LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s, Pose& pose);
+[[nodiscard]] LookUp InterpolateAt(const StampedPoses& poses, Timestamp stamp, double max_gap_s,
+                                   Pose& pose);
 
 // Returns the median time between neighbours [s]; 0 for fewer than two poses.
-double MedianPeriod(const StampedPoses& poses);
+[[nodiscard]] double MedianPeriod(const StampedPoses& poses);
 // Returns the widest gap [s] that is interpolated across when the user gives none.
-double AutomaticMaxGap(double period_s);
+[[nodiscard]] double AutomaticMaxGap(double period_s);
 
 }  // namespace lio

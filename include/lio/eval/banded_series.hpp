@@ -20,7 +20,7 @@ struct TimedValue {
 };
 using TimedValues = std::vector<TimedValue>;  // values of one run, in the order of time
 
-double Mean(const TimedValues& values);  // 0 for no values
+[[nodiscard]] double Mean(const TimedValues& values);  // 0 for no values
 
 // Holds the mean over the runs at each instant, and its 95 % band.
 struct BandedSeries {
@@ -36,7 +36,7 @@ struct BandedSeries {
 // The values must be chi-square distributed with `dof` when the estimator is consistent; at least
 // one value is required. Instants of different runs are joined when their times since the start
 // agree to half a median interval.
-BandedSeries MakeBandedSeries(const std::vector<TimedValues>& runs, int dof);
+[[nodiscard]] BandedSeries MakeBandedSeries(const std::vector<TimedValues>& runs, int dof);
 
 // Holds the autocorrelation averaged over runs: that of white values stays within +-1.96 / sqrt(N),
 // N the number of products.
@@ -47,14 +47,15 @@ struct Whiteness {
 };
 
 // Computes the autocorrelation about `mean`; when absent, about the mean of each run.
-Whiteness ComputeWhiteness(const std::vector<TimedValues>& runs, std::optional<double> mean);
+[[nodiscard]] Whiteness ComputeWhiteness(const std::vector<TimedValues>& runs,
+                                         std::optional<double> mean);
 
 // Holds the shares of |error| inside 1, 2 and 3 sigma; for a Gaussian: 0.683, 0.954, 0.997.
 using SigmaShares = std::array<double, 3>;
-SigmaShares SharesWithin(const std::vector<double>& errors_in_sigmas);
+[[nodiscard]] SigmaShares SharesWithin(const std::vector<double>& errors_in_sigmas);
 
 // Returns e' C^-1 e, which is chi-square with the size of e as dof when e is a draw from N(0, C).
 // `cov` must be positive definite.
-double NormalisedSquare(const Eigen::VectorXd& error, const Eigen::MatrixXd& cov);
+[[nodiscard]] double NormalisedSquare(const Eigen::VectorXd& error, const Eigen::MatrixXd& cov);
 
 }  // namespace lio

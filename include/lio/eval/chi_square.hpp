@@ -10,12 +10,12 @@ struct Band {
   double low = 0;
   double high = 0;
 
-  bool Contains(double value) const { return value >= low && value <= high; }
+  [[nodiscard]] bool Contains(double value) const { return value >= low && value <= high; }
 };
 
 // Returns the interval in which the mean of `num_runs` independent chi2(dof) values, divided by
 // dof, lies with 95 % probability; both tails are equally likely. A consistent estimator's expected
 // value is 1.
-Band MeanBandPerDof(int dof, int num_runs);
+[[nodiscard]] Band MeanBandPerDof(int dof, int num_runs);
 
 }  // namespace lio

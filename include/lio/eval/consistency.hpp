@@ -33,6 +33,6 @@ struct Consistency {
 
 // At least one run is required. Instants of different runs are joined when their times since the
 // runs' starts agree to half a median interval.
-Consistency JudgeConsistency(const std::vector<RunErrors>& runs);
+[[nodiscard]] Consistency JudgeConsistency(const std::vector<RunErrors>& runs);
 
 }  // namespace lio

@@ -11,11 +11,11 @@
 
 namespace lio {
 
-std::string ConsistencyText(const Consistency& consistency);
-nlohmann::ordered_json ConsistencyJson(const Consistency& consistency);
+[[nodiscard]] std::string ConsistencyText(const Consistency& consistency);
+[[nodiscard]] nlohmann::ordered_json ConsistencyJson(const Consistency& consistency);
 
 // Returns the data that tools/plot/plot_consistency.py draws: the JSON above with the series over
 // time.
-nlohmann::ordered_json ConsistencyPictureData(const Consistency& consistency);
+[[nodiscard]] nlohmann::ordered_json ConsistencyPictureData(const Consistency& consistency);
 
 }  // namespace lio

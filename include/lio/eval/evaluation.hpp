@@ -73,8 +73,8 @@ struct Evaluation {
 };
 
 // Throws std::runtime_error as Associate does.
-Evaluation Evaluate(const Trajectory& truth, const Trajectory& estimate,
-                    const EvaluationOptions& options);
+[[nodiscard]] Evaluation Evaluate(const Trajectory& truth, const Trajectory& estimate,
+                                  const EvaluationOptions& options);
 
 // Holds one row per pair of `evaluation.association.pairs`, for pictures: the estimate's pose,
 // moved by the alignment, against the truth.
@@ -82,6 +82,6 @@ struct ErrorSeries {
   std::vector<double> position_m;
   std::vector<double> rotation_deg;
 };
-ErrorSeries ComputeErrorSeries(const Evaluation& evaluation);
+[[nodiscard]] ErrorSeries ComputeErrorSeries(const Evaluation& evaluation);
 
 }  // namespace lio

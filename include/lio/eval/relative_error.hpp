@@ -24,15 +24,17 @@ struct StepErrors {
   RelativeErrors errors;
   double interval_s = 0;  // median interval; 0 when paired by index
 };
-StepErrors ComputeStepErrors(const Association& association);
+[[nodiscard]] StepErrors ComputeStepErrors(const Association& association);
 
 // Compares each pair with the one nearest to `interval_s` later, if it is within half a median
 // interval of it. Empty when paired by index, or when the recording is too short.
-std::optional<RelativeErrors> ComputeRpeOverTime(const Association& association, double interval_s);
+[[nodiscard]] std::optional<RelativeErrors> ComputeRpeOverTime(const Association& association,
+                                                               double interval_s);
 
 // Compares each pair with the first one whose path is longer by `length_m`. Empty when the path is
 // shorter.
-std::optional<RelativeErrors> ComputeRpeOverDistance(const PosePairs& pairs, double length_m);
+[[nodiscard]] std::optional<RelativeErrors> ComputeRpeOverDistance(const PosePairs& pairs,
+                                                                   double length_m);
 
 // Holds the mean relative error of segments of many lengths, as in the KITTI odometry benchmark
 // (Geiger et al., CVPR 2012, and its development kit): segments start one second (by index: ten
@@ -53,9 +55,9 @@ struct Drift {
   double rotation_deg_per_100m = 0;
   std::vector<SegmentErrors> by_length;  // only lengths that fit
 };
-Drift ComputeDrift(const Association& association);
+[[nodiscard]] Drift ComputeDrift(const Association& association);
 
 // Returns the length of the path up to each pair [m].
-std::vector<double> PathLengths(const PosePairs& pairs);
+[[nodiscard]] std::vector<double> PathLengths(const PosePairs& pairs);
 
 }  // namespace lio

@@ -16,11 +16,13 @@ struct ReportedFiles {
   std::string estimate;
 };
 
-std::string EvaluationText(const Evaluation& evaluation, const ReportedFiles& files);
-nlohmann::ordered_json EvaluationJson(const Evaluation& evaluation, const ReportedFiles& files);
+[[nodiscard]] std::string EvaluationText(const Evaluation& evaluation, const ReportedFiles& files);
+[[nodiscard]] nlohmann::ordered_json EvaluationJson(const Evaluation& evaluation,
+                                                    const ReportedFiles& files);
 
 // Returns the data that tools/plot/plot_trajectory.py draws: paths in the estimate's world, errors
 // and heights over time.
-nlohmann::ordered_json PictureData(const Evaluation& evaluation, const ReportedFiles& files);
+[[nodiscard]] nlohmann::ordered_json PictureData(const Evaluation& evaluation,
+                                                 const ReportedFiles& files);
 
 }  // namespace lio

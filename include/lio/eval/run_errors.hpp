@@ -37,8 +37,8 @@ struct RunFiles {
 // Reads DIR's two files of `frame` and, when it exists, DIR/registration.csv. The truth is
 // DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error that names file
 // and line, also when the two tables' stamps differ.
-RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
-                 RunFrame frame = RunFrame::kMap);
+[[nodiscard]] RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
+                               RunFrame frame = RunFrame::kMap);
 
 struct RunInstant {
   double time_s = 0;  // since the run's first row
@@ -64,10 +64,10 @@ struct RunErrors {
 
 // Leaves out the first row, whose error is zero by construction. Throws std::runtime_error when no
 // row is left.
-RunErrors ComputeRunErrors(const RunFiles& run);
+[[nodiscard]] RunErrors ComputeRunErrors(const RunFiles& run);
 
 // Returns the turn about z and shift that carry `truth` onto `estimate` as far as such a motion
 // can: the rotation left between them has no vertical part.
-Pose LevelAlignment(const Pose& truth, const Pose& estimate);
+[[nodiscard]] Pose LevelAlignment(const Pose& truth, const Pose& estimate);
 
 }  // namespace lio

@@ -16,9 +16,9 @@ struct ErrorStats {
   double max = 0;
 };
 
-ErrorStats Summarise(std::vector<double> samples);
+[[nodiscard]] ErrorStats Summarise(std::vector<double> samples);
 
 // Returns the middle value, or the mean of the two in the middle; 0 for no samples.
-double Median(std::vector<double> samples);
+[[nodiscard]] double Median(std::vector<double> samples);
 
 }  // namespace lio

@@ -11,13 +11,13 @@
 namespace lio {
 
 // Returns the estimate with `offset_s` added to its stamps.
-Trajectory Shifted(const Trajectory& estimate, double offset_s);
+[[nodiscard]] Trajectory Shifted(const Trajectory& estimate, double offset_s);
 
 // Returns the offset within +-1 s that, added to the estimate's stamps, makes the position error
 // after SE(3) alignment least; its tenth of a millisecond is searched for, its truth depends on the
 // motion: a body at rest shows none. Throws std::runtime_error as Associate does, and for files
 // without stamps.
-double FindTimeOffset(const Trajectory& truth, const Trajectory& estimate,
-                      std::optional<double> max_gap_s);
+[[nodiscard]] double FindTimeOffset(const Trajectory& truth, const Trajectory& estimate,
+                                    std::optional<double> max_gap_s);
 
 }  // namespace lio

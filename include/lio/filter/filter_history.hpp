@@ -17,7 +17,7 @@
 
 #include "lio/base/chi_square.hpp"
 #include "lio/filter/filter_parameters.hpp"
-#include "lio/filter/pose_update.hpp"
+#include "lio/filter/pose_event.hpp"
 #include "lio/filter/process_model.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
@@ -29,15 +29,6 @@ enum class EventOutcome {
   kBeforeStart,  // the stamp is before the state the filter started from
   kDuplicate,    // an event of this kind has the same stamp
   kGated,        // the innovation is beyond the gate: the estimate is unchanged
-};
-
-// NIS-based covariance inflation: factors (1 or more) on the translation and rotation blocks of a
-// pose's covariance, from the NIS of about the last ten poses. Errors that persist (a clock offset,
-// a loose mount, a wrong extrinsic) make registration's covariances too small; inflation weighs
-// such poses less instead of gating every other one. docs/filter.md, Pose update.
-struct CovarianceInflation {
-  double translation = 1.0;
-  double rotation = 1.0;
 };
 
 // Settings of one history; defaults of the last two groups are those of filter_parameters.hpp.
@@ -53,16 +44,6 @@ struct HistoryOptions {
   CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,
                                     kFilterParameters.inflation.max_factor};
   ImuOutageParameters imu_outage = kFilterParameters.imu_outage;
-};
-
-struct PoseEvent {
-  PoseMeasurement measurement;
-  // Fuses the pose even beyond the gate, with the covariance or the unseen motion that explains it.
-  bool force = false;
-  // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
-  bool is_clock_set = false;
-  // Nothing is known of the motion before the pose: the estimate is moved to it first (MoveTo).
-  bool replaces_motion = false;
 };
 
 class FilterHistory {
@@ -118,7 +99,6 @@ class FilterHistory {
   std::size_t Insert(Node node);  // inserts and replays; returns the node's index
   void Replay(std::size_t from);
   void Step(std::size_t at);
-  void Fuse(Node& node) const;  // a pose
   // `before`: the node that the step begins at.
   void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, bool is_in_gap) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.

@@ -49,15 +49,11 @@ struct NavState {
 
 // state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
-ErrorVector BoxMinus(const NavState& a, const NavState& b);  // BoxPlus(b, BoxMinus(a, b)) == a
 
 struct Estimate {
   Timestamp stamp;
   NavState state;
   ErrorMatrix cov = ErrorMatrix::Zero();
 };
-
-// The 6x6 covariance of position (m, world) and rotation (rad, right error).
-Matrix6 PoseCov(const Estimate& estimate);
 
 }  // namespace lio

@@ -31,10 +31,6 @@ Vector3 AccelPsd(const ProcessNoise& noise);
 NavState PropagateState(const NavState& state, const ImuSample& from, const ImuSample& to,
                         const Vector3& g_world);
 
-// d(error at `to`) / d(error at `from`) along PropagateState. Dense 21x21, for tests and analysis.
-ErrorMatrix TransitionMatrix(const NavState& before, const NavState& after, const ImuSample& from,
-                             const ImuSample& to);
-
 // Propagates state and covariance. `from.stamp` is the estimate's stamp; needs to.stamp >=
 // from.stamp.
 void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,

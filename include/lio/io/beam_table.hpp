@@ -16,20 +16,20 @@ struct BeamTable {
   std::vector<double> elevation_rad;       // above the lidar's xy plane, lowest beam first
   std::vector<double> azimuth_offset_rad;  // relative to the head's azimuth, counter-clockwise
 
-  int num_beams() const { return static_cast<int>(elevation_rad.size()); }
+  [[nodiscard]] int num_beams() const { return static_cast<int>(elevation_rad.size()); }
   // Returns the beam nearest in elevation.
-  int NearestBeam(double elevation) const;
+  [[nodiscard]] int NearestBeam(double elevation) const;
 };
 
 // Throws UsageError that lists the known models when there is no such file, and InputError that
 // names the file and the fault when the file is no beam table.
-BeamTable LoadBeamTable(const std::string& model);
+[[nodiscard]] BeamTable LoadBeamTable(const std::string& model);
 
 // Returns the table's elevations; for model "generic" the list is empty. Throws as LoadBeamTable.
-std::vector<double> BeamElevations(const std::string& model);
+[[nodiscard]] std::vector<double> BeamElevations(const std::string& model);
 
 // Returns the folder of the configuration files: the environment's LIO_CONFIG_DIR, else the folder
 // beside the program (../../config, ../config, ../share/liod/config), else the source tree's.
-std::filesystem::path ConfigDirectory();
+[[nodiscard]] std::filesystem::path ConfigDirectory();
 
 }  // namespace lio

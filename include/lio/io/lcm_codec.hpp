@@ -40,8 +40,9 @@ inline constexpr std::uint64_t kScanFingerprint = 0x8a84c8aeb5c1b9ef;
 
 // Unless the result is kOk, the outputs are unchanged or half filled and must not be used. Values
 // are not judged here: a sample may be NaN, a chunk inconsistent.
-DecodeStatus DecodeImu(ByteView bytes, ImuSample& sample, std::int32_t& seq);
-DecodeStatus DecodeChunk(ByteView bytes, ScanChunk& chunk);  // reuses chunk.points' memory
+[[nodiscard]] DecodeStatus DecodeImu(ByteView bytes, ImuSample& sample, std::int32_t& seq);
+[[nodiscard]] DecodeStatus DecodeChunk(ByteView bytes,
+                                       ScanChunk& chunk);  // reuses chunk.points' memory
 
 [[nodiscard]] Bytes EncodeImu(const ImuSample& sample, std::int32_t seq);
 // The stamp is truncated to whole microseconds and the points' offsets are moved to match.

@@ -41,7 +41,7 @@ class LevelTrack {
   };
 
   static void Put(const Pose& pose, double (&to)[7]);
-  static Pose Get(const double (&from)[7]);
+  [[nodiscard]] static Pose Get(const double (&from)[7]);
   [[nodiscard]] Pose LastImuPose(const Row& row) const;
 
   std::filesystem::path folder_;

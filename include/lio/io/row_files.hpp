@@ -37,7 +37,8 @@ class RowFiles {
     OutputFile poses, covariances;
   };
 
-  static Track OpenTrack(const std::filesystem::path& folder, const std::string& frame);
+  [[nodiscard]] static Track OpenTrack(const std::filesystem::path& folder,
+                                       const std::string& frame);
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
   void WriteScan(const ScanOutput& output, std::optional<Trust> trust);
   void WriteImuRate(const NavOutput& nav);

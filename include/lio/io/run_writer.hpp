@@ -74,9 +74,9 @@ class RunWriter {
   void Finish(const RunStats& stats);
 
  private:
-  std::filesystem::path FolderOf(int segment) const;
+  [[nodiscard]] std::filesystem::path FolderOf(int segment) const;
   // Has the clock gone back before this row?
-  bool StepsBack(const Output& output);
+  [[nodiscard]] bool StepsBack(const Output& output);
   void WriteStats(const RunStats& stats);
 
   std::filesystem::path folder_;

@@ -58,7 +58,7 @@ struct Command {
 };
 
 // An unknown action gives kBadFormat.
-DecodeStatus DecodeCommand(ByteView bytes, Command& command);
+[[nodiscard]] DecodeStatus DecodeCommand(ByteView bytes, Command& command);
 [[nodiscard]] Bytes EncodeCommand(const Command& command);
 
 // The 64-bit FNV-1a hash of a text, e.g. of the printed options

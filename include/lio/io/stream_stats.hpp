@@ -15,7 +15,7 @@
 namespace lio {
 
 // The middle value, the upper one of the two in the middle; 0 for none.
-double UpperMedian(std::vector<double> values);
+[[nodiscard]] double UpperMedian(std::vector<double> values);
 
 class StreamStats {
  public:
@@ -24,15 +24,15 @@ class StreamStats {
   std::int64_t num() const { return num_; }
   std::optional<Timestamp> first_stamp() const { return first_; }
   std::optional<Timestamp> last_stamp() const { return last_; }
-  double rate_hz() const;         // one over the typical period; 0 for less than two samples
-  double span_s() const;          // last stamp minus first
-  std::int64_t num_gaps() const;  // periods over three times the typical one
+  [[nodiscard]] double rate_hz() const;  // one over the typical period; 0 for less than two samples
+  [[nodiscard]] double span_s() const;   // last stamp minus first
+  [[nodiscard]] std::int64_t num_gaps() const;  // periods over three times the typical one
   double longest_gap_s() const { return longest_s_; }
   std::int64_t num_backwards() const { return num_backwards_; }  // stamps not above the last one
-  double mean_delay_s() const;                                   // receive time minus stamp
+  [[nodiscard]] double mean_delay_s() const;                     // receive time minus stamp
 
  private:
-  double TypicalPeriod() const;  // median of the first periods
+  [[nodiscard]] double TypicalPeriod() const;  // median of the first periods
 
   std::int64_t num_ = 0;
   std::optional<Timestamp> first_;

@@ -111,13 +111,15 @@ class GaussianMap {
   void AddPoints(const ViewOf& view_of);
   void Prefetch(std::int32_t cell) const;
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
-  void UpdatePatch(std::int32_t cell);
-  bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
-  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
   void Remove(std::int32_t cell);
   void DropOldCells();
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
+
+  // gaussian_map_patch.cpp
+  void UpdatePatch(std::int32_t cell);
+  bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
 
   NdtOptions options_;
   bool finds_vertical_;

@@ -67,7 +67,6 @@ class KeyframeMap {
   std::size_t num_keyframes() const { return num_keyframes_; }
   std::size_t num_points() const { return num_points_; }
   std::size_t memory_bytes() const;
-  bool IsInSubmap(std::int32_t keyframe) const { return keyframes_[ToIndex(keyframe)].is_chosen; }
 
  private:
   static constexpr int kNodeSize = 8;  // points; chosen: two SSE registers of floats
@@ -102,10 +101,11 @@ class KeyframeMap {
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
+  // keyframe_map_search.cpp
   void SearchAround(Search& search, int radius_voxels) const;
   void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;
-  std::vector<std::int32_t> HullKeyframes() const;
+  std::vector<std::int32_t> HullKeyframes(const std::vector<std::int32_t>& all) const;
 
   KeyframeMapOptions options_;
   Blocks blocks_;

@@ -83,7 +83,7 @@ class Odometry {
   Trust trust() const;
 
  private:
-  class Impl;
+  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -5,6 +5,8 @@
 // frame at that instant, already deskewed.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,6 +47,14 @@ struct MatchInput {
   std::span<const float> from_mid_sweep_s = {};
   Pose T_imu_lidar = {};  // tells the points' beams apart
 };
+
+// The whole scan is inserted, of which a part, evenly spread, is matched: so many points go into
+// the map for each matched one.
+[[nodiscard]] inline double InsertedPerMatched(const MatchInput& input) {
+  const std::size_t num_matched = input.points_imu.size();
+  const std::size_t num_inserted = std::max(input.scan_points_imu.size(), num_matched);
+  return static_cast<double>(num_inserted) / static_cast<double>(num_matched);
+}
 
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;

@@ -41,7 +41,7 @@ class Replay {
  private:
   void Add(InputItem item);
   void Match();
-  bool StartMatch();
+  [[nodiscard]] bool StartMatch();
   void TakeOutputs();
   void Finish(const LogInput& input, double wall_s);
 

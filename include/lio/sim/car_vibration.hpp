@@ -55,8 +55,8 @@ class CarVibration {
   CarVibration(const Trajectory& trajectory, std::uint64_t seed);
 
   // Times must ascend from call to call: phases are integrated.
-  Shake At(double t_s, double speed_mps);
-  bool EngineRunsAt(double t_s) const;
+  [[nodiscard]] Shake At(double t_s, double speed_mps);
+  [[nodiscard]] bool EngineRunsAt(double t_s) const;
 
  private:
   static constexpr std::size_t kNumWheels = 4;
@@ -64,10 +64,10 @@ class CarVibration {
     double begin_s = 0.0;
     double end_s = 0.0;
   };
-  Shake Engine(double t_s, double speed_mps, double dt_s);
-  Shake Wheels(double speed_mps, double dt_s);
-  Shake Rock(double t_s) const;
-  Shake Tone(double amplitude_mps2, double frequency_hz, double phase_rad) const;
+  [[nodiscard]] Shake Engine(double t_s, double speed_mps, double dt_s);
+  [[nodiscard]] Shake Wheels(double speed_mps, double dt_s);
+  [[nodiscard]] Shake Rock(double t_s) const;
+  [[nodiscard]] Shake Tone(double amplitude_mps2, double frequency_hz, double phase_rad) const;
 
   std::vector<Span> engine_;  // ascending
   Vector3 direction_;         // in which the engine shakes, imu
@@ -81,6 +81,6 @@ class CarVibration {
 };
 
 // Returns the firing rate [Hz] of the engine at a speed; gears are changed in steps.
-double FiringRate(double speed_mps);
+[[nodiscard]] double FiringRate(double speed_mps);
 
 }  // namespace lio::sim

@@ -11,9 +11,10 @@ namespace lio::sim {
 
 // Returns the path of `<config>/<folder>/<name>.yaml`, or `name` itself when it is a YAML file.
 // Throws std::runtime_error that lists the models of the folder when there is none of that name.
-std::filesystem::path FindDataFile(const std::string& folder, const std::string& name);
+[[nodiscard]] std::filesystem::path FindDataFile(const std::string& folder,
+                                                 const std::string& name);
 
 // Returns the names of the models in a folder, sorted.
-std::vector<std::string> ListDataFiles(const std::string& folder);
+[[nodiscard]] std::vector<std::string> ListDataFiles(const std::string& folder);
 
 }  // namespace lio::sim

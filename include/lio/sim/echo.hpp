@@ -40,13 +40,13 @@ struct RangeWalk {
 };
 
 // Returns the light that comes back from a surface at 1 m; a white matt one gives 1.
-double Backscatter(const MaterialTraits& traits, double cos_incidence);
-double BackscatterOf(const Echo& echo);
+[[nodiscard]] double Backscatter(const MaterialTraits& traits, double cos_incidence);
+[[nodiscard]] double BackscatterOf(const Echo& echo);
 
 // Returns Velodyne's scale: matt surfaces have 0..100 in per cent, retroreflectors 101..255.
-std::uint16_t IntensityOf(double backscatter);
+[[nodiscard]] std::uint16_t IntensityOf(double backscatter);
 
 // Returns the range error [m] of an echo of this backscatter.
-double RangeWalkOf(const RangeWalk& walk, double backscatter);
+[[nodiscard]] double RangeWalkOf(const RangeWalk& walk, double backscatter);
 
 }  // namespace lio::sim

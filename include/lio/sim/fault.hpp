@@ -42,14 +42,14 @@ struct Fault {
   FaultChannel channel = FaultChannel::kBoth;
   std::map<std::string, double> values;  // holds every key of the kind
 
-  double Get(const std::string& key) const { return values.at(key); }
+  [[nodiscard]] double Get(const std::string& key) const { return values.at(key); }
 };
 
 // Throws std::invalid_argument that says what is wrong and lists the valid kinds or keys.
-Fault ParseFault(const std::string& text);
+[[nodiscard]] Fault ParseFault(const std::string& text);
 
 // Lists the kinds with their keys and defaults, for --help.
-std::string DescribeFaults();
+[[nodiscard]] std::string DescribeFaults();
 
 // Applies the faults that alter single messages.
 class FaultInjector {
@@ -58,11 +58,11 @@ class FaultInjector {
   FaultInjector(std::vector<Fault> faults, std::uint64_t seed, Timestamp begin);
 
   // Returns what the log receives for one message: nothing, the message itself or several messages.
-  std::vector<Message> Apply(Message message) const;
+  [[nodiscard]] std::vector<Message> Apply(Message message) const;
 
  private:
   void ApplyOne(const Fault& fault, std::uint64_t fault_key, std::vector<Message>& messages) const;
-  bool InWindow(const Fault& fault, const Message& message) const;
+  [[nodiscard]] bool InWindow(const Fault& fault, const Message& message) const;
 
   std::vector<Fault> faults_;
   std::uint64_t seed_;
@@ -71,8 +71,8 @@ class FaultInjector {
 
 // The next two functions give the faults that do not alter single messages. `begin_s` is the
 // trajectory time of the log's begin [s].
-std::vector<Dust> DustOf(const std::vector<Fault>& faults, double begin_s);
+[[nodiscard]] std::vector<Dust> DustOf(const std::vector<Fault>& faults, double begin_s);
 // Returns the extrinsic that the configuration claims.
-Pose ClaimedExtrinsic(const std::vector<Fault>& faults, const Pose& T_imu_lidar);
+[[nodiscard]] Pose ClaimedExtrinsic(const std::vector<Fault>& faults, const Pose& T_imu_lidar);
 
 }  // namespace lio::sim

@@ -34,10 +34,10 @@ struct InBetween {
 inline constexpr float kMergedEchoes_m = 0.6f;
 
 // Returns the share of a disc's area beyond a chord at `distance` radii from the centre, 0..1.
-double ShareBeyondChord(double distance);
+[[nodiscard]] double ShareBeyondChord(double distance);
 
 // `key` seeds the draws. The echo's surface is `kNothing` when the whole footprint meets nothing.
-Echo EchoOfFootprint(const Hit& centre, const Rim& rim, const InBetween& in_between,
-                     std::uint64_t key);
+[[nodiscard]] Echo EchoOfFootprint(const Hit& centre, const Rim& rim, const InBetween& in_between,
+                                   std::uint64_t key);
 
 }  // namespace lio::sim

@@ -38,6 +38,6 @@ struct ImuModel {
 
 // `name_or_path` is a model of config/imus/ or a file of that form. Throws std::runtime_error that
 // says what is missing or wrong and lists the models.
-ImuModel LoadImuModel(const std::string& name_or_path);
+[[nodiscard]] ImuModel LoadImuModel(const std::string& name_or_path);
 
 }  // namespace lio::sim

@@ -74,7 +74,7 @@ class ImuSimulator {
   ImuSimulator(const ImuSetup& setup, const Trajectory& trajectory);
 
   // Returns the sample at a trajectory time; times must ascend by the model's period.
-  SimulatedImu Sample(std::int64_t t_ns);
+  [[nodiscard]] SimulatedImu Sample(std::int64_t t_ns);
 
  private:
   // Holds what a vehicle does to the unit at one instant; all zero: nothing.
@@ -95,12 +95,12 @@ class ImuSimulator {
   class Triad {
    public:
     Triad(const InertialModel& model, double dt_s, const Streams& streams);
-    Vector3 Measure(const Vector3& truth, const Stress& stress);
+    [[nodiscard]] Vector3 Measure(const Vector3& truth, const Stress& stress);
     const Vector3& bias() const { return bias_; }
 
    private:
-    static Vector3 Noise(Random& random, double sigma);
-    Vector3 Noise(double sigma) { return Noise(random_, sigma); }
+    [[nodiscard]] static Vector3 Noise(Random& random, double sigma);
+    [[nodiscard]] Vector3 Noise(double sigma) { return Noise(random_, sigma); }
 
     InertialModel model_;
     double dt_s_;
@@ -116,8 +116,8 @@ class ImuSimulator {
     Vector3 bias_ = Vector3::Zero();
   };
 
-  static Streams StreamsOf(std::uint64_t seed, std::uint64_t triad);
-  Stress StressAt(double t_s, const Kinematics& truth, const Vector3& f_imu);
+  [[nodiscard]] static Streams StreamsOf(std::uint64_t seed, std::uint64_t triad);
+  [[nodiscard]] Stress StressAt(double t_s, const Kinematics& truth, const Vector3& f_imu);
 
   ImuSetup setup_;
   const Trajectory* trajectory_;
@@ -129,6 +129,6 @@ class ImuSimulator {
 
 // Returns normal gravity [m/s^2] at sea level and above (WGS 84, Somigliana's formula with free-air
 // correction).
-double NormalGravity(double latitude_rad, double altitude_m);
+[[nodiscard]] double NormalGravity(double latitude_rad, double altitude_m);
 
 }  // namespace lio::sim

@@ -31,7 +31,7 @@ struct SinCos {
   Jet cos;
 };
 
-inline SinCos SinCosOf(const Jet& x) {
+[[nodiscard]] inline SinCos SinCosOf(const Jet& x) {
   const double s = std::sin(x.value);
   const double c = std::cos(x.value);
   const double rate_sq = x.rate * x.rate;

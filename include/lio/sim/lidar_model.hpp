@@ -34,6 +34,6 @@ struct LidarModel {
 
 // `name_or_path` is a model of config/lidars/ or a file of that form. Throws std::runtime_error
 // that says what is missing or wrong and lists the models.
-LidarModel LoadLidarModel(const std::string& name_or_path);
+[[nodiscard]] LidarModel LoadLidarModel(const std::string& name_or_path);
 
 }  // namespace lio::sim

@@ -70,13 +70,14 @@ class LidarSimulator {
   LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory);
 
   // Returns the turn number `index`, counted from 0. Safe from several threads.
-  SimulatedSweep Sweep(std::int64_t index) const;
-  double SweepEnd_s(std::int64_t index) const;  // trajectory time of the sweep's last firing
+  [[nodiscard]] SimulatedSweep Sweep(std::int64_t index) const;
+  // The trajectory time of that sweep's last firing.
+  [[nodiscard]] double SweepEnd_s(std::int64_t index) const;
 
  private:
   struct Cast;
-  Echo GuessStraddling(const Cast& cast, std::size_t index, std::uint64_t key) const;
-  Echo EchoOf(const Cast& cast, std::size_t index, std::uint64_t key) const;
+  [[nodiscard]] Echo GuessStraddling(const Cast& cast, std::size_t index, std::uint64_t key) const;
+  [[nodiscard]] Echo EchoOf(const Cast& cast, std::size_t index, std::uint64_t key) const;
   void AddPoint(const Cast& cast, std::int64_t column, std::size_t beam,
                 SimulatedSweep& sweep) const;
 

@@ -52,7 +52,7 @@ struct MaterialTraits {
   double specular = 0.0;          // share of the light that is reflected as by a mirror
   std::array<float, 3> colour{};  // used in pictures, 0..1
 };
-const MaterialTraits& TraitsOf(Material material);
+[[nodiscard]] const MaterialTraits& TraitsOf(Material material);
 
 struct Mesh {
   std::vector<Vector3f> vertices_m;
@@ -87,6 +87,6 @@ void AddPrism(Mesh& mesh, const std::vector<Vector2>& polygon_m, double z_m, dou
               Material sides, Material top);
 
 // Returns a pose whose x axis points to a heading and whose z axis points up.
-Pose UprightPose(const Vector3& position_m, double heading_rad);
+[[nodiscard]] Pose UprightPose(const Vector3& position_m, double heading_rad);
 
 }  // namespace lio::sim

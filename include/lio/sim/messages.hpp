@@ -34,7 +34,7 @@ class ArrivalQueue {
     waiting_.emplace(arrival, std::move(message));
   }
   // Returns the next message that arrives before `limit`.
-  std::optional<Message> PopBefore(Timestamp limit) {
+  [[nodiscard]] std::optional<Message> PopBefore(Timestamp limit) {
     if (waiting_.empty() || waiting_.begin()->first >= limit) return std::nullopt;
     return std::move(waiting_.extract(waiting_.begin()).mapped());
   }

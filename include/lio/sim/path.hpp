@@ -17,8 +17,8 @@ struct PathPoint {
   double heading_rad = 0.0;      // unwrapped along the path, counter-clockwise from x
   double curvature_per_m = 0.0;  // positive to the left
 
-  Vector2 Forward() const { return {std::cos(heading_rad), std::sin(heading_rad)}; }
-  Vector2 Left() const { return {-std::sin(heading_rad), std::cos(heading_rad)}; }
+  [[nodiscard]] Vector2 Forward() const { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+  [[nodiscard]] Vector2 Left() const { return {-std::sin(heading_rad), std::cos(heading_rad)}; }
 };
 
 class Path {
@@ -27,24 +27,25 @@ class Path {
 
   // Makes a path with a corner of the given radius at each inner waypoint. A closed path ends at
   // its start, which must lie on a straight. Throws std::invalid_argument when corners overlap.
-  static Path Rounded(const std::vector<Vector2>& waypoints_m, double radius_m, bool closed);
+  [[nodiscard]] static Path Rounded(const std::vector<Vector2>& waypoints_m, double radius_m,
+                                    bool closed);
 
   // These two append at the end. An arc of positive angle turns left.
   void AddStraight(double length_m);
   void AddArc(double radius_m, double angle_rad);
 
   double length_m() const { return length_m_; }
-  PathPoint At(double distance_m) const;  // continues straight beyond the ends
+  [[nodiscard]] PathPoint At(double distance_m) const;  // continues straight beyond the ends
   // Returns a point beside the path: `left_m` to the left, which must be smaller than the radii.
-  PathPoint Beside(double distance_m, double left_m) const;
+  [[nodiscard]] PathPoint Beside(double distance_m, double left_m) const;
   // These three return the path between two distances, the path shifted to the left (to the right
   // if negative) by less than its radii, and the path in the opposite direction.
-  Path Cut(double from_m, double to_m) const;
-  Path Shifted(double left_m) const;
-  Path Reversed() const;
-  Path Repeated(int times) const;
+  [[nodiscard]] Path Cut(double from_m, double to_m) const;
+  [[nodiscard]] Path Shifted(double left_m) const;
+  [[nodiscard]] Path Reversed() const;
+  [[nodiscard]] Path Repeated(int times) const;
   // Returns points every `step_m`, both ends included.
-  std::vector<Vector2> Sampled(double step_m) const;
+  [[nodiscard]] std::vector<Vector2> Sampled(double step_m) const;
 
  private:
   struct Piece {
@@ -52,7 +53,7 @@ class Path {
     double length_m = 0.0;
     PathPoint begin;
   };
-  static PathPoint Along(const Piece& piece, double distance_m);
+  [[nodiscard]] static PathPoint Along(const Piece& piece, double distance_m);
   void Add(double length_m, double curvature_per_m);
 
   std::vector<Piece> pieces_;

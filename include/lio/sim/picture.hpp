@@ -27,7 +27,8 @@ struct Picture {
 };
 
 // The picture is the same for any number of threads.
-Picture DrawFromAbove(const Scenario& scenario, const PictureOptions& options, int num_threads);
+[[nodiscard]] Picture DrawFromAbove(const Scenario& scenario, const PictureOptions& options,
+                                    int num_threads);
 
 // Writes a binary PPM. Throws std::runtime_error when it cannot be written.
 void WritePpm(const Picture& picture, const std::filesystem::path& path);

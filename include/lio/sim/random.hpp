@@ -12,14 +12,14 @@
 
 namespace lio::sim {
 
-constexpr std::uint64_t MixBits(std::uint64_t x) {
+[[nodiscard]] constexpr std::uint64_t MixBits(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15ull;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
   x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
   return x ^ (x >> 31);
 }
 
-constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
+[[nodiscard]] constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
   std::uint64_t key = 0;
   for (const std::uint64_t part : parts) key = MixBits(key ^ part);
   return key;
@@ -27,7 +27,7 @@ constexpr std::uint64_t HashKey(std::initializer_list<std::uint64_t> parts) {
 
 // Maps bits to a number uniform in (0, 1). It is never 0, so that its logarithm exists, and never 1
 // (52 bits and a half are exact in a double; with 53 the last one would round up to 1).
-constexpr double UnitInterval(std::uint64_t bits) {
+[[nodiscard]] constexpr double UnitInterval(std::uint64_t bits) {
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
 }
 
@@ -56,15 +56,15 @@ class Random {
   Random(std::uint64_t seed, Purpose purpose, std::uint64_t stream = 0)
       : key_(HashKey({seed, static_cast<std::uint64_t>(purpose), stream})) {}
 
-  std::uint64_t Bits() { return MixBits(key_ ^ MixBits(counter_++)); }
-  double Uniform() { return UnitInterval(Bits()); }
-  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
-  int Integer(int low, int high) {  // both bounds are included
+  [[nodiscard]] std::uint64_t Bits() { return MixBits(key_ ^ MixBits(counter_++)); }
+  [[nodiscard]] double Uniform() { return UnitInterval(Bits()); }
+  [[nodiscard]] double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  [[nodiscard]] int Integer(int low, int high) {  // both bounds are included
     return low + static_cast<int>(Uniform() * (high - low + 1));
   }
-  bool Chance(double probability) { return Uniform() < probability; }
+  [[nodiscard]] bool Chance(double probability) { return Uniform() < probability; }
 
-  double Gaussian() {  // Box and Muller's method; one of the pair is used
+  [[nodiscard]] double Gaussian() {  // Box and Muller's method; one of the pair is used
     const double radius = std::sqrt(-2.0 * std::log(Uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * Uniform());
   }

@@ -18,7 +18,7 @@ enum class Realism {
 };
 
 // Returns the names of the effects that `field` adds, in the order of the help text.
-std::vector<std::string> FieldEffects();
+[[nodiscard]] std::vector<std::string> FieldEffects();
 
 // Names effects of the field that are added to a grade or left out of it; left out wins.
 struct EffectChoice {

@@ -57,6 +57,6 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::function<void(double)>& progress);
 
 // Returns the sensor time of a trajectory time: trajectories begin at a stamp of late 2023.
-Timestamp StampOf(std::int64_t trajectory_ns);
+[[nodiscard]] Timestamp StampOf(std::int64_t trajectory_ns);
 
 }  // namespace lio::sim

@@ -32,10 +32,10 @@ class Rotor {
   // Turn 0 begins at `begin_s`.
   Rotor(const LidarModel& model, const RotorErrors& errors, std::uint64_t seed, double begin_s);
 
-  double ColumnTime(std::int64_t column) const;
-  double HeadingAt(double t_s) const;  // clockwise from the cut
-  double ReportedHeadingAt(double t_s) const;
-  TurnColumns ColumnsOf(std::int64_t turn) const;
+  [[nodiscard]] double ColumnTime(std::int64_t column) const;
+  [[nodiscard]] double HeadingAt(double t_s) const;  // clockwise from the cut
+  [[nodiscard]] double ReportedHeadingAt(double t_s) const;
+  [[nodiscard]] TurnColumns ColumnsOf(std::int64_t turn) const;
 
  private:
   struct Wave {
@@ -43,8 +43,8 @@ class Rotor {
     double frequency_hz = 1.0;
     double phase_rad = 0.0;
   };
-  double TurnsAt(double t_s) const;
-  std::int64_t FirstColumnOf(std::int64_t turn) const;
+  [[nodiscard]] double TurnsAt(double t_s) const;
+  [[nodiscard]] std::int64_t FirstColumnOf(std::int64_t turn) const;
 
   double rotation_hz_;
   double column_period_s_;

@@ -45,10 +45,10 @@ struct ScenarioEntry {
   std::string name;
   std::string summary;
 };
-const std::vector<ScenarioEntry>& AllScenarios();
+[[nodiscard]] const std::vector<ScenarioEntry>& AllScenarios();
 
 // Throws std::invalid_argument that lists the scenarios when there is none of that name, or when
 // the duration is not positive.
-Scenario MakeScenario(const std::string& name, const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeScenario(const std::string& name, const ScenarioOptions& options);
 
 }  // namespace lio::sim

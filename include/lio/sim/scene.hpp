@@ -44,7 +44,7 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  Interval During(double begin_s, double end_s) const;
+  [[nodiscard]] Interval During(double begin_s, double end_s) const;
 
  private:
   struct Impl;

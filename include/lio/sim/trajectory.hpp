@@ -60,17 +60,17 @@ class Trajectory {
 
   // Accepts any t; before the first and after the last knot the body rests there. Safe from any
   // thread.
-  Kinematics At(double t_s) const;
+  [[nodiscard]] Kinematics At(double t_s) const;
   // Returns the pose of the body frame on the ground, which surrounding traffic and the carrier's
   // shape follow.
-  Pose BodyPoseAt(double t_s) const;
+  [[nodiscard]] Pose BodyPoseAt(double t_s) const;
 
-  double duration_s() const;
-  const Pose& T_body_imu() const { return plan_.T_body_imu; }
+  [[nodiscard]] double duration_s() const;
+  [[nodiscard]] const Pose& T_body_imu() const { return plan_.T_body_imu; }
 
  private:
   struct BodyJets;
-  BodyJets BodyAt(double t_s) const;
+  [[nodiscard]] BodyJets BodyAt(double t_s) const;
 
   MotionPlan plan_;
 };

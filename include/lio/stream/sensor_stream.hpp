@@ -119,7 +119,7 @@ class SensorStream {
   void Emit(std::vector<ImuReady> ready);
   void Notify(Timestamp stamp, Notice::Severity severity, std::string text);
 
-  // Sweeps.
+  // Sweeps: sensor_stream_sweeps.cpp.
   void CloseSweepsBefore(Timestamp stamp);
   void TakeClosedSweeps();
   void OpenGate();

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The pose of a scan as the filter fuses it: with the inflation that the poses before it have
+// shown, and beyond the gate where that is asked for. The update itself is in pose_update.hpp.
+#pragma once
+
+#include "lio/filter/pose_update.hpp"
+
+namespace lio {
+
+// NIS-based covariance inflation: factors (1 or more) on the translation and rotation blocks of a
+// pose's covariance, from the NIS of about the last ten poses. Errors that persist (a clock offset,
+// a loose mount, a wrong extrinsic) make registration's covariances too small; inflation weighs
+// such poses less instead of gating every other one. docs/filter.md, Pose update.
+struct CovarianceInflation {
+  double translation = 1.0;
+  double rotation = 1.0;
+};
+
+struct PoseEvent {
+  PoseMeasurement measurement;
+  // Fuses the pose even beyond the gate, with the covariance or the unseen motion that explains it.
+  bool force = false;
+  // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
+  bool is_clock_set = false;
+  // Nothing is known of the motion before the pose: the estimate is moved to it first (MoveTo).
+  bool replaces_motion = false;
+};
+
+// Fuses the pose into `estimate` and lets `inflation` go on to the next one. Without force a pose
+// whose NIS exceeds `nis_limit` is refused.
+[[nodiscard]] UpdateResult FusePoseEvent(const PoseEvent& event, double nis_limit,
+                                         const CovarianceInflation& max_inflation,
+                                         CovarianceInflation& inflation, Estimate& estimate);
+
+}  // namespace lio

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Point clouds from files of PCL, without a word on the console.
+#pragma once
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace lio {
+
+enum class CloudKind : std::int8_t { kOther, kPcd, kPly };
+
+// The kind that a file's first words tell.
+[[nodiscard]] CloudKind KindOfCloud(const std::filesystem::path& path);
+
+// A PCD or PLY file with all its fields; absent where it cannot be read as that.
+[[nodiscard]] std::optional<pcl::PCLPointCloud2> ReadCloud(const std::filesystem::path& path,
+                                                           CloudKind kind);
+
+// x, y and z of all points, those that are not finite included. Needs these fields as floats.
+[[nodiscard]] std::vector<Eigen::Vector3f> PointsOf(const pcl::PCLPointCloud2& cloud);
+
+}  // namespace lio

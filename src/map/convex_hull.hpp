@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The convex hull of places in a plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace lio {
+
+// The indices of the hull's corners, against the clock from the leftmost one; places on its sides
+// are none. With fewer than three places, all of them. Andrew's monotone chain (Inf. Process. Lett.
+// 9, 1979).
+[[nodiscard]] std::vector<std::size_t> ConvexHull(const std::vector<Eigen::Vector2d>& places);
+
+}  // namespace lio

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// What the inertial messages mean, as a start needs to know it: units, axes, gravity; and what
+// follows where that is found to be otherwise.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "lio/pipeline/options_fields.hpp"
+#include "lio/verdict/rig_findings.hpp"
+#include "pipeline/initializing.hpp"
+
+namespace lio {
+namespace {
+
+std::string NameOfUnits(ImuUnits units) {
+  return std::string(kEnumNames<ImuUnits>[static_cast<std::size_t>(units)]);
+}
+
+std::string NameOfGravity(GravityInput gravity) {
+  return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
+}
+
+// Turns the extrinsic into the axes that the messages were found to have; its translation stays.
+Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
+  const Pose T = rig.T_imu_lidar.value_or(Pose{});
+  return {(Quaternion(found.R_imu_sent).conjugate() * T.rotation).normalized(), T.translation};
+}
+
+// Why a stated convention is not the messages'. Turned axes and a turned extrinsic are the same to
+// all that moves: both are named.
+std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig,
+                                    const std::string& evidence) {
+  const std::string read_them = "rig:\n  imu:\n    units: auto\n";
+  if (found.R_imu_sent == Matrix3::Identity()) {
+    return {{CauseKind::kImuUnits, Trust::kNo, 0.0, evidence, read_them}};
+  }
+  return {{CauseKind::kExtrinsicRotation, Trust::kNo, 0.0, evidence,
+           ExtrinsicYaml(TurnedExtrinsic(found, rig))},
+          {CauseKind::kImuAxes, Trust::kNo, 0.0, evidence, read_them}};
+}
+
+// Tells the user what to configure for messages of the convention that was found.
+std::string FixFor(const ImuConvention& found, const Rig& rig) {
+  const std::string fix = "set rig.imu.units: auto";
+  if (found.R_imu_sent == Matrix3::Identity()) return fix + " or " + NameOfUnits(UnitsOf(found));
+  const Pose T = TurnedExtrinsic(found, rig);
+  return fmt::format(
+      "{}, or turn rig.T_imu_lidar: translation_m: [{:.3f}, {:.3f}, {:.3f}], rotation_wxyz: "
+      "[{:.5f}, {:.5f}, {:.5f}, {:.5f}]",
+      fix, T.translation.x(), T.translation.y(), T.translation.z(), T.rotation.w(), T.rotation.x(),
+      T.rotation.y(), T.rotation.z());
+}
+
+}  // namespace
+
+bool Initializing::IsInDoubt(Timestamp stamp) const {
+  const bool has_restarted = handover_.origin == Handover::Origin::kInertial ||
+                             handover_.origin == Handover::Origin::kLidar;
+  return has_restarted && context_.convention.IsInDoubt(handover_.last_fix.stamp, stamp);
+}
+
+// Gives a transition when the tracked poses are of no use any more.
+std::optional<Transition> Initializing::JudgeConvention(Timestamp stamp) {
+  ImuConventionMonitor& convention = context_.convention;
+  const std::vector<ImuSample> samples =
+      context_.stream.imu().Between(context_.sweeps.front()->start, scans_.back().pose.stamp);
+  const auto num_matched = static_cast<std::size_t>(std::count_if(
+      scans_.begin(), scans_.end(), [](const Scan& scan) { return scan.is_matched; }));
+  using Kind = ImuConventionMonitor::Finding::Kind;
+  const auto finding =
+      convention.JudgeInitializing({scans_.size(), num_matched, samples}, IsInDoubt(stamp));
+  if (finding.kind == Kind::kMisleadingGyro) return Retry();
+  if (finding.kind == Kind::kOtherwise) {
+    return SetConvention(finding.convention, finding.evidence, stamp);
+  }
+  return std::nullopt;
+}
+
+// The mean force over a rest tells its unit and whether gravity is in it.
+std::optional<Transition> Initializing::CheckForceAtRest(const Vector3& mean_f_mps2,
+                                                         Timestamp stamp, bool& is_accepted) {
+  const auto verdict = context_.convention.JudgeForce(mean_f_mps2);
+  if (verdict.force == ForceAtRest::kUnclear) {
+    context_.outputs.NotifyWaiting(
+        stamp, verdict.evidence +
+                   ", neither m/s^2 nor g nor without gravity: initialization waits; check the "
+                   "IMU's driver");
+    return std::nullopt;
+  }
+  const bool has_gravity = verdict.force != ForceAtRest::kWithoutGravity;
+  if (auto rejection = CheckGravity(has_gravity, verdict.evidence, stamp)) return rejection;
+  if (has_gravity) {
+    context_.convention.KeepForceUnit();
+    if (verdict.convention != context_.stream.imu().convention()) {
+      return SetConvention(verdict.convention, verdict.evidence, stamp);
+    }
+  }
+  is_accepted = true;
+  return std::nullopt;
+}
+
+std::optional<Transition> Initializing::CheckGravity(bool is_there, const std::string& evidence,
+                                                     Timestamp stamp) const {
+  const GravityInput expected = context_.options.rig.imu.gravity;
+  const GravityInput found = is_there ? GravityInput::kPresent : GravityInput::kRemoved;
+  if (expected == GravityInput::kAutomatic || expected == found) return std::nullopt;
+  context_.examiner.Contradict({{CauseKind::kImuGravity, Trust::kNo, 0.0,
+                                 fmt::format("gravity is {} in the accelerometer's reading ({})",
+                                             NameOfGravity(found), evidence),
+                                 "rig:\n  imu:\n    gravity: auto\n"}});
+  return Reject(stamp,
+                fmt::format("gravity is {0} in the accelerometer's reading, but "
+                            "rig.imu.gravity says {1} ({2}): set rig.imu.gravity: auto or {0}",
+                            NameOfGravity(found), NameOfGravity(expected), evidence));
+}
+
+// Reads all samples by this convention, also those of the past seconds, and begins again with them.
+Transition Initializing::SetConvention(const ImuConvention& found, const std::string& evidence,
+                                       Timestamp stamp) {
+  const Rig& rig = context_.options.rig;
+  const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
+  if (rig.imu.units != ImuUnits::kAutomatic) {
+    context_.examiner.Contradict(ConventionCauses(found, rig, what));
+    return Reject(stamp, what + ", rig.imu.units says " + NameOfUnits(rig.imu.units) + ": " +
+                             FixFor(found, rig));
+  }
+  if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
+  context_.stream.SetConvention(found);
+  context_.examiner.SetConvention(found);
+  context_.extrinsic.Restart();
+  context_.convention.Restart();
+  context_.convention.TrustGyro(true);
+  context_.convention.ForgetDoubt();
+  context_.outputs.Notify(stamp, Notice::Severity::kWarning, what);
+  return Retry();
+}
+
+// A start with wrong axes turned all that was published since. This turns it back. The path
+// in map is the lidar's, rigid; the filter's world was bent by a gravity in a wrong direction.
+void Initializing::TurnHandover(const ImuConvention& found) {
+  const Matrix3 R_found_believed =
+      found.R_imu_sent * context_.stream.imu().convention().R_imu_sent.transpose();
+  const Pose turn{Quaternion(Matrix3(R_found_believed.transpose())), Vector3::Zero()};
+  const Pose T_start_map = handover_.T_map_start.Inverse();
+  LastFix& fix = handover_.last_fix;
+  const Pose since_start = T_start_map * fix.T_map_imu;
+  const Vector3 v_imu = fix.T_world_imu.rotation.conjugate() * fix.v_world_imu;
+  fix.T_world_imu = handover_.T_world_start * turn * since_start;
+  fix.v_world_imu = fix.T_world_imu.rotation * v_imu;
+  if (!handover_.is_map_by_lidar) fix.T_map_imu = handover_.T_map_start * turn * since_start;
+}
+
+Transition Initializing::Reject(Timestamp stamp, const std::string& why) const {
+  context_.outputs.Notify(stamp, Notice::Severity::kError, why);
+  return {.trigger = Trigger::kContradicted, .handover = handover_};
+}
+
+}  // namespace lio

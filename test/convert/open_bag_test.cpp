@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lio/convert/bag_reader.hpp"
+#include "lio/io/input_error.hpp"
+#include "support/ros_bag.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr Timestamp kReceived{1'600'000'000'000'000'000};
+
+class OpenBagTest : public testing::Test {
+ protected:
+  void WriteRos1(const std::string& name) {
+    std::filesystem::create_directories((dir_.path() / name).parent_path());
+    test::Bag1Writer bag(dir_.path() / name, {});
+    bag.Write("/one", "std_msgs/Byte", kReceived, {1});
+    bag.Close();
+  }
+  void WriteRos2(const std::string& name) {
+    test::Bag2Writer bag(dir_.path() / name, 1000);
+    bag.Write("/two", "std_msgs/msg/Byte", kReceived, {1}, "");
+    bag.Close();
+  }
+  std::string FirstTopic(const std::string& name) {
+    const auto bag = OpenBag(dir_.path() / name);
+    BagMessage message;
+    return bag->Next(message) ? bag->topics()[message.topic].name : "";
+  }
+  std::string WhyRefused(const std::filesystem::path& path) {
+    try {
+      (void)OpenBag(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TempDir dir_;
+};
+
+TEST_F(OpenBagTest, BagsOfBothKindsAreTold) {
+  WriteRos1("a.bag");
+  WriteRos2("drive");
+  EXPECT_EQ(FirstTopic("a.bag"), "/one");
+  EXPECT_EQ(FirstTopic("drive"), "/two");
+  EXPECT_EQ(FirstTopic("drive/metadata.yaml"), "/two");
+}
+
+TEST_F(OpenBagTest, AFolderOfRos1BagsIsOneBag) {
+  WriteRos1("parts/a.bag");
+  EXPECT_EQ(FirstTopic("parts"), "/one");
+}
+
+TEST_F(OpenBagTest, WhatIsNotThereOrMcapIsRefused) {
+  EXPECT_THAT(WhyRefused(dir_.path() / "none.bag"), HasSubstr("no such file or folder"));
+  EXPECT_THAT(WhyRefused(dir_.Write("x.mcap", "?")), HasSubstr("MCAP is not supported"));
+}
+
+}  // namespace
+}  // namespace lio

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "convert/rosbag2_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lio/io/input_error.hpp"
+#include "support/temp_dir.hpp"
+
+namespace lio {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Rosbag2FilesTest : public testing::Test {
+ protected:
+  void WriteMetadata(const std::string& lines) {
+    dir_.Write("drive/metadata.yaml", "rosbag2_bagfile_information:\n" + lines);
+  }
+  std::string WhyRefused(const fs::path& path) {
+    try {
+      (void)FindRosbag2Files(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TempDir dir_;
+  fs::path folder_ = dir_.path() / "drive";
+};
+
+TEST_F(Rosbag2FilesTest, MetadataNamesTheFilesInTheirOrder) {
+  WriteMetadata("  message_count: 60\n  relative_file_paths: [b.db3, a.db3]\n");
+  for (const fs::path& path : {folder_, folder_ / "metadata.yaml"}) {
+    const Rosbag2Files files = FindRosbag2Files(path);
+    EXPECT_THAT(files.databases, ElementsAre(folder_ / "b.db3", folder_ / "a.db3"));
+    EXPECT_EQ(files.num_messages, 60);
+  }
+}
+
+TEST_F(Rosbag2FilesTest, NamesWithTheFoldersOwnInFrontAreUnderstood) {
+  WriteMetadata("  relative_file_paths: [drive/a.db3]\n");
+  EXPECT_THAT(FindRosbag2Files(folder_).databases, ElementsAre(folder_ / "a.db3"));
+}
+
+TEST_F(Rosbag2FilesTest, AFolderWithoutMetadataGivesAllFilesByName) {
+  dir_.Write("drive/a_1.db3", "");
+  dir_.Write("drive/a_0.db3", "");
+  dir_.Write("drive/notes.txt", "");
+  const Rosbag2Files files = FindRosbag2Files(folder_);
+  EXPECT_THAT(files.databases, ElementsAre(folder_ / "a_0.db3", folder_ / "a_1.db3"));
+  EXPECT_EQ(files.num_messages, -1);
+}
+
+TEST_F(Rosbag2FilesTest, OneFileIsABag) {
+  const fs::path file = dir_.Write("a.db3", "");
+  EXPECT_THAT(FindRosbag2Files(file).databases, ElementsAre(file));
+}
+
+TEST_F(Rosbag2FilesTest, OtherStoragesAreRefusedByName) {
+  WriteMetadata("  storage_identifier: mcap\n  relative_file_paths: [a.mcap]\n");
+  EXPECT_THAT(WhyRefused(folder_), HasSubstr("'mcap' is not supported"));
+  WriteMetadata("  compression_format: zstd\n  relative_file_paths: [a.db3]\n");
+  EXPECT_THAT(WhyRefused(folder_), HasSubstr("'zstd' is not supported"));
+}
+
+TEST_F(Rosbag2FilesTest, WhatNamesNoFilesIsRefused) {
+  WriteMetadata("  relative_file_paths: []\n");
+  EXPECT_THAT(WhyRefused(folder_), HasSubstr("names no files"));
+  dir_.Write("drive/metadata.yaml", "][");
+  EXPECT_THAT(WhyRefused(folder_), HasSubstr("cannot be read as YAML"));
+  fs::create_directories(dir_.path() / "empty");
+  EXPECT_THAT(WhyRefused(dir_.path() / "empty"), HasSubstr("no .db3 file"));
+}
+
+}  // namespace
+}  // namespace lio

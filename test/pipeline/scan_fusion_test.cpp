@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "pipeline/scan_fusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "lio/base/chi_square.hpp"
+#include "pipeline/mode_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::kSweepSpan_s;
+using test::ModeBench;
+using test::StampAt;
+
+// A body at rest that is sure of its pose, and whose filter has the usual gate.
+class ScanFusionTest : public testing::Test {
+ protected:
+  ScanFusionTest() {
+    Estimate start;
+    start.stamp = StampAt(0.0);
+    start.cov.diagonal().setConstant(1e-6);
+    HistoryOptions options;
+    options.nis_limit = ChiSquareQuantile6(0.999);
+    ImuSample sample{start.stamp, Vector3::Zero(), -options.g_world};
+    history_ = std::make_unique<FilterHistory>(options, start, sample);
+    for (int i = 1; i <= 200; ++i) {
+      sample.stamp = StampAt(0.01 * i);
+      (void)history_->AddImu(sample);
+    }
+  }
+
+  // The next scan, matched so far away from the truth.
+  MatchOutcome MatchedAt(double x_m) {
+    auto sweep = std::make_shared<Sweep>();
+    sweep->start = StampAt(begin_s_);
+    sweep->end = StampAt(begin_s_ + kSweepSpan_s);
+    begin_s_ += kSweepSpan_s;
+    MatchOutcome outcome;
+    outcome.sweep = sweep;
+    outcome.match.status = MatchStatus::kConverged;
+    outcome.match.T_map_imu.translation.x() = x_m;
+    outcome.match.cov = 1e-6 * Matrix6::Identity();
+    return outcome;
+  }
+  ScanReport Fuse(const MatchOutcome& outcome) {
+    ScanReport report;
+    FuseScan(outcome, {}, bench_.context(), *history_, health_, report);
+    return report;
+  }
+
+  ModeBench bench_;
+  std::unique_ptr<FilterHistory> history_;
+  Health health_{true, TrackingStatus::kOk, std::nullopt, bench_.counters};
+  double begin_s_ = 0.1;
+};
+
+TEST_F(ScanFusionTest, AMatchNearThePredictionIsFusedAndReported) {
+  const ScanReport report = Fuse(MatchedAt(1e-3));
+  EXPECT_TRUE(report.fused);
+  EXPECT_GT(report.nis, 0.0);
+  EXPECT_EQ(bench_.counters.num_gated, 0);
+}
+
+TEST_F(ScanFusionTest, AMatchBeyondTheGateIsRefusedUntilTooManyWere) {
+  const int max_gated = FilterOptions{}.max_gated_in_a_row;
+  for (int i = 0; i < max_gated; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
+  EXPECT_EQ(bench_.counters.num_gated, max_gated);
+  EXPECT_TRUE(Fuse(MatchedAt(5.0)).fused);
+  EXPECT_NEAR(history_->At(StampAt(2.0)).state.T_map_imu.translation.x(), 5.0, 0.5);
+}
+
+TEST_F(ScanFusionTest, AScanThatASearchFoundIsFusedWhereverItIs) {
+  MatchOutcome outcome = MatchedAt(50.0);
+  outcome.is_relocalized = true;
+  EXPECT_TRUE(Fuse(outcome).fused);
+}
+
+}  // namespace
+}  // namespace lio
