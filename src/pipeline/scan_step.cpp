@@ -60,8 +60,8 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
   event.measurement.cov *= settings.alike_factor;
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;
-    event.measurement.blend_cov = filter.map_walk_scale * outcome.match.observable_cov +
-                                  kScanStep.num_alike_replacements * settings.sensor_error_cov;
+    event.measurement.blend_cov =
+        filter.map_walk_scale * outcome.match.observable_cov + settings.sensor_error_cov;
     event.measurement.is_level = settings.is_level;
   }
   event.is_clock_set = outcome.is_clock_set;

@@ -20,12 +20,6 @@ struct ScanStepParameters {
   // A shift since the last located scan that is less sure than this is beyond what matching
   // reaches: correlative alignment betters the prior. Chosen: two of it leave the cells of 1 m.
   double align_prior_from_std_m = 0.7;
-  // Each time the surroundings have been replaced by others, errors that move with the sensor bend
-  // the map once more, the same way for a while. After n replacements that is n^2 times their
-  // covariance, for which n times this factor stands: both are the same after twelve, some 300 m of
-  // road. Fitted to the NEES of eight drives through the simulator's street
-  // (docs/experiments/sensor_fixed_errors.md).
-  double num_alike_replacements = 12.0;
   // The least time that a prior is taken to have run free, so that rates by it stay finite. Chosen:
   // a tenth of a sweep at 10 Hz.
   double min_since_last_fix_s = 0.01;
@@ -42,8 +36,9 @@ struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
   // Factor on the covariance of matches, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
-  Matrix6 sensor_error_cov = Matrix6::Zero();  // SensorFixedErrors::CovOf()
-  bool grows_map = false;                      // the scan will be inserted
+  // SensorFixedErrors::CovPerReplacement()
+  Matrix6 sensor_error_cov = Matrix6::Zero();
+  bool grows_map = false;        // the scan will be inserted
   bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
   bool force = false;            // fuse even beyond the gate
   bool replaces_motion = false;  // nothing is known of the motion since the last fused scan

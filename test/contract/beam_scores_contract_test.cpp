@@ -71,7 +71,7 @@ TEST(NdtScores, BiasesOfRingsShowInTheirMeanOverManyScans) {
       match = bench.Match(bench.Reduce(sweep), pose, GuessCov(0.02, 0.002));
       errors.Add(match);
     }
-    return std::sqrt(errors.CovOf(match).topLeftCorner<3, 3>().trace());
+    return std::sqrt(errors.CovPerReplacement(match).topLeftCorner<3, 3>().trace());
   };
   EXPECT_GT(std_m(0.02), 3.0 * std_m(0.0));
 }

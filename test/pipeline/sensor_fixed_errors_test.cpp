@@ -12,12 +12,14 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kNumDirections = 20;
+constexpr double kShare = 0.05;
 
 // A match with a score of each beam direction.
 MatchResult Match(std::vector<Vector6> scores) {
   MatchResult match;
   match.beam_scores = std::move(scores);
   match.shift_per_score = 1e-3 * Matrix6::Identity();
+  match.new_content_share = kShare;
   return match;
 }
 
@@ -30,19 +32,28 @@ MatchResult RandomMatch(std::mt19937_64& random) {
 TEST(SensorFixedErrors, NothingIsKnownBeforeTheFirstScores) {
   std::mt19937_64 random(1);
   SensorFixedErrors errors;
-  EXPECT_TRUE(errors.CovOf(RandomMatch(random)).isZero(0.0));
+  EXPECT_TRUE(errors.CovPerReplacement(RandomMatch(random)).isZero(0.0));
   errors.Add(Match({}));
-  EXPECT_TRUE(errors.CovOf(RandomMatch(random)).isZero(0.0));
+  EXPECT_TRUE(errors.CovPerReplacement(RandomMatch(random)).isZero(0.0));
 }
 
-TEST(SensorFixedErrors, ScoresThatStayTheSameAreWhollyOfTheSensor) {
+// The drift after N replacements is N times the shift of one match, so the sum over the scans is
+// its square.
+TEST(SensorFixedErrors, ScoresThatStayTheSameAddUpToADriftInProportionToTheNewContent) {
   std::mt19937_64 random(1);
   const MatchResult match = RandomMatch(random);
-  Matrix6 expected = Matrix6::Zero();
-  for (const Vector6& score : match.beam_scores) expected += 1e-6 * score * score.transpose();
+  Matrix6 of_one_match = Matrix6::Zero();
+  for (const Vector6& score : match.beam_scores) of_one_match += 1e-6 * score * score.transpose();
   SensorFixedErrors errors;
-  for (int i = 0; i < 200; ++i) errors.Add(match);
-  EXPECT_LT((errors.CovOf(match) - expected).norm(), 1e-12 * expected.norm());
+  Matrix6 sum = Matrix6::Zero();
+  constexpr int kScans = 2000;
+  for (int i = 0; i < kScans; ++i) {
+    errors.Add(match);
+    sum += kShare * errors.CovPerReplacement(match);
+  }
+  constexpr double kReplacements = kScans * kShare;
+  const Matrix6 expected = kReplacements * kReplacements * of_one_match;
+  EXPECT_LT((sum - expected).norm(), 1e-3 * expected.norm());
 }
 
 // The same errors shift a match more that has fewer points to hold it.
@@ -51,46 +62,61 @@ TEST(SensorFixedErrors, ACovarianceIsThatOfTheMatchAtHand) {
   MatchResult match = RandomMatch(random);
   SensorFixedErrors errors;
   errors.Add(match);
-  const Matrix6 cov = errors.CovOf(match);
+  const Matrix6 cov = errors.CovPerReplacement(match);
   match.shift_per_score.row(0).setZero();
   match.shift_per_score(1, 1) *= 3.0;
-  const Matrix6 other = errors.CovOf(match);
+  const Matrix6 other = errors.CovPerReplacement(match);
   EXPECT_EQ(other(0, 0), 0.0);
   EXPECT_NEAR(other(1, 1), 9.0 * cov(1, 1), 1e-12 * other(1, 1));
   EXPECT_NEAR(other(1, 2), 3.0 * cov(1, 2), 1e-12 * other(1, 1));
 }
 
-TEST(SensorFixedErrors, NoiseLeavesItsSquareOverTheScansOfTheMean) {
+// Scores that are new in each scan are a random walk of the map: its variance per scan is share^2
+// times theirs, and twice that is said.
+TEST(SensorFixedErrors, ScoresOfNoiseAreARandomWalk) {
   std::mt19937_64 random(2);
   SensorFixedErrors errors;
   double sum = 0.0;
+  double of_one_scan = 0.0;
   constexpr int kScans = 4000;
   for (int i = 0; i < kScans; ++i) {
     const MatchResult match = RandomMatch(random);
-    errors.Add(match);
-    if (i >= kScans / 2) sum += errors.CovOf(match).trace() / (kScans / 2);
-  }
-  double of_one_scan = 0.0;
-  for (int i = 0; i < kScans; ++i) {
-    for (const Vector6& score : RandomMatch(random).beam_scores) {
+    for (const Vector6& score : match.beam_scores)
       of_one_scan += 1e-6 * score.squaredNorm() / kScans;
-    }
+    errors.Add(match);
+    sum += errors.CovPerReplacement(match).trace() / kScans;
   }
-  // An exponential mean with weight 1/50 has 1/99 of the variance of one.
-  EXPECT_NEAR(sum / of_one_scan, 1.0 / 99.0, 0.1 / 99.0);
+  EXPECT_NEAR(sum / (2.0 * kShare * of_one_scan), 1.0, 0.15);
 }
 
-TEST(SensorFixedErrors, OtherErrorsAreFollowed) {
+TEST(SensorFixedErrors, ScoresThatChangeSignCancel) {
   std::mt19937_64 random(3);
-  const MatchResult before = RandomMatch(random);
+  const MatchResult match = RandomMatch(random);
+  MatchResult opposite = match;
+  for (Vector6& score : opposite.beam_scores) score = -score;
   SensorFixedErrors errors;
-  for (int i = 0; i < 500; ++i) errors.Add(before);
-  const double trace_before = errors.CovOf(before).trace();
-  const MatchResult none = Match(std::vector<Vector6>(kNumDirections, Vector6::Zero()));
-  for (int i = 0; i < 250; ++i) errors.Add(none);
-  EXPECT_LT(errors.CovOf(before).trace(), 1e-4 * trace_before);
+  for (int i = 0; i < 100; ++i) errors.Add(match);
+  const double before = errors.CovPerReplacement(match).trace();
+  for (int i = 0; i < 100; ++i) errors.Add(opposite);
+  EXPECT_LT(errors.CovPerReplacement(match).trace(), 1e-9 * before);
+}
+
+TEST(SensorFixedErrors, AScanThatBringsNothingNewCountsForNothing) {
+  std::mt19937_64 random(5);
+  MatchResult match = RandomMatch(random);
+  match.new_content_share = 0.0;
+  SensorFixedErrors errors;
+  errors.Add(match);
+  EXPECT_TRUE(errors.CovPerReplacement(match).isZero(0.0));
+}
+
+TEST(SensorFixedErrors, ResetForgetsAll) {
+  std::mt19937_64 random(6);
+  const MatchResult match = RandomMatch(random);
+  SensorFixedErrors errors;
+  errors.Add(match);
   errors.Reset();
-  EXPECT_TRUE(errors.CovOf(before).isZero(0.0));
+  EXPECT_TRUE(errors.CovPerReplacement(match).isZero(0.0));
 }
 
 }  // namespace

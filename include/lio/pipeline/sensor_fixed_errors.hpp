@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: MIT
 // How far errors that move with the sensor bend the map, as the drive itself shows it. Points of
 // one beam direction that are wrong in the same way have the same score (gradient) in every match:
-// the mean of their scores over many scans is what neither points nor scans average away.
+// the mean of their scores over the drive is what neither points nor scans average away.
+//
+// A match is off by A^-1 m, with m the mean score and A the curvature of its cost, and a scan that
+// is inserted there carries the error into its share of the map. After N replacements of the map by
+// new content the drift is N A^-1 m, with the covariance N^2 S where S = A^-1 (sum m m^T) A^-1, the
+// sum over beam directions. It therefore grows by 2 N S per replacement, and no constant says how
+// long such errors last: scores that change sign leave a small mean.
 #pragma once
 
 #include <vector>
@@ -12,27 +18,18 @@
 
 namespace lio {
 
-struct SensorFixedErrorParameters {
-  // Scans in the mean. Chosen: five seconds at 10 Hz, after which 1 % of the squared score of one
-  // scan is left as noise; 25 and 200 change no NEES by more than a quarter
-  // (docs/experiments/sensor_fixed_errors.md).
-  int num_scans = 50;
-};
-
-inline constexpr SensorFixedErrorParameters kSensorFixedErrors;
-
 class SensorFixedErrors {
  public:
-  // A match without scores by beam direction is skipped.
+  // A match whose scan goes into the map. One without scores by beam direction is skipped.
   void Add(const MatchResult& match);
-  // The covariance that such errors alone give the pose of this match, right error [m; rad]: the
-  // middle of the sandwich is the sum over beam directions of m m^T, m the mean score.
-  [[nodiscard]] Matrix6 CovOf(const MatchResult& match) const;
+  // Such errors alone let the covariance of the map's pose grow by this per share of new content;
+  // right error [m; rad].
+  [[nodiscard]] Matrix6 CovPerReplacement(const MatchResult& match) const;
   void Reset() { *this = {}; }
 
  private:
-  std::vector<Vector6> mean_scores_;
-  int num_scans_ = 0;
+  std::vector<Vector6> mean_scores_;  // weighted by the shares of new content
+  double num_replacements_ = 0.0;     // the sum of these shares
 };
 
 }  // namespace lio
