@@ -13,6 +13,11 @@ void RebaseMapPose(Estimate& estimate) {
   estimate.cov.middleCols<6>(kMapPose).setZero();
 }
 
+// rad/s
+double MeanRate(const ImuSample& from, const ImuSample& to) {
+  return 0.5 * (from.w_imu_radps + to.w_imu_radps).norm();
+}
+
 }  // namespace
 
 FilterHistory::FilterHistory(const HistoryOptions& options, const Estimate& start,
@@ -86,7 +91,25 @@ void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSamp
   if (from.is_rate_saturated || to.is_rate_saturated) {
     add(noise.gyro_density, outage.saturated_gyro_std_radps, outage.saturated_s);
   }
+  noise.shown.gyro_psd = GyroPsd(noise).array() + before.rate_error.Psd(MeanRate(from, to));
   Propagate(estimate, from, to, noise, options_.g_world);
+}
+
+// Fuses the node's pose and learns the gyro's error in proportion to its rate, unless the pose says
+// nothing of the turn since the last one.
+void FilterHistory::FuseIn(Node& node, const HistoryOptions& options) {
+  if (!node.pose.is_clock_set && !node.pose.replaces_motion) {
+    const PoseMeasurement& measurement = node.pose.measurement;
+    const Estimate& predicted = node.posterior;
+    const Quaternion residual =
+        predicted.state.T_map_imu.rotation.conjugate() * measurement.T_map_imu.rotation;
+    node.rate_error.AddPose(LogSo3(residual),
+                            predicted.cov.block<3, 3>(kMapPose + 3, kMapPose + 3) +
+                                measurement.cov.bottomRightCorner<3, 3>());
+  }
+  node.update = FusePoseEvent(node.pose, options.nis_limit, options.max_inflation, node.inflation,
+                              node.posterior);
+  if (node.update.fused) node.rate_error.BeginTurn();
 }
 
 void FilterHistory::Step(std::size_t at) {
@@ -97,14 +120,16 @@ void FilterHistory::Step(std::size_t at) {
   node.posterior = nodes_[at - 1].posterior;
   node.inflation = nodes_[at - 1].inflation;
   node.noise = nodes_[at - 1].noise;
+  node.rate_error = nodes_[at - 1].rate_error;
+  node.rate_error.Turn(MeanRate(nodes_[at - 1].sample, node.sample),
+                       SecondsBetween(nodes_[at - 1].stamp, node.stamp));
   StepTo(node.posterior, nodes_[at - 1], node.sample, IsInGap(node.stamp, at));
   node.posterior.stamp = node.stamp;
   switch (node.kind) {
     case Kind::kImu:
       break;
     case Kind::kPose:
-      node.update = FusePoseEvent(node.pose, options_.nis_limit, options_.max_inflation,
-                                  node.inflation, node.posterior);
+      FuseIn(node, options_);
       break;
     case Kind::kZeroVelocity:
       node.update =
@@ -208,6 +233,12 @@ Estimate FilterHistory::At(Timestamp stamp) const {
   StepTo(estimate, nodes_[after - 1], SampleAt(stamp, after), IsInGap(stamp, after));
   estimate.stamp = stamp;
   return estimate;
+}
+
+double FilterHistory::RateErrorStd(Timestamp stamp) const {
+  const std::size_t after = FirstAfter(stamp);
+  const Node& node = after == 0 ? nodes_.front() : nodes_[after - 1];
+  return node.rate_error.std_ratio() * node.sample.w_imu_radps.norm();
 }
 
 StampedPoses FilterHistory::Trajectory(Timestamp from, Timestamp to) const {

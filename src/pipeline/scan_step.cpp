@@ -17,12 +17,14 @@ Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_
   const double span_s = SecondsBetween(sweep.start, sweep.end);
   Matrix6 cov = Matrix6::Zero();
   const Estimate estimate = history.At(sweep.middle());
+  const double rate_error_var = std::pow(history.RateErrorStd(sweep.middle()), 2);
   const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
   cov.topLeftCorner<3, 3>() =
       span_s * span_s / 12.0 * R.transpose() * estimate.cov.block<3, 3>(kVel, kVel) * R;
   cov.bottomRightCorner<3, 3>() =
       gyro_density * gyro_density * span_s / 12.0 * Matrix3::Identity() +
-      span_s * span_s / 12.0 * estimate.cov.block<3, 3>(kGyroBias, kGyroBias);
+      span_s * span_s / 12.0 *
+          (estimate.cov.block<3, 3>(kGyroBias, kGyroBias) + rate_error_var * Matrix3::Identity());
   return cov;
 }
 

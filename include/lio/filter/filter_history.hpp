@@ -19,6 +19,7 @@
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/pose_event.hpp"
 #include "lio/filter/process_model.hpp"
+#include "lio/filter/rate_error.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {
@@ -75,6 +76,8 @@ class FilterHistory {
   Estimate At(Timestamp stamp) const;
   // T_world_imu at both stamps and at every event strictly between them.
   StampedPoses Trajectory(Timestamp from, Timestamp to) const;
+  // Standard deviation per axis of the gyro's error in proportion to its rate at `stamp`, rad/s.
+  double RateErrorStd(Timestamp stamp) const;
   // The measured samples with stamps after `from` up to `to`.
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
@@ -92,6 +95,7 @@ class FilterHistory {
     ImuNoise new_noise;             // of kNoise
     ImuNoise noise;                 // shown after the event
     CovarianceInflation inflation;  // after the event
+    RateError rate_error;           // after the event
     Estimate posterior;
   };
 
@@ -99,6 +103,7 @@ class FilterHistory {
   std::size_t Insert(Node node);  // inserts and replays; returns the node's index
   void Replay(std::size_t from);
   void Step(std::size_t at);
+  static void FuseIn(Node& node, const HistoryOptions& options);
   // `before`: the node that the step begins at.
   void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, bool is_in_gap) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
