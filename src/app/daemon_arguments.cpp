@@ -36,8 +36,11 @@ void DaemonArguments::AddTo(CLI::App& app) {
   app.add_option("--lcm-url", lcm_url,
                  "LCM transport; the default is LCM_DEFAULT_URL or else LCM's multicast group")
       ->type_name("URL");
-  app.add_option("--out", out, "Write the files that lio-replay writes into this folder")
+  app.add_option("--out", out,
+                 "Write the files that lio-replay writes into this folder or, when it holds\n"
+                 "anything, into the first of DIR-2, DIR-3 and so on that is free")
       ->type_name("DIR");
+  app.add_flag("--overwrite", overwrites, "With --out: replace the files of an earlier run in DIR");
   app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");
   AddInitialMapArguments(app, initial_map);
   app.add_flag("--cloud-full", publishes_full_cloud,

@@ -11,6 +11,7 @@
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/socket_buffer.hpp"
 
 namespace lio {
@@ -44,6 +45,16 @@ void RaiseBuffer(const std::string& url, LiveOptions& live) {
                live.receive_buffer_bytes / 1024, ReceiveBufferAdvice());
 }
 
+// A restart must keep what the run before has written.
+void KeepEarlierRun(LiveOptions& live) {
+  const std::filesystem::path wanted = *live.out;
+  live.out = MakeFreeFolder(wanted);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(wanted, *live.out, ignored)) return;
+  spdlog::warn("{} holds files already: the files of this run go to {}", wanted.string(),
+               live.out->string());
+}
+
 int Run(const DaemonArguments& arguments, const Options& options,
         const InitialMapPtr& initial_map) {
   const sigset_t signals = BlockSignals();
@@ -51,6 +62,7 @@ int Run(const DaemonArguments& arguments, const Options& options,
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
   live.initial_map = initial_map;
+  if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
   LiveRunner runner(*bus, options, live);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);

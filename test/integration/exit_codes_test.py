@@ -118,9 +118,10 @@ class ExitCodes(unittest.TestCase):
         other.write_bytes(bytes(range(256)) * 100)
         for log in (empty, other, self.folder, self.drive / "truth.tum", "/dev/null"):
             with self.subTest(log=log):
-                self.check(INPUT, [str(log)], "lio-replay", *self.config, log, "--out", self.folder)
+                self.check(INPUT, [str(log)], "lio-replay", *self.config, log, "--out", self.folder,
+                           "--overwrite")
         self.check(INPUT, ["--start"], "lio-replay", *self.config, self.drive / "log.lcm",
-                   "--out", self.folder, "--start", "1000")
+                   "--out", self.folder, "--overwrite", "--start", "1000")
 
     def test_replay_goes_past_damage_says_how_much_and_ends_with_5(self):
         whole = (self.drive / "log.lcm").read_bytes()
@@ -128,7 +129,7 @@ class ExitCodes(unittest.TestCase):
         damaged = self.folder / "damaged.lcm"
         damaged.write_bytes(whole[:middle] + b"\x55" * 20000 + whole[middle + 20000:])
         out = self.folder / "damaged-run"
-        done = support.run("lio-replay", *self.config, damaged, "--out", out)
+        done = support.run("lio-replay", *self.config, damaged, "--out", out, "--overwrite")
         self.assertEqual(done.returncode, INPUT, done.stderr)
         self.assertIn("bytes", done.stderr)
         stats = support.stats(out)

@@ -9,6 +9,8 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/initial_map_file.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/replay.hpp"
 
@@ -19,6 +21,7 @@ struct ReplayArguments {
   OptionsArguments options;
   std::string log;
   std::string out;
+  bool overwrites = false;
   std::string channel_prefix = kDefaultChannelPrefix;
   std::optional<int> num_threads;
   bool writes_map = false;
@@ -58,9 +61,10 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
       ->type_name("IN.lcm")
       ->required();
-  app.add_option("--out", arguments.out, "Folder for the results; created when it is missing")
+  app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
       ->type_name("DIR")
       ->required();
+  app.add_flag("--overwrite", arguments.overwrites, "Replace the files of an earlier run in DIR");
   app.add_option("--threads", arguments.num_threads,
                  "Instead of pipeline.num_threads; 2 or more also read and decode the log ahead")
       ->type_name("N")
@@ -127,6 +131,7 @@ int Main(int argc, char** argv) {
     return *code;
   }
   LogInput input(arguments.log, input_options);
+  RefuseUsedFolder(arguments.out, arguments.overwrites);
   std::optional<RunWriter> writer;
   try {
     writer.emplace(arguments.out, options,
@@ -150,6 +155,9 @@ int Main(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return lio::Main(argc, argv);
+  } catch (const lio::UsageError& error) {
+    fmt::print(stderr, "lio-replay: {}\n", error.what());
+    return lio::kExitUsage;
   } catch (const std::exception& error) {
     fmt::print(stderr, "lio-replay: {}\n", error.what());
     return lio::kExitUnusableInput;

@@ -12,6 +12,7 @@
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/progress_bar.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/finish_run.hpp"
 #include "lio/run/recording.hpp"
@@ -121,10 +122,7 @@ void PrepareFolder(const Arguments& arguments) {
     if (HoldsInput(out, arguments.input)) {
       throw UsageError(out.string() + ": holds the input; name another folder");
     }
-    if (!fs::is_empty(out, error) && !arguments.overwrites) {
-      throw UsageError(out.string() +
-                       ": exists and is not empty; name another folder or add --overwrite");
-    }
+    RefuseUsedFolder(out, arguments.overwrites);
     for (const char* name : {"log.lcm", "truth.tum"}) {
       if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
       RefuseToOverwrite(arguments.input, out / name);
