@@ -38,6 +38,10 @@ struct StreamParameters {
   // Messages that wait while a match is out, at most: two minutes of a 400 Hz IMU. More are
   // dropped, newest first, and counted.
   std::size_t max_waiting_messages = 65536;
+  // The same of their points: 160 MB, ten seconds of a fast lidar; chosen.
+  std::size_t max_waiting_points = 8 << 20;
+  // Raw samples that are kept at most, where stamps do not advance: those of 20 kHz.
+  std::size_t max_imu_samples = 1 << 17;
 };
 
 inline constexpr StreamParameters kStream;
@@ -83,6 +87,7 @@ struct ScanAssemblerParameters {
   Duration apart{1'000'000'000};         // sweeps that follow each other are nearer
   std::size_t max_open_sweeps = 2;
   std::size_t max_closed_names = 16;  // later stragglers are dropped as late sweeps
+  std::size_t max_points = 4 << 20;   // of a sweep: four times those of the largest lidars
 };
 inline constexpr ScanAssemblerParameters kScanAssembler;
 
@@ -92,6 +97,10 @@ struct ScanGateParameters {
   Duration far_ahead{2'000'000'000};  // a longer step forward may be a wrong stamp
   Duration bears_out{500'000'000};    // no second wrong stamp comes so near to the first
   int max_late_in_a_row = 5;          // then the lidar's clock has moved back for good
+  // Sweeps and points that wait at most, where stamps do not advance: five seconds of a lidar at
+  // 100 Hz, and 160 MB.
+  std::size_t max_sweeps = 512;
+  std::size_t max_points = 8 << 20;
 };
 inline constexpr ScanGateParameters kScanGate;
 
