@@ -10,12 +10,18 @@
 #include "lio/convert/bag_reader.hpp"
 #include "lio/io/input_error.hpp"
 #include "rosbag1_record.hpp"
+#include "lio/io/printable.hpp"
 
 namespace lio {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar message is larger
+constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;  // 256 MiB: no message of any type is larger
+// The sweeps of the largest lidars (1 M points of 48 bytes) fit; memory is five times as much.
+constexpr std::uint32_t kMaxWantedBytes = 1u << 26;
+// A recorder closes a chunk at some megabytes or after one message that is larger.
+constexpr std::uint64_t kMaxChunkBytes = 1u << 29;
+constexpr std::size_t kMaxNameBytes = 255;               // ROS allows no longer names
 constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
 
 class Rosbag1Reader : public BagReader {
@@ -176,7 +182,7 @@ void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   } else {
     ++damage_.num_chunks_damaged;
     damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end - chunk_.begin);
-    Damage("chunk of unknown compression '" + header.compression.substr(0, 20) + "'");
+    Damage("chunk of unknown compression '" + Excerpt(header.compression, 20) + "'");
     inside_ = std::make_unique<FileSpan>(file_, 0);
   }
 }
@@ -257,9 +263,9 @@ bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& sourc
   if (!ReadRecordData(source, header.data_bytes, data)) return false;
   if (!header.connection || topic_of_connection_.contains(*header.connection)) return true;
   BagTopic topic;
-  topic.name = header.topic;
+  topic.name = Excerpt(header.topic, kMaxNameBytes);
   (void)VisitFields(data, [&](std::string_view name, std::string_view value) {
-    if (name == "type") topic.type = value;
+    if (name == "type") topic.type = Excerpt(value, kMaxNameBytes);
     if (name == "message_definition") topic.definition = value;
   });
   const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
