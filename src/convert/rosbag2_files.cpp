@@ -41,7 +41,7 @@ Rosbag2Files FilesOfMetadata(const fs::path& path) {
       files.databases.push_back(fs::exists(direct) ? direct
                                                    : path.parent_path() / relative.filename());
     }
-    files.num_messages = info["message_count"].as<std::int64_t>(-1);
+    files.num_messages = std::max<std::int64_t>(-1, info["message_count"].as<std::int64_t>(-1));
   } catch (const YAML::Exception& error) {
     throw InputError(path.string() + ": cannot be read as YAML: " + error.what());
   }
