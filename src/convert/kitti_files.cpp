@@ -35,7 +35,8 @@ std::vector<std::array<float, 4>> ReadBinary(const std::filesystem::path& file) 
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   constexpr std::size_t kPointBytes = sizeof(std::array<float, 4>);
-  if (error || size % kPointBytes != 0) return {};
+  constexpr std::uintmax_t kMaxBytes = 1 << 26;  // 4 M points, thirty times what KITTI has
+  if (error || size % kPointBytes != 0 || size > kMaxBytes) return {};
   std::vector<std::array<float, 4>> points(size / kPointBytes);
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(points.data()), static_cast<std::streamsize>(size));

@@ -162,6 +162,12 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
 void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   ++num_chunks_;
   chunk_.begin = Here();
+// A chunk that inflates to more than it says is a bomb. A size of zero says nothing.
+std::uint64_t MaxInflated(const RecordHeader& header) {
+  const std::uint64_t claimed = header.uncompressed_bytes;
+  return claimed == 0 ? kMaxChunkBytes : std::min(claimed, kMaxChunkBytes);
+}
+
   // A recorder that dies leaves the size of its last chunk at zero.
   const bool open = header.data_bytes == 0 && damage_.not_closed;
   chunk_.end = open ? size_ : chunk_.begin + header.data_bytes;
@@ -176,9 +182,9 @@ void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   if (header.compression == "none") {
     inside_ = std::move(span);
   } else if (header.compression == "lz4") {
-    inside_ = MakeLz4Source(std::move(span));
+    inside_ = Limited(MakeLz4Source(std::move(span)), MaxInflated(header));
   } else if (header.compression == "bz2") {
-    inside_ = MakeBz2Source(std::move(span));
+    inside_ = Limited(MakeBz2Source(std::move(span)), MaxInflated(header));
   } else {
     ++damage_.num_chunks_damaged;
     damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end - chunk_.begin);
@@ -229,8 +235,10 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   const auto topic = header.connection ? topic_of_connection_.find(*header.connection)
                                        : topic_of_connection_.end();
   const bool known = topic != topic_of_connection_.end() && header.time;
-  const bool sound = known && header.data_bytes <= kMaxMessageBytes1;
-  const bool wanted = sound && wanted_(topics_[topic->second]);
+  const bool is_picked = known && wanted_(topics_[topic->second]);
+  const bool sound =
+      known && header.data_bytes <= (is_picked ? kMaxWantedBytes : kMaxMessageBytes1);
+  const bool wanted = sound && is_picked;
   const bool whole = wanted ? ReadRecordData(source, header.data_bytes, buffer_)
                             : source.Skip(header.data_bytes) == header.data_bytes;
   if (!whole) {
