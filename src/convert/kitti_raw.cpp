@@ -11,6 +11,7 @@
 
 #include "convert/ordered_log.hpp"
 #include "convert/sweep_to_chunks.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/stream_stats.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -58,6 +59,7 @@ std::vector<OxtsRow> ReadOxts(const fs::path& folder, KittiRawReport& report) {
   std::vector<OxtsRow> rows;
   for (const auto& [number, file] : packets.files) {
     std::ifstream stream(file);
+    RefuseIrregular(file);
     std::string text;
     std::getline(stream, text);
     auto row = ParseOxts(text);

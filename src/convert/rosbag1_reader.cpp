@@ -8,9 +8,10 @@
 
 #include "byte_source.hpp"
 #include "lio/convert/bag_reader.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
-#include "rosbag1_record.hpp"
 #include "lio/io/printable.hpp"
+#include "rosbag1_record.hpp"
 
 namespace lio {
 namespace {
@@ -79,7 +80,9 @@ class Rosbag1Reader : public BagReader {
   BagDamage damage_;
 };
 
-Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) : file_(path, std::ios::binary) {
+Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) {
+  RefuseIrregular(path);
+  file_.open(path, std::ios::binary);
   std::string magic(kMagic.size(), '\0');
   if (!file_ || !file_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
       magic != kMagic) {
@@ -159,15 +162,15 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
   return Step::kGoOn;
 }
 
-void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
-  ++num_chunks_;
-  chunk_.begin = Here();
 // A chunk that inflates to more than it says is a bomb. A size of zero says nothing.
 std::uint64_t MaxInflated(const RecordHeader& header) {
   const std::uint64_t claimed = header.uncompressed_bytes;
   return claimed == 0 ? kMaxChunkBytes : std::min(claimed, kMaxChunkBytes);
 }
 
+void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
+  ++num_chunks_;
+  chunk_.begin = Here();
   // A recorder that dies leaves the size of its last chunk at zero.
   const bool open = header.data_bytes == 0 && damage_.not_closed;
   chunk_.end = open ? size_ : chunk_.begin + header.data_bytes;

@@ -241,7 +241,7 @@ bool EventLogReader::Impl::ReadEvent(const Header& header, LogEvent& event) {
 
 EventLogReader::EventLogReader(const std::filesystem::path& path)
     : impl_(std::make_unique<Impl>()) {
-  impl_->fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  impl_->fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // waits for no FIFO
   if (impl_->fd < 0) throw std::runtime_error("cannot open " + path.string() + ": " + Why());
   struct stat info {};
   if (::fstat(impl_->fd, &info) != 0 || !S_ISREG(info.st_mode)) {

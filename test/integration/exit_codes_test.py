@@ -3,6 +3,9 @@
 # SPDX-License-Identifier: MIT
 """Tests each program with wrong inputs: it must end with the documented exit code and one line that
 says what to do."""
+import os
+import resource
+import shutil
 import subprocess
 import unittest
 
@@ -190,3 +193,41 @@ class ExitCodes(unittest.TestCase):
 
 if __name__ == "__main__":
     support.main()
+    def test_a_fifo_is_refused_and_not_waited_for(self):
+        folder = self.folder / "fifos"
+        shutil.rmtree(folder, ignore_errors=True)
+        (folder / "velodyne").mkdir(parents=True)
+        for name in ("fifo.bag", "fifo.db3", "fifo.lcm", "fifo.pcd", "times.txt"):
+            os.mkfifo(folder / name)
+        out = self.folder / "none.lcm"
+        for words in (("lio-convert", "rosbag", folder / "fifo.bag", out),
+                      ("lio-convert", "rosbag", folder / "fifo.db3", out),
+                      ("lio-convert", "rosbag", folder, out),
+                      ("lio-convert", "kitti-odometry", folder, out),
+                      ("lio-log", "info", folder / "fifo.lcm"),
+                      ("lio-replay", *self.config, folder / "fifo.lcm", "--out", folder / "run"),
+                      ("lio-replay", *self.config, "--initial-map", folder / "fifo.pcd",
+                       self.drive / "log.lcm", "--out", folder / "run")):
+            with self.subTest(words=words):
+                self.check(INPUT, ["regular file"], *words)
+
+    def test_a_link_among_the_files_of_a_run_is_not_written_through(self):
+        out, precious = self.folder / "linked", self.folder / "precious"
+        shutil.rmtree(out, ignore_errors=True)
+        out.mkdir()
+        precious.write_text("precious")
+        names = ("trajectory.tum", "trajectory_level.rows", "trajectory_level.tum", "states.csv",
+                 "map.pcd", "stats.json", "verdict.json", "options.yaml", "notices.tsv")
+        for name in names:
+            (out / name).symlink_to(precious)
+        link = self.folder / "link"
+        link.unlink(missing_ok=True)
+        link.symlink_to(out)  # a folder may be one
+        done = support.run("lio-replay", *self.config, self.drive / "log.lcm", "--out", link,
+                           "--overwrite", "--map")
+        self.assertIn(done.returncode, (0, 6), done.stderr)
+        self.assertEqual(precious.read_text(), "precious")
+        for name in names:
+            self.assertFalse((out / name).is_symlink(), name)
+        self.assertGreater(support.stats(out)["num_scans"], 20)
+

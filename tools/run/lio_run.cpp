@@ -128,6 +128,7 @@ void PrepareFolder(const Arguments& arguments) {
       RefuseToOverwrite(arguments.input, out / name);
     }
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
+      if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
     return;
   }
   fs::create_directories(out, error);
