@@ -61,12 +61,18 @@ void Replay::Match() {
     const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
     worker_.Insert(insert);
     const bool grows_map = insert.T_map_imu && worker_.is_in_map();
-    if (settings_.writes_map && grows_map) map_.Add(insert.points_imu, *insert.T_map_imu);
+    if (settings_.writes_map && grows_map) AddToMap(insert);
   }
   TakeOutputs();
 }
 
 bool Replay::StartMatch() {
+void Replay::AddToMap(const InsertTask& insert) {
+  const double voxel_m = map_.voxel_m();
+  map_.Add(insert.points_imu, *insert.T_map_imu);
+  if (map_.voxel_m() > voxel_m) fmt::print(stderr, "{}: {}\n", settings_.program, map_.thinned());
+}
+
   const std::optional<MatchJob> job = odometry_.NextJob();
   if (!job) return false;
   if (job->map_action == MapAction::kClear && !settings_.initial_map) map_.Clear();

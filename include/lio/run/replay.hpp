@@ -41,6 +41,7 @@ class Replay {
  private:
   void Add(InputItem item);
   void Match();
+  void AddToMap(const InsertTask& insert);
   [[nodiscard]] bool StartMatch();
   void TakeOutputs();
   void Finish(const LogInput& input, double wall_s);
