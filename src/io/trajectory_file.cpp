@@ -59,6 +59,8 @@ class Reader {
                                                                              : KittiPose(words));
   }
 
+  [[nodiscard]] bool empty() const { return trajectory_.poses.empty(); }
+
   Trajectory Finish() {
     if (trajectory_.poses.empty()) throw std::runtime_error(name_ + ": holds no pose");
     return std::move(trajectory_);
@@ -217,6 +219,10 @@ std::string TumRow(const StampedPose& row) {
   return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}", StampText(row.stamp),
                      p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
+void TellCutLine(const std::filesystem::path& file) {
+  fmt::print(stderr, "{}: the last line is cut and is left out\n", file.string());
+}
+
 
 Trajectory ReadTrajectory(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -224,7 +230,15 @@ Trajectory ReadTrajectory(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be read");
   }
   Reader reader(file);
-  for (std::string line; std::getline(stream, line);) reader.Add(line);
+  for (std::string line; std::getline(stream, line);) {
+    const bool has_line_feed = !stream.eof();
+    try {
+      reader.Add(line);
+    } catch (const std::runtime_error&) {
+      if (has_line_feed || reader.empty()) throw;
+      TellCutLine(file);
+    }
+  }
   return reader.Finish();
 }
 
