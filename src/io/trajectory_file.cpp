@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lio/io/input_error.hpp"
+#include "lio/io/output_file.hpp"
 
 namespace lio {
 namespace {
@@ -135,10 +135,9 @@ class Reader {
 
 template <class RowText>
 void WriteRows(const std::filesystem::path& file, const StampedPoses& poses, RowText row_text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  for (const StampedPose& pose : poses) stream << row_text(pose) << '\n';
-  stream.close();
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
+  OutputFile output(file, OutputFile::Links::kFollowed);
+  for (const StampedPose& pose : poses) output.Write(row_text(pose) + "\n");
+  output.Close();
 }
 
 std::string KittiRow(const StampedPose& row) {
@@ -219,10 +218,10 @@ std::string TumRow(const StampedPose& row) {
   return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}", StampText(row.stamp),
                      p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
+
 void TellCutLine(const std::filesystem::path& file) {
   fmt::print(stderr, "{}: the last line is cut and is left out\n", file.string());
 }
-
 
 Trajectory ReadTrajectory(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

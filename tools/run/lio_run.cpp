@@ -167,12 +167,11 @@ bool IsDrafted(const PreparedRecording& recording) {
 void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
   fmt::print("input       {} ({})\n", arguments.input, recording.kind);
   if (!recording.report.empty()) {
-    OutputFile file = OpenOutput(fs::path(arguments.out) / "conversion.txt");
-    file.stream << recording.report;
-    Close(file);
+    const fs::path file = fs::path(arguments.out) / "conversion.txt";
+    WriteText(file, recording.report);
     fmt::print("converted   {} ({:.0f} MB; it may be deleted), told in {}\n",
                recording.log.string(), static_cast<double>(fs::file_size(recording.log)) * 1e-6,
-               file.path.string());
+               file.string());
   }
   for (const std::string& sentence : recording.assumptions)
     fmt::print("assumed     {}\n", sentence);
