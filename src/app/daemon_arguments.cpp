@@ -26,7 +26,9 @@ constexpr const char* kExamples =
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
     "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map,\n"
     "6 done, but the files of --out cannot be trusted (verdict.json and the log say why),\n"
-    "70 internal fault (the files of --out are complete up to it).";
+    "70 internal fault (the files of --out are complete up to it), 74 a file of --out could not "
+    "be\n"
+    "written in full: the estimate went on, the files end there.";
 
 }  // namespace
 

@@ -11,6 +11,8 @@
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/socket_buffer.hpp"
 
@@ -70,31 +72,37 @@ int Run(const DaemonArguments& arguments, const Options& options,
   return EndRun(runner, arguments.lcm_url);
 }
 
+int Main(int argc, char** argv) {
+  DaemonArguments arguments;
+  Options options;
+  CLI::App app("", "liod");
+  arguments.AddTo(app);
+  if (const auto code =
+          ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
+    return *code;
+  }
+  InitialMapPtr initial_map;
+  if (const auto code = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
+    return *code;
+  }
+  try {
+    return Run(arguments, options, initial_map);
+  } catch (const TransportError& error) {
+    spdlog::error("{}", error.what());
+    return kExitNoTransport;
+  } catch (const WriteError&) {
+    throw;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return kExitUsage;
+  }
+}
+
 }  // namespace
 }  // namespace lio
 
 int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("liod"));
   spdlog::set_pattern("%n: %v");
-  lio::DaemonArguments arguments;
-  lio::Options options;
-  CLI::App app("", "liod");
-  arguments.AddTo(app);
-  if (const auto code =
-          lio::ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
-    return *code;
-  }
-  lio::InitialMapPtr initial_map;
-  if (const auto code = lio::LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
-    return *code;
-  }
-  try {
-    return lio::Run(arguments, options, initial_map);
-  } catch (const lio::TransportError& error) {
-    spdlog::error("{}", error.what());
-    return lio::kExitNoTransport;
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return lio::kExitUsage;
-  }
+  return lio::RunProgram("liod", [&] { return lio::Main(argc, argv); });
 }

@@ -52,7 +52,7 @@ struct EventLogWriter::Impl {
 
   void Put(const void* bytes, std::size_t size) const {
     if (size > 0 && std::fwrite(bytes, 1, size, file) != size) {
-      throw OutputError("cannot write " + name + ": " + Why());
+      throw WriteError("cannot write " + name + " in full: " + Why());
     }
   }
 };
@@ -92,7 +92,7 @@ void EventLogWriter::Close() {
   if (impl_->file == nullptr) return;
   const int result = std::fclose(impl_->file);
   impl_->file = nullptr;
-  if (result != 0) throw OutputError("cannot write " + impl_->name + ": " + Why());
+  if (result != 0) throw WriteError("cannot write " + impl_->name + " in full: " + Why());
 }
 
 struct EventLogReader::Impl {

@@ -10,6 +10,7 @@
 #include "lio/io/file_kind.hpp"
 #include "lio/io/initial_map_file.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/replay.hpp"
@@ -54,7 +55,9 @@ constexpr const char* kExamples =
     "Exit codes: 0 done, 2 usage, 3 configuration (also one that the log's data contradict),\n"
     "5 damaged, missing or unusable log or map, 6 done, but the result cannot be trusted: "
     "verdict.json\n"
-    "and the summary on stdout say why and what to put into the configuration.";
+    "and the summary on stdout say why and what to put into the configuration, 74 a file or "
+    "stdout\n"
+    "could not be written in full.";
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.footer(kExamples);
@@ -90,14 +93,15 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
 }
 
 // Tells how the run went; the exit code.
-ExitCode End(const LogInput& input, const Replay& replay, const ReplayArguments& arguments,
-             const LogInputOptions& input_options) {
+ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& writer,
+             const ReplayArguments& arguments, const LogInputOptions& input_options) {
   if (!replay.refusal().empty()) {
     WriteVerdict(arguments.out, replay.verdict());
     fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
     return kExitConfiguration;
   }
   fmt::print("{}", VerdictSummary(replay.verdict()));
+  if (writer.failure()) return kExitWriteFailed;
   const std::string complaint =
       LogComplaint(arguments.log, input, replay.counters(), input_options);
   if (complaint.empty()) return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
@@ -136,9 +140,10 @@ int Main(int argc, char** argv) {
   try {
     writer.emplace(arguments.out, options,
                    settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap);
+  } catch (const WriteError&) {
+    throw;
   } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
-    return kExitUsage;
+    throw UsageError(fmt::format("--out: {}", error.what()));
   }
   settings.program = "lio-replay";
   settings.writes_map = arguments.writes_map;
@@ -146,20 +151,12 @@ int Main(int argc, char** argv) {
   settings.match_lag = arguments.match_lag;
   Replay replay(options, settings, *writer);
   replay.Run(input);
-  return End(input, replay, arguments, input_options);
+  return End(input, replay, *writer, arguments, input_options);
 }
 
 }  // namespace
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  try {
-    return lio::Main(argc, argv);
-  } catch (const lio::UsageError& error) {
-    fmt::print(stderr, "lio-replay: {}\n", error.what());
-    return lio::kExitUsage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "lio-replay: {}\n", error.what());
-    return lio::kExitUnusableInput;
-  }
+  return lio::RunProgram("lio-replay", [&] { return lio::Main(argc, argv); });
 }

@@ -11,6 +11,7 @@
 #include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
@@ -67,7 +68,8 @@ constexpr const char* kExamples =
     "data\n"
     "contradict), 5 damaged, missing or unusable input (its sound parts were run), 6 done, but "
     "the\n"
-    "result cannot be trusted: verdict.json, the summary and the page say why and what to change.";
+    "result cannot be trusted: verdict.json, the summary and the page say why and what to change,\n"
+    "74 a file or stdout could not be written in full.";
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.footer(kExamples);
@@ -126,9 +128,9 @@ void PrepareFolder(const Arguments& arguments) {
     for (const char* name : {"log.lcm", "truth.tum"}) {
       if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
       RefuseToOverwrite(arguments.input, out / name);
+      if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
     }
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
-      if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
     return;
   }
   fs::create_directories(out, error);
@@ -209,6 +211,8 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   try {
     WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
     fmt::print("report      {}\n", (out / "report.html").string());
+  } catch (const WriteError&) {
+    throw;
   } catch (const std::runtime_error& error) {  // the result itself is sound
     fmt::print(stderr, "{}: no report: {}\n", kProgram, error.what());
   }
@@ -233,6 +237,10 @@ ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Opt
   settings.writes_map = true;
   Replay replay(options, settings, writer);
   replay.Run(input);
+  if (writer.failure()) {
+    fmt::print("{}", VerdictSummary(replay.verdict()));
+    return kExitWriteFailed;
+  }
   if (!replay.refusal().empty()) {
     WriteVerdict(arguments.out, replay.verdict());
     fmt::print(stderr, "{}: {}\n", kProgram, replay.refusal());
@@ -292,17 +300,5 @@ int Main(int argc, char** argv) {
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  const auto fail = [](const std::exception& error, lio::ExitCode code) {
-    fmt::print(stderr, "{}: {}\n", lio::kProgram, error.what());
-    return code;
-  };
-  try {
-    return lio::Main(argc, argv);
-  } catch (const lio::UsageError& error) {
-    return fail(error, lio::kExitUsage);
-  } catch (const lio::OutputError& error) {
-    return fail(error, lio::kExitUsage);
-  } catch (const std::exception& error) {
-    return fail(error, lio::kExitUnusableInput);
-  }
+  return lio::RunProgram(lio::kProgram, [&] { return lio::Main(argc, argv); });
 }
