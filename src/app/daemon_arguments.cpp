@@ -26,7 +26,9 @@ constexpr const char* kExamples =
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
     "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map,\n"
     "6 done, but the files of --out cannot be trusted (verdict.json and the log say why),\n"
-    "70 internal fault (the files of --out are complete up to it).";
+    "70 internal fault (the files of --out are complete up to it), 74 a file of --out could not "
+    "be\n"
+    "written in full: the estimate went on, the files end there.";
 
 }  // namespace
 
@@ -36,8 +38,11 @@ void DaemonArguments::AddTo(CLI::App& app) {
   app.add_option("--lcm-url", lcm_url,
                  "LCM transport; the default is LCM_DEFAULT_URL or else LCM's multicast group")
       ->type_name("URL");
-  app.add_option("--out", out, "Write the files that lio-replay writes into this folder")
+  app.add_option("--out", out,
+                 "Write the files that lio-replay writes into this folder or, when it holds\n"
+                 "anything, into the first of DIR-2, DIR-3 and so on that is free")
       ->type_name("DIR");
+  app.add_flag("--overwrite", overwrites, "With --out: replace the files of an earlier run in DIR");
   app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");
   AddInitialMapArguments(app, initial_map);
   app.add_flag("--cloud-full", publishes_full_cloud,

@@ -15,6 +15,7 @@ struct DaemonArguments {
   OptionsArguments options;
   std::string lcm_url;
   std::string out;
+  bool overwrites = false;
   std::string channel_prefix = kDefaultChannelPrefix;
   bool writes_map = false;
   InitialMapArguments initial_map;

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <exception>
 #include <sstream>
 
+#include "lio/io/input_error.hpp"
 #include "lio/io/verdict_report.hpp"
 
 namespace lio {
@@ -29,15 +29,19 @@ ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url) {
   std::string unfinished;
   try {
     runner.Stop();
-  } catch (const std::exception& error) {
-    if (!runner.fault()) throw;
-    unfinished = fmt::format("; {}", error.what());
+  } catch (const WriteError& error) {
+    unfinished = error.what();
   }
   if (const auto fault = runner.fault()) {
-    spdlog::error("{}{}; the run ends here, please report this fault", *fault, unfinished);
+    spdlog::error("{}{}{}; the run ends here, please report this fault", *fault,
+                  unfinished.empty() ? "" : "; ", unfinished);
     return kExitInternalFault;
   }
   if (runner.verdict()) Tell(*runner.verdict());
+  if (!unfinished.empty()) {
+    spdlog::error("{}: the files are not complete", unfinished);
+    return kExitWriteFailed;
+  }
   const bool is_distrusted = runner.verdict() && runner.verdict()->trust == Trust::kNo;
   if (!is_connection_lost) {
     return is_distrusted && runner.writes_files() ? kExitNoTrust : kExitDone;

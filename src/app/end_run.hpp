@@ -15,8 +15,8 @@ namespace lio {
 
 // Stops the runner and tells in one line on stderr why, unless it was asked to end or a log that
 // `lcm_url` names is over; then it tells the verdict on the run. Returns the exit code, which is
-// kExitNoTrust where files were written that cannot be trusted. Throws std::runtime_error when a
-// file could not be completed.
+// kExitNoTrust where files were written that cannot be trusted, and kExitWriteFailed where they
+// could not be completed.
 [[nodiscard]] ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url);
 
 }  // namespace lio

@@ -6,6 +6,11 @@
 #include <utility>
 
 namespace lio {
+namespace {
+
+constexpr std::size_t kMaxChunks = 1 << 16;  // 10 MB where they are empty
+
+}  // namespace
 
 void FilterInbox::Put(Arrival<ImuSample> sample) {
   const std::lock_guard lock(mutex_);
@@ -22,7 +27,7 @@ void FilterInbox::Put(Arrival<ScanChunk> chunk) {
   const std::lock_guard lock(mutex_);
   num_points_ += chunk.data.points.size();
   messages_.push_back(std::make_unique<InboxItem>(std::move(chunk)));
-  while (num_points_ > max_points_) DropOldestScan();
+  while (num_points_ > max_points_ || messages_.size() - num_imu_ > kMaxChunks) DropOldestScan();
   filled_.notify_one();
 }
 

@@ -11,6 +11,9 @@
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/socket_buffer.hpp"
 
 namespace lio {
@@ -44,6 +47,16 @@ void RaiseBuffer(const std::string& url, LiveOptions& live) {
                live.receive_buffer_bytes / 1024, ReceiveBufferAdvice());
 }
 
+// A restart must keep what the run before has written.
+void KeepEarlierRun(LiveOptions& live) {
+  const std::filesystem::path wanted = *live.out;
+  live.out = MakeFreeFolder(wanted);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(wanted, *live.out, ignored)) return;
+  spdlog::warn("{} holds files already: the files of this run go to {}", wanted.string(),
+               live.out->string());
+}
+
 int Run(const DaemonArguments& arguments, const Options& options,
         const InitialMapPtr& initial_map) {
   const sigset_t signals = BlockSignals();
@@ -51,11 +64,38 @@ int Run(const DaemonArguments& arguments, const Options& options,
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
   live.initial_map = initial_map;
+  if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
   LiveRunner runner(*bus, options, live);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
   WaitForEnd(signals, runner);
   return EndRun(runner, arguments.lcm_url);
+}
+
+int Main(int argc, char** argv) {
+  DaemonArguments arguments;
+  Options options;
+  CLI::App app("", "liod");
+  arguments.AddTo(app);
+  if (const auto code =
+          ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
+    return *code;
+  }
+  InitialMapPtr initial_map;
+  if (const auto code = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
+    return *code;
+  }
+  try {
+    return Run(arguments, options, initial_map);
+  } catch (const TransportError& error) {
+    spdlog::error("{}", error.what());
+    return kExitNoTransport;
+  } catch (const WriteError&) {
+    throw;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return kExitUsage;
+  }
 }
 
 }  // namespace
@@ -64,25 +104,5 @@ int Run(const DaemonArguments& arguments, const Options& options,
 int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("liod"));
   spdlog::set_pattern("%n: %v");
-  lio::DaemonArguments arguments;
-  lio::Options options;
-  CLI::App app("", "liod");
-  arguments.AddTo(app);
-  if (const auto code =
-          lio::ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
-    return *code;
-  }
-  lio::InitialMapPtr initial_map;
-  if (const auto code = lio::LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
-    return *code;
-  }
-  try {
-    return lio::Run(arguments, options, initial_map);
-  } catch (const lio::TransportError& error) {
-    spdlog::error("{}", error.what());
-    return lio::kExitNoTransport;
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return lio::kExitUsage;
-  }
+  return lio::RunProgram("liod", [&] { return lio::Main(argc, argv); });
 }

@@ -27,7 +27,8 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
       output_worker_(
           publisher_, live.out ? &writer_.emplace(*live.out, options, live.start_in()) : nullptr,
           live.version, [this] { return ComposeStatus(); },
-          [this](const std::string& fault) { OnFault(fault); }),
+          [this](const std::string& fault) { OnFault(fault); },
+          [this](const std::string& failure) { OnWriteFailure(failure); }),
       filter_(options, live.start_in(), live.publishes_full_cloud,
               {inbox_, publisher_, board_, match_worker_, output_worker_}),
       receiver_(bus, live_.channels, ThreadCpuNs, inbox_, board_,
@@ -50,6 +51,11 @@ LiveRunner::~LiveRunner() {
 void LiveRunner::OnFault(const std::string& fault) {
   faults_.Set(fault);
   board_.SetNote(fault);
+}
+
+void LiveRunner::OnWriteFailure(const std::string& failure) {
+  spdlog::error("{}; the files end here, the messages go on", failure);
+  board_.SetAlarm(failure);
 }
 
 void LiveRunner::EndThreads() {

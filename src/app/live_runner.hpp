@@ -71,12 +71,13 @@ class LiveRunner {
   [[nodiscard]] bool writes_files() const { return writer_.has_value(); }
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
-  // the files and sends a last status. Once only. Throws std::runtime_error when a file could not
-  // be completed.
+  // the files and sends a last status. Once only. Throws WriteError when a file could not be
+  // written in full.
   void Stop();
 
  private:
   void OnFault(const std::string& fault);
+  void OnWriteFailure(const std::string& failure);
   void Obey(const Command& command);
   void EndThreads();
   StatusReport ComposeStatus();

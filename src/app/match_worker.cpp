@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/match_worker.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "lio/io/beam_table.hpp"
@@ -65,7 +67,11 @@ void MatchWorker::Do(const MatchJob& job) {
 void MatchWorker::Do(const InsertTask& insert) {
   worker_.Insert(insert);
   const bool grows_map = insert.T_map_imu && worker_.is_in_map();
-  if (collects_map_ && grows_map) map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
+  if (collects_map_ && grows_map) {
+    const double voxel_m = map_cloud_.voxel_m();
+    map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
+    if (map_cloud_.voxel_m() > voxel_m) spdlog::warn("{}", map_cloud_.thinned());
+  }
   map_bytes_ = worker_.matcher().map_size().memory_bytes;
 }
 

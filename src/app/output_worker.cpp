@@ -18,11 +18,13 @@ constexpr std::chrono::milliseconds kChunkPause(1);
 }  // namespace
 
 OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, std::string version,
-                           std::function<StatusReport()> compose, OnFault on_fault)
+                           std::function<StatusReport()> compose, OnFault on_fault,
+                           OnFault on_write_failure)
     : publisher_(publisher),
       writer_(writer),
       version_(std::move(version)),
       compose_(std::move(compose)),
+      on_write_failure_(std::move(on_write_failure)),
       thread_("output", std::move(on_fault)) {
   thread_.Start([this] { Run(); });
 }
@@ -96,12 +98,23 @@ void OutputWorker::Run() {
   }
 }
 
-void OutputWorker::Do(const Tasks& tasks) {
-  for (const Output& row : tasks.rows) writer_->Write(row);
+void OutputWorker::Do(Tasks& tasks) {
+  WriteRows(tasks);
   if (tasks.cloud) publisher_.Publish(*tasks.cloud);
   if (tasks.full_cloud) PublishFull(*tasks.full_cloud);
   if (tasks.features) PublishFeatures(*tasks.features);
   if (tasks.status) publisher_.Publish(compose_(), version_);
+}
+
+void OutputWorker::WriteRows(Tasks& tasks) {
+  if (writer_ == nullptr) return;
+  if (writer_->failure()) num_rows_dropped_ += static_cast<std::int64_t>(tasks.rows.size());
+  for (const Output& row : tasks.rows) writer_->Write(row);
+  if (tasks.status) writer_->Flush();  // no row may come for a while
+  if (!writer_->failure() || has_told_failure_) return;
+  has_told_failure_ = true;
+  on_write_failure_(*writer_->failure());
+  tasks.status = true;
 }
 
 void OutputWorker::PublishFull(const FullCloudTask& task) {

@@ -26,9 +26,13 @@ class OutputWorker {
   static constexpr std::size_t kMaxRows = 20'000;  // 20 MB, some ten seconds of 1 kHz
 
   // `publisher` and `writer` are borrowed; `writer` is null without files. `compose` gives the
-  // status, on the output thread. `on_fault` is called when any of them has thrown.
-  OutputWorker(Publisher& publisher, RunWriter* writer, std::string version,
-               std::function<StatusReport()> compose, OnFault on_fault);
+  // status, on the output thread. `on_fault` is called when any of them has thrown, and
+  // `on_write_failure` once, on the output thread, when a file cannot be written, e.g. on a full
+  // disk: a status follows at once, and the rows from there on are dropped and counted.
+  OutputWorker(
+      Publisher& publisher, RunWriter* writer, std::string version,
+      std::function<StatusReport()> compose, OnFault on_fault,
+      OnFault on_write_failure = [](const std::string&) {});
   ~OutputWorker();  // as Finish
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
@@ -59,7 +63,8 @@ class OutputWorker {
   };
 
   void Run();
-  void Do(const Tasks& tasks);
+  void Do(Tasks& tasks);
+  void WriteRows(Tasks& tasks);
   void PublishFull(const FullCloudTask& task);
   void PublishFeatures(const FeatureCloudTask& task);
 
@@ -67,6 +72,8 @@ class OutputWorker {
   RunWriter* writer_;
   std::string version_;
   std::function<StatusReport()> compose_;
+  OnFault on_write_failure_;
+  bool has_told_failure_ = false;  // of the output thread
   std::atomic<std::int64_t> num_rows_dropped_ = 0;
 
   std::mutex mutex_;  // guards tasks_ and is_finishing_

@@ -76,6 +76,11 @@ void StatusBoard::SetNote(std::string note) {
   report_.note = std::move(note);
 }
 
+void StatusBoard::SetAlarm(std::string alarm) {
+  const std::lock_guard lock(mutex_);
+  alarm_ = std::move(alarm);
+}
+
 void StatusBoard::CountRefusedCommand() {
   const std::lock_guard lock(mutex_);
   ++report_.num_commands_refused;
@@ -108,6 +113,7 @@ StatusReport StatusBoard::Compose() {
   report_.latency = Summarise(latencies_.total_ms);
   latencies_ = {};
   StatusReport report = report_;
+  if (!alarm_.empty()) report.note = alarm_;
   ++report_.seq;
   return report;
 }

@@ -32,6 +32,8 @@ class StatusBoard {
   void SetTrust(Trust trust);
   void SetInput(const InputCounters& counters);
   void SetNote(std::string note);
+  // Stands in place of all notes from now on, because it does not pass.
+  void SetAlarm(std::string alarm);
   void CountRefusedCommand();
   // The times of one scan: `queue_ms` from the arrival of its last datagram to the start of its
   // match, `compute_ms` from there to its odometry.
@@ -51,6 +53,7 @@ class StatusBoard {
   const StatusClocks clocks_;
   mutable std::mutex mutex_;  // guards everything below
   StatusReport report_;
+  std::string alarm_;
   Latencies latencies_;
   std::int64_t last_utime_;
   std::int64_t last_cpu_us_;

@@ -113,6 +113,27 @@ class Bz2Source : public ByteSource {
   bool at_end_ = false;
 };
 
+class LimitedSource : public ByteSource {
+ public:
+  LimitedSource(std::unique_ptr<ByteSource> source, std::uint64_t max_bytes)
+      : source_(std::move(source)), left_(max_bytes) {}
+  bool damaged() const override { return has_more_ || source_->damaged(); }
+
+ private:
+  std::size_t DoRead(std::span<std::uint8_t> out) override {
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), left_));
+    const std::size_t got = source_->Read(out.first(wanted));
+    left_ -= got;
+    std::uint8_t next = 0;
+    if (wanted < out.size() && got == wanted) has_more_ |= source_->Read({&next, 1}) == 1;
+    return got;
+  }
+
+  std::unique_ptr<ByteSource> source_;
+  std::uint64_t left_;
+  bool has_more_ = false;
+};
+
 }  // namespace
 
 std::size_t ByteSource::Read(std::span<std::uint8_t> out) {
@@ -163,6 +184,10 @@ std::unique_ptr<ByteSource> MakeLz4Source(std::unique_ptr<ByteSource> compressed
 
 std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed) {
   return std::make_unique<Bz2Source>(std::move(compressed));
+}
+
+std::unique_ptr<ByteSource> Limited(std::unique_ptr<ByteSource> source, std::uint64_t max_bytes) {
+  return std::make_unique<LimitedSource>(std::move(source), max_bytes);
 }
 
 }  // namespace lio

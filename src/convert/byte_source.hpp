@@ -53,4 +53,8 @@ class FileSpan : public ByteSource {
 [[nodiscard]] std::unique_ptr<ByteSource> MakeLz4Source(std::unique_ptr<ByteSource> compressed);
 [[nodiscard]] std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed);
 
+// Delivers at most `max_bytes` of `source`, and is damaged where the source has more.
+[[nodiscard]] std::unique_ptr<ByteSource> Limited(std::unique_ptr<ByteSource> source,
+                                                  std::uint64_t max_bytes);
+
 }  // namespace lio

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "convert/sweep_to_chunks.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/trajectory_file.hpp"
 
@@ -35,8 +36,10 @@ std::vector<std::array<float, 4>> ReadBinary(const std::filesystem::path& file) 
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   constexpr std::size_t kPointBytes = sizeof(std::array<float, 4>);
-  if (error || size % kPointBytes != 0) return {};
+  constexpr std::uintmax_t kMaxBytes = 1 << 26;  // 4 M points, thirty times what KITTI has
+  if (error || size % kPointBytes != 0 || size > kMaxBytes) return {};
   std::vector<std::array<float, 4>> points(size / kPointBytes);
+  RefuseIrregular(file);
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(points.data()), static_cast<std::streamsize>(size));
   if (!stream) points.clear();
@@ -44,6 +47,7 @@ std::vector<std::array<float, 4>> ReadBinary(const std::filesystem::path& file) 
 }
 
 std::vector<std::array<float, 4>> ReadText(const std::filesystem::path& file) {
+  RefuseIrregular(file);
   std::ifstream stream(file);
   std::vector<std::array<float, 4>> points;
   std::array<float, 4> point;
@@ -79,6 +83,7 @@ std::optional<Timestamp> ParseKittiStamp(std::string_view line) {
 }
 
 std::vector<Timestamp> ReadKittiStamps(const std::filesystem::path& file) {
+  RefuseIrregular(file);
   std::ifstream stream(file);
   if (!stream) throw InputError(file.string() + ": cannot be read");
   std::vector<Timestamp> stamps;
@@ -97,6 +102,7 @@ std::vector<Timestamp> ReadKittiStamps(const std::filesystem::path& file) {
 }
 
 std::map<std::string, std::vector<double>> ReadKittiCalibration(const std::filesystem::path& file) {
+  RefuseIrregular(file);
   std::ifstream stream(file);
   if (!stream) throw InputError(file.string() + ": cannot be read");
   std::map<std::string, std::vector<double>> rows;

@@ -11,6 +11,7 @@
 
 #include "convert/ordered_log.hpp"
 #include "convert/sweep_to_chunks.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/trajectory_file.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<Timestamp> ReadTimes(const fs::path& file) {
+  RefuseIrregular(file);
   std::ifstream stream(file);
   if (!stream) throw InputError(file.string() + ": cannot be read");
   std::vector<Timestamp> times;

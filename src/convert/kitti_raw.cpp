@@ -11,7 +11,9 @@
 
 #include "convert/ordered_log.hpp"
 #include "convert/sweep_to_chunks.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/output_file.hpp"
 #include "lio/io/stream_stats.hpp"
 #include "lio/io/trajectory_file.hpp"
 
@@ -57,6 +59,7 @@ std::vector<OxtsRow> ReadOxts(const fs::path& folder, KittiRawReport& report) {
   report.num_oxts_missing = packets.num_missing();
   std::vector<OxtsRow> rows;
   for (const auto& [number, file] : packets.files) {
+    RefuseIrregular(file);
     std::ifstream stream(file);
     std::string text;
     std::getline(stream, text);
@@ -186,8 +189,7 @@ void WriteRig(const fs::path& drive, const fs::path& file) {
   const Pose T_imu_lidar = T_lidar_imu.Inverse();
   const Vector3& t = T_imu_lidar.translation;
   const Quaternion& q = T_imu_lidar.rotation;
-  std::ofstream stream(file);
-  stream << fmt::format(
+  const std::string text = fmt::format(
       "# From {}: p_imu = T_imu_lidar * p_lidar.\n"
       "rig:\n"
       "  T_imu_lidar:\n"
@@ -196,8 +198,7 @@ void WriteRig(const fs::path& drive, const fs::path& file) {
       "  lidar:\n"
       "    model: hdl64e\n",
       calibration.filename().string(), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
-  stream.close();
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
+  WriteText(file, text, OutputFile::Links::kFollowed);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "joined_bags.hpp"
 #include "lio/convert/bag_reader.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {
@@ -10,6 +11,7 @@ namespace fs = std::filesystem;
 
 std::unique_ptr<BagReader> OpenBag(const fs::path& path) {
   if (!fs::exists(path)) throw InputError(path.string() + ": no such file or folder");
+  RefuseIrregular(path);
   const fs::path extension = path.extension();
   if (fs::is_directory(path) && !fs::exists(path / "metadata.yaml")) {
     const std::vector<fs::path> bags = BagsOfFolder(path);

@@ -65,12 +65,10 @@ bool IsRule(std::string_view line) {
   return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
-// Returns whether `full` is the message that `type` means in a field of a message of `package`.
-bool Matches(std::string_view full, std::string_view type, std::string_view package) {
-  if (full == type) return true;
-  if (type == "Header") return full == "std_msgs/Header";
-  if (type.find('/') != std::string_view::npos) return false;
-  return full == std::string(package) + "/" + std::string(type);
+// The full name of the message that `type` may mean in a field of a message of `package`.
+std::string FullName(const std::string& type, const std::string& package) {
+  if (type == "Header") return "std_msgs/Header";
+  return type.find('/') == std::string::npos ? package + "/" + type : type;
 }
 
 }  // namespace
@@ -122,7 +120,7 @@ bool RosSchema::ParseLine(std::string_view line, Message& message) const {
 }
 
 // Finds the field's type. Returns false for a message that is not defined.
-bool RosSchema::LinkField(Field& field, const std::string& package) const {
+bool RosSchema::LinkField(Field& field, const std::string& package, const MessageIndex& index) {
   if (FindPrimitive(field.type) != nullptr) {
     field.kind = Kind::kNumber;
   } else if (field.type == "string" || field.type == "wstring") {
@@ -131,23 +129,26 @@ bool RosSchema::LinkField(Field& field, const std::string& package) const {
     field.kind = Kind::kTime;
   } else {
     field.kind = Kind::kMessage;
-    const auto found = std::find_if(messages_.begin() + 1, messages_.end(), [&](const Message& m) {
-      return Matches(m.type, field.type, package);
-    });
-    if (found == messages_.end()) return false;
-    field.message = static_cast<std::size_t>(found - messages_.begin());
+    const auto same = index.find(field.type);
+    const auto full = index.find(FullName(field.type, package));
+    if (same == index.end() && full == index.end()) return false;
+    field.message = same == index.end()   ? full->second
+                    : full == index.end() ? same->second
+                                          : std::min(same->second, full->second);
   }
   return true;
 }
 
 // Finds the message of every field that is one. Returns false when a type is not defined.
 bool RosSchema::Link() {
+  MessageIndex index;
+  for (std::size_t i = 1; i < messages_.size(); ++i) index.try_emplace(messages_[i].type, i);
   for (Message& message : messages_) {
     const std::size_t slash = message.type.find('/');
     const std::string package =
         slash == std::string::npos ? std::string() : message.type.substr(0, slash);
     for (Field& field : message.fields) {
-      if (!LinkField(field, package)) return false;
+      if (!LinkField(field, package, index)) return false;
     }
   }
   return !messages_.front().fields.empty();

@@ -8,14 +8,21 @@
 
 #include "byte_source.hpp"
 #include "lio/convert/bag_reader.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/printable.hpp"
 #include "rosbag1_record.hpp"
 
 namespace lio {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;    // 256 MiB: no lidar message is larger
+constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;  // 256 MiB: no message of any type is larger
+// The sweeps of the largest lidars (1 M points of 48 bytes) fit; memory is five times as much.
+constexpr std::uint32_t kMaxWantedBytes = 1u << 26;
+// A recorder closes a chunk at some megabytes or after one message that is larger.
+constexpr std::uint64_t kMaxChunkBytes = 1u << 29;
+constexpr std::size_t kMaxNameBytes = 255;               // ROS allows no longer names
 constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
 
 class Rosbag1Reader : public BagReader {
@@ -73,7 +80,9 @@ class Rosbag1Reader : public BagReader {
   BagDamage damage_;
 };
 
-Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) : file_(path, std::ios::binary) {
+Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) {
+  RefuseIrregular(path);
+  file_.open(path, std::ios::binary);
   std::string magic(kMagic.size(), '\0');
   if (!file_ || !file_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
       magic != kMagic) {
@@ -153,6 +162,12 @@ Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
   return Step::kGoOn;
 }
 
+// A chunk that inflates to more than it says is a bomb. A size of zero says nothing.
+std::uint64_t MaxInflated(const RecordHeader& header) {
+  const std::uint64_t claimed = header.uncompressed_bytes;
+  return claimed == 0 ? kMaxChunkBytes : std::min(claimed, kMaxChunkBytes);
+}
+
 void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   ++num_chunks_;
   chunk_.begin = Here();
@@ -170,13 +185,13 @@ void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   if (header.compression == "none") {
     inside_ = std::move(span);
   } else if (header.compression == "lz4") {
-    inside_ = MakeLz4Source(std::move(span));
+    inside_ = Limited(MakeLz4Source(std::move(span)), MaxInflated(header));
   } else if (header.compression == "bz2") {
-    inside_ = MakeBz2Source(std::move(span));
+    inside_ = Limited(MakeBz2Source(std::move(span)), MaxInflated(header));
   } else {
     ++damage_.num_chunks_damaged;
     damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end - chunk_.begin);
-    Damage("chunk of unknown compression '" + header.compression.substr(0, 20) + "'");
+    Damage("chunk of unknown compression '" + Excerpt(header.compression, 20) + "'");
     inside_ = std::make_unique<FileSpan>(file_, 0);
   }
 }
@@ -223,8 +238,10 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   const auto topic = header.connection ? topic_of_connection_.find(*header.connection)
                                        : topic_of_connection_.end();
   const bool known = topic != topic_of_connection_.end() && header.time;
-  const bool sound = known && header.data_bytes <= kMaxMessageBytes1;
-  const bool wanted = sound && wanted_(topics_[topic->second]);
+  const bool is_picked = known && wanted_(topics_[topic->second]);
+  const bool sound =
+      known && header.data_bytes <= (is_picked ? kMaxWantedBytes : kMaxMessageBytes1);
+  const bool wanted = sound && is_picked;
   const bool whole = wanted ? ReadRecordData(source, header.data_bytes, buffer_)
                             : source.Skip(header.data_bytes) == header.data_bytes;
   if (!whole) {
@@ -257,9 +274,9 @@ bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& sourc
   if (!ReadRecordData(source, header.data_bytes, data)) return false;
   if (!header.connection || topic_of_connection_.contains(*header.connection)) return true;
   BagTopic topic;
-  topic.name = header.topic;
+  topic.name = Excerpt(header.topic, kMaxNameBytes);
   (void)VisitFields(data, [&](std::string_view name, std::string_view value) {
-    if (name == "type") topic.type = value;
+    if (name == "type") topic.type = Excerpt(value, kMaxNameBytes);
     if (name == "message_definition") topic.definition = value;
   });
   const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {

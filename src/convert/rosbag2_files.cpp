@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {
@@ -30,6 +31,7 @@ void CheckStorage(const YAML::Node& info, const fs::path& path) {
 
 Rosbag2Files FilesOfMetadata(const fs::path& path) {
   Rosbag2Files files;
+  RefuseIrregular(path);
   try {
     const YAML::Node info = YAML::LoadFile(path.string())["rosbag2_bagfile_information"];
     if (!info.IsMap()) throw InputError(path.string() + ": no metadata of a ROS 2 bag");
@@ -41,7 +43,7 @@ Rosbag2Files FilesOfMetadata(const fs::path& path) {
       files.databases.push_back(fs::exists(direct) ? direct
                                                    : path.parent_path() / relative.filename());
     }
-    files.num_messages = info["message_count"].as<std::int64_t>(-1);
+    files.num_messages = std::max<std::int64_t>(-1, info["message_count"].as<std::int64_t>(-1));
   } catch (const YAML::Exception& error) {
     throw InputError(path.string() + ": cannot be read as YAML: " + error.what());
   }
@@ -49,9 +51,7 @@ Rosbag2Files FilesOfMetadata(const fs::path& path) {
   return files;
 }
 
-}  // namespace
-
-Rosbag2Files FindRosbag2Files(const fs::path& path) {
+Rosbag2Files FindFiles(const fs::path& path) {
   if (fs::is_regular_file(path) && path.extension() == ".db3") return {{path}, -1};
   const fs::path metadata = fs::is_directory(path) ? path / "metadata.yaml" : path;
   if (fs::exists(metadata)) return FilesOfMetadata(metadata);
@@ -61,6 +61,14 @@ Rosbag2Files FindRosbag2Files(const fs::path& path) {
   }
   std::sort(files.databases.begin(), files.databases.end());
   if (files.databases.empty()) throw InputError(path.string() + ": no ROS 2 bag: no .db3 file");
+  return files;
+}
+
+}  // namespace
+
+Rosbag2Files FindRosbag2Files(const fs::path& path) {
+  Rosbag2Files files = FindFiles(path);
+  for (const fs::path& database : files.databases) RefuseIrregular(database);
   return files;
 }
 

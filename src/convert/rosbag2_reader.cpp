@@ -12,6 +12,7 @@
 #include "lio/convert/byte_order.hpp"
 #include "lio/convert/ros_messages.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/printable.hpp"
 #include "rosbag2_files.hpp"
 
 namespace lio {
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMaxNameBytes = 255;  // ROS allows no longer names
 constexpr int kMaxMessageBytes2 = 1 << 28;  // 256 MiB: no lidar message is larger
 
 constexpr std::int64_t kMaxStampNs =
@@ -139,8 +141,8 @@ void Rosbag2Reader::ReadTopics(sqlite3* database,
   const Statement rows(raw);
   while (raw != nullptr && sqlite3_step(raw) == SQLITE_ROW) {
     BagTopic topic;
-    topic.name = Text(raw, 1);
-    topic.type = Ros1TypeName(Text(raw, 2));
+    topic.name = Excerpt(Text(raw, 1), kMaxNameBytes);
+    topic.type = Ros1TypeName(Excerpt(Text(raw, 2), kMaxNameBytes));
     topic.encoding = Text(raw, 3) == "ros1" ? RosEncoding::kRos1 : RosEncoding::kCdr;
     const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
       return other.name == topic.name && other.type == topic.type;

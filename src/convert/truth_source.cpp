@@ -73,7 +73,7 @@ void TruthSource::Add(const BagMessage& message) {
 
 void TruthSource::Close() {
   file_.close();
-  if (!file_) throw OutputError(path_.string() + ": cannot be written, is the disk full?");
+  if (!file_) throw WriteError("cannot write " + path_.string() + " in full: is the disk full?");
 }
 
 std::string TruthSource::description() const {

@@ -40,7 +40,17 @@ class Reader {
     std::string line;
     while (std::getline(stream_, line)) {
       ++line_number_;
-      if (!line.empty()) ReadRow(line);
+      if (line.empty()) continue;
+      const std::size_t num_rows = table_.rows.size();
+      const bool has_line_feed = !stream_.eof();
+      try {
+        ReadRow(line);
+      } catch (const std::runtime_error&) {
+        if (has_line_feed) throw;
+        table_.stamps.resize(num_rows);
+        table_.rows.resize(num_rows);
+        TellCutLine(name_);
+      }
     }
     return std::move(table_);
   }

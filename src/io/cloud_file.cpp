@@ -8,8 +8,11 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <bit>
 #include <fstream>
 #include <string>
+
+#include "lio/io/output_file.hpp"
 
 namespace lio {
 namespace {
@@ -61,6 +64,18 @@ std::vector<Eigen::Vector3f> PointsOf(const pcl::PCLPointCloud2& cloud) {
   points.reserve(converted.size());
   for (const pcl::PointXYZ& p : converted) points.emplace_back(p.x, p.y, p.z);
   return points;
+}
+
+void WriteCloud(const std::filesystem::path& path, const std::string& header,
+                std::span<const Eigen::Vector3f> points) {
+  static_assert(std::endian::native == std::endian::little);
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  OutputFile file(path);
+  file.Write(header);
+  for (const Eigen::Vector3f& point : points) {
+    file.Write({reinterpret_cast<const char*>(point.data()), sizeof point});
+  }
+  file.Close();
 }
 
 }  // namespace lio

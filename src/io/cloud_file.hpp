@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace lio {
@@ -24,5 +26,10 @@ enum class CloudKind : std::int8_t { kOther, kPcd, kPly };
 
 // x, y and z of all points, those that are not finite included. Needs these fields as floats.
 [[nodiscard]] std::vector<Eigen::Vector3f> PointsOf(const pcl::PCLPointCloud2& cloud);
+
+// Writes the header and, behind it, x, y and z of each point as floats, lowest byte first. Throws
+// as OutputFile does.
+void WriteCloud(const std::filesystem::path& path, const std::string& header,
+                std::span<const Eigen::Vector3f> points);
 
 }  // namespace lio

@@ -52,7 +52,7 @@ struct EventLogWriter::Impl {
 
   void Put(const void* bytes, std::size_t size) const {
     if (size > 0 && std::fwrite(bytes, 1, size, file) != size) {
-      throw OutputError("cannot write " + name + ": " + Why());
+      throw WriteError("cannot write " + name + " in full: " + Why());
     }
   }
 };
@@ -92,7 +92,7 @@ void EventLogWriter::Close() {
   if (impl_->file == nullptr) return;
   const int result = std::fclose(impl_->file);
   impl_->file = nullptr;
-  if (result != 0) throw OutputError("cannot write " + impl_->name + ": " + Why());
+  if (result != 0) throw WriteError("cannot write " + impl_->name + " in full: " + Why());
 }
 
 struct EventLogReader::Impl {
@@ -241,7 +241,7 @@ bool EventLogReader::Impl::ReadEvent(const Header& header, LogEvent& event) {
 
 EventLogReader::EventLogReader(const std::filesystem::path& path)
     : impl_(std::make_unique<Impl>()) {
-  impl_->fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  impl_->fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // waits for no FIFO
   if (impl_->fd < 0) throw std::runtime_error("cannot open " + path.string() + ": " + Why());
   struct stat info {};
   if (::fstat(impl_->fd, &info) != 0 || !S_ISREG(info.st_mode)) {

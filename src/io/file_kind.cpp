@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "lio/io/input_error.hpp"
+
 namespace lio {
 namespace {
 
@@ -66,6 +68,14 @@ std::string TakeItsTrajectory(const fs::path& path) {
 }
 
 }  // namespace
+
+void RefuseIrregular(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) return;
+  throw InputError(path.string() +
+                   ": is no regular file: a FIFO or a device cannot be read, save it as a file");
+}
 
 fs::path PathOfRun(const fs::path& folder) {
   const fs::path level = folder / "trajectory_level.tum";

@@ -13,6 +13,7 @@
 
 #include "cloud_file.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {
@@ -69,6 +70,7 @@ std::vector<Eigen::Vector3f> LoadMapPoints(const fs::path& path) {
     return InputError(fmt::format("{} {}", path.string(), why));
   };
   if (!fs::exists(path)) throw fail("does not exist");
+  RefuseIrregular(path);
   const CloudKind kind = KindOfCloud(path);
   if (kind == CloudKind::kOther) throw fail("is neither a PCD nor a PLY file");
   const std::optional<pcl::PCLPointCloud2> cloud = ReadCloud(path, kind);

@@ -31,8 +31,9 @@ LevelTrack::LevelTrack(const fs::path& folder, bool turns_map)
     : folder_(folder), rows_path_(folder / "trajectory_level.rows"), turns_map_(turns_map) {
   std::error_code error;
   for (const char* stale : {kPoses, kCovariances}) fs::remove(folder / stale, error);
+  if (fs::is_symlink(rows_path_, error)) fs::remove(rows_path_, error);
   rows_.open(rows_path_, std::ios::binary | std::ios::trunc | std::ios::in | std::ios::out);
-  if (!rows_) throw std::runtime_error("cannot write " + rows_path_.string());
+  if (!rows_) throw OutputError("cannot write " + rows_path_.string());
 }
 
 void LevelTrack::Put(const Pose& pose, double (&to)[7]) {
@@ -69,26 +70,31 @@ Pose LevelTrack::LastImuPose(const Row& row) const {
   return T_map_imu * Get(row.T_imu_lidar) * Get(last_.T_imu_lidar).Inverse();
 }
 
-void LevelTrack::Finish() {
-  rows_.seekg(0);  // writes what is left in the stream's buffer
-  if (!rows_) throw std::runtime_error("cannot write " + rows_path_.string() + " in full");
-  if (is_level_known_) {
-    const Pose T_level_map{R_level_map(), Vector3::Zero()};
-    OutputFile poses = OpenOutput(folder_ / kPoses);
-    OutputFile covariances = OpenOutput(folder_ / kCovariances);
-    covariances.stream << CovarianceHeader();
-    Row row;
-    while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
-      const Timestamp stamp{row.stamp_ns + last_.clock_correction_ns - row.clock_correction_ns};
-      const Pose pose = T_level_map * LastImuPose(row);
-      poses.stream << TumRow({stamp, pose}) << '\n';
-      const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
-      covariances.stream << CovarianceRow(stamp,
-                                          CovarianceOf(pose, Get(row.T_world_imu), world_cov));
-    }
-    Close(poses);
-    Close(covariances);
+void LevelTrack::Flush() {
+  if (!rows_.flush()) throw WriteError("cannot write " + rows_path_.string() + " in full");
+}
+
+void LevelTrack::WriteFiles() {
+  const Pose T_level_map{R_level_map(), Vector3::Zero()};
+  OutputFile poses(folder_ / kPoses);
+  OutputFile covariances(folder_ / kCovariances);
+  covariances.Write(CovarianceHeader());
+  Row row;
+  while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
+    const Timestamp stamp{row.stamp_ns + last_.clock_correction_ns - row.clock_correction_ns};
+    const Pose pose = T_level_map * LastImuPose(row);
+    poses.Write(TumRow({stamp, pose}) + "\n");
+    const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
+    covariances.Write(CovarianceRow(stamp, CovarianceOf(pose, Get(row.T_world_imu), world_cov)));
   }
+  poses.Close();
+  covariances.Close();
+}
+
+void LevelTrack::Finish() {
+  Flush();
+  rows_.seekg(0);
+  if (is_level_known_) WriteFiles();
   const bool is_whole = rows_.eof() || !is_level_known_;
   rows_.close();
   std::error_code error;

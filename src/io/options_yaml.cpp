@@ -10,6 +10,7 @@
 
 #include "io/nearest_name.hpp"
 #include "lio/io/beam_table.hpp"
+#include "lio/io/printable.hpp"
 #include "lio/pipeline/options_fields.hpp"
 #include "yaml_rotations.hpp"
 #include "yaml_values.hpp"
@@ -118,7 +119,8 @@ class Loader {
     return is_set_ ? source_ : source_ + ":" + std::to_string(node.Mark().line + 1);
   }
   void Fault(const std::string& where, const std::string& what) {
-    result_.faults.push_back(where + ": " + what);
+    constexpr std::size_t kMaxBytes = 400;  // keys may be long, too
+    result_.faults.push_back(where + ": " + Excerpt(what, kMaxBytes));
   }
 
   LoadResult result_;
@@ -150,7 +152,7 @@ void Loader::ApplyFile(const std::filesystem::path& file) {
 }
 
 void Loader::ApplySet(const std::string& set) {
-  source_ = "--set " + set;
+  source_ = "--set " + Excerpt(set);
   is_set_ = true;
   const std::size_t equals = set.find('=');
   if (equals == std::string::npos || equals == 0) {

@@ -2,19 +2,105 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/output_file.hpp"
 
-#include <stdexcept>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
 
 namespace lio {
+namespace {
 
-OutputFile OpenOutput(const std::filesystem::path& path) {
-  OutputFile file{path, std::ofstream(path, std::ios::binary | std::ios::trunc)};
-  if (!file.stream) throw std::runtime_error("cannot write " + path.string());
-  return file;
+constexpr std::size_t kMaxKeptBytes = 1 << 20;
+constexpr mode_t kMode = 0666;  // less the umask
+
+// Without O_NONBLOCK a FIFO that nobody reads would be waited for.
+int Opened(const std::filesystem::path& path, OutputFile::Links links) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK;
+  if (links == OutputFile::Links::kFollowed) return ::open(path.c_str(), kFlags, kMode);
+  const int fd = ::open(path.c_str(), kFlags | O_NOFOLLOW, kMode);
+  if (fd >= 0 || errno != ELOOP || ::unlink(path.c_str()) != 0) return fd;
+  return ::open(path.c_str(), kFlags | O_NOFOLLOW, kMode);
 }
 
-void Close(OutputFile& file) {
-  file.stream.close();
-  if (!file.stream) throw std::runtime_error("cannot write " + file.path.string() + " in full");
+// Cuts what was written of a row that did not fit; devices and pipes have nothing to cut.
+void CutToWholeRows(std::FILE* file, std::string_view written) {
+  const std::size_t end = written.rfind('\n');
+  const std::size_t num_over = end == written.npos ? written.size() : written.size() - end - 1;
+  const off_t size = ::lseek(::fileno(file), 0, SEEK_CUR);
+  if (num_over == 0 || size < static_cast<off_t>(num_over)) return;
+  const int failed = ::ftruncate(::fileno(file), size - static_cast<off_t>(num_over));
+  if (failed != 0) return;  // the readers take a last row that is cut
+  ::lseek(::fileno(file), 0, SEEK_END);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path, Links links) : path_(path) {
+  const int fd = Opened(path, links);
+  if (fd < 0) throw OutputError("cannot write " + path.string() + ": " + std::strerror(errno));
+  file_.reset(::fdopen(fd, "wb"));
+  if (!file_) {
+    ::close(fd);
+    throw OutputError("cannot write " + path.string());
+  }
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+}
+
+OutputFile::~OutputFile() {
+  if (!file_) return;
+  try {
+    Flush();
+  } catch (const WriteError&) {
+    // Who wants to know calls Close.
+  }
+}
+
+void OutputFile::Write(std::string_view rows) {
+  kept_ += rows;
+  if (kept_.size() > kMaxKeptBytes) Flush();
+}
+
+void OutputFile::Flush() {
+  std::string_view left = kept_;
+  while (!left.empty()) {
+    const ssize_t num = ::write(::fileno(file_.get()), left.data(), left.size());
+    if (num < 0 && errno == EINTR) continue;
+    if (num < 0) {
+      const int reason = errno;
+      CutToWholeRows(file_.get(), std::string_view(kept_).substr(0, kept_.size() - left.size()));
+      kept_.clear();
+      throw WriteError("cannot write " + path_.string() + " in full: " + std::strerror(reason));
+    }
+    left.remove_prefix(static_cast<std::size_t>(num));
+  }
+  kept_.clear();
+}
+
+void OutputFile::Close() {
+  Flush();
+  if (file_ && std::fclose(file_.release()) != 0) {
+    throw WriteError("cannot write " + path_.string() + " in full: " + std::strerror(errno));
+  }
+}
+
+void CloseAll(std::span<OutputFile* const> files) {
+  std::exception_ptr first;
+  for (OutputFile* file : files) {
+    try {
+      file->Close();
+    } catch (const WriteError&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+void WriteText(const std::filesystem::path& path, std::string_view text, OutputFile::Links links) {
+  OutputFile file(path, links);
+  file.Write(text);
+  file.Close();
 }
 
 }  // namespace lio

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/pcd_file.hpp"
 
-#include <pcl/io/pcd_io.h>
-#include <pcl/point_types.h>
+#include <fmt/format.h>
 
 #include <stdexcept>
 
@@ -12,19 +11,13 @@
 namespace lio {
 
 void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points) {
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  cloud.reserve(points.size());
-  for (const Eigen::Vector3f& p : points) cloud.push_back({p.x(), p.y(), p.z()});
-  try {
-    // PCL refuses empty clouds in binary form.
-    const bool is_written = points.empty()
-                                ? pcl::PCDWriter().writeASCII(path.string(), cloud) == 0
-                                : pcl::PCDWriter().writeBinary(path.string(), cloud) == 0;
-    if (is_written) return;
-  } catch (const pcl::IOException&) {
-    // The error below names the file.
-  }
-  throw std::runtime_error("cannot write " + path.string());
+  // PCL reads no empty cloud in binary form.
+  WriteCloud(path,
+             fmt::format("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\n"
+                         "SIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {0}\nHEIGHT 1\n"
+                         "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA {1}\n",
+                         points.size(), points.empty() ? "ascii" : "binary"),
+             points);
 }
 
 std::vector<Eigen::Vector3f> LoadPcd(const std::filesystem::path& path) {

@@ -9,8 +9,8 @@
 
 namespace lio {
 
-// Binary, one element `vertex` of the floats x y z [m]. Overwrites. Throws std::runtime_error
-// naming the file when it cannot be written.
+// Binary, one element `vertex` of the floats x y z [m]. Overwrites. Throws OutputError naming the
+// file when it cannot be created, WriteError when it cannot be written in full.
 void WritePly(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points);
 
 }  // namespace lio

@@ -59,27 +59,27 @@ const fs::path& Created(const fs::path& folder) {
 }  // namespace
 
 RowFiles::Track RowFiles::OpenTrack(const fs::path& folder, const std::string& frame) {
-  Track track{OpenOutput(folder / ("trajectory" + frame + ".tum")),
-              OpenOutput(folder / ("covariance" + frame + ".csv"))};
-  track.covariances.stream << CovarianceHeader();
+  Track track{OutputFile(folder / ("trajectory" + frame + ".tum")),
+              OutputFile(folder / ("covariance" + frame + ".csv"))};
+  track.covariances.Write(CovarianceHeader());
   return track;
 }
 
 void RowFiles::WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track) {
-  track.poses.stream << TumRow(pose) << '\n';
-  track.covariances.stream << CovarianceRow(pose.stamp, cov);
+  track.poses.Write(TumRow(pose) + "\n");
+  track.covariances.Write(CovarianceRow(pose.stamp, cov));
 }
 
 RowFiles::RowFiles(const fs::path& folder, bool has_base, bool turns_map)
     : in_map_(OpenTrack(Created(folder), "")),
       in_world_(OpenTrack(folder, "_world")),
       level_(folder, turns_map),
-      imu_rate_(OpenOutput(folder / "trajectory_imu_rate.tum")),
-      states_(OpenOutput(folder / "states.csv")),
-      registration_(OpenOutput(folder / "registration.csv")) {
-  if (has_base) base_ = OpenOutput(folder / "trajectory_base.tum");
-  states_.stream << StateHeader();
-  registration_.stream << RegistrationHeader();
+      imu_rate_(folder / "trajectory_imu_rate.tum"),
+      states_(folder / "states.csv"),
+      registration_(folder / "registration.csv") {
+  if (has_base) base_.emplace(folder / "trajectory_base.tum");
+  states_.Write(StateHeader());
+  registration_.Write(RegistrationHeader());
 }
 
 void RowFiles::Write(const Output& output, std::optional<Trust> trust) {
@@ -94,11 +94,11 @@ void RowFiles::WriteImuRate(const NavOutput& nav) {
     return;
   }
   last_imu_rate_ = nav.stamp;
-  imu_rate_.stream << TumRow({nav.stamp, nav.T_map_imu}) << '\n';
+  imu_rate_.Write(TumRow({nav.stamp, nav.T_map_imu}) + "\n");
 }
 
 void RowFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
-  registration_.stream << RegistrationRow(output.scan);
+  registration_.Write(RegistrationRow(output.scan));
   if (!output.filter) return;
   const NavOutput& nav = output.filter->nav;
   if (last_scan_ && nav.stamp <= *last_scan_) {
@@ -109,17 +109,25 @@ void RowFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
   level_.Add(*output.filter, output.scan.clock_correction);
-  states_.stream << StateRow(*output.filter, trust);
-  if (base_ && nav.base) base_->stream << TumRow({nav.stamp, nav.base->T_map_base}) << '\n';
+  states_.Write(StateRow(*output.filter, trust));
+  if (base_ && nav.base) base_->Write(TumRow({nav.stamp, nav.base->T_map_base}) + "\n");
+}
+
+std::vector<OutputFile*> RowFiles::files() {
+  std::vector<OutputFile*> files = {&in_map_.poses,         &in_map_.covariances, &in_world_.poses,
+                                    &in_world_.covariances, &imu_rate_,           &states_,
+                                    &registration_};
+  if (base_) files.push_back(&*base_);
+  return files;
+}
+
+void RowFiles::Flush() {
+  for (OutputFile* file : files()) file->Flush();
+  level_.Flush();
 }
 
 void RowFiles::Finish() {
-  for (Track* track : {&in_map_, &in_world_}) {
-    Close(track->poses);
-    Close(track->covariances);
-  }
-  for (OutputFile* file : {&imu_rate_, &states_, &registration_}) Close(*file);
-  if (base_) Close(*base_);
+  CloseAll(files());
   level_.Finish();
 }
 

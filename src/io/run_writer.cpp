@@ -24,6 +24,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Chosen: what kill -9 or a loss of power may cost. So few rows are kept that all files of a
+// replay, which is faster than real time, end within a second of sensor time of each other, too.
+constexpr std::chrono::seconds kFlushInterval(1);
+constexpr int kMaxKeptRows = 100;
 constexpr Duration kStepBack{100'000'000};  // chosen: a sweep at 10 Hz
 
 constexpr std::array<const char*, 3> kSeverityNames = {"info", "warning", "error"};
@@ -60,7 +64,8 @@ RunWriter::RunWriter(const fs::path& folder, const Options& options, StartIn sta
     : folder_(folder),
       has_base_(options.rig.T_base_imu),
       turns_map_(start_in == StartIn::kNewMap),
-      whole_(folder, has_base_, turns_map_) {
+      whole_(folder, has_base_, turns_map_),
+      notices_(folder_ / "notices.tsv") {
   std::error_code error;
   for (const char* stale : {"stats.json", "verdict.json", "map.pcd", "map.ply", "report.html"}) {
     fs::remove(folder / stale, error);
@@ -68,18 +73,45 @@ RunWriter::RunWriter(const fs::path& folder, const Options& options, StartIn sta
   for (int segment = 2; fs::exists(FolderOf(segment) / "registration.csv"); ++segment) {
     fs::remove_all(FolderOf(segment), error);
   }
-  OutputFile options_file = OpenOutput(folder_ / "options.yaml");
-  options_file.stream << PrintResultOptions(options);
-  Close(options_file);
-  notices_ = OpenOutput(folder_ / "notices.tsv");
-  notices_.stream << "t_s\tseverity\ttext\n";
+  WriteText(folder_ / "options.yaml", PrintResultOptions(options));
+  notices_.Write("t_s\tseverity\ttext\n");
+  Flush();
+}
+
+template <typename Action>
+void RunWriter::Try(Action&& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    if (!failure_) failure_ = error.what();
+  }
+}
+
+void RunWriter::Flush() {
+  if (failure_) return;
+  num_kept_ = 0;
+  last_flush_ = std::chrono::steady_clock::now();
+  Try([this] {
+    whole_.Flush();
+    if (segment_) segment_->Flush();
+    notices_.Flush();
+  });
 }
 
 void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
+  Summarize(output);
+  if (failure_) return;
+  Try([&] { WriteRows(output, trust); });
+  const bool is_due = ++num_kept_ >= kMaxKeptRows ||
+                      std::chrono::steady_clock::now() - last_flush_ >= kFlushInterval;
+  if (is_due) Flush();
+}
+
+void RunWriter::WriteRows(const Output& output, std::optional<Trust> trust) {
   if (const auto* notice = std::get_if<Notice>(&output)) {
-    notices_.stream << fmt::format("{}\t{}\t{}\n", StampText(notice->stamp),
-                                   kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
-                                   notice->text);
+    notices_.Write(fmt::format("{}\t{}\t{}\n", StampText(notice->stamp),
+                               kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
+                               notice->text));
   }
   if (StepsBack(output)) {
     if (segment_) segment_->Finish();
@@ -87,6 +119,9 @@ void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
   }
   whole_.Write(output, trust);
   if (segment_) segment_->Write(output, trust);
+}
+
+void RunWriter::Summarize(const Output& output) {
   const auto* scan = std::get_if<ScanOutput>(&output);
   if (scan == nullptr) return;
   for (std::size_t i = 0; i < kNumStages; ++i) {
@@ -121,11 +156,13 @@ void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat 
   std::vector<Eigen::Vector3f> points_level;
   points_level.reserve(points_map.size());
   for (const Eigen::Vector3f& point : points_map) points_level.push_back(R_level_map * point);
-  if (format == MapFormat::kPly) {
-    WritePly(folder_ / "map.ply", points_level);
-  } else {
-    WritePcd(folder_ / "map.pcd", points_level);
-  }
+  Try([&] {
+    if (format == MapFormat::kPly) {
+      WritePly(folder_ / "map.ply", points_level);
+    } else {
+      WritePcd(folder_ / "map.pcd", points_level);
+    }
+  });
 }
 
 void RunWriter::WriteStats(const RunStats& stats) {
@@ -149,17 +186,18 @@ void RunWriter::WriteStats(const RunStats& stats) {
   for (std::size_t i = 0; i < kNumStages; ++i) {
     json["stage_ms"][kStageNames[i]] = Summary(stage_ms_[i]);
   }
-  OutputFile file = OpenOutput(folder_ / "stats.json");
-  file.stream << json.dump(2) << "\n";
-  Close(file);
+  WriteText(folder_ / "stats.json", json.dump(2) + "\n");
 }
 
 void RunWriter::Finish(const RunStats& stats) {
-  whole_.Finish();
-  if (segment_) segment_->Finish();
-  Close(notices_);
-  WriteStats(stats);
-  WriteVerdict(folder_, stats.verdict);
+  Try([this] { whole_.Finish(); });
+  Try([this] {
+    if (segment_) segment_->Finish();
+  });
+  Try([this] { notices_.Close(); });
+  Try([&] { WriteStats(stats); });
+  Try([&] { WriteVerdict(folder_, stats.verdict); });
+  if (failure_) throw WriteError(*failure_);
 }
 
 }  // namespace lio

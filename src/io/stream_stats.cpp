@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lio {
 namespace {
@@ -11,7 +12,14 @@ namespace {
 constexpr std::size_t kNumFirst = 400;
 constexpr double kGapRatio = 3.0;  // a gap is longer than so many typical periods
 
+// Half of what a stamp can hold, in microseconds.
+constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
+
 }  // namespace
+
+Timestamp ReceiveStamp(std::int64_t utime) {
+  return Timestamp::FromMicroseconds(std::clamp(utime, -kMaxUtime, kMaxUtime));
+}
 
 double UpperMedian(std::vector<double> values) {
   if (values.empty()) return 0.0;

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lio/io/input_error.hpp"
+#include "lio/io/output_file.hpp"
 
 namespace lio {
 namespace {
@@ -58,6 +58,8 @@ class Reader {
     trajectory_.poses.push_back(trajectory_.format == TrajectoryFormat::kTum ? TumPose(words)
                                                                              : KittiPose(words));
   }
+
+  [[nodiscard]] bool empty() const { return trajectory_.poses.empty(); }
 
   Trajectory Finish() {
     if (trajectory_.poses.empty()) throw std::runtime_error(name_ + ": holds no pose");
@@ -133,10 +135,9 @@ class Reader {
 
 template <class RowText>
 void WriteRows(const std::filesystem::path& file, const StampedPoses& poses, RowText row_text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  for (const StampedPose& pose : poses) stream << row_text(pose) << '\n';
-  stream.close();
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
+  OutputFile output(file, OutputFile::Links::kFollowed);
+  for (const StampedPose& pose : poses) output.Write(row_text(pose) + "\n");
+  output.Close();
 }
 
 std::string KittiRow(const StampedPose& row) {
@@ -218,13 +219,25 @@ std::string TumRow(const StampedPose& row) {
                      p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
+void TellCutLine(const std::filesystem::path& file) {
+  fmt::print(stderr, "{}: the last line is cut and is left out\n", file.string());
+}
+
 Trajectory ReadTrajectory(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
     throw std::runtime_error(file.string() + ": cannot be read");
   }
   Reader reader(file);
-  for (std::string line; std::getline(stream, line);) reader.Add(line);
+  for (std::string line; std::getline(stream, line);) {
+    const bool has_line_feed = !stream.eof();
+    try {
+      reader.Add(line);
+    } catch (const std::runtime_error&) {
+      if (has_line_feed || reader.empty()) throw;
+      TellCutLine(file);
+    }
+  }
   return reader.Finish();
 }
 

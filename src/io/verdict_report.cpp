@@ -50,9 +50,7 @@ std::string VerdictJson(const Verdict& verdict) {
 }
 
 void WriteVerdict(const std::filesystem::path& folder, const Verdict& verdict) {
-  OutputFile file = OpenOutput(folder / "verdict.json");
-  file.stream << VerdictJson(verdict);
-  Close(file);
+  WriteText(folder / "verdict.json", VerdictJson(verdict));
 }
 
 std::string VerdictSummary(const Verdict& verdict) {

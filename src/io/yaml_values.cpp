@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "lio/io/printable.hpp"
+
 namespace lio {
 namespace {
 
@@ -41,7 +43,10 @@ std::string ParseNumbers(const YAML::Node& node, Eigen::Matrix<double, kSize, 1>
 }  // namespace
 
 std::string Describe(const YAML::Node& node) {
-  if (node.IsScalar()) return (IsUnquoted(node) ? "" : "quoted ") + ("'" + node.Scalar() + "'");
+  if (node.IsScalar()) {
+    const std::string begin = IsUnquoted(node) ? "'" : "quoted '";
+    return begin + Excerpt(node.Scalar()) + "'";
+  }
   if (node.IsSequence()) return "a list";
   return node.IsMap() ? "a map" : "nothing";
 }

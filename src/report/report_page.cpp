@@ -63,10 +63,7 @@ std::string ReportPage(const nlohmann::ordered_json& data) {
 }
 
 void WriteReport(const std::filesystem::path& folder, const ReportInputs& inputs) {
-  const std::string page = ReportPage(ReportData(folder, inputs));
-  OutputFile file = OpenOutput(folder / "report.html");
-  file.stream << page;
-  Close(file);
+  WriteText(folder / "report.html", ReportPage(ReportData(folder, inputs)));
 }
 
 }  // namespace lio

@@ -95,9 +95,7 @@ void WriteRigDraft(const RecordingRequest& request, const SourceKnowledge& known
   } else {
     FillUnknownRig(facts, known, draft);
   }
-  OutputFile output = OpenOutput(file);
-  output.stream << RigDraftYaml(draft);
-  Close(output);
+  WriteText(file, RigDraftYaml(draft));
   prepared.rig_files = {file};
   AddAssumptions(facts, known, draft, prepared);
 }

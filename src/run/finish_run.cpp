@@ -15,17 +15,8 @@
 #include "lio/run/rig_draft.hpp"
 
 namespace lio {
-namespace {
 
 namespace fs = std::filesystem;
-
-void WriteText(const fs::path& path, const std::string& text) {
-  OutputFile file = OpenOutput(path);
-  file.stream << text;
-  Close(file);
-}
-
-}  // namespace
 
 Score ScoreRun(const fs::path& folder, const fs::path& truth) {
   const fs::path path = PathOfRun(folder);

@@ -12,6 +12,7 @@
 #include "lio/io/beam_table.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "lio/io/printable.hpp"
 
 namespace lio {
 namespace {
@@ -158,8 +159,8 @@ void Preparation::LearnMounting(const TopicChoice& topics) {
   known_.T_imu_lidar = mounted.T_imu_lidar;
   const bool is_one_frame = mounted.lidar_frame == mounted.imu_frame;
   if (mounted.T_imu_lidar && !is_one_frame) {
-    known_.extrinsic_reason =
-        fmt::format("from /tf_static: {} in {}.", mounted.lidar_frame, mounted.imu_frame);
+    known_.extrinsic_reason = fmt::format("from /tf_static: {} in {}.",
+                                          Excerpt(mounted.lidar_frame), Excerpt(mounted.imu_frame));
     return;
   }
   const char* why = is_one_frame                    ? "both sensors name one frame"

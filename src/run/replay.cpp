@@ -9,6 +9,7 @@
 
 #include "lio/io/beam_table.hpp"
 #include "lio/io/cpu_clock.hpp"
+#include "lio/io/input_error.hpp"
 #include "lio/io/progress_bar.hpp"
 
 namespace lio {
@@ -61,9 +62,15 @@ void Replay::Match() {
     const InsertTask insert = odometry_.FinishJob(*std::exchange(outcome_, std::nullopt));
     worker_.Insert(insert);
     const bool grows_map = insert.T_map_imu && worker_.is_in_map();
-    if (settings_.writes_map && grows_map) map_.Add(insert.points_imu, *insert.T_map_imu);
+    if (settings_.writes_map && grows_map) AddToMap(insert);
   }
   TakeOutputs();
+}
+
+void Replay::AddToMap(const InsertTask& insert) {
+  const double voxel_m = map_.voxel_m();
+  map_.Add(insert.points_imu, *insert.T_map_imu);
+  if (map_.voxel_m() > voxel_m) fmt::print(stderr, "{}: {}\n", settings_.program, map_.thinned());
 }
 
 bool Replay::StartMatch() {
@@ -78,6 +85,7 @@ bool Replay::StartMatch() {
 void Replay::TakeOutputs() {
   for (const Output& output : odometry_.TakeOutputs()) {
     writer_.Write(output, odometry_.trust());
+    TellFailure();
     if (const auto* notice = std::get_if<Notice>(&output)) {
       if (notice->severity == Notice::Severity::kError) {
         refusal_ = notice->text;
@@ -89,6 +97,13 @@ void Replay::TakeOutputs() {
   }
 }
 
+void Replay::TellFailure() {
+  if (!writer_.failure() || has_told_failure_) return;
+  has_told_failure_ = true;
+  fmt::print(stderr, "{}: {}; the files of this run are not complete\n", settings_.program,
+             *writer_.failure());
+}
+
 void Replay::Finish(const LogInput& input, double wall_s) {
   if (settings_.writes_map) writer_.WriteMap(map_.points_map(), settings_.map_format);
   RunStats stats;
@@ -98,7 +113,11 @@ void Replay::Finish(const LogInput& input, double wall_s) {
   stats.log_duration_s = input.duration_s();
   stats.wall_s = wall_s;
   stats.verdict = verdict_;
-  writer_.Finish(stats);
+  try {
+    writer_.Finish(stats);
+  } catch (const WriteError&) {
+    TellFailure();
+  }
 }
 
 std::string LogComplaint(const std::string& log, const LogInput& input, const Counters& counters,

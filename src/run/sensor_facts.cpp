@@ -81,7 +81,7 @@ SensorFacts LookAtLog(const std::filesystem::path& log) {
   RingElevations elevations;
   std::optional<std::int32_t> last_scan;
   while (const std::optional<InputItem> item = input.Next()) {
-    const Timestamp received{item->utime * 1000};
+    const Timestamp received = ReceiveStamp(item->utime);
     if (const auto* sample = std::get_if<ImuSample>(&item->data)) {
       facts.imu.Add(sample->stamp, received);
       facts.accelerometer.Add(*sample);

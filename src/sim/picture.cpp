@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lio/io/input_error.hpp"
 #include "lio/sim/random.hpp"
 #include "lio/sim/scene.hpp"
 
@@ -264,11 +265,12 @@ Picture DrawFromAbove(const Scenario& scenario, const PictureOptions& options, i
 
 void WritePpm(const Picture& picture, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
+  if (!file) throw OutputError("cannot write " + path.string());
   file << "P6\n" << picture.width << ' ' << picture.height << "\n255\n";
   file.write(reinterpret_cast<const char*>(picture.rgb.data()),
              static_cast<std::streamsize>(picture.rgb.size()));
   file.close();
-  if (!file) throw std::runtime_error("cannot write " + path.string());
+  if (!file) throw WriteError("cannot write " + path.string() + " in full: is the disk full?");
 }
 
 }  // namespace lio::sim

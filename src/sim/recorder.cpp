@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lio/io/event_log.hpp"
+#include "lio/io/input_error.hpp"
 #include "lio/io/lcm_codec.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "lio/sim/messages.hpp"
@@ -33,7 +34,7 @@ std::ofstream OpenText(const std::filesystem::path& path) {
 
 void CloseText(std::ofstream& file, const std::filesystem::path& path) {
   file.close();
-  if (!file) throw std::runtime_error("cannot write the whole file " + path.string());
+  if (!file) throw WriteError("cannot write " + path.string() + " in full: is the disk full?");
 }
 
 // Writes truth.tum and truth_states.csv.

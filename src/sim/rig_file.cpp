@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "lio/io/input_error.hpp"
+
 namespace lio::sim {
 namespace {
 
@@ -62,7 +64,7 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
        << "    gravity: auto\n"
        << "  gravity_mps2: " << options.gravity_mps2 << "\n";
   file.close();
-  if (!file) throw std::runtime_error("cannot write the whole file " + path.string());
+  if (!file) throw WriteError("cannot write " + path.string() + " in full: is the disk full?");
 }
 
 }  // namespace lio::sim

@@ -31,8 +31,9 @@ bool ImuBuffer::Add(const ImuSample& sent, std::vector<ImuReady>& ready) {
 bool ImuBuffer::Keep(const ImuSample& sent, bool is_made_up, std::vector<ImuReady>& ready) {
   if (!InsertByStamp(sent_, sent)) return false;
   const Timestamp oldest = sent_.back().stamp - Duration::FromSeconds(kStream.imu_buffer_s);
-  while (sent_.front().stamp < oldest) sent_.pop_front();
-  while (!samples_.empty() && samples_.front().stamp < oldest) samples_.pop_front();
+  while (sent_.front().stamp < oldest || sent_.size() > kStream.max_imu_samples) sent_.pop_front();
+  const Timestamp first = sent_.front().stamp;
+  while (!samples_.empty() && samples_.front().stamp < first) samples_.pop_front();
   const std::optional<ImuSample> sample = Read(sent);
   if (!sample) return true;
   InsertByStamp(samples_, *sample);

@@ -139,7 +139,10 @@ void ImuPreprocessor::ShiftBy(Duration shift) {
 void ImuPreprocessor::Accept(const ImuSample& sample) {
   InsertByStamp(recent_, sample);
   if (!newest_ || sample.stamp > *newest_) newest_ = sample.stamp;
-  while (*newest_ - recent_.front().stamp > kImuGap.segment) recent_.pop_front();
+  while (*newest_ - recent_.front().stamp > kImuGap.segment ||
+         recent_.size() > kStream.max_imu_samples) {
+    recent_.pop_front();
+  }
 }
 
 ImuPreprocessor::Result ImuPreprocessor::Add(const ImuSample& sample) {

@@ -75,6 +75,11 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
     ++counters_->num_chunks_duplicate;
     return;
   }
+  if (partial->num_points + chunk.points.size() > kScanAssembler.max_points) {
+    ++counters_->num_chunks_bad;
+    return;
+  }
+  partial->num_points += chunk.points.size();
   partial->name.first = std::min(partial->name.first, chunk.stamp);
   partial->name.last = std::max(partial->name.last, last);
   partial->decode_ns += decode_ns;

@@ -8,6 +8,17 @@
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
+namespace {
+
+bool HasTooMany(const std::deque<std::shared_ptr<Sweep>>& waiting) {
+  if (waiting.size() < 2) return false;
+  std::size_t num_points = 0;
+  for (const std::shared_ptr<Sweep>& sweep : waiting) num_points += sweep->points.size();
+  return waiting.size() > kScanGate.max_sweeps || num_points > kScanGate.max_points;
+}
+
+}  // namespace
+
 void ScanGate::Add(Sweep sweep) {
   ++counters_->num_scans;
   if (sweep.points.empty()) {
@@ -28,7 +39,7 @@ void ScanGate::Accept(Sweep sweep) {
   num_late_in_a_row_ = 0;
   last_end_ = sweep.end;
   waiting_.push_back(std::make_shared<Sweep>(std::move(sweep)));
-  while (waiting_span_s() > kScanGate.max_wait_s) {
+  while (waiting_span_s() > kScanGate.max_wait_s || HasTooMany(waiting_)) {
     waiting_.pop_front();
     ++counters_->num_scans_without_imu;
   }

@@ -86,8 +86,11 @@ bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
 // While a match is out, only so many messages wait behind a step: newer ones are dropped and
 // counted.
 void SensorStream::Enqueue(Message message) {
-  if (inbox_.size() < kStream.max_waiting_messages) {
-    inbox_.push_back(std::move(message));
+  const std::size_t num_points = inbox_.num_points + message.num_points();
+  if (inbox_.messages.size() < kStream.max_waiting_messages &&
+      num_points <= kStream.max_waiting_points) {
+    inbox_.num_points = num_points;
+    inbox_.messages.push_back(std::move(message));
     return;
   }
   ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
@@ -103,7 +106,8 @@ void SensorStream::Reject() {
   state_ = State::kFlowing;
   step_ = {};
   events_.clear();
-  for (const Message& message : std::exchange(inbox_, {})) {
+  inbox_.num_points = 0;
+  for (const Message& message : std::exchange(inbox_.messages, {})) {
     ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
   }
 }
@@ -134,8 +138,8 @@ bool SensorStream::Advance(bool is_idle) {
     return true;
   }
   if (state_ == State::kJudgingStep) {
-    if (step_.num_examined < inbox_.size()) {
-      JudgeBy(inbox_[step_.num_examined++]);
+    if (step_.num_examined < inbox_.messages.size()) {
+      JudgeBy(inbox_.messages[step_.num_examined++]);
     } else if (life_ == Life::kFlushed) {
       EndStep();
     } else {
@@ -148,9 +152,10 @@ bool SensorStream::Advance(bool is_idle) {
     OpenGate();
     return true;
   }
-  if (!inbox_.empty()) {
-    Message message = std::move(inbox_.front());
-    inbox_.pop_front();
+  if (!inbox_.messages.empty()) {
+    Message message = std::move(inbox_.messages.front());
+    inbox_.messages.pop_front();
+    inbox_.num_points -= message.num_points();
     Process(std::move(message));
     return true;
   }

@@ -41,6 +41,10 @@ struct StreamParameters {
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
+  // The same of their points: 160 MB, ten seconds of a fast lidar; chosen.
+  std::size_t max_waiting_points = 8 << 20;
+  // Raw samples that are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
+  std::size_t max_imu_samples = 1 << 17;
 };
 
 inline constexpr StreamParameters kStream;
@@ -101,6 +105,7 @@ struct ScanAssemblerParameters {
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;
+  std::size_t max_points = 4 << 20;  // of a sweep; chosen: four times those of the largest lidars
 };
 inline constexpr ScanAssemblerParameters kScanAssembler;
 
@@ -117,6 +122,10 @@ struct ScanGateParameters {
   // Late sweeps in a row, after which the lidar's clock has moved back for good. Chosen: half a
   // second at 10 Hz; wild stamps do not come five times.
   int max_late_in_a_row = 5;
+  // Sweeps and points that wait at most, where stamps do not advance. Chosen: five seconds of a
+  // lidar at 100 Hz, and 160 MB.
+  std::size_t max_sweeps = 512;
+  std::size_t max_points = 8 << 20;
 };
 inline constexpr ScanGateParameters kScanGate;
 

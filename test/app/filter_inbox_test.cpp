@@ -36,6 +36,15 @@ std::vector<std::int64_t> Contents(FilterInbox& inbox) {
   return contents;
 }
 
+TEST(FilterInbox, ChunksWithoutPointsAreBoundedToo) {
+  FilterInbox inbox;
+  constexpr int kNum = 70'000;
+  for (int i = 0; i < kNum; ++i) inbox.Put(Chunk(i, 0));
+  EXPECT_EQ(inbox.losses().num_chunks, kNum - (1 << 16));
+  inbox.Close();
+  EXPECT_EQ(Contents(inbox).size(), std::size_t{1 << 16});
+}
+
 TEST(FilterInbox, MessagesComeOutAsTheyArrived) {
   FilterInbox inbox;
   inbox.Put(Imu(1));

@@ -4,12 +4,15 @@
 #include "app/live_runner.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <future>
 #include <map>
 
+#include "app/end_run.hpp"
 #include "app/live_fixture.hpp"
 #include "lio/odometry_t.hpp"
 #include "support/replay_log.hpp"
@@ -231,6 +234,34 @@ TEST_F(LiveRunnerTest, CommandsSwitchTheFullCloud) {
   while (bus_->Receive(std::chrono::milliseconds(0)) == ReceiveResult::kMessage) {
   }
   EXPECT_GT(num_full, 0);
+}
+
+TEST_F(LiveRunnerTest, AFullDiskIsSaidInTheStatusAndTheMessagesGoOn) {
+  std::vector<std::string> notes;
+  std::atomic<int> num_poses = 0;
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  bus_->Subscribe("LIO_ODOM", 1000, [&](ByteView, std::int64_t) { ++num_poses; });
+  bus_->Subscribe("LIO_STATUS", 1000, [&](ByteView data, std::int64_t) {
+    notes.emplace_back(data.begin(), data.end());
+  });
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  {
+    LiveRunner runner(*bus_, SceneOptions(), WithFiles());
+    const rlimit small{.rlim_cur = 20'000, .rlim_max = limit.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    Play(runner);
+    EXPECT_EQ(EndRun(runner, ""), kExitWriteFailed);
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_GT(num_poses, 40);
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& status) {
+    return status.find("in full: File too large") != std::string::npos;
+  }));
+  EXPECT_GT(Stats()["num_scans"], 50);
+  EXPECT_GT(Stats()["num_outputs_dropped"], 50);
+  EXPECT_GT(NumLines("trajectory_imu_rate.tum"), 50);
 }
 
 }  // namespace

@@ -111,5 +111,21 @@ TEST(FileSpan, EndsAtItsSizeOrTheFiles) {
   EXPECT_EQ(beyond.Read(out), 0u);
 }
 
+TEST_P(CompressedSource, IsDamagedWhereItInflatesToMoreThanItMay) {
+  const std::vector<std::uint8_t> content = Content();
+  for (const std::size_t max_bytes : {content.size() - 1, content.size(), content.size() + 1}) {
+    const test::TempDir dir;
+    const auto path = dir.Write("content", Compressed(GetParam(), content));
+    std::ifstream file(path, std::ios::binary);
+    auto span = std::make_unique<FileSpan>(file, std::filesystem::file_size(path));
+    const auto source = Limited(
+        GetParam() == "lz4" ? MakeLz4Source(std::move(span)) : MakeBz2Source(std::move(span)),
+        max_bytes);
+    std::vector<std::uint8_t> out(content.size() + 100);
+    EXPECT_EQ(source->Read(out), std::min(max_bytes, content.size()));
+    EXPECT_EQ(source->damaged(), max_bytes < content.size()) << max_bytes;
+  }
+}
+
 }  // namespace
 }  // namespace lio

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "lio/convert/ros_schema.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <chrono>
 
 #include "support/ros_bag.hpp"
 
@@ -95,6 +98,18 @@ TEST(RosSchema, EndsOnDefinitionsThatExplode) {
       "B[1000000] b\n===\nMSG: a/B\nC[1000000] c\n===\nMSG: a/C\nuint8 X=1\n", "a/A");
   ASSERT_TRUE(wide);
   EXPECT_FALSE(wide->Read(std::vector<std::uint8_t>(100), RosEncoding::kRos1));
+}
+
+TEST(RosSchema, ManyMessagesAreLinkedInTimeThatIsProportional) {
+  constexpr int kNum = 100'000;  // each looked for among all others took minutes
+  std::string definition, messages;
+  for (int i = 0; i < kNum; ++i) {
+    definition += fmt::format("M{0} f{0}\n", i);
+    messages += fmt::format("====\nMSG: a/M{}\nuint8 x\n", i);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(RosSchema::Parse(definition + messages, "a/Top"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
 }  // namespace

@@ -218,5 +218,35 @@ TEST(Rosbag1File, WithHostileLengthsEnds) {
   }
 }
 
+TEST(Rosbag1File, AMessageThatInflatesBeyondAnyCloudIsDamageAndNotKept) {
+  const test::TempDir dir;
+  const std::filesystem::path path = dir.path() / "bomb.bag";
+  Bag1Writer writer(path, {.compression = "bz2", .chunk_bytes = 5000, .with_index = true});
+  writer.Write("/small", "a/Small", ReceivedAt(0), Payload(0), "float64 x");
+  writer.Write("/huge", "a/Huge", ReceivedAt(1), std::vector<std::uint8_t>(100 << 20), "float64 x");
+  writer.Write("/small", "a/Small", ReceivedAt(2), Payload(2), "float64 x");
+  writer.Close();
+  EXPECT_LT(std::filesystem::file_size(path), 100'000u);
+  const auto bag = OpenRosbag1(path);
+  BagMessage message;
+  std::vector<Timestamp> received;
+  while (bag->Next(message)) received.push_back(message.received);
+  EXPECT_EQ(received, (std::vector{ReceivedAt(0), ReceivedAt(2)}));
+  EXPECT_EQ(bag->damage().num_messages_damaged, 1);
+}
+
+TEST(Rosbag1File, NamesThatATerminalWouldObeyAreEscaped) {
+  const test::TempDir dir;
+  const std::filesystem::path path = dir.path() / "escape.bag";
+  Bag1Writer writer(path);
+  writer.Write("/velo\x1b[31m\nall is well", "a/B\x07", ReceivedAt(0), Payload(0), "float64 x");
+  writer.Close();
+  const auto bag = OpenRosbag1(path);
+  BagMessage message;
+  ASSERT_TRUE(bag->Next(message));
+  EXPECT_EQ(bag->topics()[0].name, "/velo\\x1b[31m\\nall is well");
+  EXPECT_EQ(bag->topics()[0].type, "a/B\\x07");
+}
+
 }  // namespace
 }  // namespace lio

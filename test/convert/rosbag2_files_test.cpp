@@ -77,5 +77,10 @@ TEST_F(Rosbag2FilesTest, WhatNamesNoFilesIsRefused) {
   EXPECT_THAT(WhyRefused(dir_.path() / "empty"), HasSubstr("no .db3 file"));
 }
 
+TEST_F(Rosbag2FilesTest, ACountThatCannotBeIsUnknown) {
+  WriteMetadata("  message_count: -9223372036854775808\n  relative_file_paths:\n    - bag_0.db3\n");
+  EXPECT_EQ(FindRosbag2Files(folder_).num_messages, -1);
+}
+
 }  // namespace
 }  // namespace lio

@@ -48,5 +48,14 @@ TEST_F(StampedCsv, FaultsNameTheLine) {
   EXPECT_THROW((void)ReadStampedCsv(dir_.path() / "missing.csv"), std::runtime_error);
 }
 
+TEST_F(StampedCsv, ALastRowThatIsCutIsLeftOut) {
+  for (const char* cut : {"2", "2,", "2,4", "2,4e", "2,4,"}) {
+    const StampedTable table = Read(std::string("t_s,a,b\n1,2,3\n") + cut);
+    EXPECT_EQ(table.stamps.size(), 1u) << cut;
+    EXPECT_EQ(table.rows.size(), 1u) << cut;
+  }
+  EXPECT_EQ(Read("t_s,a,b\n1,2,3\n2,3,4").rows.size(), 2u) << "whole, but without a line feed";
+}
+
 }  // namespace
 }  // namespace lio

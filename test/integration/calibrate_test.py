@@ -70,7 +70,7 @@ class Calibrate(unittest.TestCase):
         # The written file serves as configuration after another one.
         support.run_well("lio-replay", "--config", folder / "config.yaml", "--config", rig,
                          "--duration", "3", folder / "log.lcm", "--out",
-                         support.WORK / "calibrate-replay")
+                         support.WORK / "calibrate-replay", "--overwrite")
         self.assertLess(angle_deg(times(inverse(truth), rotation_in(rig))), 0.2)
         self.assertIn(f"clock_offset_s: {found['offset_s']:.6f}", rig.read_text())
 

@@ -20,7 +20,7 @@ class ClockOffset(unittest.TestCase):
             words = [word for key_value in sets for word in ("--set", key_value)]
             out = support.WORK / name
             done = support.run("lio-replay", "--config", folder / "config.yaml", *words,
-                               folder / "log.lcm", "--out", out)
+                               folder / "log.lcm", "--out", out, "--overwrite")
             self.assertIn(done.returncode, (0, EXIT_NO_TRUST), done.stderr)
             ape = support.evaluate(folder / "truth.tum", out)["ape"]
             return ape["position_m"]["rmse"], done.stderr

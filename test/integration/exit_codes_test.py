@@ -3,12 +3,15 @@
 # SPDX-License-Identifier: MIT
 """Tests each program with wrong inputs: it must end with the documented exit code and one line that
 says what to do."""
+import os
+import resource
+import shutil
 import subprocess
 import unittest
 
 import support
 
-USAGE, CONFIGURATION, TRANSPORT, INPUT = 2, 3, 4, 5
+USAGE, CONFIGURATION, TRANSPORT, INPUT, WRITE_FAILED = 2, 3, 4, 5, 74
 PROGRAMS = ("liod", "lio-run", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim")
 
 
@@ -88,10 +91,52 @@ class ExitCodes(unittest.TestCase):
         for program, words in (
                 ("lio-replay", (*self.config, self.drive / "log.lcm", "--out", file)),
                 ("lio-sim", ("--scenario", "street", "--duration", "1", "--out", file)),
-                ("lio-eval", (truth, truth, "--json", self.folder)),
-                ("lio-eval", (truth, truth, "--json", "/dev/full"))):
+                ("lio-eval", (truth, truth, "--json", self.folder))):
             with self.subTest(program=program):
                 self.check(USAGE, [], program, *words)
+
+    def test_a_stdout_that_takes_nothing_ends_every_program_with_74(self):
+        truth = self.drive / "truth.tum"
+        runs = [*((program, ("--help",)) for program in PROGRAMS), ("lio-sim", ("--list",)),
+                ("lio-log", ("info", self.drive / "log.lcm")), ("lio-eval", (truth, truth)),
+                ("liod", (*self.config, "--print-options")),
+                ("lio-replay", (*self.config, self.drive / "log.lcm", "--out",
+                                self.folder / "unheard", "--overwrite"))]
+        for program, words in runs:
+            with self.subTest(program=program, words=words), open("/dev/full", "w") as full:
+                done = subprocess.run([support.BUILD / "bin" / program, *words], stdout=full,
+                                      stderr=subprocess.PIPE, text=True, timeout=100, check=False)
+                self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
+                self.assertIn("cannot write to the standard output", done.stderr)
+
+    def run_with_small_files(self, max_bytes, program, *words):
+        return subprocess.run(
+            [support.BUILD / "bin" / program, *words], capture_output=True, text=True, timeout=100,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (max_bytes, max_bytes)),
+            check=False)
+
+    def test_files_that_cannot_grow_end_every_program_with_74(self):
+        truth, out = self.drive / "truth.tum", self.folder / "small"
+        self.check(WRITE_FAILED, ["/dev/full"], "lio-eval", truth, truth, "--json", "/dev/full")
+        for program, words in (
+                ("lio-sim", ("--scenario", "street", "--duration", "1", "--out", out)),
+                ("lio-replay", (*self.config, self.drive / "log.lcm", "--out", out,
+                                "--overwrite"))):
+            with self.subTest(program=program):
+                done = self.run_with_small_files(9000, program, *words)
+                self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
+                self.assertEqual(done.stderr.count("in full: "), 1, done.stderr)
+                self.assertIn(str(out), done.stderr)
+
+    def test_a_map_that_cannot_be_written_leaves_all_else(self):
+        out = self.folder / "no-map"
+        done = self.run_with_small_files(60_000, "lio-replay", *self.config,
+                                         self.drive / "log.lcm", "--out", out, "--overwrite",
+                                         "--map")
+        self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
+        self.assertIn("map.pcd in full: File too large", done.stderr)
+        self.assertGreater(support.stats(out)["num_scans"], 20)
+        self.assertIn("trust", (out / "verdict.json").read_text())
 
     def test_liod_refuses_channels_that_lcm_cannot_name(self):
         self.check(USAGE, ["--channel-prefix"], "liod", *self.config, "--channel-prefix", "X" * 41)
@@ -118,9 +163,10 @@ class ExitCodes(unittest.TestCase):
         other.write_bytes(bytes(range(256)) * 100)
         for log in (empty, other, self.folder, self.drive / "truth.tum", "/dev/null"):
             with self.subTest(log=log):
-                self.check(INPUT, [str(log)], "lio-replay", *self.config, log, "--out", self.folder)
+                self.check(INPUT, [str(log)], "lio-replay", *self.config, log, "--out", self.folder,
+                           "--overwrite")
         self.check(INPUT, ["--start"], "lio-replay", *self.config, self.drive / "log.lcm",
-                   "--out", self.folder, "--start", "1000")
+                   "--out", self.folder, "--overwrite", "--start", "1000")
 
     def test_replay_goes_past_damage_says_how_much_and_ends_with_5(self):
         whole = (self.drive / "log.lcm").read_bytes()
@@ -128,7 +174,7 @@ class ExitCodes(unittest.TestCase):
         damaged = self.folder / "damaged.lcm"
         damaged.write_bytes(whole[:middle] + b"\x55" * 20000 + whole[middle + 20000:])
         out = self.folder / "damaged-run"
-        done = support.run("lio-replay", *self.config, damaged, "--out", out)
+        done = support.run("lio-replay", *self.config, damaged, "--out", out, "--overwrite")
         self.assertEqual(done.returncode, INPUT, done.stderr)
         self.assertIn("bytes", done.stderr)
         stats = support.stats(out)
@@ -146,6 +192,44 @@ class ExitCodes(unittest.TestCase):
             for given in ("/no/such", empty, other, "/dev/null", self.drive / "log.lcm"):
                 with self.subTest(kind=kind, given=given):
                     self.check(INPUT, [str(given)], "lio-convert", kind, given, out)
+
+    def test_a_fifo_is_refused_and_not_waited_for(self):
+        folder = self.folder / "fifos"
+        shutil.rmtree(folder, ignore_errors=True)
+        (folder / "velodyne").mkdir(parents=True)
+        for name in ("fifo.bag", "fifo.db3", "fifo.lcm", "fifo.pcd", "times.txt"):
+            os.mkfifo(folder / name)
+        out = self.folder / "none.lcm"
+        for words in (("lio-convert", "rosbag", folder / "fifo.bag", out),
+                      ("lio-convert", "rosbag", folder / "fifo.db3", out),
+                      ("lio-convert", "rosbag", folder, out),
+                      ("lio-convert", "kitti-odometry", folder, out),
+                      ("lio-log", "info", folder / "fifo.lcm"),
+                      ("lio-replay", *self.config, folder / "fifo.lcm", "--out", folder / "run"),
+                      ("lio-replay", *self.config, "--initial-map", folder / "fifo.pcd",
+                       self.drive / "log.lcm", "--out", folder / "run")):
+            with self.subTest(words=words):
+                self.check(INPUT, ["regular file"], *words)
+
+    def test_a_link_among_the_files_of_a_run_is_not_written_through(self):
+        out, precious = self.folder / "linked", self.folder / "precious"
+        shutil.rmtree(out, ignore_errors=True)
+        out.mkdir()
+        precious.write_text("precious")
+        names = ("trajectory.tum", "trajectory_level.rows", "trajectory_level.tum", "states.csv",
+                 "map.pcd", "stats.json", "verdict.json", "options.yaml", "notices.tsv")
+        for name in names:
+            (out / name).symlink_to(precious)
+        link = self.folder / "link"
+        link.unlink(missing_ok=True)
+        link.symlink_to(out)  # a folder may be one
+        done = support.run("lio-replay", *self.config, self.drive / "log.lcm", "--out", link,
+                           "--overwrite", "--map")
+        self.assertIn(done.returncode, (0, 6), done.stderr)
+        self.assertEqual(precious.read_text(), "precious")
+        for name in names:
+            self.assertFalse((out / name).is_symlink(), name)
+        self.assertGreater(support.stats(out)["num_scans"], 20)
 
     def test_convert_never_writes_over_its_input(self):
         precious = self.folder / "precious.bag"

@@ -23,7 +23,7 @@ class ImuVariants(unittest.TestCase):
         drive = support.simulated(*DRIVE, variant)
         out = support.WORK / f"imu-{variant}-run"
         done = support.run("lio-replay", "--config", drive / "config.yaml", *words,
-                           drive / "log.lcm", "--out", out)
+                           drive / "log.lcm", "--out", out, "--overwrite")
         return done, drive, out
 
     def test_each_is_named_within_two_seconds_and_tracked_from_its_first_sweep(self):

@@ -21,7 +21,7 @@ def saved_map():
     folder = support.simulated(*DRIVE)
     run = support.made_once("initial-map", lambda path: support.run_well(
         "lio-replay", "--config", folder / "config.yaml", folder / "log.lcm", "--out", path,
-        "--map"))
+        "--overwrite", "--map"))
     return run
 
 
@@ -66,7 +66,8 @@ class InitialMap(unittest.TestCase):
         drive = support.simulated(*DRIVE, "--sensor-seed", "105")
         done = support.run("lio-replay", "--config", drive / "config.yaml", "--start", "12",
                            "--duration", "8", "--initial-map", saved_map() / "map.pcd",
-                           "--initial-pose", "-40,0,0,90", drive / "log.lcm", "--out", run)
+                           "--initial-pose", "-40,0,0,90", drive / "log.lcm", "--out", run,
+                           "--overwrite")
         self.assertEqual(done.returncode, 6, done.stderr)  # no pose: no trust
         self.assertEqual((run / "trajectory.tum").read_text(), "")
 

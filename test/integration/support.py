@@ -89,8 +89,8 @@ def simulated(scenario="street", *words):
 
 
 def replay(log, out, *words):
-    """Runs lio-replay into WORK/out and returns that folder."""
-    run_well("lio-replay", *words, log, "--out", WORK / out)
+    """Runs lio-replay into WORK/out, over an earlier run there, and returns that folder."""
+    run_well("lio-replay", *words, log, "--out", WORK / out, "--overwrite")
     return WORK / out
 
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace lio {
@@ -35,6 +36,27 @@ TEST(MapCloud, ClearForgetsEverything) {
   cloud.Clear();
   cloud.Add(points, Pose::Identity());
   EXPECT_EQ(cloud.points_map().size(), 1u);
+}
+
+TEST(MapCloud, ManyPointsAreThinnedAndStayBounded) {
+  constexpr std::size_t kMax = 1000;
+  MapCloud cloud(kMax);
+  std::vector<Eigen::Vector3f> floor;
+  for (int i = 0; i < 100; ++i) {
+    for (int j = 0; j < 100; ++j)
+      floor.push_back(Eigen::Vector3i(i, j, 0).cast<float>() * 0.2F +
+                      Eigen::Vector3f::Constant(0.1F));
+  }
+  cloud.Add(floor, Pose::Identity());
+  EXPECT_LE(cloud.points_map().size(), kMax);
+  EXPECT_GT(cloud.points_map().size(), kMax / 5);
+  EXPECT_EQ(cloud.voxel_m(), 0.8);
+  EXPECT_NE(cloud.thinned().find("one for each 0.8 m"), std::string::npos);
+  float farthest = 0.0F;
+  for (const Eigen::Vector3f& point : cloud.points_map()) farthest = std::max(farthest, point.x());
+  EXPECT_GT(farthest, 19.0F) << "what came last is there, too";
+  cloud.Clear();
+  EXPECT_EQ(cloud.voxel_m(), MapCloud::kVoxel_m);
 }
 
 }  // namespace

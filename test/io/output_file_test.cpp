@@ -3,7 +3,10 @@
 #include "lio/io/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <csignal>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -25,21 +28,83 @@ std::string MessageOf(const std::function<void()>& action) {
 TEST(OutputFile, OverwritesWhatWasThere) {
   const test::TempDir folder;
   const std::filesystem::path path = folder.Write("rows.csv", "older and longer");
-  OutputFile file = OpenOutput(path);
-  file.stream << "new\n";
-  Close(file);
+  OutputFile file(path);
+  file.Write("new\n");
+  file.Close();
   EXPECT_EQ(test::ReadText(path), "new\n");
 }
 
+TEST(OutputFile, RowsAreInTheFileAfterAFlushAndAtTheEnd) {
+  const test::TempDir folder;
+  const std::filesystem::path path = folder.path() / "rows.csv";
+  {
+    OutputFile file(path);
+    file.Write("1\n");
+    EXPECT_EQ(test::ReadText(path), "");
+    file.Flush();
+    EXPECT_EQ(test::ReadText(path), "1\n");
+    file.Write("2\n");
+  }
+  EXPECT_EQ(test::ReadText(path), "1\n2\n");
+}
+
+TEST(OutputFile, ASymbolicLinkIsReplacedOrFollowed) {
+  const test::TempDir folder;
+  const std::filesystem::path precious = folder.Write("precious", "precious");
+  const std::filesystem::path link = folder.path() / "link";
+  std::filesystem::create_symlink(precious, link);
+  WriteText(link, "followed", OutputFile::Links::kFollowed);
+  EXPECT_EQ(test::ReadText(precious), "followed");
+  WriteText(link, "replaced");
+  EXPECT_EQ(test::ReadText(precious), "followed");
+  EXPECT_FALSE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(test::ReadText(link), "replaced");
+}
+
+TEST(OutputFile, AFifoThatNobodyReadsIsNamedAndNotWaitedFor) {
+  const test::TempDir folder;
+  const std::filesystem::path fifo = folder.path() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(MessageOf([&] { OutputFile file(fifo); }),
+            "cannot write " + fifo.string() + ": No such device or address");
+}
+
+TEST(OutputFile, AFileThatMayNotGrowEndsWithItsLastWholeRow) {
+  const test::TempDir folder;
+  const std::filesystem::path path = folder.path() / "rows.csv";
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{.rlim_cur = 10, .rlim_max = limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message = MessageOf([&] { WriteText(path, "row 1\nrow 2\nrow 3\n"); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(message, "cannot write " + path.string() + " in full: File too large");
+  EXPECT_EQ(test::ReadText(path), "row 1\n");
+}
+
 TEST(OutputFile, NamesAFileThatCannotBeWritten) {
-  EXPECT_EQ(MessageOf([] { (void)OpenOutput("/missing/folder/rows.csv"); }),
-            "cannot write /missing/folder/rows.csv");
+  EXPECT_EQ(MessageOf([] { OutputFile file("/missing/folder/rows.csv"); }),
+            "cannot write /missing/folder/rows.csv: No such file or directory");
 }
 
 TEST(OutputFile, NamesAFileThatTheDiskDidNotTake) {
-  OutputFile file = OpenOutput("/dev/full");
-  file.stream << "row\n";
-  EXPECT_EQ(MessageOf([&] { Close(file); }), "cannot write /dev/full in full");
+  OutputFile file("/dev/full");
+  file.Write("row\n");
+  EXPECT_EQ(MessageOf([&] { file.Close(); }),
+            "cannot write /dev/full in full: No space left on device");
+}
+
+TEST(OutputFile, AllAreClosedWhenOneCannotBeWritten) {
+  const test::TempDir folder;
+  OutputFile full("/dev/full");
+  OutputFile file(folder.path() / "rows.csv");
+  full.Write("row\n");
+  file.Write("row\n");
+  OutputFile* const both[] = {&full, &file};
+  EXPECT_THROW(CloseAll(both), WriteError);
+  EXPECT_EQ(test::ReadText(file.path()), "row\n");
 }
 
 }  // namespace

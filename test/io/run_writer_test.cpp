@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <bit>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -326,6 +328,42 @@ TEST_F(RunWriterTest, EarlierRunsAreOverwritten) {
 TEST_F(RunWriterTest, WhatCannotBeWrittenIsNamed) {
   const auto file = folder_.Write("file", "");
   EXPECT_THROW(RunWriter(file / "out", Options{}), std::runtime_error);
+}
+
+TEST_F(RunWriterTest, RowsOfAllFilesAreThereAfterAHundredOfThemOrAFlush) {
+  RunWriter writer(out_, Options{});
+  for (int i = 1; i <= 99; ++i) writer.Write(Scan(Timestamp{i}));
+  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
+  writer.Write(Scan(Timestamp{100}));
+  for (const char* name : {"trajectory.tum", "trajectory_world.tum"}) {
+    EXPECT_EQ(Lines(out_ / name).size(), 100u) << name;
+  }
+  for (const char* name : {"covariance.csv", "states.csv", "registration.csv"}) {
+    EXPECT_EQ(Lines(out_ / name).size(), 101u) << name;
+  }
+  writer.Write(Scan(Timestamp{101}));
+  writer.Flush();
+  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 101u);
+  EXPECT_EQ(Lines(out_ / "registration.csv").size(), 102u);
+}
+
+TEST_F(RunWriterTest, AFullDiskIsAFailureThatFinishThrows) {
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  RunWriter writer(out_, Options{});
+  EXPECT_FALSE(writer.failure());
+  const rlimit small{.rlim_cur = 40'000, .rlim_max = limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  for (int i = 1; i <= 1000; ++i) writer.Write(Scan(Timestamp{i}));
+  ASSERT_TRUE(writer.failure());
+  EXPECT_THAT(*writer.failure(), HasSubstr("covariance.csv in full: File too large"));
+  EXPECT_THROW(writer.Finish({}), WriteError);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_FALSE(Stats().empty());
+  EXPECT_EQ(Lines(out_ / "states.csv").size(), Lines(out_ / "trajectory_world.tum").size() + 1);
+  EXPECT_TRUE(test::ReadText(out_ / "covariance.csv").ends_with('\n'));
 }
 
 }  // namespace

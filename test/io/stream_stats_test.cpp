@@ -76,5 +76,13 @@ TEST(AccelerometerStats, CountWhatIsNotFinite) {
   EXPECT_NEAR(stats.mean_mps2(), 9.8, 1e-12);
 }
 
+TEST(StreamStats, ReceiveTimesBeyondAnyClockDoNotOverflow) {
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(ReceiveStamp(1'700'000'000'000'000).ns, 1'700'000'000'000'000'000);
+  const Duration apart = ReceiveStamp(kHighest) - ReceiveStamp(kLowest);
+  EXPECT_GT(apart.ns, 0);
+}
+
 }  // namespace
 }  // namespace lio

@@ -112,6 +112,17 @@ TEST_F(TrajectoryFile, TumRowHasNineDecimals) {
             "1.000000000");
 }
 
+TEST_F(TrajectoryFile, ALastRowThatIsCutIsLeftOut) {
+  for (const char* cut : {"2", "2 1 2 3 0 0", "2 1 2 3 0 0 0 -", "2 1 2 3 0 0 0 0."}) {
+    const Trajectory read =
+        ReadTrajectory(dir_.Write("cut.tum", std::string("1 0 0 0 0 0 0 1\n") + cut));
+    EXPECT_EQ(read.poses.size(), 1u) << cut;
+  }
+  EXPECT_EQ(
+      ReadTrajectory(dir_.Write("whole.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1")).poses.size(), 2u);
+  EXPECT_THROW((void)ReadTrajectory(dir_.Write("only.tum", "1 0 0")), std::runtime_error);
+}
+
 TEST(Stamp, TextIsExactAndReadsBack) {
   for (const std::int64_t ns :
        {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1'700'000'000'123'456'789},

@@ -127,5 +127,12 @@ TEST(YamlValues, DescribeSaysWhatIsThere) {
   EXPECT_EQ(Describe(YAML::Load("~")), "nothing");
 }
 
+TEST(YamlValues, LongTextIsCutAndControlsAreEscaped) {
+  double value = 0.0;
+  EXPECT_EQ(Parse(std::string(20'000, 'x'), value),
+            "expects a number, not '" + std::string(60, 'x') + "...'");
+  EXPECT_EQ(Parse("\"\\e[31m\"", value), "expects a number, not quoted '\\x1b[31m'");
+}
+
 }  // namespace
 }  // namespace lio

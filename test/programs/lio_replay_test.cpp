@@ -76,6 +76,17 @@ TEST_F(LioReplayTest, TwiceAndOnMoreThreadsItWritesTheSameBytes) {
   }
 }
 
+TEST_F(LioReplayTest, AnEarlierRunIsKeptUnlessItMayBeOverwritten) {
+  ASSERT_EQ(Replay(kLog, "out", {"--duration", "3"}).exit_code, 0);
+  const std::string before = File("out/stats.json");
+  const auto refused = Replay(kLog, "out");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("is not empty; name another folder or add --overwrite"));
+  EXPECT_EQ(File("out/stats.json"), before);
+  EXPECT_EQ(Replay(kLog, "out", {"--overwrite"}).exit_code, 0);
+  EXPECT_NE(File("out/stats.json"), before);
+}
+
 TEST_F(LioReplayTest, StatsHaveTheKeysThatArePromised) {
   ASSERT_EQ(Replay(kLog, "a").exit_code, 0);
   const auto stats = Stats("a");

@@ -116,8 +116,8 @@ TEST_F(LiodTest, WhatTheConfigurationSaysWronglyOfTheImuIsRefusedWithTheFix) {
       {"rig.imu.gravity=removed", "set rig.imu.gravity: auto or present"}};
   for (const auto& [statement, fix] : cases) {
     constexpr int kExitNoTrust = 6;
-    PlayHearingStatus("--out " + Out("live") + " --set " + statement, kScene + "/log.lcm",
-                      kExitNoTrust);
+    PlayHearingStatus("--out " + Out("live") + " --overwrite --set " + statement,
+                      kScene + "/log.lcm", kExitNoTrust);
     EXPECT_THAT(File("said"), HasSubstr(fix));
     EXPECT_THAT(File("status.lcm"), HasSubstr(fix));
     EXPECT_EQ(File("live/trajectory.tum"), "") << statement;
@@ -127,10 +127,25 @@ TEST_F(LiodTest, WhatTheConfigurationSaysWronglyOfTheImuIsRefusedWithTheFix) {
 TEST_F(LiodTest, SignalsEndItAtOnceWithoutInput) {
   for (const char* signal : {"TERM", "INT"}) {
     const auto result =
-        RunAlone(Start("--out " + Out("idle")) + "kill -" + signal + " $liod; wait $liod");
+        RunAlone(Start("--out " + Out(signal)) + "kill -" + signal + " $liod; wait $liod");
     EXPECT_EQ(result.exit_code, 0) << signal;
-    EXPECT_EQ(Stats("idle")["num_scans"], 0);
+    EXPECT_EQ(Stats(signal)["num_scans"], 0);
   }
+}
+
+TEST_F(LiodTest, ARestartKeepsTheFilesOfTheRunBefore) {
+  const auto run = [this](const std::string& more) {
+    return RunAlone(Start("--out " + Out("live") + more) + "kill $liod; wait $liod").exit_code;
+  };
+  ASSERT_EQ(run(""), 0);
+  const std::string before = File("live/stats.json");
+  ASSERT_EQ(run(""), 0);
+  EXPECT_THAT(File("said"), HasSubstr("the files of this run go to " + Out("live-2")));
+  EXPECT_EQ(File("live/stats.json"), before);
+  EXPECT_EQ(Stats("live-2")["num_scans"], 0);
+  ASSERT_EQ(run(" --overwrite"), 0);
+  EXPECT_NE(File("live/stats.json"), before);
+  EXPECT_FALSE(std::filesystem::exists(Out("live-3")));
 }
 
 TEST_F(LiodTest, ChannelsFollowThePrefix) {

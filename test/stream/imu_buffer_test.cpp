@@ -271,5 +271,13 @@ TEST(ImuBuffer, ClearedBufferIsEmptyAndFreeOfWhatWas) {
   EXPECT_EQ(buffer.Add(Reading(9.0)).size(), 1u) << "nothing to bridge from";
 }
 
+TEST(ImuBuffer, SamplesThatHardlyAdvanceAreBoundedByTheirNumber) {
+  Buffer buffer;
+  constexpr int kMax = 1 << 17;
+  for (int i = 0; i < kMax + 1000; ++i) (void)buffer.Add(Reading(1e-8 * i));
+  EXPECT_EQ(buffer.imu.sent().size(), std::size_t{kMax});
+  EXPECT_EQ(buffer.imu.samples().size(), std::size_t{kMax});
+}
+
 }  // namespace
 }  // namespace lio

@@ -297,5 +297,19 @@ TEST(ScanAssembler, SweepOfEmptyChunksIsAnEmptySweep) {
   EXPECT_TRUE(sweeps[0].points.empty());
 }
 
+TEST(ScanAssembler, ASweepIsBoundedByItsPoints) {
+  Assembly a;
+  for (int i = 0; i < 10; ++i) {
+    ScanChunk chunk = MakeChunk(0, 0);
+    chunk.chunk_index = static_cast<std::int16_t>(i);
+    chunk.chunk_count = 10;
+    chunk.points.assign(1 << 20, {});
+    a.Add(chunk);
+  }
+  EXPECT_EQ(a.counters.num_chunks_bad, 6);
+  a.assembler.CloseAll();
+  EXPECT_EQ(a.TakeAll().at(0).points.size(), std::size_t{4 << 20});
+}
+
 }  // namespace
 }  // namespace lio

@@ -45,6 +45,14 @@ TEST(ScanGate, SweepsLeaveOldestFirst) {
   EXPECT_EQ(g.gate.Open(StampAt(0.25)), nullptr);
 }
 
+TEST(ScanGate, SweepsThatHardlyAdvanceAreBoundedByTheirNumberAndPoints) {
+  Gate many, large;
+  for (int i = 0; i < 2000; ++i) many.gate.Add(SweepEnding(0.1 + 1e-6 * i, 1));
+  EXPECT_EQ(many.counters.num_scans_without_imu, 2000 - 512);
+  for (int i = 0; i < 20; ++i) large.gate.Add(SweepEnding(0.1 + 1e-6 * i, 1 << 20));
+  EXPECT_EQ(large.counters.num_scans_without_imu, 20 - 8);
+}
+
 TEST(ScanGate, EmptySweepsAreCountedAndDropped) {
   Gate g;
   g.gate.Add(SweepEnding(0.1, 0));

@@ -56,7 +56,8 @@ for method in ndt loam gicp; do
     run=$method && [[ $use_imu == true ]] || run=$method-lidar
     dir=$out/$run && rm -rf "$dir" && mkdir -p "$dir"
     "$repo/build/bin/lio-replay" "${configs[@]}" --config "$repo/config/methods/$method.yaml" \
-      --set "pipeline.use_imu=$use_imu" "${cut[@]}" "$log" --out "$dir" 2>"$dir/replay.log" ||
+      --set "pipeline.use_imu=$use_imu" "${cut[@]}" "$log" --out "$dir" --overwrite \
+      2>"$dir/replay.log" ||
       { echo "compare.sh: $run failed: $(tail -n 1 "$dir/replay.log")" >&2 && continue; }
     "$repo/build/bin/lio-eval" "$truth" "$dir/trajectory.tum" --json "$dir/eval.json" \
       >"$dir/eval.txt" || continue

@@ -64,7 +64,7 @@ one_run() { # SEED SETTINGS...
   build/bin/lio-sim --scenario "$scenario" --duration "$duration" $sim --seed "$1" \
     --out "$dir" >"$dir/sim.log"
   build/bin/lio-replay --config "$dir/config.yaml" "${@:2}" "$dir/log.lcm" --out "$dir" \
-    2>"$dir/replay.log" || code=$?
+    --overwrite 2>"$dir/replay.log" || code=$?
   rm "$dir/log.lcm" # it takes up to a gigabyte
   ((code == 0)) || { cat "$dir/replay.log" >&2 && return "$code"; }
   echo "$id" >"$dir/id"

@@ -54,7 +54,7 @@ for scenario in "${scenarios[@]}"; do
     echo "$maker" >"$dir/maker"
   fi
   build/bin/lio-replay --config "$dir/config.yaml" "${settings[@]}" "$dir/log.lcm" \
-    --out "$dir/run" --map >&2
+    --out "$dir/run" --overwrite --map >&2
   build/bin/lio-eval "$dir/truth.tum" "$dir/run/trajectory.tum" --json "$dir/eval.json" \
     --plot "$dir/path.png" --map "$dir/run/map.pcd" >"$dir/eval.txt"
   if [[ $scenario == loop ]]; then

@@ -56,7 +56,7 @@ def make_drives(scenario, given):
                 sensor_seed, "--threads", os.cpu_count(), "--out", folder, *words)
     if not (folders[0] / "run/map.pcd").exists():
         run(BIN / "lio-replay", "--config", folders[0] / "config.yaml", folders[0] / "log.lcm",
-            "--out", folders[0] / "run", "--map", codes=(0, 6))
+            "--out", folders[0] / "run", "--overwrite", "--map", codes=(0, 6))
     return folders
 
 

@@ -11,6 +11,7 @@
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
 
 namespace {
@@ -26,8 +27,9 @@ constexpr const char* kAbout =
     "  lio-convert kitti-odometry sequences/05 05.lcm --truth 05.tum \\\n"
     "      --vertical-correction 0.205\n\n"
     "The summary on stdout says what was found, detected and lost. Exit codes: 0 done,\n"
-    "2 usage (also an ambiguous topic), 5 damaged, missing or unusable input; a damaged\n"
-    "recording is converted as far as it can be read.";
+    "2 usage (also an ambiguous topic), 5 damaged, missing or unusable input (a damaged\n"
+    "recording is converted as far as it can be read), 74 a file or stdout could not be\n"
+    "written in full.";
 
 constexpr const char* kAboutRosbag =
     "Convert a ROS 1 bag (file) or ROS 2 bag (folder with metadata.yaml, or one .db3) with\n"
@@ -179,16 +181,5 @@ int Convert(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Convert(argc, argv);
-  } catch (const lio::UsageError& error) {
-    std::cerr << "lio-convert: " << error.what() << "\n";
-    return lio::kExitUsage;
-  } catch (const lio::OutputError& error) {
-    std::cerr << "lio-convert: " << error.what() << "\n";
-    return lio::kExitUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "lio-convert: " << error.what() << "\n";
-    return lio::kExitUnusableInput;
-  }
+  return lio::RunProgram("lio-convert", [&] { return Convert(argc, argv); });
 }

@@ -29,7 +29,7 @@ log=$1 out=$2 speed=$3
 shift 3
 mkdir -p "$out"
 # liod's messages go to a file, which shows when it listens and what it found odd.
-"$root/build/bin/liod" "$@" --out "$out" --map 2>"$out/liod.log" &
+"$root/build/bin/liod" "$@" --out "$out" --overwrite --map 2>"$out/liod.log" &
 liod=$!
 trap 'kill "$liod" 2>/dev/null || true' EXIT
 until grep -qs listening "$out/liod.log"; do

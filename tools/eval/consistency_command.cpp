@@ -30,24 +30,17 @@ struct Arguments {
 };
 
 int Run(const Arguments& arguments) {
-  try {
-    const RunFrame frame = arguments.in_world ? RunFrame::kWorld : RunFrame::kMap;
-    std::vector<RunErrors> runs;
-    for (const std::string& dir : arguments.dirs) {
-      runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth, frame)));
-    }
-    const Consistency consistency = JudgeConsistency(runs);
-    std::cout << ConsistencyText(consistency) << std::flush;
-    if (!arguments.json.empty()) {
-      const int exit_code = WriteJson(arguments.json, ConsistencyJson(consistency));
-      if (exit_code != kExitDone) return exit_code;
-    }
-    if (arguments.plot.empty()) return kExitDone;
-    return RunPlot(kProgram, "plot_consistency.py", ConsistencyPictureData(consistency),
-                   {arguments.plot});
-  } catch (const std::runtime_error& e) {
-    return Fail(kExitUnusableInput, e.what());
+  const RunFrame frame = arguments.in_world ? RunFrame::kWorld : RunFrame::kMap;
+  std::vector<RunErrors> runs;
+  for (const std::string& dir : arguments.dirs) {
+    runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth, frame)));
   }
+  const Consistency consistency = JudgeConsistency(runs);
+  std::cout << ConsistencyText(consistency) << std::flush;
+  if (!arguments.json.empty()) WriteJson(arguments.json, ConsistencyJson(consistency));
+  if (arguments.plot.empty()) return kExitDone;
+  return RunPlot(kProgram, "plot_consistency.py", ConsistencyPictureData(consistency),
+                 {arguments.plot});
 }
 
 }  // namespace

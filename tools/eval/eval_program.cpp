@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "eval_program.hpp"
 
-#include <fstream>
 #include <iostream>
 
-#include "lio/io/command_line.hpp"
+#include "lio/io/output_file.hpp"
 
 namespace lio {
 
@@ -14,11 +13,8 @@ int Fail(int exit_code, const std::string& message) {
   return exit_code;
 }
 
-int WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
-  std::ofstream stream(file, std::ios::trunc);
-  stream << json.dump(2) << "\n";
-  stream.close();
-  return stream ? kExitDone : Fail(kExitUsage, file + ": cannot be written");
+void WriteJson(const std::string& file, const nlohmann::ordered_json& json) {
+  WriteText(file, json.dump(2) + "\n", OutputFile::Links::kFollowed);
 }
 
 }  // namespace lio

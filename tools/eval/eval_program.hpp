@@ -14,7 +14,7 @@ inline constexpr char kProgram[] = "lio-eval";
 int Fail(int exit_code, const std::string& message);
 
 // Writes the file. Returns kExitDone, or kExitUsage after an error message.
-int WriteJson(const std::string& file, const nlohmann::ordered_json& json);
+void WriteJson(const std::string& file, const nlohmann::ordered_json& json);
 
 // Runs the command "consistency"; argv[0] is that word.
 int ConsistencyMain(int argc, const char* const* argv);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 // lio-eval: measures how far a trajectory is from the truth; and lio-eval consistency.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <string_view>
 
@@ -13,6 +12,8 @@
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/output_file.hpp"
+#include "lio/io/program.hpp"
 #include "plot_runner.hpp"
 
 namespace lio {
@@ -31,7 +32,8 @@ Examples:
   lio-eval poses/05.txt mine.txt --align none
   lio-eval consistency --help                     to judge the covariance
 
-Exit codes: 0 done, 2 usage, 3 no matplotlib for the pictures, 5 missing or unusable input.)";
+Exit codes: 0 done, 2 usage, 3 no matplotlib for the pictures, 5 missing or unusable input, 74 a
+file or stdout could not be written in full.)";
 
 struct Arguments {
   std::string truth;
@@ -117,20 +119,17 @@ std::string WhyNotScored(const Arguments& arguments) {
   return {};
 }
 
-int WriteFigures(const Arguments& arguments, const std::vector<ScoredRun>& runs) {
+void WriteFigures(const Arguments& arguments, const std::vector<ScoredRun>& runs) {
   if (!arguments.csv.empty()) {
-    std::ofstream stream(arguments.csv, std::ios::trunc);
-    stream << ComparisonCsv(runs);
-    stream.close();
-    if (!stream) return Fail(kExitUsage, arguments.csv + ": cannot be written");
+    WriteText(arguments.csv, ComparisonCsv(runs), OutputFile::Links::kFollowed);
   }
-  if (arguments.json.empty()) return kExitDone;
+  if (arguments.json.empty()) return;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const ScoredRun& run : runs) {
     all.push_back(EvaluationJson(run.evaluation, {arguments.truth, run.file}));
     all.back()["time_offset_s"] = run.time_offset_s;
   }
-  return WriteJson(arguments.json, runs.size() == 1 ? all.front() : all);
+  WriteJson(arguments.json, runs.size() == 1 ? all.front() : all);
 }
 
 void Print(const Arguments& arguments, const std::vector<ScoredRun>& runs) {
@@ -149,37 +148,33 @@ int Run(const Arguments& arguments) {
   if (!arguments.map.empty() && !std::filesystem::is_regular_file(arguments.map)) {
     return Fail(kExitUnusableInput, arguments.map + ": cannot be read; give a PCD file");
   }
-  try {
-    if (const std::string why = WhyNotScored(arguments); !why.empty()) {
-      return Fail(kExitUnusableInput, why);
-    }
-    const Trajectory truth = ReadTrajectory(arguments.truth);
-    std::vector<ScoredRun> runs;
-    for (const std::string& run : arguments.estimates) {
-      runs.push_back(ScoreRun(truth, run, ToOptions(arguments), ToWish(arguments)));
-    }
-    Print(arguments, runs);
-    if (const int exit_code = WriteFigures(arguments, runs); exit_code != kExitDone) {
-      return exit_code;
-    }
-    return Draw(arguments, runs[0].evaluation, {arguments.truth, runs[0].file});
-  } catch (const UsageError& e) {
-    return Fail(kExitUsage, e.what());
-  } catch (const std::runtime_error& e) {
-    return Fail(kExitUnusableInput, e.what());
+  if (const std::string why = WhyNotScored(arguments); !why.empty()) {
+    return Fail(kExitUnusableInput, why);
   }
+  const Trajectory truth = ReadTrajectory(arguments.truth);
+  std::vector<ScoredRun> runs;
+  for (const std::string& run : arguments.estimates) {
+    runs.push_back(ScoreRun(truth, run, ToOptions(arguments), ToWish(arguments)));
+  }
+  Print(arguments, runs);
+  WriteFigures(arguments, runs);
+  return Draw(arguments, runs[0].evaluation, {arguments.truth, runs[0].file});
+}
+
+int Main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "consistency") {
+    return ConsistencyMain(argc - 1, argv + 1);
+  }
+  CLI::App app("Measures how far an estimated trajectory is from the truth.", kProgram);
+  Arguments arguments;
+  Describe(app, arguments);
+  if (const auto exit_code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *exit_code;
+  return Run(arguments);
 }
 
 }  // namespace
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "consistency") {
-    return lio::ConsistencyMain(argc - 1, argv + 1);
-  }
-  CLI::App app("Measures how far an estimated trajectory is from the truth.", lio::kProgram);
-  lio::Arguments arguments;
-  lio::Describe(app, arguments);
-  if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) return *exit_code;
-  return lio::Run(arguments);
+  return lio::RunProgram(lio::kProgram, [&] { return lio::Main(argc, argv); });
 }

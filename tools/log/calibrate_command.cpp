@@ -15,6 +15,7 @@
 #include "lio/calib/scan_poses.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "lio/io/output_file.hpp"
 #include "lio/io/progress_bar.hpp"
 
 namespace lio {
@@ -132,13 +133,6 @@ void Print(const RotationCalibration& found, const Options& options, const Pass&
       found.residual_ratio, pass.num_unmatched);
 }
 
-void WriteText(const std::string& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(file + ": cannot be written");
-}
-
 void WriteJson(const std::string& file, const RotationCalibrationResult& result,
                const Options& options) {
   const RotationCalibration& found = *result.found;
@@ -161,7 +155,7 @@ void WriteJson(const std::string& file, const RotationCalibrationResult& result,
   json["sweep_std_deg"] = kDegrees * found.sweep_std_rad;
   json["turn_std_deg"] = kDegrees * found.turn_std_rad;
   json["residual_ratio"] = found.residual_ratio;
-  WriteText(file, json.dump(2) + "\n");
+  WriteText(file, json.dump(2) + "\n", OutputFile::Links::kFollowed);
 }
 
 void WriteRig(const std::string& file, const RotationCalibration& found, const Pose& configured) {
@@ -179,7 +173,8 @@ void WriteRig(const std::string& file, const RotationCalibration& found, const P
                         "  lidar:\n"
                         "    clock_offset_s: {:.6f}  # added to the lidar's stamps\n",
                         std_deg.x(), std_deg.y(), std_deg.z(), found.offset_std_s, t.x(), t.y(),
-                        t.z(), q.w(), q.x(), q.y(), q.z(), found.offset_s));
+                        t.z(), q.w(), q.x(), q.y(), q.z(), found.offset_s),
+            OutputFile::Links::kFollowed);
 }
 
 // Loads the options; nothing means go on. The rotation need not be configured: it is estimated.

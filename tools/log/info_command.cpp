@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "lio/io/event_log.hpp"
 #include "lio/io/input_decoder.hpp"
+#include "lio/io/printable.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/stream_stats.hpp"
 
@@ -37,8 +38,8 @@ class LogInfo {
     LogEvent event;
     while (reader.Next(event)) {
       bar.Update(reader.position_bytes());
-      const Timestamp received = Timestamp::FromMicroseconds(event.utime);
-      ChannelInfo& channel = by_channel_[event.channel];
+      const Timestamp received = ReceiveStamp(event.utime);
+      ChannelInfo& channel = by_channel_[Printable(event.channel)];
       channel.events.Add(received, received);
       channel.num_bytes += static_cast<std::int64_t>(event.data.size());
       first_ = std::min(first_.value_or(received), received);

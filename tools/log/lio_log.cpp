@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.hpp"
+#include "lio/io/program.hpp"
 
 namespace {
 
@@ -15,7 +16,8 @@ constexpr const char* kAbout =
     "  lio-log info drive.lcm\n"
     "  lio-log calibrate drive.lcm --config config/ulhk.yaml\n"
     "  lio-log calibrate walk.lcm --config my_rig.yaml --json out.json --rig calibrated.yaml\n\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log.";
+    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log,\n"
+    "74 a file or stdout could not be written in full.";
 
 int Main(int argc, char** argv) {
   CLI::App app(kAbout, "lio-log");
@@ -33,10 +35,5 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Main(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "lio-log: {}\n", error.what());
-    return lio::kExitUnusableInput;
-  }
+  return lio::RunProgram("lio-log", [&] { return Main(argc, argv); });
 }

@@ -9,6 +9,9 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/initial_map_file.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/replay.hpp"
 
@@ -19,6 +22,7 @@ struct ReplayArguments {
   OptionsArguments options;
   std::string log;
   std::string out;
+  bool overwrites = false;
   std::string channel_prefix = kDefaultChannelPrefix;
   std::optional<int> num_threads;
   bool writes_map = false;
@@ -51,16 +55,19 @@ constexpr const char* kExamples =
     "Exit codes: 0 done, 2 usage, 3 configuration (also one that the log's data contradict),\n"
     "5 damaged, missing or unusable log or map, 6 done, but the result cannot be trusted: "
     "verdict.json\n"
-    "and the summary on stdout say why and what to put into the configuration.";
+    "and the summary on stdout say why and what to put into the configuration, 74 a file or "
+    "stdout\n"
+    "could not be written in full.";
 
 void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.footer(kExamples);
   app.add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
       ->type_name("IN.lcm")
       ->required();
-  app.add_option("--out", arguments.out, "Folder for the results; created when it is missing")
+  app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
       ->type_name("DIR")
       ->required();
+  app.add_flag("--overwrite", arguments.overwrites, "Replace the files of an earlier run in DIR");
   app.add_option("--threads", arguments.num_threads,
                  "Instead of pipeline.num_threads; 2 or more also read and decode the log ahead")
       ->type_name("N")
@@ -86,14 +93,15 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
 }
 
 // Tells how the run went; the exit code.
-ExitCode End(const LogInput& input, const Replay& replay, const ReplayArguments& arguments,
-             const LogInputOptions& input_options) {
+ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& writer,
+             const ReplayArguments& arguments, const LogInputOptions& input_options) {
   if (!replay.refusal().empty()) {
     WriteVerdict(arguments.out, replay.verdict());
     fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
     return kExitConfiguration;
   }
   fmt::print("{}", VerdictSummary(replay.verdict()));
+  if (writer.failure()) return kExitWriteFailed;
   const std::string complaint =
       LogComplaint(arguments.log, input, replay.counters(), input_options);
   if (complaint.empty()) return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
@@ -127,13 +135,15 @@ int Main(int argc, char** argv) {
     return *code;
   }
   LogInput input(arguments.log, input_options);
+  RefuseUsedFolder(arguments.out, arguments.overwrites);
   std::optional<RunWriter> writer;
   try {
     writer.emplace(arguments.out, options,
                    settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap);
+  } catch (const WriteError&) {
+    throw;
   } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "lio-replay: --out: {}\n", error.what());
-    return kExitUsage;
+    throw UsageError(fmt::format("--out: {}", error.what()));
   }
   settings.program = "lio-replay";
   settings.writes_map = arguments.writes_map;
@@ -141,17 +151,12 @@ int Main(int argc, char** argv) {
   settings.match_lag = arguments.match_lag;
   Replay replay(options, settings, *writer);
   replay.Run(input);
-  return End(input, replay, arguments, input_options);
+  return End(input, replay, *writer, arguments, input_options);
 }
 
 }  // namespace
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  try {
-    return lio::Main(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "lio-replay: {}\n", error.what());
-    return lio::kExitUnusableInput;
-  }
+  return lio::RunProgram("lio-replay", [&] { return lio::Main(argc, argv); });
 }

@@ -11,7 +11,9 @@
 #include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/finish_run.hpp"
 #include "lio/run/recording.hpp"
@@ -66,7 +68,8 @@ constexpr const char* kExamples =
     "data\n"
     "contradict), 5 damaged, missing or unusable input (its sound parts were run), 6 done, but "
     "the\n"
-    "result cannot be trusted: verdict.json, the summary and the page say why and what to change.";
+    "result cannot be trusted: verdict.json, the summary and the page say why and what to change,\n"
+    "74 a file or stdout could not be written in full.";
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.footer(kExamples);
@@ -121,13 +124,11 @@ void PrepareFolder(const Arguments& arguments) {
     if (HoldsInput(out, arguments.input)) {
       throw UsageError(out.string() + ": holds the input; name another folder");
     }
-    if (!fs::is_empty(out, error) && !arguments.overwrites) {
-      throw UsageError(out.string() +
-                       ": exists and is not empty; name another folder or add --overwrite");
-    }
+    RefuseUsedFolder(out, arguments.overwrites);
     for (const char* name : {"log.lcm", "truth.tum"}) {
       if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
       RefuseToOverwrite(arguments.input, out / name);
+      if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
     }
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
     return;
@@ -168,12 +169,11 @@ bool IsDrafted(const PreparedRecording& recording) {
 void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
   fmt::print("input       {} ({})\n", arguments.input, recording.kind);
   if (!recording.report.empty()) {
-    OutputFile file = OpenOutput(fs::path(arguments.out) / "conversion.txt");
-    file.stream << recording.report;
-    Close(file);
+    const fs::path file = fs::path(arguments.out) / "conversion.txt";
+    WriteText(file, recording.report);
     fmt::print("converted   {} ({:.0f} MB; it may be deleted), told in {}\n",
                recording.log.string(), static_cast<double>(fs::file_size(recording.log)) * 1e-6,
-               file.path.string());
+               file.string());
   }
   for (const std::string& sentence : recording.assumptions)
     fmt::print("assumed     {}\n", sentence);
@@ -211,6 +211,8 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   try {
     WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
     fmt::print("report      {}\n", (out / "report.html").string());
+  } catch (const WriteError&) {
+    throw;
   } catch (const std::runtime_error& error) {  // the result itself is sound
     fmt::print(stderr, "{}: no report: {}\n", kProgram, error.what());
   }
@@ -235,6 +237,10 @@ ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Opt
   settings.writes_map = true;
   Replay replay(options, settings, writer);
   replay.Run(input);
+  if (writer.failure()) {
+    fmt::print("{}", VerdictSummary(replay.verdict()));
+    return kExitWriteFailed;
+  }
   if (!replay.refusal().empty()) {
     WriteVerdict(arguments.out, replay.verdict());
     fmt::print(stderr, "{}: {}\n", kProgram, replay.refusal());
@@ -294,17 +300,5 @@ int Main(int argc, char** argv) {
 }  // namespace lio
 
 int main(int argc, char** argv) {
-  const auto fail = [](const std::exception& error, lio::ExitCode code) {
-    fmt::print(stderr, "{}: {}\n", lio::kProgram, error.what());
-    return code;
-  };
-  try {
-    return lio::Main(argc, argv);
-  } catch (const lio::UsageError& error) {
-    return fail(error, lio::kExitUsage);
-  } catch (const lio::OutputError& error) {
-    return fail(error, lio::kExitUsage);
-  } catch (const std::exception& error) {
-    return fail(error, lio::kExitUnusableInput);
-  }
+  return lio::RunProgram(lio::kProgram, [&] { return lio::Main(argc, argv); });
 }

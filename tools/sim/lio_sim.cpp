@@ -13,6 +13,8 @@
 #include <stdexcept>
 
 #include "lio/io/command_line.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/sim/data_file.hpp"
 #include "lio/sim/picture.hpp"
@@ -67,6 +69,9 @@ Examples:
   lio-replay --config out/street/config.yaml out/street/log.lcm --out out/street/run
   lio-sim --scenario street --fault imu_gap:start=20,duration=1 --fault dust --out out/faulty
   lio-sim --scenario loop --lidar vlp16 --imu consumer_mems --seed 7 --out out/loop
+
+Exit codes: 0 done, 2 usage, 3 data files of a sensor, 74 a file or stdout could not be written in
+full.
 )";
 }
 
@@ -241,15 +246,15 @@ int Run(const Arguments& arguments) {
   } catch (const std::filesystem::filesystem_error& error) {
     return Fail("cannot create " + error.path1().string() + ": " + error.code().message(),
                 kExitUsage);
+  } catch (const WriteError&) {
+    throw;
   } catch (const std::exception& error) {
     return Fail(error.what(), kExitUsage);
   }
   return kExitDone;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   CLI::App app{"Simulates a lidar and an IMU on a drive through a synthetic world.", "lio-sim"};
   Arguments arguments;
   AddArguments(app, arguments);
@@ -263,4 +268,10 @@ int main(int argc, char** argv) {
   if (arguments.folder.empty() && arguments.picture.empty())
     return Fail("--out is required; it names the folder to write into", kExitUsage);
   return Run(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunProgram("lio-sim", [&] { return Main(argc, argv); });
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "lio/convert/ros_cursor.hpp"
@@ -46,7 +47,10 @@ class RosSchema {
   };
 
   [[nodiscard]] bool ParseLine(std::string_view line, Message& message) const;
-  [[nodiscard]] bool LinkField(Field& field, const std::string& package) const;
+  // The index into messages_ of the first message of each type.
+  using MessageIndex = std::unordered_map<std::string, std::size_t>;
+  [[nodiscard]] static bool LinkField(Field& field, const std::string& package,
+                                      const MessageIndex& index);
   [[nodiscard]] bool Link();
   struct Walk {
     RosCursor cursor;

@@ -19,7 +19,7 @@ struct StampedTable {
 
 // Returns the named columns in that order, or all columns when no names are given. Throws
 // std::runtime_error "FILE:LINE: message" when the file cannot be read, lacks a column, or holds no
-// finite number where one is wanted.
+// finite number where one is wanted. A last row that is cut is left out, as in ReadTrajectory.
 [[nodiscard]] StampedTable ReadStampedCsv(const std::filesystem::path& file,
                                           const std::vector<std::string>& wanted = {});
 

@@ -26,6 +26,7 @@ enum ExitCode : int {
   kExitUnusableInput = 5,   // damaged, missing or unusable input
   kExitNoTrust = 6,         // done, but the result cannot be trusted: verdict.json says why
   kExitInternalFault = 70,  // a thread of liod failed: EX_SOFTWARE of sysexits.h
+  kExitWriteFailed = 74,    // a file or stdout could not be written in full: EX_IOERR
 };
 
 // Parses the command line. Nothing means that the program goes on; otherwise it ends now with this

@@ -23,6 +23,10 @@ enum class FileKind : std::int8_t {
 
 [[nodiscard]] FileKind KindOf(const std::filesystem::path& path);
 
+// Throws InputError for what is neither a regular file nor a folder: a FIFO would be waited for,
+// and a device may never end. A path that does not exist passes.
+void RefuseIrregular(const std::filesystem::path& path);
+
 // The steady path in a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
 [[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
 

@@ -18,9 +18,15 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A file cannot be created or written in full: the command line named a wrong place. Exit code 2.
+// A file cannot be created: the command line named a wrong place. Exit code 2.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+// A file cannot be written in full: the disk is full, or a file would grow beyond a limit. Exit
+// code 74.
+struct WriteError : OutputError {
+  using OutputError::OutputError;
 };
 
 }  // namespace lio

@@ -4,7 +4,8 @@
 // and about its origin, so that it is level by the last estimate. It keeps its shape, and its
 // height does not drift by the tilt that the start did not know. Its stamps and its body are those
 // of the last estimates of clock offset and extrinsic, before these were found too. Written at the
-// end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them.
+// end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them,
+// trajectory_level.rows.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ namespace lio {
 
 class LevelTrack {
  public:
-  // Removes the files of an earlier run. Throws std::runtime_error naming the file when it cannot
-  // be written; so do the others. Without `turns_map` the path stays in the map's frame: that of a
-  // map saved before.
+  // Removes the files of an earlier run. Throws OutputError naming the file when it cannot be
+  // created; the others throw WriteError when it cannot be written in full. Without `turns_map` the
+  // path stays in the map's frame: that of a map saved before.
   explicit LevelTrack(const std::filesystem::path& folder, bool turns_map = true);
 
   // `clock_correction`: what the estimated clock offset has added to the stamp.
@@ -27,6 +28,8 @@ class LevelTrack {
   // From the map's frame to the level one, by the last row; the identity when no gravity was felt
   // and where the map is not turned.
   [[nodiscard]] Quaternion R_level_map() const;
+  // Until then the last rows may be in memory alone.
+  void Flush();
   // Writes the two files, unless nothing levels the path: no gravity was felt.
   void Finish();
 
@@ -42,6 +45,7 @@ class LevelTrack {
 
   static void Put(const Pose& pose, double (&to)[7]);
   [[nodiscard]] static Pose Get(const double (&from)[7]);
+  void WriteFiles();
   [[nodiscard]] Pose LastImuPose(const Row& row) const;
 
   std::filesystem::path folder_;

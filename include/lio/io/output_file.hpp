@@ -1,21 +1,55 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A file that is written as a stream and knows its path, for errors that name it.
+// A file that is written in whole rows and names itself in errors.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lio/io/input_error.hpp"
 
 namespace lio {
 
-struct OutputFile {
-  std::filesystem::path path;
-  std::ofstream stream;
+class OutputFile {
+ public:
+  // A symbolic link at the place of the file is treated so.
+  enum class Links { kReplaced, kFollowed };
+
+  // Overwrites an existing file. Throws OutputError naming the file when it cannot.
+  explicit OutputFile(const std::filesystem::path& path, Links links = Links::kReplaced);
+  ~OutputFile();  // writes what is kept, if it can
+  OutputFile(OutputFile&&) = default;
+  OutputFile& operator=(OutputFile&&) = delete;
+
+  // Keeps whole rows until the next Flush, or until a megabyte has come together. The three throw
+  // WriteError naming the file and the reason when not all could be written; the file then ends
+  // with its last whole row, and what was kept is lost.
+  void Write(std::string_view rows);
+  void Flush();
+  // Nothing may be written afterwards.
+  void Close();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Closer> file_;  // without a buffer of its own
+  std::string kept_;
 };
 
-// Overwrites an existing file. Throws std::runtime_error naming the file when it cannot.
-[[nodiscard]] OutputFile OpenOutput(const std::filesystem::path& path);
-// Throws std::runtime_error naming the file when it could not be written in full.
-void Close(OutputFile& file);
+// Closes all of them, also after one has thrown; then throws what the first one did.
+void CloseAll(std::span<OutputFile* const> files);
+
+// Writes a whole file; the errors are those of OutputFile.
+void WriteText(const std::filesystem::path& path, std::string_view text,
+               OutputFile::Links links = OutputFile::Links::kReplaced);
 
 }  // namespace lio

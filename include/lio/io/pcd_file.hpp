@@ -10,8 +10,8 @@
 
 namespace lio {
 
-// The file is binary, with the fields x y z [m]; an existing one is overwritten. Throws
-// std::runtime_error naming the file when it cannot.
+// The file is binary, with the fields x y z [m]; an existing one is overwritten. Throws OutputError
+// naming the file when it cannot, WriteError when it cannot be written in full.
 void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points);
 
 // The points of any PCD file with x, y and z. Throws std::runtime_error naming the file when it

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lio/io/level_track.hpp"
 #include "lio/io/output_file.hpp"
@@ -20,7 +21,8 @@ namespace lio {
 class RowFiles {
  public:
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
-  // naming the file when it cannot; so do the others when a file could not be written in full.
+  // naming the file when it cannot; the others throw WriteError when a file could not be written
+  // in full.
   // `turns_map`: LevelTrack.
   RowFiles(const std::filesystem::path& folder, bool has_base, bool turns_map = true);
 
@@ -29,6 +31,8 @@ class RowFiles {
   void Write(const Output& output, std::optional<Trust> trust);
   [[nodiscard]] Quaternion R_level_map() const { return level_.R_level_map(); }
   [[nodiscard]] std::int64_t num_rows_not_later() const { return num_rows_not_later_; }
+  // Rows are kept until then: all files end with the rows of the same scan.
+  void Flush();
   // Completes all files.
   void Finish();
 
@@ -40,6 +44,7 @@ class RowFiles {
   [[nodiscard]] static Track OpenTrack(const std::filesystem::path& folder,
                                        const std::string& frame);
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
+  [[nodiscard]] std::vector<OutputFile*> files();
   void WriteScan(const ScanOutput& output, std::optional<Trust> trust);
   void WriteImuRate(const NavOutput& nav);
 

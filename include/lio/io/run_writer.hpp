@@ -26,9 +26,13 @@
 // When the clock goes back, as when a log is played again to a running daemon, these files go on
 // where the time that they have is passed. All rows from the step on stand in segment_2/ besides,
 // those from the next one on in segment_3/ and so on, under the same names.
-// For the same input all but the computing times is the same, byte for byte.
+// Rows are whole, and all files are written together: every second of host time or after 100 rows,
+// whichever is sooner. So all files of a run that was killed end with the same scan, but for what
+// is being written in that instant. For the same input all but the computing times is the same,
+// byte for byte.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -60,23 +64,34 @@ enum class MapFormat { kPcd, kPly };
 class RunWriter {
  public:
   // Creates the folder when it is missing and overwrites the files of earlier runs. Throws
-  // std::runtime_error naming the file when it cannot.
+  // OutputError or std::runtime_error naming the file when it cannot.
   RunWriter(const std::filesystem::path& folder, const Options& options,
             StartIn start_in = StartIn::kNewMap);
 
   // A row that is not later than the one before is left out and counted in stats.json; one that
   // steps back by more than 0.1 s begins a segment. `trust` is that of the run so far, where
-  // the caller knows it.
+  // the caller knows it. After a failure no more rows are written.
   void Write(const Output& output, std::optional<Trust> trust = std::nullopt);
+  // Writes the rows that are kept, for callers to whom no row comes for a while.
+  void Flush();
+  // Says which file could not be written first, and why, e.g. on a full disk; nothing when all is
+  // well.
+  [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
   // To be called after the last row: the points are turned as the level path is.
   void WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format = MapFormat::kPcd);
-  // Completes all files. Throws std::runtime_error when a file could not be written in full.
+  // Completes all files, as far as each can be written. Throws WriteError with the failure, if
+  // there was one.
   void Finish(const RunStats& stats);
 
  private:
   [[nodiscard]] std::filesystem::path FolderOf(int segment) const;
   // Has the clock gone back before this row?
   [[nodiscard]] bool StepsBack(const Output& output);
+  // Keeps the message of the first exception.
+  template <typename Action>
+  void Try(Action&& action);
+  void WriteRows(const Output& output, std::optional<Trust> trust);
+  void Summarize(const Output& output);
   void WriteStats(const RunStats& stats);
 
   std::filesystem::path folder_;
@@ -87,6 +102,9 @@ class RunWriter {
   std::optional<Timestamp> last_sweep_;
   std::optional<Timestamp> last_imu_rate_;
   OutputFile notices_;
+  std::optional<std::string> failure_;
+  int num_kept_ = 0;  // rows since the last flush
+  std::chrono::steady_clock::time_point last_flush_;
   int num_segments_ = 1;
   std::array<QuantileSketch, kNumStages> stage_ms_;
   QuantileSketch gyro_noise_ratio_;  // ImuNoiseRatios, at each scan

@@ -17,6 +17,10 @@ namespace lio {
 // The middle value, the upper one of the two in the middle; 0 for none.
 [[nodiscard]] double UpperMedian(std::vector<double> values);
 
+// The stamp of an event in a log; a time more than 146 years from the epoch, which is damage, is
+// moved there, so that differences of two do not overflow.
+[[nodiscard]] Timestamp ReceiveStamp(std::int64_t utime);
+
 class StreamStats {
  public:
   void Add(Timestamp stamp, Timestamp received);

@@ -28,8 +28,11 @@ struct Trajectory {
 // Throws std::runtime_error "FILE:LINE: message", with the column when one is at fault, for a
 // different number of columns, a word that is not a finite number, a stamp that is not above the
 // one before, and a quaternion or matrix that is not a rotation; and "FILE: message" when the file
-// cannot be read or holds no pose.
+// cannot be read or holds no pose. A last row without a line feed that cannot be read is what a
+// killed program leaves: it is left out, and TellCutLine says so.
 [[nodiscard]] Trajectory ReadTrajectory(const std::filesystem::path& file);
+// Tells on stderr that the last line of the file was left out.
+void TellCutLine(const std::filesystem::path& file);
 
 // Both overwrite an existing file, and throw std::runtime_error naming the file when it cannot be
 // written.

@@ -29,7 +29,7 @@ class Replay {
   Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer);
 
   // Replays all of `input`, or up to the notice that the options contradict it, and completes the
-  // files. Throws std::runtime_error naming a file that cannot be written.
+  // files. Where one cannot be written, stderr tells at once; the estimate goes on without rows.
   void Run(LogInput& input);
 
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
@@ -41,8 +41,10 @@ class Replay {
  private:
   void Add(InputItem item);
   void Match();
+  void AddToMap(const InsertTask& insert);
   [[nodiscard]] bool StartMatch();
   void TakeOutputs();
+  void TellFailure();
   void Finish(const LogInput& input, double wall_s);
 
   ReplaySettings settings_;
@@ -53,6 +55,7 @@ class Replay {
   std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;
+  bool has_told_failure_ = false;
   std::string refusal_;
   Verdict verdict_;
 };

@@ -44,6 +44,7 @@ class ScanAssembler {
     SweepName name;
     std::vector<ScanChunk> chunks;  // by index; empty points and count 0: not here yet
     int num_received = 0;
+    std::size_t num_points = 0;
     std::int64_t decode_ns = 0;
   };
 

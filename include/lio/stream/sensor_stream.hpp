@@ -76,6 +76,12 @@ class SensorStream {
     ImuSample sample;
     std::optional<ScanChunk> chunk;  // absent: it is the sample
     std::int64_t decode_ns = 0;
+
+    [[nodiscard]] std::size_t num_points() const { return chunk ? chunk->points.size() : 0; }
+  };
+  struct Inbox {
+    std::deque<Message> messages;
+    std::size_t num_points = 0;
   };
   enum class State {
     kFlowing,
@@ -144,7 +150,7 @@ class SensorStream {
   bool has_imu_;
   Life life_ = Life::kOpen;
   State state_ = State::kFlowing;
-  std::deque<Message> inbox_;  // not processed yet
+  Inbox inbox_;  // not processed yet
   std::deque<StreamEvent> events_;
   Senders senders_;
   ImuPreprocessor preprocessor_;
