@@ -40,7 +40,7 @@ void DaemonArguments::AddTo(CLI::App& app) {
       ->type_name("URL");
   app.add_option("--out", out,
                  "Write the files that lio-replay writes into this folder or, when it holds\n"
-                 "anything, into the first of DIR-2, DIR-3 and so on that is free")
+                 "an earlier run, into the first of DIR-2, DIR-3 and so on that holds none")
       ->type_name("DIR");
   app.add_flag("--overwrite", overwrites, "With --out: replace the files of an earlier run in DIR");
   app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");

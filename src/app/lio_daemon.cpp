@@ -53,7 +53,7 @@ void KeepEarlierRun(LiveOptions& live) {
   live.out = MakeFreeFolder(wanted);
   std::error_code ignored;
   if (std::filesystem::equivalent(wanted, *live.out, ignored)) return;
-  spdlog::warn("{} holds files already: the files of this run go to {}", wanted.string(),
+  spdlog::warn("{} holds an earlier run: the files of this one go to {}", wanted.string(),
                live.out->string());
 }
 

@@ -10,9 +10,11 @@ namespace lio {
 namespace fs = std::filesystem;
 namespace {
 
-bool HoldsAnything(const fs::path& folder) {
-  std::error_code error;
-  return fs::is_directory(folder, error) && !(fs::is_empty(folder, error) && !error);
+// The first file that a run writes, and the one that a killed run leaves in any case.
+bool HoldsRun(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "options.yaml", ignored) ||
+         fs::exists(folder / "trajectory.tum", ignored);
 }
 
 // The path with a last part that a number can be added to: "a/b/" and "." have none.
@@ -25,17 +27,17 @@ fs::path WithName(const fs::path& folder) {
 
 }  // namespace
 
-void RefuseUsedFolder(const fs::path& folder, bool overwrites) {
-  if (overwrites || !HoldsAnything(folder)) return;
+void RefuseEarlierRun(const fs::path& folder, bool overwrites) {
+  if (overwrites || !HoldsRun(folder)) return;
   throw UsageError(folder.string() +
-                   ": exists and is not empty; name another folder or add --overwrite");
+                   ": holds an earlier run; name another folder or add --overwrite");
 }
 
 fs::path MakeFreeFolder(const fs::path& folder) {
   const fs::path first = WithName(folder);
   fs::path candidate = first;
   std::error_code error;
-  for (int number = 2; HoldsAnything(candidate); ++number) {
+  for (int number = 2; HoldsRun(candidate); ++number) {
     candidate = first;
     candidate += fmt::format("-{}", number);
   }

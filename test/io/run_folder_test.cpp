@@ -12,24 +12,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(RunFolder, AFolderThatHoldsAnythingIsRefusedUnlessItMayBeOverwritten) {
-  const test::TempDir folder;
-  EXPECT_NO_THROW(RefuseUsedFolder(folder.path() / "new", false));
-  EXPECT_NO_THROW(RefuseUsedFolder(folder.path(), false));
-  folder.Write("file", "");
-  EXPECT_THROW(RefuseUsedFolder(folder.path(), false), UsageError);
-  EXPECT_NO_THROW(RefuseUsedFolder(folder.path(), true));
+TEST(RunFolder, AnEarlierRunIsRefusedUnlessItMayBeOverwritten) {
+  for (const char* name : {"options.yaml", "trajectory.tum"}) {
+    const test::TempDir folder;
+    EXPECT_NO_THROW(RefuseEarlierRun(folder.path() / "new", false));
+    EXPECT_NO_THROW(RefuseEarlierRun(folder.path(), false));
+    folder.Write("config.yaml", "");
+    EXPECT_NO_THROW(RefuseEarlierRun(folder.path(), false)) << "other files are no run";
+    folder.Write(name, "");
+    EXPECT_THROW(RefuseEarlierRun(folder.path(), false), UsageError) << name;
+    EXPECT_NO_THROW(RefuseEarlierRun(folder.path(), true)) << name;
+  }
 }
 
 TEST(RunFolder, TheNextFreeNumberIsTakenBesideAUsedFolder) {
   const test::TempDir folder;
   const fs::path run = folder.path() / "run";
   EXPECT_EQ(MakeFreeFolder(run), run);
-  EXPECT_EQ(MakeFreeFolder(run), run) << "an empty folder is free";
-  folder.Write("run/stats.json", "");
+  folder.Write("run/liod.log", "");
+  EXPECT_EQ(MakeFreeFolder(run), run) << "other files are no run";
+  folder.Write("run/options.yaml", "");
   EXPECT_EQ(MakeFreeFolder(run), folder.path() / "run-2");
   EXPECT_TRUE(fs::is_directory(folder.path() / "run-2"));
-  folder.Write("run-2/stats.json", "");
+  folder.Write("run-2/options.yaml", "");
   EXPECT_EQ(MakeFreeFolder(run / ""), folder.path() / "run-3") << "a slash at the end";
   EXPECT_EQ(MakeFreeFolder(run / "."), folder.path() / "run-3");
 }

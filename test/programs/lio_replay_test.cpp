@@ -81,7 +81,8 @@ TEST_F(LioReplayTest, AnEarlierRunIsKeptUnlessItMayBeOverwritten) {
   const std::string before = File("out/stats.json");
   const auto refused = Replay(kLog, "out");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("is not empty; name another folder or add --overwrite"));
+  EXPECT_THAT(refused.err,
+              HasSubstr("holds an earlier run; name another folder or add --overwrite"));
   EXPECT_EQ(File("out/stats.json"), before);
   EXPECT_EQ(Replay(kLog, "out", {"--overwrite"}).exit_code, 0);
   EXPECT_NE(File("out/stats.json"), before);

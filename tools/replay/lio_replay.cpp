@@ -64,7 +64,7 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   app.add_option("LOG", arguments.log, "LCM log with LIO_IMU and LIO_SCAN")
       ->type_name("IN.lcm")
       ->required();
-  app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
+  app.add_option("--out", arguments.out, "Folder for the results; it must hold no earlier run")
       ->type_name("DIR")
       ->required();
   app.add_flag("--overwrite", arguments.overwrites, "Replace the files of an earlier run in DIR");
@@ -135,7 +135,7 @@ int Main(int argc, char** argv) {
     return *code;
   }
   LogInput input(arguments.log, input_options);
-  RefuseUsedFolder(arguments.out, arguments.overwrites);
+  RefuseEarlierRun(arguments.out, arguments.overwrites);
   std::optional<RunWriter> writer;
   try {
     writer.emplace(arguments.out, options,

@@ -13,7 +13,6 @@
 #include "lio/io/output_file.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
-#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/finish_run.hpp"
 #include "lio/run/recording.hpp"
@@ -124,7 +123,10 @@ void PrepareFolder(const Arguments& arguments) {
     if (HoldsInput(out, arguments.input)) {
       throw UsageError(out.string() + ": holds the input; name another folder");
     }
-    RefuseUsedFolder(out, arguments.overwrites);
+    if (!fs::is_empty(out, error) && !arguments.overwrites) {
+      throw UsageError(out.string() +
+                       ": exists and is not empty; name another folder or add --overwrite");
+    }
     for (const char* name : {"log.lcm", "truth.tum"}) {
       if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
       RefuseToOverwrite(arguments.input, out / name);
