@@ -86,7 +86,8 @@ TEST(SensorFixedErrors, ScoresOfNoiseAreARandomWalk) {
     errors.Add(match);
     sum += errors.CovPerReplacement(match).trace() / kScans;
   }
-  EXPECT_NEAR(sum / (2.0 * kShare * of_one_scan), 1.0, 0.15);
+  // The mean over the drive is one draw of 120 numbers, whose square is good to 13 %: three sigma.
+  EXPECT_NEAR(sum / (2.0 * kShare * of_one_scan), 1.0, 0.4);
 }
 
 TEST(SensorFixedErrors, ScoresThatChangeSignCancel) {
