@@ -140,7 +140,7 @@ TEST_F(LiodTest, ARestartKeepsTheFilesOfTheRunBefore) {
   ASSERT_EQ(run(""), 0);
   const std::string before = File("live/stats.json");
   ASSERT_EQ(run(""), 0);
-  EXPECT_THAT(File("said"), HasSubstr("the files of this run go to " + Out("live-2")));
+  EXPECT_THAT(File("said"), HasSubstr("the files of this one go to " + Out("live-2")));
   EXPECT_EQ(File("live/stats.json"), before);
   EXPECT_EQ(Stats("live-2")["num_scans"], 0);
   ASSERT_EQ(run(" --overwrite"), 0);
