@@ -150,6 +150,7 @@ void KeyframeMap::Add(std::span<const PointWithNormal> points_kf, const Pose& T_
 
 std::vector<std::int32_t> KeyframeMap::HullKeyframes(const std::vector<std::int32_t>& all) const {
   std::vector<Eigen::Vector2d> places;
+  places.reserve(all.size());
   for (const std::int32_t i : all) {
     places.emplace_back(keyframes_[ToIndex(i)].T_map_kf.translation.head<2>());
   }
