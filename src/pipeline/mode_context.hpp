@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What every mode works with. Odometry owns all of it and outlives the modes; none of it is about
+// Every mode works with these. Odometry owns all of it and outlives the modes; none of it is about
 // the motion, so nothing of a motion crosses a change of mode here (handover.hpp is for that).
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What happens at gaps of the inertial stream and at steps of its clock.
+// The stream judges gaps of the inertial stream and steps of its clock here.
 #include <fmt/format.h>
 
 #include <utility>

@@ -47,7 +47,7 @@ struct LidarOnlyBench {
   }
   std::optional<Transition> Match() { return Finish(bench.Matched(NextJob(), motion)); }
   std::optional<Transition> Miss() { return Finish(bench.Unmatched(NextJob())); }
-  // So many scans; the first transition ends them.
+  // These run so many scans, or end with the first transition.
   std::optional<Transition> Match(int num_scans) {
     for (int i = 0; i < num_scans; ++i) {
       if (auto transition = Match()) return transition;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the odometry tells the world: plain data, encoded by lio_io and written by the programs.
+// The odometry tells the world this: plain data, encoded by lio_io and written by the programs.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What is known of a scan's pose before it is matched.
+// A prior holds all that is known of a scan's pose before it is matched.
 #pragma once
 
 #include "lio/base/pose.hpp"

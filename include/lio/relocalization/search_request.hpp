@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Where to look for a scan that is not where it was predicted.
+// A request says where to look for a scan that is not where it was predicted.
 #pragma once
 
 #include <cstdint>
