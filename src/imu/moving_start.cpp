@@ -8,14 +8,13 @@
 #include <cmath>
 
 #include "imu/alignment.hpp"
+#include "lio/base/chi_square.hpp"
 #include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
 
 constexpr MovingStartParameters kParameters = kInitializationParameters.in_motion;
-// ChiSquareQuantile(0.5, 6.0) is 5.348121. It stays as tables print it, for the same bits.
-constexpr double kMedianChiSquare6 = 5.348;
 
 std::string DataProblem(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from) {
@@ -102,7 +101,7 @@ AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const Mat
 double ResidualRatio(std::vector<double> squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(*middle / kMedianChiSquare6);
+  return std::sqrt(*middle / ChiSquareQuantile6(0.5));
 }
 
 // Transforms the first state and its covariance from the frame of the poses to world, which is

@@ -132,10 +132,8 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
 // there.
 void GaussianMap::InsertKept(std::span<const Vector3> points_map,
                              std::span<const Eigen::Vector3f> sides, const Workers& workers) {
-  // Share of a level direction, which tells the sides of a wall. Chosen: small beside up, so that
-  // floors that lean are still sorted by up.
-  constexpr double kShare = 0.2;
-  const Eigen::Vector3f first = (up_map_ + kShare * up_map_.unitOrthogonal()).cast<float>();
+  const Eigen::Vector3f first =
+      (up_map_ + Parameters::kLevelShare * up_map_.unitOrthogonal()).cast<float>();
   std::array<std::vector<std::size_t>, 3> groups;
   for (std::size_t i = 0; i < points_map.size(); ++i) {
     const float towards = sides[i].dot(first);

@@ -9,10 +9,7 @@
 namespace lio {
 namespace {
 
-// An offset is announced that is known so well, and so large that it matters: 1 cm at 10 m/s, and
-// three standard deviations of it. Chosen.
-constexpr double kKnownStd_s = 1e-3;
-constexpr double kToldOffset_s = 3e-3;
+constexpr ClockOffsetParameters kParameters = kFilterParameters.clock_offset;
 
 }  // namespace
 
@@ -52,8 +49,9 @@ std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outc
                 options_->filter.registration_cov_scale * rotation_cov.trace() / 3.0,
                 history.At(sweep.middle()).state.gyro_bias, gyro_density},
                samples);
-  const bool matters = std::abs(offset_->offset_s()) > kToldOffset_s;
-  if (is_announced_ || offset_->std_s() > kKnownStd_s || !matters) return std::nullopt;
+  const bool matters = std::abs(offset_->offset_s()) > kParameters.min_announced_s;
+  if (is_announced_ || offset_->std_s() > kParameters.announced_std_s || !matters)
+    return std::nullopt;
   is_announced_ = true;
   return fmt::format(
       "clocks: the lidar's stamps are {:.1f} ms {} the IMU's (1 sigma {:.1f} ms): set "

@@ -14,11 +14,10 @@ Timestamp TrackStart(const Sweep& sweep, const MotionSeed& seed) {
 }
 
 Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig) {
-  constexpr double kMaxLean = 0.7;  // cosine of 45 deg; chosen: no lidar is mounted leaning more
   const Vector3 axis = rig.T_imu_lidar.value_or(Pose{}).rotation * Vector3::UnitZ();
   if (samples.empty()) return axis;
   const Vector3 up = Summarise(samples).mean_f_mps2.normalized();
-  return std::abs(up.dot(axis)) > kMaxLean ? up : axis;
+  return std::abs(up.dot(axis)) > kCoarseTracking.min_up_cosine ? up : axis;
 }
 
 void FollowClockBack(const Sweep& sweep, ConstantVelocityTracker& tracker,

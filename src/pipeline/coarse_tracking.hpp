@@ -11,6 +11,13 @@
 
 namespace lio {
 
+struct CoarseTrackingParameters {
+  // The cosine between the lidar's axis and up, at least. Chosen: 45 deg; no lidar leans more.
+  double min_up_cosine = 0.7;
+};
+
+inline constexpr CoarseTrackingParameters kCoarseTracking;
+
 // A track that begins with this sweep begins at the sweep's start if the motion is known, else at
 // its middle, where its first pose will be.
 [[nodiscard]] Timestamp TrackStart(const Sweep& sweep, const MotionSeed& seed);

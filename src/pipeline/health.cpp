@@ -20,7 +20,7 @@ void Health::AddFusion(EventOutcome outcome) {
 }
 
 int Health::NumGatedLately() const {
-  constexpr std::uint32_t kLastScans = 0b11111;  // chosen: five scans, half a second at 10 Hz
+  constexpr std::uint32_t kLastScans = (1u << kHealth.gated_lately_scans) - 1;
   return std::popcount(gated_scans_ & kLastScans);
 }
 

@@ -34,6 +34,8 @@ struct HealthParameters {
   // Without an IMU coasting is wrong by more with each scan. Chosen: half a second at 10 Hz; used
   // in docs/experiments/relocalization.md.
   int restart_after_scans_lidar_only = 5;
+  // Of so many last scans the gated ones are counted. Chosen: half a second at 10 Hz.
+  int gated_lately_scans = 5;
   // A scan of fewer points says nothing about the map. Chosen: four times
   // MatchParameters::kMinMatched.
   int min_points = 200;

@@ -11,8 +11,6 @@ namespace {
 
 constexpr MapSearchParameters kSearch = kRelocalization.map_search;
 constexpr float kMaxExtent_m = kSearch.cell_m * kSearch.max_cells_per_side - 2.f * kSearch.margin_m;
-// A coordinate beyond this is no map's. Arithmetic: a float holds 8 mm there.
-constexpr float kMaxCoordinate_m = 100e3f;
 
 }  // namespace
 
@@ -25,7 +23,7 @@ std::string WhyUnusable(std::span<const Eigen::Vector3f> points) {
     high = high.cwiseMax(point);
   }
   const float farthest_m = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-  if (!(farthest_m < kMaxCoordinate_m)) {
+  if (!(farthest_m < kSearch.max_coordinate_m)) {
     return fmt::format(
         "has points {:.0f} km from its origin, where floats are too coarse: shift it nearer",
         1e-3f * farthest_m);

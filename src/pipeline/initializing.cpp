@@ -132,7 +132,7 @@ bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
 bool Initializing::IsVeryCalm(Timestamp stamp) const {
   const Timestamp begin = stamp - Duration::FromSeconds(context_.options.start.rest_s);
   const ImuStatistics statistics = Summarise(context_.stream.imu().Between(begin, stamp));
-  return statistics.num_samples >= 3 &&
+  return statistics.num_samples >= kInitializing.min_samples_at_rest &&
          IsCalm(statistics, context_.options.rig.imu, kRest.at_start.calm);
 }
 

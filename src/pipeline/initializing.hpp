@@ -35,8 +35,8 @@ struct InitializingParameters {
   // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
   // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
-  std::size_t min_scans_at_rest = 3;    // chosen: two steps between them say that it does not move
-  std::size_t min_samples_at_rest = 3;  // chosen: fewer have no spread
+  std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move
+  int min_samples_at_rest = 3;        // chosen: fewer have no spread
   // Scans from which the motion may be known, and after which lidar-only odometry begins anyway.
   // Chosen: the first ones are skewed by a motion that is not known; waiting longer loses them.
   std::size_t min_scans_for_motion = 4;

@@ -41,7 +41,7 @@ std::optional<Transition> Initializing::TryStartAsItMoves(Timestamp stamp) {
 
 std::optional<Transition> Initializing::TryStartAtRest(Timestamp begin, Timestamp stamp) {
   const std::vector<ImuSample> samples = context_.stream.imu().Between(begin, stamp);
-  if (samples.size() < kInitializing.min_samples_at_rest) return std::nullopt;
+  if (std::ssize(samples) < kInitializing.min_samples_at_rest) return std::nullopt;
   const ImuStatistics statistics = Summarise(samples);
   const StartOptions& limits = context_.options.start;
   const bool is_calm = statistics.gyro_std_radps < limits.max_gyro_std_radps &&

@@ -3,11 +3,6 @@
 #include "pipeline/output_queue.hpp"
 
 namespace lio {
-namespace {
-
-constexpr double kWaitingEvery_s = 1.0;  // chosen: a person reads no faster
-
-}  // namespace
 
 void OutputQueue::Add(Output output) {
   if (is_muted_) {
@@ -22,7 +17,7 @@ void OutputQueue::Notify(Timestamp stamp, Notice::Severity severity, std::string
 }
 
 void OutputQueue::NotifyWaiting(Timestamp stamp, std::string text) {
-  if (SecondsBetween(last_waiting_, stamp) < kWaitingEvery_s) return;
+  if (SecondsBetween(last_waiting_, stamp) < kOutputQueue.waiting_every_s) return;
   last_waiting_ = stamp;
   Notify(stamp, Notice::Severity::kInfo, std::move(text));
 }

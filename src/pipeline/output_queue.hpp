@@ -11,6 +11,12 @@
 
 namespace lio {
 
+struct OutputQueueParameters {
+  double waiting_every_s = 1.0;  // between notices of waiting; chosen: a person reads no faster
+};
+
+inline constexpr OutputQueueParameters kOutputQueue;
+
 class OutputQueue {
  public:
   void Add(Output output);

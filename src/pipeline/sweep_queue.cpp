@@ -6,13 +6,6 @@
 #include <utility>
 
 namespace lio {
-namespace {
-
-// This many sweeps are looked back on at most. Chosen: 4 s of a lidar of 20 Hz
-// (InitializingParameters::max_window_s).
-constexpr std::size_t kMaxLookedBackOn = 80;
-
-}  // namespace
 
 SweepPtr SweepQueue::StartNext(std::size_t next) {
   if (in_flight_ || next >= sweeps_.size()) return nullptr;
@@ -38,7 +31,7 @@ std::size_t SweepQueue::Shed(std::size_t next, bool looks_back) {
   const std::size_t first = next + (in_flight_ ? 1 : 0);
   num_freed_at_once_ = std::min(num_freed_at_once_, sweeps_.size());
   const std::size_t limit =
-      max_waiting_ + num_freed_at_once_ + (looks_back ? kMaxLookedBackOn : 0) + first;
+      max_waiting_ + num_freed_at_once_ + (looks_back ? kSweepQueue.max_looked_back_on : 0) + first;
   if (sweeps_.size() <= limit) return 0;
   const std::size_t num_shed = sweeps_.size() - limit;
   const auto oldest = sweeps_.begin() + static_cast<std::ptrdiff_t>(first);

@@ -14,6 +14,14 @@
 
 namespace lio {
 
+struct SweepQueueParameters {
+  // So many sweeps are looked back on at most. Chosen: 4 s of a lidar of 20 Hz, more than
+  // InitializingParameters::max_window_s.
+  std::size_t max_looked_back_on = 80;
+};
+
+inline constexpr SweepQueueParameters kSweepQueue;
+
 class SweepQueue {
  public:
   explicit SweepQueue(std::size_t max_waiting) : max_waiting_(max_waiting) {}

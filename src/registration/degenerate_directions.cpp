@@ -26,9 +26,7 @@ Subspaces FindSubspaces(const Matrix6& information, const Matrix6& noise) {
     found.num_degenerate = 6;
     return found;
   }
-  // Noise may be zero along a direction. Chosen: above the rounding of doubles, 1e-16 of the trace.
-  constexpr double kRegularization = 1e-12;
-  const double floor = kRegularization * information.trace();
+  const double floor = DegeneracyParameters::kRegularization * information.trace();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> ratios(
       information, noise + floor * Matrix6::Identity());
   while (found.num_degenerate < 6 && !(ratios.eigenvalues()[found.num_degenerate] >

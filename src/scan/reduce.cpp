@@ -11,7 +11,6 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kInitialSlots = 1u << 14;  // chosen: three a target point; grows as needed
 constexpr std::uint32_t kBitsPerWord = 64;
 constexpr ThinningParameters kParameters = kScanParameters.thinning;
 
@@ -43,7 +42,7 @@ ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
     : options_(options),
       filter_(rig),
       voxel_m_(static_cast<float>(options.voxel_m)),
-      choices_(kInitialSlots) {}
+      choices_(kParameters.initial_slots) {}
 
 // Nothing branches on whether a point is used, because branch prediction would fail.
 void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {

@@ -18,6 +18,9 @@ struct ThinningParameters {
   // from a hall to a road within ten sweeps and does not answer to one sweep.
   double min_edge_ratio = 0.8;
   double max_edge_ratio = 1.25;
+  // Slots of the table of voxels at the beginning. Chosen: three a target point; it grows as
+  // needed.
+  std::size_t initial_slots = 1u << 14;
 };
 
 struct DeskewParameters {

@@ -8,12 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "lio/base/chi_square.hpp"
+
 namespace lio {
 namespace {
-
-// ChiSquareQuantile(0.5, 3.0) is 2.365974. It stays as tables print it, for the same bits.
-constexpr double kMedianChiSquare3 = 2.366;
-constexpr std::size_t kMinSteps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
 
 int LongestMap(const std::deque<MotionStep>& steps) {
   std::map<int, int> num_of;
@@ -58,7 +56,7 @@ RigFit::RigFit(const MotionRecord& record, double accel_bias_std_mps2)
 }
 
 bool RigFit::HasEnough() const {
-  return record_.steps().size() >= kMinSteps && bends_[1].size() >= kMinSteps;
+  return record_.steps().size() >= kRigFit.min_steps && bends_[1].size() >= kRigFit.min_steps;
 }
 
 std::vector<RigFit::Bend> RigFit::FindBends(double span_s, int map) const {
@@ -209,7 +207,7 @@ void RigFit::SetNoiseFrom(const RigErrors& errors) {
     if (squares.empty()) continue;
     const auto middle = squares.begin() + std::ssize(squares) / 2;
     std::nth_element(squares.begin(), middle, squares.end());
-    variances_[group] = std::max(1e-12, *middle / kMedianChiSquare3);
+    variances_[group] = std::max(1e-12, *middle / ChiSquareQuantile(0.5, 3.0));
   }
 }
 

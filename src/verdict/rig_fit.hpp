@@ -31,10 +31,11 @@
 namespace lio {
 
 struct RigFitParameters {
-  double short_span_s = 0.2;  // of a second difference to each side: two scans at 10 Hz. Chosen
-  double long_span_s = 0.5;   // as MotionEvidenceParameters::second_difference_span_s
-  double cluster_s = 2.0;     // longer than a step of a walker and the lag of the map. Chosen
-  int num_iterations = 4;     // Gauss-Newton; linear but for the rotation. Chosen
+  double short_span_s = 0.2;   // of a second difference to each side: two scans at 10 Hz. Chosen
+  double long_span_s = 0.5;    // as MotionEvidenceParameters::second_difference_span_s
+  double cluster_s = 2.0;      // longer than a step of a walker and the lag of the map. Chosen
+  std::size_t min_steps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
+  int num_iterations = 4;      // Gauss-Newton; linear but for the rotation. Chosen
   // Huber's threshold in standard deviations of one axis, for residuals of three. Customary, as in
   // TurnFitParameters.
   double huber = 3.0;

@@ -11,10 +11,6 @@ namespace lio {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-// s. A longer step of the input's time is a jump of its clocks, not time. Chosen: longer than any
-// outage that is carried over.
-constexpr double kMaxInputStep_s = 60.0;
-
 std::size_t BinOf(double ratio) {
   const double bin = std::floor(std::log2(std::max(ratio, 1.0)));
   return std::min(static_cast<std::size_t>(bin), RunTallyParameters::kNumNoiseBins - 1);
@@ -36,8 +32,8 @@ double MedianOf(std::span<const std::int64_t> bins) {
 void RunTally::Include(Timestamp stamp) {
   if (!first_) first_ = stamp;
   const double step_s = newest_ ? SecondsBetween(*newest_, stamp) : 0.0;
-  if (step_s < 0.0 && step_s > -kMaxInputStep_s) return;
-  if (step_s > 0.0 && step_s < kMaxInputStep_s) total_s_ += step_s;
+  if (step_s < 0.0 && step_s > -kRunTally.max_input_step_s) return;
+  if (step_s > 0.0 && step_s < kRunTally.max_input_step_s) total_s_ += step_s;
   newest_ = stamp;
 }
 

@@ -90,6 +90,10 @@ struct ClockOffsetParameters {
   // s per scan. Largest change of the correction. Chosen: it turns a scan by 2 mrad at 1 rad/s
   // (tested by ClockOffset.StampsAreMovedSlowly).
   double max_step_s = 2e-3;
+  // s. An offset is announced that is known so well (one standard deviation), and so large that it
+  // matters. Chosen: 1 cm at 10 m/s, and three standard deviations of it.
+  double announced_std_s = 1e-3;
+  double min_announced_s = 3e-3;
 };
 
 struct FilterParameters {

@@ -36,6 +36,10 @@ struct GaussianMapParameters {
   // The mean view of a saved map's cell, whose points have views of one or zero, is at least so
   // long if the cell has one side. Chosen: half of the points.
   static constexpr float kMinView = 0.5f;
+  // The sides of a saved map's surfaces are sorted by up and this share of a level direction, which
+  // tells the sides of a wall. Chosen: small beside up, so that floors that lean are still sorted
+  // by up.
+  static constexpr double kLevelShare = 0.2;
   // A cell's patch is computed anew when its points have grown by this factor: the covariance of a
   // filled cell changes little with each point. Chosen.
   static constexpr double kRefitGrowth = 1.3;
@@ -70,6 +74,9 @@ struct SurfaceSidesParameters {
   // Neighbours of a point count up to there [m]. Chosen: floors of buildings are 0.2 to 0.4 m
   // thick.
   static constexpr float kRadius_m = 0.5f;
+  // Points nearer to each other than this count once [m]. Chosen: less than kOwnSheet_m, so that
+  // sheets stay apart; the neighbours of a point are then 300 a sheet at most.
+  static constexpr float kSpacing_m = 0.05f;
   // Points nearer to a sheet than this lie on it [m]. Chosen: three times the range noise of 2 cm;
   // partition walls are 0.1 m thick and more.
   static constexpr float kOwnSheet_m = 0.07f;

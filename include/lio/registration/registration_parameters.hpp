@@ -40,6 +40,9 @@ struct DegeneracyParameters {
   // DirectionSplit]. Chosen: far above every prior of the filter, and not so far that matrices lose
   // digits.
   static constexpr double kDegenerateStd_m = 100.0;
+  // The noise may be zero along a direction and gets this share of the information's trace there.
+  // Chosen: above the rounding of doubles, 1e-16 of the trace.
+  static constexpr double kRegularization = 1e-12;
 };
 
 // Geman-McClure's kernel, w = 1 / (1 + d^2 / width)^2, d in standard deviations.

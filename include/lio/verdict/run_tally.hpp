@@ -22,6 +22,9 @@ struct RunTallyParameters {
   // s. A pose covers the time since the one before up to so long: two and a half sweeps at 10 Hz,
   // as in lio-eval's association.
   double max_step_s = 0.25;
+  // s. A longer step of the input's time is a jump of its clocks, not time. Chosen: longer than any
+  // outage that is carried over.
+  double max_input_step_s = 60.0;
   // m. A shorter path says nothing of drift per 100 m. Chosen: on it the start's uncertainty alone
   // would be told.
   double min_path_m = 10.0;
