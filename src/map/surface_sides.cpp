@@ -15,14 +15,31 @@ namespace {
 
 using Parameters = SurfaceSidesParameters;
 
-VoxelCell CellOf(const Eigen::Vector3f& point) {
-  return VoxelOf((point / Parameters::kRadius_m).cast<double>());
+VoxelCell CellOf(const Eigen::Vector3f& point, float edge_m = Parameters::kRadius_m) {
+  return VoxelOf((point / edge_m).cast<double>());
 }
 
-VoxelKey KeyOf(const Eigen::Vector3f& point) {
-  const VoxelCell at = CellOf(point);
+VoxelKey KeyOf(const Eigen::Vector3f& point, float edge_m = Parameters::kRadius_m) {
+  const VoxelCell at = CellOf(point, edge_m);
   return PackVoxel(at[0], at[1], at[2]);
 }
+
+// One point of each small voxel stands for all of them: the neighbours of a point are then bounded,
+// however dense a cloud is.
+struct Representatives {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::size_t> of;  // index into `points`, for each point of the cloud
+
+  explicit Representatives(std::span<const Eigen::Vector3f> cloud) {
+    VoxelIndex voxels;
+    of.reserve(cloud.size());
+    for (const Eigen::Vector3f& point : cloud) {
+      const auto found = voxels.FindOrAdd(KeyOf(point, Parameters::kSpacing_m));
+      if (found.is_new) points.push_back(point);
+      of.push_back(static_cast<std::size_t>(found.voxel));
+    }
+  }
+};
 
 // The points by voxels as wide as the search is far.
 class Neighbourhoods {
@@ -158,16 +175,20 @@ void ForgetFewSides(std::span<const Eigen::Vector3f> points, std::span<Eigen::Ve
 
 std::vector<Eigen::Vector3f> SurfaceSides(std::span<const Eigen::Vector3f> points,
                                           const Workers& workers) {
-  const Neighbourhoods neighbourhoods(points);
-  std::vector<Eigen::Vector3f> sides(points.size(), Eigen::Vector3f::Zero());
-  workers.ForEachBlock(points.size(), [&](const Block& block) {
+  const Representatives thinned(points);
+  const Neighbourhoods neighbourhoods(thinned.points);
+  std::vector<Eigen::Vector3f> thinned_sides(thinned.points.size(), Eigen::Vector3f::Zero());
+  workers.ForEachBlock(thinned.points.size(), [&](const Block& block) {
     std::vector<Eigen::Vector3f> offsets;
     for (std::size_t i = block.begin; i < block.end; ++i) {
-      neighbourhoods.Around(points[i], offsets);
-      sides[i] = SideOf(offsets);
+      neighbourhoods.Around(thinned.points[i], offsets);
+      thinned_sides[i] = SideOf(offsets);
     }
   });
-  ForgetFewSides(points, sides);
+  ForgetFewSides(thinned.points, thinned_sides);
+  std::vector<Eigen::Vector3f> sides;
+  sides.reserve(points.size());
+  for (const std::size_t i : thinned.of) sides.push_back(thinned_sides[i]);
   return sides;
 }
 
