@@ -73,7 +73,7 @@ bool FilterHistory::IsInGap(Timestamp stamp, std::size_t at) const {
 }
 
 void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSample& to,
-                           bool is_in_gap) const {
+                           double in_gap_s) const {
   const ImuSample& from = before.sample;
   const double dt = SecondsBetween(from.stamp, to.stamp);
   if (dt <= 0) return;
@@ -84,9 +84,18 @@ void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSamp
     density = std::hypot(density, std * std::sqrt(lasts_s));
   };
   const ImuOutageParameters& outage = options_.imu_outage;
-  if (is_in_gap) {
-    add(noise.accel_density, outage.gap_accel_std_mps2, dt);
-    add(noise.gyro_density, outage.gap_gyro_std_radps, dt);
+  if (in_gap_s > 0.0) {
+    // The error is constant for all of the gap: its integral's variance grows with the square of
+    // the time since a pose was fused.
+    const double lasts_s = 2.0 * in_gap_s - dt;
+    const auto least = [](double std, float a, float b) {
+      return std::max({std, static_cast<double>(a), static_cast<double>(b)});
+    };
+    add(noise.accel_density,
+        least(outage.gap_accel_std_mps2, from.made_up_f_std_mps2, to.made_up_f_std_mps2), lasts_s);
+    add(noise.gyro_density,
+        least(outage.gap_gyro_std_radps, from.made_up_w_std_radps, to.made_up_w_std_radps),
+        lasts_s);
   }
   if (from.is_force_saturated || to.is_force_saturated) {
     add(noise.accel_density, outage.saturated_accel_std_mps2, outage.saturated_s);
@@ -112,7 +121,9 @@ void FilterHistory::FuseIn(Node& node, const HistoryOptions& options) {
   }
   node.update = FusePoseEvent(node.pose, options.nis_limit, options.max_inflation, node.inflation,
                               node.posterior);
-  if (node.update.fused) node.rate_error.BeginTurn();
+  if (!node.update.fused) return;
+  node.rate_error.BeginTurn();
+  node.in_gap_s = 0.0;
 }
 
 void FilterHistory::Step(std::size_t at) {
@@ -126,7 +137,9 @@ void FilterHistory::Step(std::size_t at) {
   node.rate_error = nodes_[at - 1].rate_error;
   node.rate_error.Turn(MeanRate(nodes_[at - 1].sample, node.sample),
                        SecondsBetween(nodes_[at - 1].stamp, node.stamp));
-  StepTo(node.posterior, nodes_[at - 1], node.sample, IsInGap(node.stamp, at));
+  const double dt = SecondsBetween(nodes_[at - 1].stamp, node.stamp);
+  node.in_gap_s = IsInGap(node.stamp, at) ? nodes_[at - 1].in_gap_s + dt : 0.0;
+  StepTo(node.posterior, nodes_[at - 1], node.sample, node.in_gap_s);
   node.posterior.stamp = node.stamp;
   switch (node.kind) {
     case Kind::kImu:

@@ -247,6 +247,8 @@ ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp st
   sample.f_imu_mps2 = a.f_imu_mps2 + fraction * (b.f_imu_mps2 - a.f_imu_mps2);
   sample.is_rate_saturated = a.is_rate_saturated || b.is_rate_saturated;
   sample.is_force_saturated = a.is_force_saturated || b.is_force_saturated;
+  sample.made_up_w_std_radps = std::max(a.made_up_w_std_radps, b.made_up_w_std_radps);
+  sample.made_up_f_std_mps2 = std::max(a.made_up_f_std_mps2, b.made_up_f_std_mps2);
   return sample;
 }
 

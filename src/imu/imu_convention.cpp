@@ -49,6 +49,8 @@ std::array<Matrix3, kNumQuarterTurns> QuarterTurns() {
 ImuSample ToSi(const ImuConvention& convention, ImuSample sent) {
   sent.w_imu_radps = convention.rate_scale() * (convention.R_imu_sent * sent.w_imu_radps);
   sent.f_imu_mps2 = convention.force_scale() * (convention.R_imu_sent * sent.f_imu_mps2);
+  sent.made_up_w_std_radps *= static_cast<float>(convention.rate_scale());
+  sent.made_up_f_std_mps2 *= static_cast<float>(convention.force_scale());
   return sent;
 }
 

@@ -16,6 +16,11 @@ WorldEstimate InPublishedWorld(const Estimate& estimate, const Vector3& g_world)
   return g_world.isZero() ? WithMapAsWorld(estimate) : InWorld(estimate);
 }
 
+WorldEstimate WithDoubt(WorldEstimate estimate, const ReportContext& context) {
+  context.yaw_doubt.AddTo(estimate);
+  return estimate;
+}
+
 // The variance of the noise in the published rate: white noise of the gyro's density over the time
 // of one sample [(rad/s)^2].
 double RateVariance(Timestamp stamp, const ReportContext& context) {
@@ -35,7 +40,7 @@ NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
   nav.stamp = estimate.stamp;
   nav.scan_seq = context.last_seq;
   nav.status = context.status;
-  const WorldEstimate published = InPublishedWorld(estimate, context.g_world);
+  const WorldEstimate published = WithDoubt(InPublishedWorld(estimate, context.g_world), context);
   nav.T_world_imu = published.T_world_imu;
   nav.pose_cov = published.cov.topLeftCorner<6, 6>();
   nav.v_world_imu_mps = published.v_world_imu;
@@ -59,7 +64,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   const MapVelocity velocity = VelocityInMap(estimate);
   filter.v_map_imu_mps = velocity.v_map_imu;
   filter.map_velocity_cov = velocity.cov;
-  filter.map_as_world_cov = WithMapAsWorld(estimate).cov.topLeftCorner<6, 6>();
+  filter.map_as_world_cov = WithDoubt(WithMapAsWorld(estimate), context).cov.topLeftCorner<6, 6>();
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
   filter.g_world_mps2 = context.g_world;
@@ -70,7 +75,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov.topLeftCorner<kMapStart, kMapStart>();
   filter.cov.topLeftCorner<kAccelBias, kAccelBias>() =
-      InPublishedWorld(estimate, context.g_world).cov;
+      WithDoubt(InPublishedWorld(estimate, context.g_world), context).cov;
   return filter;
 }
 

@@ -12,6 +12,7 @@
 #include "lio/verdict/run_tally.hpp"
 #include "pipeline/clock_offset_follower.hpp"
 #include "pipeline/extrinsic_follower.hpp"
+#include "pipeline/yaw_doubt.hpp"
 
 namespace lio {
 
@@ -24,6 +25,7 @@ struct ReportContext {
   const ImuBuffer* imu;  // null without an IMU
   const ClockOffsetFollower& clocks;
   const ExtrinsicFollower& extrinsic;
+  const YawDoubt& yaw_doubt;
 };
 
 [[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);

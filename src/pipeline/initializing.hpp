@@ -107,7 +107,7 @@ class Initializing {
   std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
   std::optional<Transition> TryStartInMotion(Timestamp stamp);
   std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
-  void TurnByGyro(const Estimate& now, LastFix& earlier) const;
+  void TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const;
   Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
 
   Transition Retry() const;

@@ -4,13 +4,36 @@
 // mean (initializing_convention.cpp).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
+#include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/preintegration.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/initializing.hpp"
+#include "pipeline/outage.hpp"
 
 namespace lio {
+namespace {
+
+// How far the integral of made-up and of saturated rates may be off, 1 sigma per axis: each is off
+// to the same side for a while.
+double UnmeasuredTurnStd_rad(std::span<const ImuSample> samples) {
+  constexpr double kSaturatedStd_radps = kFilterParameters.imu_outage.saturated_gyro_std_radps;
+  double std_rad = 0.0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const ImuSample& from = samples[i - 1];
+    const ImuSample& to = samples[i];
+    const double made_up = std::min(from.made_up_w_std_radps, to.made_up_w_std_radps);
+    const bool is_saturated = from.is_rate_saturated || to.is_rate_saturated;
+    std_rad += std::max(made_up, is_saturated ? kSaturatedStd_radps : 0.0) *
+               SecondsBetween(from.stamp, to.stamp);
+  }
+  return std::min(std_rad, kOutage.max_yaw_std_rad);
+}
+
+}  // namespace
 
 std::optional<Transition> Initializing::TryStart(Timestamp stamp) {
   if (IsInDoubt(stamp)) {
@@ -114,13 +137,15 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
 }
 
 // Turns the earlier fix by the rotation since then, integrated from the samples that are still in
-// the buffer.
-void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier) const {
+// the buffer, and adds to `doubt` how far it may be off.
+void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const {
   const std::vector<ImuSample> samples = context_.stream.imu().Between(earlier.stamp, now.stamp);
   if (samples.empty()) return;
   const Biases biases{now.state.gyro_bias, now.state.accel_bias};
   const Preintegration turn =
       Preintegrate(samples, samples.front().stamp, samples.back().stamp, biases, {});
+  const double gap_std_rad = UnmeasuredTurnStd_rad(samples);
+  doubt.Add(gap_std_rad * gap_std_rad, earlier.T_world_imu.translation);
   earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
   earlier.T_map_imu.rotation = earlier.T_map_imu.rotation * turn.rotation;
 }
@@ -131,7 +156,7 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
   const bool has_gravity = !start.g_world.isZero();
   if (handover_.origin == Origin::kInertial || handover_.origin == Origin::kLidar) {
     LastFix& fix = handover_.last_fix;
-    TurnByGyro(start.estimate, fix);
+    TurnByGyro(start.estimate, fix, handover_.yaw_doubt);
     if (handover_.origin == Origin::kLidar && has_gravity) {
       Level(start.estimate.state.T_world_imu.rotation, fix);
     }

@@ -144,9 +144,9 @@ void LidarOnly::Publish(const MatchOutcome& outcome, const ScanReport& report) {
   const Estimate at_end = report.fused
                               ? tracker_->AtEnd(outcome.sweep->middle(), end, outcome.turn_rate)
                               : tracker_->history().At(end);
-  const ReportContext context{context_.options,  g_world_, handover_.last_seq,
-                              health_.status(),  nullptr,  context_.clocks,
-                              context_.extrinsic};
+  const ReportContext context{
+      context_.options, g_world_,        handover_.last_seq, health_.status(),
+      nullptr,          context_.clocks, context_.extrinsic, handover_.yaw_doubt};
   context_.outputs.Add(ScanOutput{MakeFilterReport(at_end, report, context), report});
 }
 

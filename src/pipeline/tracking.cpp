@@ -6,6 +6,7 @@
 
 #include "lio/filter/map_bend.hpp"
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/relocalization/relocalizer.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/scan_fusion.hpp"
 
@@ -65,7 +66,7 @@ void Tracking::PublishAtImuRate() {
 
 ReportContext Tracking::MakeReportContext() const {
   return {context_.options,       g_world_,        handover_.last_seq, status(),
-          &context_.stream.imu(), context_.clocks, context_.extrinsic};
+          &context_.stream.imu(), context_.clocks, context_.extrinsic, handover_.yaw_doubt};
 }
 
 void Tracking::AddSweep(const Sweep& sweep) {
@@ -83,6 +84,10 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   } else if (handover_.last_located && IsAfterClockStep(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
+  } else if (handover_.last_located) {
+    const SearchRegion region =
+        IsWithinReachOfMatching(job.prior.cov) ? SearchRegion::kPrior : SearchRegion::kAnywhere;
+    job.task = Relocalize{std::get<Track>(job.task), {region, {}}};
   }
   return job;
 }
@@ -103,13 +108,16 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
                            keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  const bool is_prior_sure = IsPriorSure(outcome.sweep->middle());
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
-  // An initial map is not of this path, so it never goes on from a prediction.
-  const bool rebases_map = verdict.rebases_map && !is_sought && !context_.place.is_inside();
+  // An initial map is not of this path, so it never goes on from a prediction; nor does a map from
+  // one that may be anywhere.
+  const bool rebases_map =
+      verdict.rebases_map && !is_sought && is_prior_sure && !context_.place.is_inside();
   GrowMap(outcome, report, is_keyframe, rebases_map, insert);
   AddScanAfterOutage(outcome, report.fused);
   if (report.fused || starts_map) {
@@ -126,6 +134,10 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   Publish(outcome, report, noise, begin_ns);
   LookAtRig(end);
   return JudgeSelf(end, verdict.restarts);
+}
+
+bool Tracking::IsPriorSure(Timestamp middle) const {
+  return IsWithinReachOfMatching(history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
 }
 
 // Gives the scan's row and takes it off the queue.

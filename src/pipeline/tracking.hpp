@@ -56,6 +56,8 @@ class Tracking {
 
  private:
   bool FeelsGravity() const { return !g_world_.isZero(); }
+  // Matching from the prediction finds the scan, if it is there.
+  bool IsPriorSure(Timestamp middle) const;
   HistoryOptions HistoryOptionsAt(Timestamp stamp) const;
   void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,

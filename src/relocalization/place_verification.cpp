@@ -3,6 +3,7 @@
 #include "relocalization/place_verification.hpp"
 
 #include "lio/relocalization/parameters.hpp"
+#include "lio/relocalization/relocalizer.hpp"
 
 namespace lio {
 namespace {
@@ -36,9 +37,17 @@ bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last) {
   return IsVerified(match, last) && (match.degenerate_mask == 0 || last.degenerate_mask != 0);
 }
 
+bool HasPlenty(const MatchResult& match, const MatchResult& last) {
+  return match.num_matched >= kVerify.plenty_number * last.num_matched;
+}
+
+bool IsLikely(const MatchResult& match, const MatchResult& last) {
+  return HasPlenty(match, last) && static_cast<double>(match.num_matched) * last.num_in_map >=
+                                       kVerify.likely_share * last.num_matched * match.num_in_map;
+}
+
 bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last) {
-  return IsVerifiedElsewhere(match, last) &&
-         match.num_matched >= kVerify.plenty_number * last.num_matched;
+  return IsVerifiedElsewhere(match, last) && HasPlenty(match, last);
 }
 
 bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& alternative) {

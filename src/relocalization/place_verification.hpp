@@ -8,12 +8,17 @@
 
 namespace lio {
 
-// Is a pose predicted so well that matching from it finds the scan, if it is there?
-[[nodiscard]] bool IsWithinReachOfMatching(const Matrix6& prior_cov);
-
 // Does the scan lie on the map's surfaces there? Steps that oscillate around a pose count as a
 // match.
 [[nodiscard]] bool IsVerified(const MatchResult& match, const MatchResult& last);
+
+// Do nearly as many points lie on surfaces as of the last scan?
+[[nodiscard]] bool HasPlenty(const MatchResult& match, const MatchResult& last);
+
+// So many points, and more of them on surfaces than at any wrong place that was measured: where the
+// scan may be bent by a motion that nobody measured, no more can be asked of the pose next to where
+// it was predicted.
+[[nodiscard]] bool IsLikely(const MatchResult& match, const MatchResult& last);
 
 // The same far from the prior: bare ground agrees everywhere, so that no direction may be
 // degenerate unless the last scan had one.

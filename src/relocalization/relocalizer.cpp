@@ -97,8 +97,11 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
   const MatchResult& last = last_->match;
   if (request.region == SearchRegion::kAlternative) return;
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
-  if (found.match.IsUsable() && IsWithinReachOfMatching(prior.cov)) return;
-  if (!IsVerifiedBeyondDoubt(found.match, last)) {
+  const bool is_near_prior = found.match.IsUsable() && IsWithinReachOfMatching(prior.cov);
+  if (is_near_prior && HasPlenty(found.match, last)) return;
+  if (found.match.IsUsable() && IsLikely(found.match, last)) return;
+  if (request.region == SearchRegion::kPrior && !is_near_prior) return;
+  if (!is_near_prior && !IsVerifiedBeyondDoubt(found.match, last)) {
     TryPlaces(request, scan, prior, matcher, found);
   }
   if (IsVerified(found.match, last)) {

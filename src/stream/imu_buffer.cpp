@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lio/stream/imu_buffer.hpp"
 
+#include <cmath>
+
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/imu_noise_estimator.hpp"
 #include "lio/imu/rest.hpp"
@@ -59,6 +61,13 @@ void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
   mean_before_gap_.reset();
 }
 
+// The motion in a gap is as far from the one before as that of the last seconds was, per axis.
+float ImuBuffer::StdAround(const Vector3& mean, Vector3 ImuSample::*value) const {
+  double sum_sq = 0.0;
+  for (const ImuSample& sample : sent_) sum_sq += (sample.*value - mean).squaredNorm();
+  return static_cast<float>(std::sqrt(sum_sq / (3.0 * static_cast<double>(sent_.size()))));
+}
+
 void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {
   if (!mean_before_gap_) {
     const Timestamp from = sent_.back().stamp - Duration::FromSeconds(kStream.mean_before_gap_s);
@@ -67,6 +76,9 @@ void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {
     mean_before_gap_ = sent_.back();
     mean_before_gap_->w_imu_radps = before.mean_w_radps;
     mean_before_gap_->f_imu_mps2 = before.mean_f_mps2;
+    const ImuSample& mean = *mean_before_gap_;
+    mean_before_gap_->made_up_w_std_radps = StdAround(mean.w_imu_radps, &ImuSample::w_imu_radps);
+    mean_before_gap_->made_up_f_std_mps2 = StdAround(mean.f_imu_mps2, &ImuSample::f_imu_mps2);
   }
   mean_before_gap_->stamp = stamp;
   Keep(*mean_before_gap_, true, ready);

@@ -96,6 +96,7 @@ class FilterHistory {
     ImuNoise noise;                 // shown after the event
     CovarianceInflation inflation;  // after the event
     RateError rate_error;           // after the event
+    double in_gap_s = 0.0;          // time without samples since a pose was fused, if within a gap
     Estimate posterior;
   };
 
@@ -104,8 +105,9 @@ class FilterHistory {
   void Replay(std::size_t from);
   void Step(std::size_t at);
   static void FuseIn(Node& node, const HistoryOptions& options);
-  // `before`: the node that the step begins at.
-  void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, bool is_in_gap) const;
+  // `before`: the node that the step begins at. `in_gap_s`: as of the node that it ends at; zero
+  // outside of gaps.
+  void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, double in_gap_s) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
   bool IsInGap(Timestamp stamp, std::size_t at) const;
   // The sample at `stamp`, interpolated between the node before index `at` and the first measured

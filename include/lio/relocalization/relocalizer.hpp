@@ -38,6 +38,10 @@ struct CandidateMatcher {
   int max_matches = 1;
 };
 
+// Is a pose predicted so well that matching from it finds the scan, if it is there? The covariance
+// is of [position (m); rotation (rad)].
+[[nodiscard]] bool IsWithinReachOfMatching(const Matrix6& prior_cov);
+
 class Relocalizer {
  public:
   struct Found {

@@ -11,6 +11,7 @@
 namespace lio {
 
 enum class SearchRegion : std::int8_t {
+  kPrior,        // nowhere: the match from the prior is only checked against the last scan's
   kAlternative,  // nowhere but at the alternative prior
   // Anywhere, unless the last located scan had degenerate directions: there inertial prediction is
   // better than a search.

@@ -52,6 +52,8 @@ class ImuBuffer {
   std::optional<ImuSample> Read(const ImuSample& sent);
   void BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready);
   void AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready);
+  // Root mean square of one axis of what was sent, from `mean`.
+  float StdAround(const Vector3& mean, Vector3 ImuSample::*value) const;
 
   ImuConvention convention_;
   Counters* counters_;
