@@ -92,7 +92,6 @@ class Preparation {
   [[noreturn]] void Refuse() const {
     const fs::path& input = request_.input;
     if (!fs::exists(input)) throw InputError(input.string() + ": no such file or folder");
-    if (KindOf(input) == FileKind::kMcap) throw InputError(WhyNoLog(input));
     throw InputError(input.string() +
                      ": is no ROS bag, KITTI drive or sequence, LCM log or folder of lio-sim");
   }
