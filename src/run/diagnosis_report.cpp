@@ -46,7 +46,7 @@ std::string CauseText(const Cause& cause, std::size_t number) {
   std::string text = fmt::format("{}. {} ({}; leaves trust: {})\n", number, Name(cause.kind), sigma,
                                  Name(cause.leaves));
   text += "   evidence: " + cause.evidence + "\n";
-  if (cause.fix.empty()) return text + "   fix: no entry of the configuration mends it\n";
+  if (cause.fix.empty()) return text + "   fix: no entry of its own\n";
   return text + "   fix:\n" + WithPrefix(cause.fix, "     ");
 }
 

@@ -41,7 +41,7 @@ TEST(DiagnosisReport, TellsEachCauseInItsOrderWithSigmaEvidenceAndFix) {
                               "   evidence: turns agree when 25 ms are added\n"
                               "   fix:\n     rig:\n       lidar:\n"));
   EXPECT_THAT(text, HasSubstr("\n2. two_senders (counted, not estimated; leaves trust: doubtful)\n"
-                              "   evidence: samples came twice\n   fix: no entry"));
+                              "   evidence: samples came twice\n   fix: no entry of its own"));
   EXPECT_THAT(text, HasSubstr("with the fix of clock_offset: trust: doubtful"));
 }
 
