@@ -69,7 +69,10 @@ std::string DiagnosisText(const Diagnosis& diagnosis, const std::string& input) 
   if (!diagnosis.refusal.empty()) text += "refused: " + diagnosis.refusal + "\n";
   text += "trust: " + TrustText(diagnosis.verdict) + "\n";
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
-  if (causes.empty()) text += "nothing was found to be wrong\n";
+  if (causes.empty()) {
+    const bool is_well = diagnosis.verdict.trust == Trust::kYes;
+    text += is_well ? "nothing was found to be wrong\n" : "no cause of this was found\n";
+  }
   for (std::size_t i = 0; i < causes.size(); ++i)
     text += fmt::format("\n{}", CauseText(causes[i], i + 1));
   if (diagnosis.treated.empty()) return text;

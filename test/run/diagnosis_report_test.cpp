@@ -53,6 +53,14 @@ TEST(DiagnosisReport, OfARightRigSaysSo) {
   EXPECT_THAT(text, Not(HasSubstr("with the fix")));
 }
 
+TEST(DiagnosisReport, DoubtWithoutACauseIsNotCalledWell) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = {Trust::kDoubtful, 0.57, {}, {}};
+  const std::string text = DiagnosisText(diagnosis, "walk.lcm");
+  EXPECT_THAT(text, HasSubstr("no cause of this was found"));
+  EXPECT_THAT(text, Not(HasSubstr("nothing was found to be wrong")));
+}
+
 TEST(DiagnosisReport, JsonHasTheVerdictAndThatWithTheFixes) {
   Diagnosis diagnosis = Example();
   auto json = nlohmann::json::parse(DiagnosisJson(diagnosis, "walk.lcm"));
