@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "app/daemon_arguments.hpp"
+#include "app/daemon_check.hpp"
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
@@ -77,13 +78,14 @@ int Main(int argc, char** argv) {
   Options options;
   CLI::App app("", "liod");
   arguments.AddTo(app);
-  if (const auto code =
-          ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
-    return *code;
+  const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options);
+  if (arguments.checks_only && code.value_or(kExitConfiguration) == kExitConfiguration) {
+    return CheckDaemon(arguments, options, code.has_value());
   }
+  if (code) return *code;
   InitialMapPtr initial_map;
-  if (const auto code = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
-    return *code;
+  if (const auto unusable = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
+    return *unusable;
   }
   try {
     return Run(arguments, options, initial_map);

@@ -174,6 +174,28 @@ TEST_F(LiodTest, WrongArgumentsAndConfigurationsHaveTheirExitCodes) {
   EXPECT_EQ(test::RunProgram({kBin + "/liod", "--version"}).exit_code, 0);
 }
 
+// A network namespace whose loopback is down: a start would end with 4 there.
+TEST_F(LiodTest, CheckValidatesAllAndOpensNoNetwork) {
+  const auto check = [this](const std::string& more) {
+    return test::RunProgram({"unshare", "-rn", "sh", "-c",
+                             kBin + "/liod --check --config " + kScene + "/config.yaml " + more});
+  };
+  const auto good = check("--out " + Out("live"));
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("LIO_IMU, LIO_SCAN and LIO_CMD"));
+  EXPECT_THAT(good.out, HasSubstr(kScene + "/config.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(Out("live")));
+  const auto bad = check("--set ndt.voxel=1 --set rig.imu.gyro=2 --lcm-url nonsense");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_EQ(bad.out, "");
+  for (const char* fault : {"ndt.voxel", "rig.imu.gyro", "nonsense"}) {
+    EXPECT_THAT(bad.err, HasSubstr(fault));
+  }
+  EXPECT_EQ(check("--initial-map " + Out("no.pcd")).exit_code, 5);
+  EXPECT_EQ(check("--no-such-option").exit_code, 2);
+  EXPECT_EQ(check("--lcm-url nonsense").exit_code, 4);
+}
+
 TEST_F(LiodTest, AFolderThatCannotBeMadeIsAUsageError) {
   const auto file = folder_.Write("file", "");
   const auto result =
