@@ -63,6 +63,7 @@ void DaemonArguments::AddTo(CLI::App& app) {
 LiveOptions DaemonArguments::Live() const {
   LiveOptions live;
   live.channels = Channels(channel_prefix);
+  live.lcm_url = lcm_url;
   if (!out.empty()) live.out = out;
   live.writes_map = writes_map && live.out;
   live.publishes_full_cloud = publishes_full_cloud;

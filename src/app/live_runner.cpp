@@ -17,6 +17,9 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
       start_utime_(HostUtime()),
       publisher_(bus, live_.channels),
       board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes),
+      watch_({live_.channels.imu, live_.channels.scan, EffectiveUrl(live.lcm_url),
+              options.pipeline.use_imu},
+             InputWatch::Clock::now()),
       match_worker_(
           options, live.match_clock, live.writes_map, live.initial_map,
           [this](MatchOutcome outcome) { inbox_.Put(std::move(outcome)); },
@@ -98,7 +101,17 @@ StatusReport LiveRunner::ComposeStatus() {
   report.num_outputs_dropped = output_worker_.num_rows_dropped();
   report.num_handler_faults = bus_.num_handler_faults();
   report.map_mb = static_cast<float>(match_worker_.map_bytes()) * 1e-6F;
+  WatchInput(report);
   return report;
+}
+
+void LiveRunner::WatchInput(StatusReport& report) {
+  for (const InputRemark& remark : watch_.Look(report, InputWatch::Clock::now())) {
+    spdlog::log(remark.is_fault ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+  }
+  const std::string standing = watch_.standing();
+  if (standing.empty()) return;
+  report.note = report.note.empty() ? standing : standing + " | " + report.note;
 }
 
 RunStats LiveRunner::Stats() const {

@@ -21,6 +21,7 @@
 
 #include "app/filter_inbox.hpp"
 #include "app/filter_loop.hpp"
+#include "app/input_watch.hpp"
 #include "app/match_worker.hpp"
 #include "app/output_worker.hpp"
 #include "app/publisher.hpp"
@@ -33,6 +34,7 @@ namespace lio {
 
 struct LiveOptions {
   Channels channels;
+  std::string lcm_url;  // as told to people; empty for LCM's default
   std::string version;
   std::optional<std::filesystem::path> out;  // absent: no files
   bool writes_map = false;
@@ -81,6 +83,7 @@ class LiveRunner {
   void Obey(const Command& command);
   void EndThreads();
   StatusReport ComposeStatus();
+  void WatchInput(StatusReport& report);
   RunStats Stats() const;
 
   const LiveOptions live_;
@@ -90,6 +93,7 @@ class LiveRunner {
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
+  InputWatch watch_;  // of the output thread
   FilterInbox inbox_;
   FaultLatch faults_;
   MatchWorker match_worker_;

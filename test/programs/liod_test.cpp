@@ -174,6 +174,41 @@ TEST_F(LiodTest, WrongArgumentsAndConfigurationsHaveTheirExitCodes) {
   EXPECT_EQ(test::RunProgram({kBin + "/liod", "--version"}).exit_code, 0);
 }
 
+// Plays half a log after the silence. LIO_STATUS tells, too, as long as it lasts.
+TEST_F(LiodTest, SilenceIsSaidOnceAndAgainAfterItHadPassed) {
+  const auto wait_for = [this](const std::string& words, int count) {
+    return "i=0; while [ $(grep -c '" + words + "' " + Out("said") + ") -lt " +
+           std::to_string(count) + " ] && [ $i -lt 600 ]; do sleep 0.1; i=$((i+1)); done; ";
+  };
+  const auto result =
+      RunAlone(Start("") + "lcm-logger -q -f -c LIO_STATUS " + Out("status.lcm") +
+               " & logger=$!; sleep 0.2; " + wait_for("liod: nothing comes on", 1) +
+               "sleep 1.5; lcm-logplayer " + kScene + "/log.lcm; " +
+               wait_for("liod: nothing comes on", 2) + "kill $logger; wait $logger; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  const std::string said = File("said");
+  const auto count = [&](const std::string& words) {
+    int num = 0;
+    for (std::size_t at = said.find(words); at != std::string::npos; at = said.find(words, at + 1))
+      ++num;
+    return num;
+  };
+  EXPECT_EQ(count("liod: nothing comes on LIO_IMU and LIO_SCAN"), 2) << said;
+  EXPECT_EQ(count("liod: no longer so: nothing comes"), 1) << said;
+  EXPECT_THAT(said, HasSubstr("ip route get 239.255.76.67"));
+  EXPECT_THAT(File("status.lcm"), HasSubstr("nothing comes on LIO_IMU and LIO_SCAN"));
+}
+
+TEST_F(LiodTest, ASensorThatIsMissingIsSaid) {
+  // The channel filter of lcm-logplayer is an expression of what is played.
+  const auto result =
+      RunAlone(Start("") + "lcm-logplayer -e LIO_SCAN " + kScene +
+               "/log.lcm; i=0; while ! grep -q 'no inertial samples' " + Out("said") +
+               " && [ $i -lt 100 ]; do sleep 0.1; i=$((i+1)); done; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_THAT(File("said"), HasSubstr("scans come, but no inertial samples on LIO_IMU"));
+}
+
 // A network namespace whose loopback is down: a start would end with 4 there.
 TEST_F(LiodTest, CheckValidatesAllAndOpensNoNetwork) {
   const auto check = [this](const std::string& more) {

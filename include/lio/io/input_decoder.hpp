@@ -29,8 +29,12 @@ struct Channels {
   std::array<std::string, kNumFeatureSets> features;  // by FeatureSet
 };
 
-// Messages that were refused before the estimator saw them. All zero on a clean log.
+// Messages as they arrived, before the estimator saw them. On a clean log all were taken.
 struct InputCounters {
+  std::int64_t num_imu_received = 0;  // messages of the channel, refused ones included
+  std::int64_t num_imu_taken = 0;     // not refused
+  std::int64_t num_chunks_received = 0;
+  std::int64_t num_chunks_taken = 0;
   std::array<std::int64_t, kNumDecodeStatuses> num_refused{};  // by DecodeStatus; kOk stays 0
   std::int64_t num_imu_missing = 0;  // gaps in imu_t.seq: lost before they arrived
 
