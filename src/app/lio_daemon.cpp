@@ -20,20 +20,28 @@
 namespace lio {
 namespace {
 
-// Blocks the signals in every thread, because threads inherit the mask: only WaitForEnd takes them.
+// Blocks the signals in every thread, because threads inherit the mask: only Serve takes them.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // calls on a broken tcpq connection return errors instead
   return signals;
 }
 
-void WaitForEnd(const sigset_t& signals, const LiveRunner& runner) {
+// Returns when it is to end, by a signal or because nothing comes any more.
+void Serve(const sigset_t& signals, LiveRunner& runner) {
   const timespec interval{.tv_sec = 0, .tv_nsec = 100'000'000};
-  while (sigtimedwait(&signals, nullptr, &interval) < 0 && !IsOver(runner)) {
+  while (!IsOver(runner)) {
+    const int signal = sigtimedwait(&signals, nullptr, &interval);
+    if (signal == SIGHUP) {
+      runner.RenewFiles();
+    } else if (signal > 0) {
+      return;
+    }
   }
 }
 
@@ -65,11 +73,12 @@ int Run(const DaemonArguments& arguments, const Options& options,
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
   live.initial_map = initial_map;
+  if (live.out) live.next_out = *live.out;
   if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
   LiveRunner runner(*bus, options, live);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
-  WaitForEnd(signals, runner);
+  Serve(signals, runner);
   return EndRun(runner, arguments.lcm_url);
 }
 

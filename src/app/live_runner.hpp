@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 
+#include "app/command_desk.hpp"
 #include "app/filter_inbox.hpp"
 #include "app/filter_loop.hpp"
 #include "app/input_watch.hpp"
@@ -26,6 +27,7 @@
 #include "app/output_worker.hpp"
 #include "app/publisher.hpp"
 #include "app/receiver.hpp"
+#include "app/run_series.hpp"
 #include "app/status_board.hpp"
 #include "app/worker_thread.hpp"
 #include "lio/io/cpu_clock.hpp"
@@ -37,6 +39,7 @@ struct LiveOptions {
   std::string lcm_url;  // as told to people; empty for LCM's default
   std::string version;
   std::optional<std::filesystem::path> out;  // absent: no files
+  std::filesystem::path next_out;            // later folders are numbered after this; empty: `out`
   bool writes_map = false;
   bool publishes_full_cloud = false;  // LIO_CMD may change it
   InitialMapPtr initial_map;          // null: the first scans begin a map
@@ -70,7 +73,10 @@ class LiveRunner {
 
   // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
-  [[nodiscard]] bool writes_files() const { return writer_.has_value(); }
+  [[nodiscard]] bool writes_files() const { return files_.has_value(); }
+
+  // From any thread: completes the files and goes on in a new folder, as the command NEW_FILES.
+  void RenewFiles();
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
   // the files and sends a last status. Once only. Throws WriteError when a file could not be
@@ -78,18 +84,19 @@ class LiveRunner {
   void Stop();
 
  private:
+  RunWriter* OpenFiles(const Options& options);
   void OnFault(const std::string& fault);
   void OnWriteFailure(const std::string& failure);
-  void Obey(const Command& command);
   void EndThreads();
   StatusReport ComposeStatus();
   void WatchInput(StatusReport& report);
   RunStats Stats() const;
+  RunStats JudgedStats() const;  // of the filter thread
 
   const LiveOptions live_;
   Bus& bus_;
   const std::int64_t start_utime_;
-  std::optional<RunWriter> writer_;
+  std::optional<RunSeries> files_;
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
@@ -99,6 +106,7 @@ class LiveRunner {
   MatchWorker match_worker_;
   OutputWorker output_worker_;
   FilterLoop filter_;
+  CommandDesk desk_;
   Receiver receiver_;
   WorkerThread filter_thread_;
   WorkerThread receive_thread_;

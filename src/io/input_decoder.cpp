@@ -10,6 +10,7 @@ Channels::Channels(const std::string& prefix)
     : imu(prefix + "IMU"),
       scan(prefix + "SCAN"),
       command(prefix + "CMD"),
+      reply(prefix + "REPLY"),
       odometry(prefix + "ODOM"),
       odometry_imu_rate(prefix + "ODOM_IMU"),
       state(prefix + "STATE"),

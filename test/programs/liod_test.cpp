@@ -148,6 +148,43 @@ TEST_F(LiodTest, ARestartKeepsTheFilesOfTheRunBefore) {
   EXPECT_FALSE(std::filesystem::exists(Out("live-3")));
 }
 
+TEST_F(LiodTest, CommandsAreAnsweredOverLcm) {
+  const std::string ask = kBin + "/lio_ask ";
+  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+                               "/log.lcm & player=$!; sleep 2; " + ask + "6 1; " + ask + "2 2; " +
+                               ask + "77 3; " + ask + "4 4 map.pcd; wait $player; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_THAT(result.out, HasSubstr("1 done LIO_STATUS comes now"));
+  EXPECT_THAT(result.out, HasSubstr("2 done the estimate begins anew, in a new map"));
+  EXPECT_THAT(result.out, HasSubstr("3 refused no action is 77"));
+  EXPECT_THAT(result.out, HasSubstr("4 refused the map is kept only with --out and --map"));
+  EXPECT_FALSE(File("live/verdict.json").empty());
+  EXPECT_FALSE(File("live-2/trajectory.tum").empty()) << "it has started again";
+}
+
+TEST_F(LiodTest, SighupCompletesTheFilesAndGoesOnInTheNextFolder) {
+  const auto wait = [this](const std::string& words) {
+    return "while ! grep -q '" + words + "' " + Out("said") + "; do sleep 0.05; done; ";
+  };
+  const auto result =
+      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+               "/log.lcm & player=$!; sleep 3; kill -HUP $liod; " + wait("files go on in") +
+               "test -s " + Out("live/verdict.json") +
+               " || exit 98; wait $player; kill -HUP $liod; " + wait("live-3") + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_FALSE(File("live/trajectory.tum").empty());
+  EXPECT_FALSE(File("live-2/trajectory.tum").empty());
+  EXPECT_EQ(Stats("live-3")["num_imu"], 0);
+  const int num_imu = Stats("live")["num_imu"].get<int>() + Stats("live-2")["num_imu"].get<int>();
+  EXPECT_GT(num_imu, 0);
+}
+
+TEST_F(LiodTest, SighupWithoutFilesChangesNothing) {
+  const auto result = RunAlone(Start("") + "kill -HUP $liod; while ! grep -q 'signal: refused' " +
+                               Out("said") + "; do sleep 0.05; done; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+}
+
 TEST_F(LiodTest, ChannelsFollowThePrefix) {
   const auto result = RunAlone(Start("--channel-prefix CAR_") + End());
   EXPECT_EQ(result.exit_code, 0);

@@ -22,6 +22,7 @@ struct Channels {
   explicit Channels(const std::string& prefix = kDefaultChannelPrefix);
 
   std::string imu, scan, command;                                        // in
+  std::string reply;                                                     // out, to a command
   std::string odometry, odometry_imu_rate, state, registration, status;  // out
   std::string odometry_local;                                            // out, in map
   std::string odometry_base, odometry_base_imu_rate;                     // out, with a base
