@@ -63,6 +63,12 @@ bool FilterInbox::Put(Request request) {
   return true;
 }
 
+void FilterInbox::Put(Ping /*ping*/) {
+  const std::lock_guard lock(mutex_);
+  is_pinged_ = true;
+  filled_.notify_one();
+}
+
 void FilterInbox::Close() {
   const std::lock_guard lock(mutex_);
   is_closed_ = true;
@@ -71,7 +77,8 @@ void FilterInbox::Close() {
 
 std::unique_ptr<InboxItem> FilterInbox::Take() {
   std::unique_lock lock(mutex_);
-  filled_.wait(lock, [this] { return outcome_ || !messages_.empty() || is_closed_; });
+  filled_.wait(lock, [this] { return is_pinged_ || outcome_ || !messages_.empty() || is_closed_; });
+  if (std::exchange(is_pinged_, false)) return std::make_unique<InboxItem>(Ping{});
   if (outcome_) return std::make_unique<InboxItem>(*std::exchange(outcome_, std::nullopt));
   if (messages_.empty()) return nullptr;
   std::unique_ptr<InboxItem> item = std::move(messages_.front());

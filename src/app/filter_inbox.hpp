@@ -35,7 +35,10 @@ struct Request {
   bool is_answered = true;  // by a reply on the bus
 };
 
-using InboxItem = std::variant<Arrival<ImuSample>, Arrival<ScanChunk>, Request, MatchOutcome>;
+// Asks whether the filter thread is alive.
+struct Ping {};
+
+using InboxItem = std::variant<Arrival<ImuSample>, Arrival<ScanChunk>, Request, MatchOutcome, Ping>;
 
 class FilterInbox {
  public:
@@ -57,6 +60,8 @@ class FilterInbox {
   void Put(MatchOutcome outcome);
   // False when kMaxRequests wait already, or when nobody would take it any more.
   [[nodiscard]] bool Put(Request request);
+  // It is taken before all that waits, so that the answer does not depend on how much that is.
+  void Put(Ping ping);
   // No message will come any more; outcomes may.
   void Close();
   // No outcome will come any more, because the match thread has failed; messages may.
@@ -81,6 +86,7 @@ class FilterInbox {
   std::size_t num_imu_ = 0;
   std::size_t num_requests_ = 0;
   std::size_t num_points_ = 0;
+  bool is_pinged_ = false;
   bool is_closed_ = false;
   bool are_outcomes_over_ = false;
   Losses losses_;

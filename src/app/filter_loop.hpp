@@ -33,6 +33,7 @@ class FilterLoop {
     MatchWorker& match_worker;
     OutputWorker& output_worker;
     std::function<void(const Request&)> obey;  // called on the filter thread, between messages
+    std::function<void()> answer_ping;         // likewise
   };
 
   FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
@@ -68,6 +69,7 @@ class FilterLoop {
   void Handle(Arrival<ImuSample>& arrival);
   void Handle(Arrival<ScanChunk>& arrival);
   void Handle(Request& request) { to_.obey(request); }
+  void Handle(Ping&) { to_.answer_ping(); }
   void Handle(MatchOutcome& outcome);
   void NoteArrival(std::int64_t recv_utime, Timestamp stamp);
   void HandOutJob();

@@ -5,12 +5,14 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 
 #include "app/daemon_arguments.hpp"
 #include "app/daemon_check.hpp"
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
+#include "app/service_notifier.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/program.hpp"
@@ -32,10 +34,17 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-// Returns when it is to end, by a signal or because nothing comes any more.
-void Serve(const sigset_t& signals, LiveRunner& runner) {
+// Returns when it is to end, by a signal or because nothing comes any more. Meanwhile the filter
+// thread tells the watchdog that it is alive, four times as often as it must.
+void Serve(const sigset_t& signals, const ServiceNotifier& service, LiveRunner& runner) {
   const timespec interval{.tv_sec = 0, .tv_nsec = 100'000'000};
+  auto next_ping = std::chrono::steady_clock::now();
   while (!IsOver(runner)) {
+    const auto now = std::chrono::steady_clock::now();
+    if (service.watchdog() && now >= next_ping) {
+      runner.PingFilter();
+      next_ping = now + *service.watchdog() / 4;
+    }
     const int signal = sigtimedwait(&signals, nullptr, &interval);
     if (signal == SIGHUP) {
       runner.RenewFiles();
@@ -69,6 +78,7 @@ void KeepEarlierRun(LiveOptions& live) {
 int Run(const DaemonArguments& arguments, const Options& options,
         const InitialMapPtr& initial_map) {
   const sigset_t signals = BlockSignals();
+  const ServiceNotifier service;
   const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
@@ -76,9 +86,12 @@ int Run(const DaemonArguments& arguments, const Options& options,
   if (live.out) live.next_out = *live.out;
   if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
+  live.answer_ping = [&service] { service.Tell("WATCHDOG=1"); };
   LiveRunner runner(*bus, options, live);
+  service.Tell("READY=1\nSTATUS=listening on " + live.channels.imu + " and " + live.channels.scan);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
-  Serve(signals, runner);
+  Serve(signals, service, runner);
+  service.Tell("STOPPING=1");
   return EndRun(runner, arguments.lcm_url);
 }
 

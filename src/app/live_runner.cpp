@@ -34,7 +34,7 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
           [this](const std::string& failure) { OnWriteFailure(failure); }),
       filter_(options, live.start_in(), live.publishes_full_cloud,
               {inbox_, publisher_, board_, match_worker_, output_worker_,
-               [this](const Request& request) { desk_.Obey(request); }}),
+               [this](const Request& request) { desk_.Obey(request); }, live_.answer_ping}),
       desk_(
           {publisher_, board_, match_worker_, output_worker_, filter_},
           {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr},

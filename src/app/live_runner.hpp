@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -51,6 +52,8 @@ struct LiveOptions {
   std::int32_t receive_buffer_bytes = 0;
   // How long Stop goes on matching the scans that wait.
   std::chrono::milliseconds max_finish{400};
+  // Called on the filter thread for each Ping, which a filter thread that hangs does not answer.
+  std::function<void()> answer_ping = [] {};
   ClockNs match_clock = ThreadCpuNs;  // for the stage times of matching; called on its thread
 };
 
@@ -77,6 +80,7 @@ class LiveRunner {
 
   // From any thread: completes the files and goes on in a new folder, as the command NEW_FILES.
   void RenewFiles();
+  void PingFilter() { inbox_.Put(Ping{}); }
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
   // the files and sends a last status. Once only. Throws WriteError when a file could not be

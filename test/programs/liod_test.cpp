@@ -179,6 +179,26 @@ TEST_F(LiodTest, SighupCompletesTheFilesAndGoesOnInTheNextFolder) {
   EXPECT_GT(num_imu, 0);
 }
 
+// A socket in place of systemd's. The daemon is told that the watchdog wants a word each second.
+TEST_F(LiodTest, SystemdHearsOfStartLifeAndEnd) {
+  const std::string heard = Out("heard");
+  const std::string listen =
+      "python3 -c \"import socket,sys\n"
+      "s=socket.socket(socket.AF_UNIX,socket.SOCK_DGRAM); s.bind('" +
+      Out("notify") + "')\nopen('" + heard +
+      "','w').close()\n"
+      "while True:\n"
+      "  d=s.recv(999).decode(); open('" +
+      heard + "','a').write(d+'\\n')\n\" & listener=$!; while [ ! -e " + heard +
+      " ]; do sleep 0.05; done; export NOTIFY_SOCKET=" + Out("notify") + " WATCHDOG_USEC=1000000; ";
+  const auto result = RunAlone(listen + Start("") + "while [ $(grep -c WATCHDOG " + heard +
+                               ") -lt 3 ]; do sleep 0.05; done; kill -TERM $liod; wait $liod; "
+                               "rc=$?; while ! grep -q STOPPING " +
+                               heard + "; do sleep 0.05; done; kill $listener; exit $rc");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(File("heard").find("READY=1\nSTATUS=listening on LIO_IMU and LIO_SCAN"), 0u);
+}
+
 TEST_F(LiodTest, SighupWithoutFilesChangesNothing) {
   const auto result = RunAlone(Start("") + "kill -HUP $liod; while ! grep -q 'signal: refused' " +
                                Out("said") + "; do sleep 0.05; done; " + End());
