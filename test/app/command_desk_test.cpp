@@ -115,6 +115,7 @@ TEST_F(CommandDeskTest, AfterAResetTheFilesAreThoseOfADaemonStartedThen) {
     runner.Stop();
   }
   {
+    RenewBus();
     LiveOptions fresh = WithFiles();
     fresh.out = folder_.path() / "fresh";
     LiveRunner runner(*bus_, SceneOptions(), fresh);
@@ -165,6 +166,7 @@ TEST_F(CommandDeskTest, NewFilesGoOnWithTheNextRow) {
               "the files go on");
     runner.Stop();
   }
+  RenewBus();
   LiveOptions whole = WithFiles();
   whole.out = folder_.path() / "whole";
   LiveRunner runner(*bus_, SceneOptions(), whole);
