@@ -15,6 +15,8 @@ find_package(SQLite3 REQUIRED)
 find_package(BZip2 REQUIRED)
 find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED) # Debian's liblz4-dev has no CMake files
 find_library(LZ4_LIBRARY lz4 REQUIRED)
+find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED) # nor has libzstd-dev
+find_library(ZSTD_LIBRARY zstd REQUIRED)
 include(FindLcm)
 include(FindPclIo)
 if(LIO_BUILD_TESTS)

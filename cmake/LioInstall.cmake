@@ -38,8 +38,10 @@ function(lio_install_package)
     FILES ${headers})
   set_target_properties(lio_core PROPERTIES EXPORT_NAME core)
   add_library(liod::core ALIAS lio_core)
-  install(TARGETS lio_core EXPORT liodTargets ARCHIVE FILE_SET HEADERS)
-  install(EXPORT liodTargets NAMESPACE liod:: DESTINATION ${package_dir})
+  install(TARGETS lio_core EXPORT liodTargets ARCHIVE COMPONENT liod-dev FILE_SET HEADERS
+    COMPONENT liod-dev)
+  install(EXPORT liodTargets NAMESPACE liod:: DESTINATION ${package_dir}
+    COMPONENT liod-dev)
 
   configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/liodConfig.cmake.in
     ${CMAKE_BINARY_DIR}/liodConfig.cmake INSTALL_DESTINATION ${package_dir}
@@ -47,5 +49,5 @@ function(lio_install_package)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/liodConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_BINARY_DIR}/liodConfig.cmake ${CMAKE_BINARY_DIR}/liodConfigVersion.cmake
-    DESTINATION ${package_dir})
+    DESTINATION ${package_dir} COMPONENT liod-dev)
 endfunction()

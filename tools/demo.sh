@@ -9,8 +9,9 @@ usage() {
 Usage: tools/demo.sh [OPTIONS] [INPUT]
 Sets up (tools/setup.sh), then runs odometry and leaves report.html, map.pcd, eval.json, verdict.json
 and the paths in out/demo/.
-INPUT goes to lio-run, which takes a ROS 1 bag, a ROS 2 bag folder, a KITTI raw drive, a KITTI
-odometry sequence, an LCM log, or a folder that lio-sim wrote. Without --config it drafts a rig.
+INPUT goes to lio-run, which takes a ROS 1 bag, a ROS 2 bag folder, an MCAP file, a KITTI raw
+drive, a KITTI odometry sequence, an LCM log, or a folder that lio-sim wrote. Without --config it
+drafts a rig.
 Without INPUT a drive around a block is simulated and played with lcm-logplayer over UDP multicast
 to liod; path.png, error.png and map.png are drawn, too.
   --config FILE    configuration; may be given again (default: by the kind of input)

@@ -23,11 +23,11 @@ USAGE
 # The packages that CMake looks for, then those that the scripts call. libpcl-dev is large, but only
 # its files are used.
 packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libboost-dev libyaml-cpp-dev
-  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev liblz4-dev libbz2-dev libpcl-dev
-  libembree-dev liblcm-dev liblcm-bin
+  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev liblz4-dev libbz2-dev libzstd-dev
+  libpcl-dev libembree-dev liblcm-dev liblcm-bin
   python3 python3-matplotlib iproute2 util-linux xz-utils)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev
-  clang clang-format clang-tidy chromium)
+  clang clang-format clang-tidy chromium help2man lintian)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
 
 with_tests=OFF with_spy=no target=lio_programs with_build=yes

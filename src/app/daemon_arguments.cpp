@@ -22,7 +22,8 @@ constexpr const char* kExamples =
     "  liod --config config/ulhk.yaml --out out/live &\n"
     "  lcm-logplayer drive.lcm                    # in another terminal; then: lio-spy\n"
     "  liod --config config/default.yaml --config my_rig.yaml --lcm-url "
-    "'udpm://239.255.76.67:7700'\n\n"
+    "'udpm://239.255.76.67:7700'\n"
+    "  liod --check --config config/default.yaml --config my_rig.yaml --out out/live\n\n"
     "Without a multicast route: sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo\n"
     "Exit codes: 0 done, 2 usage, 3 configuration, 4 no transport, 5 unusable initial map,\n"
     "6 done, but the files of --out cannot be trusted (verdict.json and the log say why),\n"
@@ -52,12 +53,17 @@ void DaemonArguments::AddTo(CLI::App& app) {
       ->type_name("NAME")
       ->check(NameUpTo(kMaxPrefixCharacters))
       ->capture_default_str();
+  app.add_flag(
+      "--check", checks_only,
+      "Validate arguments, configuration, map and folder, say what would be used, and exit\n"
+      "with the code that a start would end with; opens no network and writes nothing");
   AddOptionsArguments(app, options);
 }
 
 LiveOptions DaemonArguments::Live() const {
   LiveOptions live;
   live.channels = Channels(channel_prefix);
+  live.lcm_url = lcm_url;
   if (!out.empty()) live.out = out;
   live.writes_map = writes_map && live.out;
   live.publishes_full_cloud = publishes_full_cloud;

@@ -20,6 +20,7 @@ struct DaemonArguments {
   bool writes_map = false;
   InitialMapArguments initial_map;
   bool publishes_full_cloud = false;
+  bool checks_only = false;
 
   // `this` must outlive the app.
   void AddTo(CLI::App& app);

@@ -11,14 +11,11 @@
 #include "lio/io/verdict_report.hpp"
 
 namespace lio {
-namespace {
 
-void Tell(const Verdict& verdict) {
+void TellVerdict(const Verdict& verdict) {
   std::istringstream lines(VerdictSummary(verdict));
   for (std::string line; std::getline(lines, line);) spdlog::info("{}", line);
 }
-
-}  // namespace
 
 bool IsOver(const LiveRunner& runner) {
   return runner.has_ended() || runner.fault().has_value();
@@ -37,7 +34,7 @@ ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url) {
                   unfinished.empty() ? "" : "; ", unfinished);
     return kExitInternalFault;
   }
-  if (runner.verdict()) Tell(*runner.verdict());
+  if (runner.verdict()) TellVerdict(*runner.verdict());
   if (!unfinished.empty()) {
     spdlog::error("{}: the files are not complete", unfinished);
     return kExitWriteFailed;

@@ -13,6 +13,9 @@ namespace lio {
 // True when there is nothing more to wait for: the bus has ended or a thread has failed.
 [[nodiscard]] bool IsOver(const LiveRunner& runner);
 
+// Tells the verdict on stderr, through the log.
+void TellVerdict(const Verdict& verdict);
+
 // Stops the runner and tells in one line on stderr why, unless it was asked to end or a log that
 // `lcm_url` names is over; then it tells the verdict on the run. Returns the exit code, which is
 // kExitNoTrust where files were written that cannot be trusted, and kExitWriteFailed where they

@@ -27,7 +27,8 @@ void FilterInbox::Put(Arrival<ScanChunk> chunk) {
   const std::lock_guard lock(mutex_);
   num_points_ += chunk.data.points.size();
   messages_.push_back(std::make_unique<InboxItem>(std::move(chunk)));
-  while (num_points_ > max_points_ || messages_.size() - num_imu_ > kMaxChunks) DropOldestScan();
+  while (num_points_ > max_points_ || messages_.size() - num_imu_ - num_requests_ > kMaxChunks)
+    DropOldestScan();
   filled_.notify_one();
 }
 
@@ -53,6 +54,21 @@ void FilterInbox::Put(MatchOutcome outcome) {
   filled_.notify_one();
 }
 
+bool FilterInbox::Put(Request request) {
+  const std::lock_guard lock(mutex_);
+  if (num_requests_ >= kMaxRequests || is_closed_) return false;
+  ++num_requests_;
+  messages_.push_back(std::make_unique<InboxItem>(std::move(request)));
+  filled_.notify_one();
+  return true;
+}
+
+void FilterInbox::Put(Ping /*ping*/) {
+  const std::lock_guard lock(mutex_);
+  is_pinged_ = true;
+  filled_.notify_one();
+}
+
 void FilterInbox::Close() {
   const std::lock_guard lock(mutex_);
   is_closed_ = true;
@@ -61,13 +77,16 @@ void FilterInbox::Close() {
 
 std::unique_ptr<InboxItem> FilterInbox::Take() {
   std::unique_lock lock(mutex_);
-  filled_.wait(lock, [this] { return outcome_ || !messages_.empty() || is_closed_; });
+  filled_.wait(lock, [this] { return is_pinged_ || outcome_ || !messages_.empty() || is_closed_; });
+  if (std::exchange(is_pinged_, false)) return std::make_unique<InboxItem>(Ping{});
   if (outcome_) return std::make_unique<InboxItem>(*std::exchange(outcome_, std::nullopt));
   if (messages_.empty()) return nullptr;
   std::unique_ptr<InboxItem> item = std::move(messages_.front());
   messages_.pop_front();
   if (const auto* chunk = std::get_if<Arrival<ScanChunk>>(item.get())) {
     num_points_ -= chunk->data.points.size();
+  } else if (std::holds_alternative<Request>(*item)) {
+    --num_requests_;
   } else {
     --num_imu_;
   }

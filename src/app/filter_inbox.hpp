@@ -5,7 +5,8 @@
 //
 // The queue is bounded. When more than kMaxPoints wait, all chunks of the oldest scan are dropped;
 // when kMaxImu samples wait, the newest is refused. Both are counted. An outcome is taken before
-// the messages: there is never more than one, and scans wait for it.
+// the messages: there is never more than one, and scans wait for it. Requests keep their place
+// among the messages, so that what they change depends on the messages before them alone.
 #pragma once
 
 #include <condition_variable>
@@ -16,6 +17,7 @@
 #include <optional>
 #include <variant>
 
+#include "lio/io/command.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
@@ -27,12 +29,23 @@ struct Arrival {
   std::int64_t decode_ns = 0;
 };
 
-using InboxItem = std::variant<Arrival<ImuSample>, Arrival<ScanChunk>, MatchOutcome>;
+// A command, from the bus or by a signal of the system.
+struct Request {
+  Command command;
+  bool is_answered = true;  // by a reply on the bus
+};
+
+// Asks whether the filter thread is alive.
+struct Ping {};
+
+using InboxItem = std::variant<Arrival<ImuSample>, Arrival<ScanChunk>, Request, MatchOutcome, Ping>;
 
 class FilterInbox {
  public:
   static constexpr std::size_t kMaxImu = 1 << 16;           // a minute at 1 kHz
   static constexpr std::size_t kMaxPoints = 4 * (1 << 20);  // 80 MB, some seconds of any lidar
+
+  static constexpr std::size_t kMaxRequests = 64;
 
   struct Losses {
     std::int64_t num_imu = 0;
@@ -45,6 +58,10 @@ class FilterInbox {
   void Put(Arrival<ImuSample> sample);
   void Put(Arrival<ScanChunk> chunk);
   void Put(MatchOutcome outcome);
+  // False when kMaxRequests wait already, or when nobody would take it any more.
+  [[nodiscard]] bool Put(Request request);
+  // It is taken before all that waits, so that the answer does not depend on how much that is.
+  void Put(Ping ping);
   // No message will come any more; outcomes may.
   void Close();
   // No outcome will come any more, because the match thread has failed; messages may.
@@ -67,7 +84,9 @@ class FilterInbox {
   std::deque<std::unique_ptr<InboxItem>> messages_;  // no outcomes among them
   std::optional<MatchOutcome> outcome_;
   std::size_t num_imu_ = 0;
+  std::size_t num_requests_ = 0;
   std::size_t num_points_ = 0;
+  bool is_pinged_ = false;
   bool is_closed_ = false;
   bool are_outcomes_over_ = false;
   Losses losses_;

@@ -12,6 +12,7 @@ namespace lio {
 namespace {
 
 constexpr double kCloudInterval_s = 0.5;  // between two LIO_CLOUD, in sensor time
+constexpr std::size_t kFirstOther = 2;    // of InboxItem: those before are messages of sensors
 
 // Every n-th point in the map's frame, with n such that at most `max_points` are left.
 std::vector<Eigen::Vector3f> Decimate(const std::vector<Eigen::Vector3f>& points_imu,
@@ -41,7 +42,8 @@ double FilterLoop::input_duration_s() const {
 
 void FilterLoop::Run() {
   while (const std::unique_ptr<InboxItem> item = to_.inbox.Take()) {
-    if (is_cut_short_ && !std::holds_alternative<MatchOutcome>(*item)) continue;
+    const bool is_message = item->index() < kFirstOther;
+    if (is_cut_short_ && is_message) continue;
     std::visit([this](auto& content) { Handle(content); }, *item);
     Emit();
   }
@@ -76,6 +78,17 @@ void FilterLoop::Handle(Arrival<ScanChunk>& arrival) {
   odometry_.AddChunk(std::move(arrival.data), std::exchange(decode_ns_, 0) + arrival.decode_ns);
   odometry_.ShedLoad();
   HandOutJob();
+}
+
+void FilterLoop::Reset(const std::optional<GivenPose>& at, const std::string& why) {
+  Emit();
+  odometry_.Reset(at, newest_stamp_);
+  to_.match_worker.Forget();
+  clouds_ = {};
+  const Notice notice{newest_stamp_, Notice::Severity::kWarning, why};
+  to_.board.SetNote(notice.text);
+  notices_.Write(notice);
+  to_.output_worker.PutRow(notice);
 }
 
 void FilterLoop::Handle(MatchOutcome& outcome) {

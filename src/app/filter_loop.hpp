@@ -8,7 +8,9 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/filter_inbox.hpp"
@@ -30,6 +32,8 @@ class FilterLoop {
     StatusBoard& board;
     MatchWorker& match_worker;
     OutputWorker& output_worker;
+    std::function<void(const Request&)> obey;  // called on the filter thread, between messages
+    std::function<void()> answer_ping;         // likewise
   };
 
   FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
@@ -44,7 +48,10 @@ class FilterLoop {
   void PublishFullCloud(bool publishes) { publishes_full_cloud_ = publishes; }
   [[nodiscard]] std::int64_t num_matches_done() const { return num_matches_done_; }
 
-  // After Run only.
+  // Forgets all that is known (Odometry::Reset) and tells `why`. On the filter thread.
+  void Reset(const std::optional<GivenPose>& at, const std::string& why);
+
+  // After Run, or on the filter thread.
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
   [[nodiscard]] Verdict Judge() const { return odometry_.Judge(); }
   // Host's time from the first message to the last.
@@ -61,6 +68,8 @@ class FilterLoop {
 
   void Handle(Arrival<ImuSample>& arrival);
   void Handle(Arrival<ScanChunk>& arrival);
+  void Handle(Request& request) { to_.obey(request); }
+  void Handle(Ping&) { to_.answer_ping(); }
   void Handle(MatchOutcome& outcome);
   void NoteArrival(std::int64_t recv_utime, Timestamp stamp);
   void HandOutJob();

@@ -5,11 +5,14 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 
 #include "app/daemon_arguments.hpp"
+#include "app/daemon_check.hpp"
 #include "app/end_run.hpp"
 #include "app/live_runner.hpp"
+#include "app/service_notifier.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/program.hpp"
@@ -19,20 +22,35 @@
 namespace lio {
 namespace {
 
-// Blocks the signals in every thread, because threads inherit the mask: only WaitForEnd takes them.
+// Blocks the signals in every thread, because threads inherit the mask: only Serve takes them.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // calls on a broken tcpq connection return errors instead
   return signals;
 }
 
-void WaitForEnd(const sigset_t& signals, const LiveRunner& runner) {
+// Returns when it is to end, by a signal or because nothing comes any more. Meanwhile the filter
+// thread tells the watchdog that it is alive, four times as often as it must.
+void Serve(const sigset_t& signals, const ServiceNotifier& service, LiveRunner& runner) {
   const timespec interval{.tv_sec = 0, .tv_nsec = 100'000'000};
-  while (sigtimedwait(&signals, nullptr, &interval) < 0 && !IsOver(runner)) {
+  auto next_ping = std::chrono::steady_clock::now();
+  while (!IsOver(runner)) {
+    const auto now = std::chrono::steady_clock::now();
+    if (service.watchdog() && now >= next_ping) {
+      runner.PingFilter();
+      next_ping = now + *service.watchdog() / 4;
+    }
+    const int signal = sigtimedwait(&signals, nullptr, &interval);
+    if (signal == SIGHUP) {
+      runner.RenewFiles();
+    } else if (signal > 0) {
+      return;
+    }
   }
 }
 
@@ -60,15 +78,20 @@ void KeepEarlierRun(LiveOptions& live) {
 int Run(const DaemonArguments& arguments, const Options& options,
         const InitialMapPtr& initial_map) {
   const sigset_t signals = BlockSignals();
+  const ServiceNotifier service;
   const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
   live.initial_map = initial_map;
+  if (live.out) live.next_out = *live.out;
   if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
+  live.answer_ping = [&service] { service.Tell("WATCHDOG=1"); };
   LiveRunner runner(*bus, options, live);
+  service.Tell("READY=1\nSTATUS=listening on " + live.channels.imu + " and " + live.channels.scan);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
-  WaitForEnd(signals, runner);
+  Serve(signals, service, runner);
+  service.Tell("STOPPING=1");
   return EndRun(runner, arguments.lcm_url);
 }
 
@@ -77,13 +100,14 @@ int Main(int argc, char** argv) {
   Options options;
   CLI::App app("", "liod");
   arguments.AddTo(app);
-  if (const auto code =
-          ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options)) {
-    return *code;
+  const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION, arguments.options, options);
+  if (arguments.checks_only && code.value_or(kExitConfiguration) == kExitConfiguration) {
+    return CheckDaemon(arguments, options, code.has_value());
   }
+  if (code) return *code;
   InitialMapPtr initial_map;
-  if (const auto code = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
-    return *code;
+  if (const auto unusable = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
+    return *unusable;
   }
   try {
     return Run(arguments, options, initial_map);

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/socket_buffer.hpp"
 
@@ -17,6 +18,9 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
       start_utime_(HostUtime()),
       publisher_(bus, live_.channels),
       board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes),
+      watch_({live_.channels.imu, live_.channels.scan, EffectiveUrl(live.lcm_url),
+              options.pipeline.use_imu},
+             InputWatch::Clock::now()),
       match_worker_(
           options, live.match_clock, live.writes_map, live.initial_map,
           [this](MatchOutcome outcome) { inbox_.Put(std::move(outcome)); },
@@ -25,14 +29,20 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
             inbox_.EndOutcomes();
           }),
       output_worker_(
-          publisher_, live.out ? &writer_.emplace(*live.out, options, live.start_in()) : nullptr,
-          live.version, [this] { return ComposeStatus(); },
+          publisher_, OpenFiles(options), live.version, [this] { return ComposeStatus(); },
           [this](const std::string& fault) { OnFault(fault); },
           [this](const std::string& failure) { OnWriteFailure(failure); }),
       filter_(options, live.start_in(), live.publishes_full_cloud,
-              {inbox_, publisher_, board_, match_worker_, output_worker_}),
-      receiver_(bus, live_.channels, ThreadCpuNs, inbox_, board_,
-                [this](const Command& command) { Obey(command); }),
+              {inbox_, publisher_, board_, match_worker_, output_worker_,
+               [this](const Request& request) { desk_.Obey(request); }, live_.answer_ping}),
+      desk_(
+          {publisher_, board_, match_worker_, output_worker_, filter_},
+          {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr},
+          [this] { return JudgedStats(); },
+          [this](const std::string& failure) { OnWriteFailure(failure); }),
+      receiver_(
+          bus, live_.channels, ThreadCpuNs, inbox_, board_,
+          [this](const Command& command, const std::string& why) { desk_.Refuse(command, why); }),
       filter_thread_("filter", [this](const std::string& fault) { OnFault(fault); }),
       receive_thread_("receive", [this](const std::string& fault) { OnFault(fault); }) {
   filter_thread_.Start([this] { filter_.Run(); });
@@ -46,6 +56,12 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
 
 LiveRunner::~LiveRunner() {
   EndThreads();
+}
+
+RunWriter* LiveRunner::OpenFiles(const Options& options) {
+  if (!live_.out) return nullptr;
+  const auto& wanted = live_.next_out.empty() ? *live_.out : live_.next_out;
+  return files_.emplace(RunSeries::Folders{*live_.out, wanted}, options, live_.start_in()).writer();
 }
 
 void LiveRunner::OnFault(const std::string& fault) {
@@ -72,20 +88,22 @@ void LiveRunner::Stop() {
   EndThreads();
   const Counters& counters = filter_.counters();
   if (counters.num_imu + counters.num_chunks > 0) verdict_ = filter_.Judge();
-  if (!writer_) return;
+  if (!files_) return;
   // After a fault of the output thread; otherwise none are left.
   if (const auto fault =
           RunCatching("writing the last rows", [this] { output_worker_.WriteRowsLeft(); })) {
     OnFault(*fault);
   }
-  if (live_.writes_map) writer_->WriteMap(match_worker_.map_cloud().points_map());
-  writer_->Finish(Stats());
+  if (live_.writes_map && files_->writer() != nullptr) {
+    files_->writer()->WriteMap(match_worker_.map_cloud().points_map());
+  }
+  files_->Finish(Stats());
+  if (files_->failure()) throw WriteError(*files_->failure());
 }
 
-void LiveRunner::Obey(const Command& command) {
-  const bool publishes = command.action == CommandAction::kCloudFullOn;
-  filter_.PublishFullCloud(publishes);
-  spdlog::info("command {}: LIO_CLOUD_FULL {}", command.request_id, publishes ? "on" : "off");
+void LiveRunner::RenewFiles() {
+  const Request request{.command = {.action = CommandAction::kNewFiles}, .is_answered = false};
+  if (!inbox_.Put(request)) spdlog::warn("signal: refused, too many commands wait already");
 }
 
 StatusReport LiveRunner::ComposeStatus() {
@@ -98,7 +116,23 @@ StatusReport LiveRunner::ComposeStatus() {
   report.num_outputs_dropped = output_worker_.num_rows_dropped();
   report.num_handler_faults = bus_.num_handler_faults();
   report.map_mb = static_cast<float>(match_worker_.map_bytes()) * 1e-6F;
+  WatchInput(report);
   return report;
+}
+
+void LiveRunner::WatchInput(StatusReport& report) {
+  for (const InputRemark& remark : watch_.Look(report, InputWatch::Clock::now())) {
+    spdlog::log(remark.is_fault ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+  }
+  const std::string standing = watch_.standing();
+  if (standing.empty()) return;
+  report.note = report.note.empty() ? standing : standing + " | " + report.note;
+}
+
+RunStats LiveRunner::JudgedStats() const {
+  RunStats stats = Stats();
+  if (stats.counters.num_imu + stats.counters.num_chunks > 0) stats.verdict = filter_.Judge();
+  return stats;
 }
 
 RunStats LiveRunner::Stats() const {

@@ -16,15 +16,19 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "app/command_desk.hpp"
 #include "app/filter_inbox.hpp"
 #include "app/filter_loop.hpp"
+#include "app/input_watch.hpp"
 #include "app/match_worker.hpp"
 #include "app/output_worker.hpp"
 #include "app/publisher.hpp"
 #include "app/receiver.hpp"
+#include "app/run_series.hpp"
 #include "app/status_board.hpp"
 #include "app/worker_thread.hpp"
 #include "lio/io/cpu_clock.hpp"
@@ -33,8 +37,10 @@ namespace lio {
 
 struct LiveOptions {
   Channels channels;
+  std::string lcm_url;  // as told to people; empty for LCM's default
   std::string version;
   std::optional<std::filesystem::path> out;  // absent: no files
+  std::filesystem::path next_out;            // later folders are numbered after this; empty: `out`
   bool writes_map = false;
   bool publishes_full_cloud = false;  // LIO_CMD may change it
   InitialMapPtr initial_map;          // null: the first scans begin a map
@@ -46,6 +52,8 @@ struct LiveOptions {
   std::int32_t receive_buffer_bytes = 0;
   // How long Stop goes on matching the scans that wait.
   std::chrono::milliseconds max_finish{400};
+  // Called on the filter thread for each Ping, which a filter thread that hangs does not answer.
+  std::function<void()> answer_ping = [] {};
   ClockNs match_clock = ThreadCpuNs;  // for the stage times of matching; called on its thread
 };
 
@@ -68,7 +76,11 @@ class LiveRunner {
 
   // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
-  [[nodiscard]] bool writes_files() const { return writer_.has_value(); }
+  [[nodiscard]] bool writes_files() const { return files_.has_value(); }
+
+  // From any thread: completes the files and goes on in a new folder, as the command NEW_FILES.
+  void RenewFiles();
+  void PingFilter() { inbox_.Put(Ping{}); }
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
   // the files and sends a last status. Once only. Throws WriteError when a file could not be
@@ -76,25 +88,29 @@ class LiveRunner {
   void Stop();
 
  private:
+  RunWriter* OpenFiles(const Options& options);
   void OnFault(const std::string& fault);
   void OnWriteFailure(const std::string& failure);
-  void Obey(const Command& command);
   void EndThreads();
   StatusReport ComposeStatus();
+  void WatchInput(StatusReport& report);
   RunStats Stats() const;
+  RunStats JudgedStats() const;  // of the filter thread
 
   const LiveOptions live_;
   Bus& bus_;
   const std::int64_t start_utime_;
-  std::optional<RunWriter> writer_;
+  std::optional<RunSeries> files_;
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
+  InputWatch watch_;  // of the output thread
   FilterInbox inbox_;
   FaultLatch faults_;
   MatchWorker match_worker_;
   OutputWorker output_worker_;
   FilterLoop filter_;
+  CommandDesk desk_;
   Receiver receiver_;
   WorkerThread filter_thread_;
   WorkerThread receive_thread_;

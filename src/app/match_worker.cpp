@@ -13,13 +13,20 @@ namespace lio {
 MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_map,
                          const InitialMapPtr& initial_map,
                          std::function<void(MatchOutcome)> deliver, OnFault on_fault)
-    : worker_(options, clock, BeamElevations(options.rig.lidar.model), initial_map),
+    : options_(options),
+      clock_(clock),
+      initial_map_(initial_map),
       collects_map_(collects_map),
-      has_initial_map_(initial_map != nullptr),
       deliver_(std::move(deliver)),
       thread_("match", std::move(on_fault)) {
-  if (collects_map_ && initial_map) map_cloud_.Add(initial_map->points, Pose::Identity());
+  Begin();
   thread_.Start([this] { Run(); });
+}
+
+void MatchWorker::Begin() {
+  worker_.emplace(options_, clock_, BeamElevations(options_.rig.lidar.model), initial_map_);
+  map_cloud_ = MapCloud();
+  if (collects_map_ && initial_map_) map_cloud_.Add(initial_map_->points, Pose::Identity());
 }
 
 MatchWorker::~MatchWorker() {
@@ -47,6 +54,18 @@ void MatchWorker::Tell(InsertTask insert) {
   told_.notify_one();
 }
 
+void MatchWorker::Tell(TakeMap take) {
+  const std::lock_guard lock(mutex_);
+  work_.emplace_back(std::move(take));
+  told_.notify_one();
+}
+
+void MatchWorker::Forget() {
+  const std::lock_guard lock(mutex_);
+  work_.emplace_back(Forgetting{});
+  told_.notify_one();
+}
+
 void MatchWorker::Run() {
   for (;;) {
     std::unique_lock lock(mutex_);
@@ -60,19 +79,19 @@ void MatchWorker::Run() {
 }
 
 void MatchWorker::Do(const MatchJob& job) {
-  if (job.map_action == MapAction::kClear && !has_initial_map_) map_cloud_.Clear();
-  deliver_(worker_.Run(job));
+  if (job.map_action == MapAction::kClear && !initial_map_) map_cloud_.Clear();
+  deliver_(worker_->Run(job));
 }
 
 void MatchWorker::Do(const InsertTask& insert) {
-  worker_.Insert(insert);
-  const bool grows_map = insert.T_map_imu && worker_.is_in_map();
+  worker_->Insert(insert);
+  const bool grows_map = insert.T_map_imu && worker_->is_in_map();
   if (collects_map_ && grows_map) {
     const double voxel_m = map_cloud_.voxel_m();
     map_cloud_.Add(insert.points_imu, *insert.T_map_imu);
     if (map_cloud_.voxel_m() > voxel_m) spdlog::warn("{}", map_cloud_.thinned());
   }
-  map_bytes_ = worker_.matcher().map_size().memory_bytes;
+  map_bytes_ = worker_->matcher().map_size().memory_bytes;
 }
 
 }  // namespace lio

@@ -9,7 +9,9 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "app/worker_thread.hpp"
 #include "lio/io/map_cloud.hpp"
@@ -33,6 +35,12 @@ class MatchWorker {
   // At most one job and the insertion before it are waiting: so Odometry hands them out.
   void Tell(MatchJob job);
   void Tell(InsertTask insert);
+  // Copies the points of the map, as they are after what was told before; `take` is called on the
+  // match thread.
+  using TakeMap = std::function<void(std::vector<Eigen::Vector3f>)>;
+  void Tell(TakeMap take);
+  // Forgets the map and all that was learned with it, after what was told before.
+  void Forget();
   // Does what it was told, then ends the thread.
   void Finish();
 
@@ -41,16 +49,23 @@ class MatchWorker {
   [[nodiscard]] const MapCloud& map_cloud() const { return map_cloud_; }
 
  private:
-  using Work = std::variant<MatchJob, InsertTask>;
+  struct Forgetting {};
+  using Work = std::variant<MatchJob, InsertTask, TakeMap, Forgetting>;
 
   void Run();
   void Do(const MatchJob& job);
   void Do(const InsertTask& insert);
+  void Do(const TakeMap& take) { take(map_cloud_.points_map()); }
 
-  RegistrationWorker worker_;
+  void Do(Forgetting) { Begin(); }
+  void Begin();
+
+  const Options options_;
+  const ClockNs clock_;
+  const InitialMapPtr initial_map_;  // null: none
+  std::optional<RegistrationWorker> worker_;
   MapCloud map_cloud_;
   bool collects_map_;
-  bool has_initial_map_;
   std::function<void(MatchOutcome)> deliver_;
   std::atomic<std::size_t> map_bytes_ = 0;
 

@@ -21,6 +21,7 @@ OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, std::string 
                            std::function<StatusReport()> compose, OnFault on_fault,
                            OnFault on_write_failure)
     : publisher_(publisher),
+      keeps_rows_(writer != nullptr),
       writer_(writer),
       version_(std::move(version)),
       compose_(std::move(compose)),
@@ -43,18 +44,24 @@ void OutputWorker::Finish() {
 }
 
 void OutputWorker::WriteRowsLeft() {
-  for (const Output& row : tasks_.rows) writer_->Write(row);
+  for (auto& row : tasks_.rows) Write(row);
   tasks_.rows.clear();
 }
 
 void OutputWorker::PutRow(Output row) {
-  if (writer_ == nullptr) return;
+  if (!keeps_rows_) return;
   const std::lock_guard lock(mutex_);
   if (tasks_.rows.size() >= kMaxRows) {
     ++num_rows_dropped_;
     return;
   }
-  tasks_.rows.push_back(std::move(row));
+  tasks_.rows.emplace_back(std::move(row));
+  put_.notify_one();
+}
+
+void OutputWorker::Put(FileTask task) {
+  const std::lock_guard lock(mutex_);
+  tasks_.rows.emplace_back(std::move(task));
   put_.notify_one();
 }
 
@@ -107,11 +114,28 @@ void OutputWorker::Do(Tasks& tasks) {
 }
 
 void OutputWorker::WriteRows(Tasks& tasks) {
+  for (auto& row : tasks.rows) {
+    const bool is_file_task = std::holds_alternative<FileTask>(row);
+    if (is_file_task) TellFailure(tasks);
+    Write(row);
+    if (is_file_task) has_told_failure_ = false;
+  }
   if (writer_ == nullptr) return;
-  if (writer_->failure()) num_rows_dropped_ += static_cast<std::int64_t>(tasks.rows.size());
-  for (const Output& row : tasks.rows) writer_->Write(row);
   if (tasks.status) writer_->Flush();  // no row may come for a while
-  if (!writer_->failure() || has_told_failure_) return;
+  TellFailure(tasks);
+}
+
+void OutputWorker::Write(std::variant<Output, FileTask>& row) {
+  if (const auto* task = std::get_if<FileTask>(&row)) {
+    writer_ = (*task)(writer_);
+    return;
+  }
+  if (writer_ == nullptr || writer_->failure()) ++num_rows_dropped_;
+  if (writer_ != nullptr) writer_->Write(std::get<Output>(row));
+}
+
+void OutputWorker::TellFailure(Tasks& tasks) {
+  if (writer_ == nullptr || !writer_->failure() || has_told_failure_) return;
   has_told_failure_ = true;
   on_write_failure_(*writer_->failure());
   tasks.status = true;

@@ -12,6 +12,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <variant>
 
 #include "app/feature_clouds.hpp"
 #include "app/full_cloud.hpp"
@@ -37,7 +38,12 @@ class OutputWorker {
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
 
+  // Work on the files between the rows before and after it. It is given the writer, which is null
+  // where there are no files, and returns the one of the rows that follow. It must not throw.
+  using FileTask = std::function<RunWriter*(RunWriter*)>;
+
   void PutRow(Output row);
+  void Put(FileTask task);
   void Put(RegisteredCloud cloud);
   void Put(FullCloudTask cloud);
   void Put(FeatureCloudTask features);
@@ -51,7 +57,7 @@ class OutputWorker {
 
  private:
   struct Tasks {
-    std::deque<Output> rows;
+    std::deque<std::variant<Output, FileTask>> rows;
     std::optional<RegisteredCloud> cloud;
     std::optional<FullCloudTask> full_cloud;
     std::optional<FeatureCloudTask> features;
@@ -65,11 +71,14 @@ class OutputWorker {
   void Run();
   void Do(Tasks& tasks);
   void WriteRows(Tasks& tasks);
+  void Write(std::variant<Output, FileTask>& row);
+  void TellFailure(Tasks& tasks);
   void PublishFull(const FullCloudTask& task);
   void PublishFeatures(const FeatureCloudTask& task);
 
   Publisher& publisher_;
-  RunWriter* writer_;
+  const bool keeps_rows_;  // there are files
+  RunWriter* writer_;      // of the output thread
   std::string version_;
   std::function<StatusReport()> compose_;
   OnFault on_write_failure_;

@@ -33,6 +33,10 @@ void Publisher::Publish(const StatusReport& status, const std::string& version) 
   Send(channels_.status, EncodeStatus(status, version));
 }
 
+void Publisher::Publish(const Reply& reply) {
+  Send(channels_.reply, EncodeReply(reply));
+}
+
 void Publisher::Publish(const RegisteredCloud& cloud) {
   Send(channels_.cloud, EncodeCloud(cloud));
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lio/io/bus.hpp"
+#include "lio/io/command.hpp"
 #include "lio/io/input_decoder.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/pipeline/odometry.hpp"
@@ -22,6 +23,7 @@ class Publisher {
   // Notices are not published here: the status has them.
   void Publish(const Output& output);
   void Publish(const StatusReport& status, const std::string& version);
+  void Publish(const Reply& reply);
   // The cloud has at most kMaxCloudPoints points.
   void Publish(const RegisteredCloud& cloud);
   // Publishes a chunk of LIO_CLOUD_FULL, which is in the frame `map` already.

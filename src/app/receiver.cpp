@@ -4,6 +4,8 @@
 
 #include <chrono>
 
+#include "app/command_rules.hpp"
+
 namespace lio {
 namespace {
 
@@ -12,7 +14,8 @@ using std::chrono::milliseconds;
 constexpr int kImuCapacity = 4096;  // samples: some seconds at 1 kHz
 constexpr int kScanCapacity =
     1024;  // chunks: forty sweeps; LCM's default of 30 would lose two thirds of them
-constexpr int kCommandCapacity = 16;
+// Beyond the inbox's, so that those that are too many are answered.
+constexpr int kCommandCapacity = 2 * FilterInbox::kMaxRequests;
 constexpr milliseconds kPollInterval(50);  // after which Stop is noticed
 constexpr milliseconds kQuiet(20);         // after which without a message all have arrived
 constexpr milliseconds kMaxDrain(200);
@@ -20,8 +23,8 @@ constexpr milliseconds kMaxDrain(200);
 }  // namespace
 
 Receiver::Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
-                   StatusBoard& board, std::function<void(const Command&)> obey)
-    : bus_(bus), clock_(clock), inbox_(inbox), board_(board), obey_(std::move(obey)) {
+                   StatusBoard& board, Refuse refuse)
+    : bus_(bus), clock_(clock), inbox_(inbox), board_(board), refuse_(std::move(refuse)) {
   bus.Subscribe(channels.imu, kImuCapacity,
                 [this](ByteView data, std::int64_t utime) { OnImu(data, utime); });
   bus.Subscribe(channels.scan, kScanCapacity,
@@ -71,10 +74,14 @@ void Receiver::OnScan(ByteView data, std::int64_t recv_utime) {
 
 void Receiver::OnCommand(ByteView data) {
   Command command;
-  if (DecodeCommand(data, command) == DecodeStatus::kOk) {
-    obey_(command);
+  const DecodeStatus status = DecodeCommand(data, command);
+  if (status == DecodeStatus::kOk) {
+    if (!inbox_.Put(Request{command})) refuse_(command, "too many commands wait already");
+  } else if (status == DecodeStatus::kBadFormat) {
+    const std::string why = WhyUnusable(command);
+    refuse_(command, why.empty() ? "the command is malformed" : why);
   } else {
-    board_.CountRefusedCommand();
+    board_.CountRefusedCommand();  // nobody knows whom to answer
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 
 #include "app/filter_inbox.hpp"
 #include "app/status_board.hpp"
@@ -15,10 +16,12 @@ namespace lio {
 
 class Receiver {
  public:
-  // Subscribes to the input channels. All references are borrowed; `obey` is called on the receive
-  // thread.
+  // Gives the answer to a command that nobody takes, and why; on the receive thread.
+  using Refuse = std::function<void(const Command&, const std::string& why)>;
+
+  // Subscribes to the input channels. All references are borrowed.
   Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
-           StatusBoard& board, std::function<void(const Command&)> obey);
+           StatusBoard& board, Refuse refuse);
 
   // The thread's body: runs until Stop, or until the bus is closed. After Stop it still takes the
   // messages that have arrived, for 200 ms at most, so that the last scan of a log is not lost.
@@ -40,7 +43,7 @@ class Receiver {
   ClockNs clock_;
   FilterInbox& inbox_;
   StatusBoard& board_;
-  std::function<void(const Command&)> obey_;
+  Refuse refuse_;
   InputDecoder decoder_;
   std::int64_t num_oversized_ = 0;  // messages of the bus that are counted already
   std::atomic<bool> is_stopping_ = false;

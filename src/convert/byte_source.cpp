@@ -4,6 +4,7 @@
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,8 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kBlockBytes = 64 * 1024;
+constexpr std::size_t kGrowBytes = 1u << 20;
+constexpr int kMaxZstdWindowLog = 27;  // 128 MiB, the limit of the command zstd, too
 
 // Holds compressed bytes between the file and the decoder.
 class Refill {
@@ -113,6 +116,40 @@ class Bz2Source : public ByteSource {
   bool at_end_ = false;
 };
 
+class ZstdSource : public ByteSource {
+ public:
+  explicit ZstdSource(std::unique_ptr<ByteSource> compressed) : input_(std::move(compressed)) {
+    if (!stream_ || ZSTD_isError(ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax,
+                                                        kMaxZstdWindowLog))) {
+      throw std::runtime_error("libzstd gives no decompression context");
+    }
+  }
+
+  bool damaged() const override { return damaged_; }
+
+ private:
+  struct Free {
+    void operator()(ZSTD_DCtx* stream) const { ZSTD_freeDCtx(stream); }
+  };
+
+  std::size_t DoRead(std::span<std::uint8_t> out) override {
+    ZSTD_outBuffer to{out.data(), out.size(), 0};
+    while (to.pos < to.size && !damaged_) {
+      const auto waiting = input_.Waiting();
+      ZSTD_inBuffer from{waiting.data(), waiting.size(), 0};
+      const std::size_t before = to.pos;
+      damaged_ = ZSTD_isError(ZSTD_decompressStream(stream_.get(), &to, &from)) != 0;
+      input_.Consume(from.pos);
+      if (from.pos == 0 && to.pos == before) break;  // end of the file
+    }
+    return to.pos;
+  }
+
+  Refill input_;
+  std::unique_ptr<ZSTD_DCtx, Free> stream_{ZSTD_createDCtx()};
+  bool damaged_ = false;
+};
+
 class LimitedSource : public ByteSource {
  public:
   LimitedSource(std::unique_ptr<ByteSource> source, std::uint64_t max_bytes)
@@ -186,8 +223,27 @@ std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed
   return std::make_unique<Bz2Source>(std::move(compressed));
 }
 
+std::unique_ptr<ByteSource> MakeZstdSource(std::unique_ptr<ByteSource> compressed) {
+  return std::make_unique<ZstdSource>(std::move(compressed));
+}
+
 std::unique_ptr<ByteSource> Limited(std::unique_ptr<ByteSource> source, std::uint64_t max_bytes) {
   return std::make_unique<LimitedSource>(std::move(source), max_bytes);
+}
+
+bool ReadRecordData(ByteSource& source, std::uint64_t count, std::vector<std::uint8_t>& data) {
+  data.clear();
+  while (data.size() < count) {
+    const std::size_t before = data.size();
+    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(kGrowBytes, count - before));
+    data.resize(before + step);
+    const std::size_t got = source.Read(std::span(data).subspan(before));
+    if (got < step) {
+      data.resize(before + got);
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace lio

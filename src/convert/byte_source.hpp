@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace lio {
 
@@ -48,13 +49,27 @@ class FileSpan : public ByteSource {
   std::uint64_t left_;
 };
 
-// These two inflate what `compressed` delivers: LZ4 frames (as ROS bags have them) and bzip2
-// streams.
+// These inflate what `compressed` delivers: LZ4 frames (as bags have them), bzip2 streams and
+// Zstandard frames. A Zstandard frame whose window is larger than 128 MiB is damaged: no more
+// memory than that is taken.
 [[nodiscard]] std::unique_ptr<ByteSource> MakeLz4Source(std::unique_ptr<ByteSource> compressed);
 [[nodiscard]] std::unique_ptr<ByteSource> MakeBz2Source(std::unique_ptr<ByteSource> compressed);
+[[nodiscard]] std::unique_ptr<ByteSource> MakeZstdSource(std::unique_ptr<ByteSource> compressed);
 
 // Delivers at most `max_bytes` of `source`, and is damaged where the source has more.
 [[nodiscard]] std::unique_ptr<ByteSource> Limited(std::unique_ptr<ByteSource> source,
                                                   std::uint64_t max_bytes);
+
+enum class RecordStatus {
+  kOk,
+  kEnd,     // there is not one byte more
+  kCut,     // the source ends inside
+  kBroken,  // the bytes are no record
+};
+
+// Reads `count` bytes into `data`, which grows only as bytes arrive. Returns false when there are
+// fewer.
+[[nodiscard]] bool ReadRecordData(ByteSource& source, std::uint64_t count,
+                                  std::vector<std::uint8_t>& data);
 
 }  // namespace lio

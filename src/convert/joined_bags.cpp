@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lio/io/input_error.hpp"
+
 namespace lio {
 namespace {
 
@@ -28,8 +30,9 @@ void AddDamage(const BagDamage& more, BagDamage& sum) {
 
 class JoinedBags : public BagReader {
  public:
-  explicit JoinedBags(const std::vector<fs::path>& bags) {
-    for (const fs::path& path : bags) LookAt(path);
+  explicit JoinedBags(BagParts bags) : bags_(std::move(bags)) {
+    for (const fs::path& path : bags_.paths) LookAt(path);
+    if (parts_.empty()) throw InputError(bags_.paths.front().string() + ": no such file");
     std::stable_sort(parts_.begin(), parts_.end(),
                      [](const Part& a, const Part& b) { return a.begin < b.begin; });
     Open();
@@ -44,12 +47,13 @@ class JoinedBags : public BagReader {
 
   bool Next(BagMessage& message) override {
     for (;;) {
+      if (is_left_) return false;
       const bool is_read = reader_->Next(message);
       damage_ = damage_before_;
       AddDamage(reader_->damage(), damage_);
       if (is_read) break;
       Leave();
-      if (at_ + 1 >= parts_.size()) return false;
+      if (at_ + 1 >= parts_.size()) return Finish();
       ++at_;
       Open();
     }
@@ -68,7 +72,12 @@ class JoinedBags : public BagReader {
 
  private:
   void LookAt(const fs::path& path) {
-    const auto reader = OpenRosbag1(path);
+    if (!fs::exists(path)) {
+      damage_before_.cut_short = true;
+      damage_before_.first_reason = path.filename().string() + " is missing";
+      return;
+    }
+    const auto reader = bags_.open(path);
     BagMessage message;
     constexpr Timestamp kNever{std::numeric_limits<std::int64_t>::max()};
     const bool has_message = reader->Next(message);
@@ -80,16 +89,33 @@ class JoinedBags : public BagReader {
 
   void Open() {
     is_left_ = false;
-    reader_ = OpenRosbag1(parts_[at_].path);
+    reader_ = bags_.open(parts_[at_].path);
     if (wanted_) reader_->Select(wanted_);
   }
 
-  // Counts a part that is read to its end once, however often Next is called behind it.
+  // Counts a part that is read to its end. Messages that nobody wanted are counted by the part
+  // only.
   void Leave() {
-    if (is_left_) return;
     is_left_ = true;
     damage_before_ = damage_;
     bytes_before_ += parts_[at_].size_bytes;
+    for (const BagTopic& topic : reader_->topics()) {
+      num_read_ += topic.num_messages;
+      if (wanted_ && !wanted_(topic)) topics_[Index(topic)].num_messages += topic.num_messages;
+    }
+  }
+
+  // Compares the number of messages with that of the metadata.
+  bool Finish() {
+    const std::int64_t missing = bags_.num_messages - num_read_;
+    if (missing <= 0) return false;
+    damage_.cut_short = damage_.cut_short || !damage_.Any();
+    damage_.num_messages_missing = missing;
+    if (damage_.first_reason.empty()) {
+      damage_.first_reason = std::to_string(num_read_) + " of " +
+                             std::to_string(bags_.num_messages) + " messages exist";
+    }
+    return false;
   }
 
   // The place of the topic in the joined list, to which it is added when it is new.
@@ -103,6 +129,7 @@ class JoinedBags : public BagReader {
     return topics_.size() - 1;
   }
 
+  BagParts bags_;
   std::vector<Part> parts_;
   std::vector<BagTopic> topics_;
   bool knows_all_topics_ = true;
@@ -114,6 +141,7 @@ class JoinedBags : public BagReader {
   BagDamage damage_;
   BagDamage damage_before_;  // of the parts before
   std::int64_t bytes_before_ = 0;
+  std::int64_t num_read_ = 0;  // of the parts before
   std::int64_t size_bytes_ = 0;
 };
 
@@ -131,8 +159,8 @@ std::vector<fs::path> BagsOfFolder(const fs::path& folder) {
   return bags;
 }
 
-std::unique_ptr<BagReader> JoinBags(const std::vector<fs::path>& bags) {
-  return std::make_unique<JoinedBags>(bags);
+std::unique_ptr<BagReader> JoinBags(BagParts parts) {
+  return std::make_unique<JoinedBags>(std::move(parts));
 }
 
 }  // namespace lio

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "bag_limits.hpp"
 #include "byte_source.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/io/file_kind.hpp"
@@ -17,13 +18,6 @@ namespace lio {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint32_t kMaxMessageBytes1 = 1u << 28;  // 256 MiB: no message of any type is larger
-// The sweeps of the largest lidars (1 M points of 48 bytes) fit; memory is five times as much.
-constexpr std::uint32_t kMaxWantedBytes = 1u << 26;
-// A recorder closes a chunk at some megabytes or after one message that is larger.
-constexpr std::uint64_t kMaxChunkBytes = 1u << 29;
-constexpr std::size_t kMaxNameBytes = 255;               // ROS allows no longer names
-constexpr std::uint32_t kMaxConnectionBytes = 1u << 24;  // definitions are some kilobytes
 
 class Rosbag1Reader : public BagReader {
  public:
@@ -240,7 +234,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
   const bool known = topic != topic_of_connection_.end() && header.time;
   const bool is_picked = known && wanted_(topics_[topic->second]);
   const bool sound =
-      known && header.data_bytes <= (is_picked ? kMaxWantedBytes : kMaxMessageBytes1);
+      known && header.data_bytes <= (is_picked ? kMaxWantedBytes : kMaxBagMessageBytes);
   const bool wanted = sound && is_picked;
   const bool whole = wanted ? ReadRecordData(source, header.data_bytes, buffer_)
                             : source.Skip(header.data_bytes) == header.data_bytes;
@@ -270,7 +264,7 @@ Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteS
 // Returns false when the source ends inside.
 bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& source) {
   std::vector<std::uint8_t> data;
-  if (header.data_bytes > kMaxConnectionBytes) return false;
+  if (header.data_bytes > kMaxDefinitionBytes) return false;
   if (!ReadRecordData(source, header.data_bytes, data)) return false;
   if (!header.connection || topic_of_connection_.contains(*header.connection)) return true;
   BagTopic topic;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "rosbag1_record.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace lio {
@@ -10,7 +9,6 @@ namespace {
 
 // A header holds a topic name at most, so a megabyte is no header.
 constexpr std::uint32_t kMaxHeaderBytes = 1u << 20;
-constexpr std::size_t kGrowBytes = 1u << 20;
 
 template <typename T>
 std::optional<T> Number(std::string_view value) {
@@ -60,21 +58,6 @@ RecordStatus ReadRecordHeader(ByteSource& source, RecordHeader& header) {
   if (source.Read(length) < length.size()) return RecordStatus::kCut;
   header.data_bytes = LoadAs<std::uint32_t>(length.data());
   return RecordStatus::kOk;
-}
-
-bool ReadRecordData(ByteSource& source, std::uint64_t count, std::vector<std::uint8_t>& data) {
-  data.clear();
-  while (data.size() < count) {
-    const std::size_t before = data.size();
-    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(kGrowBytes, count - before));
-    data.resize(before + step);
-    const std::size_t got = source.Read(std::span(data).subspan(before));
-    if (got < step) {
-      data.resize(before + got);
-      return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace lio

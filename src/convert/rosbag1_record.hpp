@@ -40,20 +40,8 @@ struct RecordHeader {
   std::uint32_t num_chunks = 0;                 // bag header
 };
 
-enum class RecordStatus {
-  kOk,
-  kEnd,     // there is not one byte more
-  kCut,     // the source ends inside
-  kBroken,  // the bytes are no record
-};
-
 // Reads header and data length; the data itself comes next in `source`.
 [[nodiscard]] RecordStatus ReadRecordHeader(ByteSource& source, RecordHeader& header);
-
-// Reads `count` bytes into `data`, which grows only as bytes arrive. Returns false when there are
-// fewer.
-[[nodiscard]] bool ReadRecordData(ByteSource& source, std::uint64_t count,
-                                  std::vector<std::uint8_t>& data);
 
 // Calls `visit(name, value)` for each field of a header. Returns false when the bytes are no
 // header.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 
+#include "bag_limits.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/convert/byte_order.hpp"
 #include "lio/convert/ros_messages.hpp"
@@ -19,12 +20,6 @@ namespace lio {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxNameBytes = 255;  // ROS allows no longer names
-constexpr int kMaxMessageBytes2 = 1 << 28;  // 256 MiB: no lidar message is larger
-
-constexpr std::int64_t kMaxStampNs =
-    4'294'967'296'000'000'000;  // the year 2106, the limit of ROS 1, too
 
 struct CloseDatabase {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -99,7 +94,7 @@ class Rosbag2Reader : public BagReader {
 };
 
 Rosbag2Reader::Rosbag2Reader(const fs::path& path) : files_(FindRosbag2Files(path)) {
-  for (const fs::path& file : files_.databases) {
+  for (const fs::path& file : files_.paths) {
     if (!fs::exists(file)) continue;
     size_ += static_cast<std::int64_t>(fs::file_size(file));
     std::map<std::int64_t, std::size_t> ignored;
@@ -127,7 +122,7 @@ Database Rosbag2Reader::Open(const fs::path& path) {
     Damage(path.filename().string() + ": " + (raw ? sqlite3_errmsg(raw) : "cannot be opened"));
     return {};
   }
-  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxMessageBytes2);
+  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxBagMessageBytes));
   // This lets SQLite read a file that is shorter than its header says, as far as it goes.
   sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
   return database;
@@ -170,8 +165,8 @@ void Rosbag2Reader::ReadDefinitions(sqlite3* database) {
 }
 
 bool Rosbag2Reader::OpenNextFile() {
-  while (next_file_ < files_.databases.size()) {
-    const fs::path& path = files_.databases[next_file_++];
+  while (next_file_ < files_.paths.size()) {
+    const fs::path& path = files_.paths[next_file_++];
     if (!fs::exists(path)) {
       Damage(path.filename().string() + " is missing");
       damage_.cut_short = true;
@@ -201,7 +196,7 @@ bool Rosbag2Reader::OpenNextFile() {
 void Rosbag2Reader::CloseFile(int status) {
   if (status != SQLITE_DONE && status != SQLITE_OK) {
     damage_.cut_short = true;
-    Damage(files_.databases[next_file_ - 1].filename().string() + ": " +
+    Damage(files_.paths[next_file_ - 1].filename().string() + ": " +
            sqlite3_errmsg(database_.get()));
   }
   rows_.reset();
@@ -223,7 +218,7 @@ bool Rosbag2Reader::Next(BagMessage& message) {
       continue;
     }
     const Timestamp received{sqlite3_column_int64(rows_.get(), 1)};
-    if (received.ns < 0 || received.ns > kMaxStampNs) {
+    if (received.ns < 0 || received.ns > kMaxReceivedNs) {
       ++damage_.num_messages_damaged;
       Damage("a message received at an impossible time");
       continue;

@@ -101,8 +101,8 @@ void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem
   bool is_data = is_same(input);
   if (fs::is_directory(input, ignored) && fs::is_regular_file(output, ignored)) {
     const std::string extension = output.extension().string();
-    const bool is_recorded = extension == ".db3" || extension == ".bin" || extension == ".txt" ||
-                             output.filename() == "metadata.yaml";
+    const bool is_recorded = extension == ".db3" || extension == ".mcap" || extension == ".bin" ||
+                             extension == ".txt" || output.filename() == "metadata.yaml";
     fs::path folder = fs::weakly_canonical(output, ignored).parent_path();
     while (is_recorded && !is_data && folder.has_relative_path()) {
       is_data = fs::equivalent(folder, input, ignored);

@@ -29,7 +29,7 @@ FileKind KindOfFile(const fs::path& file) {
   if (bytes.starts_with("\xED\xA1\xDA\x01"sv)) return FileKind::kLcmLog;
   if (bytes.starts_with("#ROSBAG V2.0"sv)) return FileKind::kRosBag;
   if (bytes.starts_with("SQLite format 3"sv)) return FileKind::kRosBag;
-  if (bytes.starts_with("\x89MCAP0\r\n"sv)) return FileKind::kMcap;
+  if (bytes.starts_with("\x89MCAP0\r\n"sv)) return FileKind::kRosBag;
   return FileKind::kOther;
 }
 
@@ -45,8 +45,9 @@ FileKind KindOfFolder(const fs::path& folder) {
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string extension = entry.path().extension();
-    if (extension == ".mcap") return FileKind::kMcap;
-    if (extension == ".db3" || extension == ".bag") return FileKind::kRosBag;
+    if (extension == ".mcap" || extension == ".db3" || extension == ".bag") {
+      return FileKind::kRosBag;
+    }
   }
   return FileKind::kOther;
 }
@@ -92,10 +93,6 @@ std::string WhyNoLog(const fs::path& path) {
   switch (KindOf(path)) {
     case FileKind::kRosBag:
       return ConvertWith(path, "a ROS bag", "rosbag");
-    case FileKind::kMcap:
-      return path.string() +
-             " is an MCAP bag: convert it with 'ros2 bag convert' to sqlite3, then "
-             "with 'lio-convert rosbag'";
     case FileKind::kKittiRaw:
       return ConvertWith(path, "a KITTI raw drive", "kitti-raw");
     case FileKind::kKittiOdometry:

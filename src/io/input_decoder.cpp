@@ -10,6 +10,7 @@ Channels::Channels(const std::string& prefix)
     : imu(prefix + "IMU"),
       scan(prefix + "SCAN"),
       command(prefix + "CMD"),
+      reply(prefix + "REPLY"),
       odometry(prefix + "ODOM"),
       odometry_imu_rate(prefix + "ODOM_IMU"),
       state(prefix + "STATE"),
@@ -34,7 +35,9 @@ bool InputDecoder::Accept(DecodeStatus status) {
 
 bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
   std::int32_t seq = 0;
+  ++counters_.num_imu_received;
   if (!Accept(DecodeImu(bytes, sample, seq))) return false;
+  ++counters_.num_imu_taken;
   sample.seq = seq;
   // The difference is modulo 2^32, so that a sequence that wraps has no gap. A step back comes from
   // a driver that started again or from a reordered sample, a step of thousands from another
@@ -49,7 +52,10 @@ bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
 }
 
 bool InputDecoder::Chunk(ByteView bytes, ScanChunk& chunk) {
-  return Accept(DecodeChunk(bytes, chunk));
+  ++counters_.num_chunks_received;
+  if (!Accept(DecodeChunk(bytes, chunk))) return false;
+  ++counters_.num_chunks_taken;
+  return true;
 }
 
 }  // namespace lio

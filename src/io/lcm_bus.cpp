@@ -22,12 +22,6 @@ namespace {
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667";
 constexpr std::size_t kMaxChannelBytes = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
-std::string EffectiveUrl(const std::string& url) {
-  if (!url.empty()) return url;
-  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
-  return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
-}
-
 // liblcm takes subscriptions as regular expressions.
 std::string Literally(const std::string& channel) {
   std::string expression;
@@ -135,6 +129,12 @@ class LcmBus final : public Bus {
 };
 
 }  // namespace
+
+std::string EffectiveUrl(const std::string& url) {
+  if (!url.empty()) return url;
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
+}
 
 std::unique_ptr<Bus> OpenLcmBus(const std::string& url) {
   return std::make_unique<LcmBus>(EffectiveUrl(url));

@@ -3,6 +3,7 @@
 #include "lio/io/run_folder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "lio/io/input_error.hpp"
 
@@ -33,19 +34,35 @@ void RefuseEarlierRun(const fs::path& folder, bool overwrites) {
                    ": holds an earlier run; name another folder or add --overwrite");
 }
 
-fs::path MakeFreeFolder(const fs::path& folder) {
+fs::path FreeFolder(const fs::path& folder) {
   const fs::path first = WithName(folder);
   fs::path candidate = first;
-  std::error_code error;
   for (int number = 2; HoldsRun(candidate); ++number) {
     candidate = first;
     candidate += fmt::format("-{}", number);
   }
+  return candidate;
+}
+
+fs::path MakeFreeFolder(const fs::path& folder) {
+  const fs::path candidate = FreeFolder(folder);
+  std::error_code error;
   fs::create_directories(candidate, error);
   if (error) {
     throw std::runtime_error("cannot create " + candidate.string() + ": " + error.message());
   }
   return candidate;
+}
+
+std::string WhyNotWritable(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path existing = fs::absolute(WithName(folder));
+  while (!fs::exists(existing, ignored) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  if (!fs::is_directory(existing, ignored)) return existing.string() + " is not a folder";
+  if (::access(existing.c_str(), W_OK | X_OK) == 0) return {};
+  return existing.string() + " may not be written by this user";
 }
 
 }  // namespace lio

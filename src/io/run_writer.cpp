@@ -150,19 +150,32 @@ bool RunWriter::StepsBack(const Output& output) {
   return steps_back;
 }
 
-void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format) {
+void RunWriter::WriteCloud(std::span<const Eigen::Vector3f> points_map, const fs::path& file) {
   const Eigen::Matrix3f R_level_map =
       (segment_ ? *segment_ : whole_).R_level_map().toRotationMatrix().cast<float>();
   std::vector<Eigen::Vector3f> points_level;
   points_level.reserve(points_map.size());
   for (const Eigen::Vector3f& point : points_map) points_level.push_back(R_level_map * point);
-  Try([&] {
-    if (format == MapFormat::kPly) {
-      WritePly(folder_ / "map.ply", points_level);
-    } else {
-      WritePcd(folder_ / "map.pcd", points_level);
-    }
-  });
+  if (file.extension() == ".ply") {
+    WritePly(file, points_level);
+  } else {
+    WritePcd(file, points_level);
+  }
+}
+
+void RunWriter::WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format) {
+  const char* name = format == MapFormat::kPly ? "map.ply" : "map.pcd";
+  Try([&] { WriteCloud(points_map, folder_ / name); });
+}
+
+std::string RunWriter::SaveMap(std::span<const Eigen::Vector3f> points_map,
+                               const std::string& name) {
+  try {
+    WriteCloud(points_map, folder_ / fs::path(name).filename());
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
 }
 
 void RunWriter::WriteStats(const RunStats& stats) {

@@ -4,15 +4,11 @@
 
 #include "lcm_wire.hpp"
 #include "lio/base/counters_fields.hpp"
-#include "lio/command_t.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
 
 namespace lio {
 namespace {
-
-constexpr std::uint64_t kCommandFingerprint = 0xb3339b3ca0a8fda7;
-constexpr std::size_t kCommandBytes = 8 + 8 + 8 + 4;
 
 // On the wire the estimator's counts follow one another in the order of kCounterFields, after the
 // fingerprint, utime, start_utime, sensor_utime, seq and state. A test compares with the type.
@@ -95,28 +91,6 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   Bytes bytes = EncodeMessage(message);
   WriteCounters(report.counters, bytes);
   return bytes;
-}
-
-DecodeStatus DecodeCommand(ByteView bytes, Command& command) {
-  const DecodeStatus head = CheckHead(bytes, kCommandFingerprint, kCommandBytes);
-  if (head != DecodeStatus::kOk) return head;
-  if (bytes.size() != kCommandBytes) return DecodeStatus::kSizeMismatch;
-  FieldReader reader(bytes.data() + sizeof(kCommandFingerprint));
-  reader.Read<std::int64_t>();  // utime
-  command.request_id = reader.Read<std::int64_t>();
-  const auto action = reader.Read<std::int32_t>();
-  if (action != command_t::CLOUD_FULL_OFF && action != command_t::CLOUD_FULL_ON) {
-    return DecodeStatus::kBadFormat;
-  }
-  command.action = static_cast<CommandAction>(action);
-  return DecodeStatus::kOk;
-}
-
-Bytes EncodeCommand(const Command& command) {
-  command_t message{};
-  message.request_id = command.request_id;
-  message.action = static_cast<std::int32_t>(command.action);
-  return EncodeMessage(message);
 }
 
 std::uint64_t Fnv1a(std::string_view text) {

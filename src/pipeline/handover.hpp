@@ -30,6 +30,7 @@ struct Handover {
   Origin origin = Origin::kNone;
   LastFix last_fix;                 // the last sound scan, as it was published
   Pose T_world_start, T_map_start;  // where the mode began, in the axes that were believed then
+  bool is_placed = false;           // somebody has said where the body is: at last_fix
   bool keeps_map = false;           // the mode that follows goes on in the map as it is
   bool is_map_by_lidar = false;     // it began lidar-only: no IMU convention is in its axes
   Vector3 w_imu_radps = Vector3::Zero();  // kLostLidar: the turn rate when the map was given up,

@@ -34,7 +34,7 @@ struct HealthParameters {
   // Without an IMU coasting is wrong by more with each scan. Chosen: half a second at 10 Hz; used
   // in docs/experiments/relocalization.md.
   int restart_after_scans_lidar_only = 5;
-  // Of so many last scans the gated ones are counted. Chosen: half a second at 10 Hz.
+  // The gated ones are counted among so many last scans. Chosen: half a second at 10 Hz.
   int gated_lately_scans = 5;
   // A scan of fewer points says nothing about the map. Chosen: four times
   // MatchParameters::kMinMatched.

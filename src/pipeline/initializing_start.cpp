@@ -163,6 +163,7 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
     PlaceInWorld(fix, has_gravity, start.estimate);
   }
   handover_.origin = Origin::kInertial;
+  handover_.is_placed = false;
   handover_.T_world_start = start.estimate.state.T_world_imu;
   handover_.T_map_start = start.estimate.state.T_map_imu;
   handover_.last_fix = MakeFix(start.estimate.stamp, start.estimate, start.g_world);

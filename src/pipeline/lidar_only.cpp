@@ -49,7 +49,8 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   options.nis_limit = context_.nis_limit;
   options.seed = seed_;
   const Timestamp start = TrackStart(sweep, seed_);
-  if (handover_.origin == Handover::Origin::kLostLidar) StartAtLastFix(start, options);
+  const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
+  if (is_lost || std::exchange(handover_.is_placed, false)) StartAtLastFix(start, options);
   tracker_.emplace(start, options);
   handover_.origin = Handover::Origin::kLidar;
   handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());

@@ -27,8 +27,10 @@ std::optional<Transition> FinishJobOf(Rejected& /*mode*/, const MatchOutcome& /*
 
 }  // namespace
 
-ModeDriver::ModeDriver(const ModeContext& context, PlaceKnowledge& place)
-    : context_(context), place_(place), mode_(std::make_unique<Mode>(Initializing(context_, {}))) {
+ModeDriver::ModeDriver(const ModeContext& context, PlaceKnowledge& place, const Handover& handover)
+    : context_(context),
+      place_(place),
+      mode_(std::make_unique<Mode>(Initializing(context_, handover))) {
   context_.outputs.Mute(place_.is_seeking());
 }
 

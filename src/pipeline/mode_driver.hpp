@@ -14,9 +14,9 @@ namespace lio {
 
 class ModeDriver {
  public:
-  // Begins with an initialization. All that `context` refers to outlives this, and `place` is the
-  // context's own.
-  ModeDriver(const ModeContext& context, PlaceKnowledge& place);
+  // Begins with an initialization, which takes the handover. All that `context` refers to outlives
+  // this, and `place` is the context's own.
+  ModeDriver(const ModeContext& context, PlaceKnowledge& place, const Handover& handover = {});
 
   void Consume(const StreamEvent& event);
 

@@ -39,9 +39,11 @@ StreamOptions MakeStreamOptions(const Options& options) {
 
 // The parts of the estimator. All but the mode outlive every mode.
 struct Odometry::Impl {
-  Impl(const Options& given, ClockNs given_clock, StartIn start_in)
+  Impl(const Options& given, ClockNs given_clock, StartIn given_start_in,
+       const Handover& handover = {})
       : options(Validated(given)),
         clock(given_clock),
+        start_in(given_start_in),
         stream(MakeStreamOptions(options), counters),
         queue(static_cast<std::size_t>(options.pipeline.max_queued_scans)),
         convention(options.rig, stream.imu()),
@@ -52,7 +54,7 @@ struct Odometry::Impl {
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
               outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise,
               sensor_errors, examiner, place},
-             place) {}
+             place, handover) {}
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 
@@ -72,6 +74,7 @@ struct Odometry::Impl {
 
   Options options;
   ClockNs clock;
+  StartIn start_in;
   Counters counters;
   OutputQueue outputs;
   SensorStream stream;
@@ -104,6 +107,23 @@ void Odometry::AddImu(const ImuSample& sample) {
 void Odometry::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
   impl_->stream.AddChunk(std::move(chunk), decode_ns);
   impl_->ConsumeEvents();
+}
+
+void Odometry::Reset(const std::optional<GivenPose>& at, Timestamp stamp) {
+  Handover handover;
+  if (at) {
+    handover.origin = Handover::Origin::kInertial;
+    handover.is_placed = true;
+    handover.last_fix = {.stamp = stamp,
+                         .T_world_imu = at->T_world_imu,
+                         .T_map_imu = at->T_world_imu,
+                         .pose_cov = at->cov};
+    handover.pose_cov = at->cov;
+  }
+  auto next = std::make_unique<Impl>(impl_->options, impl_->clock, impl_->start_in, handover);
+  next->counters = impl_->counters;
+  ++next->counters.num_restarts;
+  impl_ = std::move(next);
 }
 
 void Odometry::Flush() {

@@ -53,7 +53,7 @@ class Preparation {
  public:
   explicit Preparation(const RecordingRequest& request) : request_(request) {
     prepared_.log = request.out / "log.lcm";
-    prepared_.truth = request.truth ? request.truth : TruthBeside(request.input);
+    prepared_.truth = request.truth ? request.truth : LookForTruth(request.input);
     if (prepared_.truth && !request.truth) {
       Assume("Truth: " + prepared_.truth->string() + ", which lies beside the input.");
     }
@@ -87,12 +87,14 @@ class Preparation {
 
  private:
   void Assume(const std::string& sentence) { prepared_.assumptions.push_back(sentence); }
+  std::optional<fs::path> LookForTruth(const fs::path& input) const {
+    return request_.needs_truth ? TruthBeside(input) : std::nullopt;
+  }
   fs::path OwnTruthFile() const { return request_.out / "truth.tum"; }
 
   [[noreturn]] void Refuse() const {
     const fs::path& input = request_.input;
     if (!fs::exists(input)) throw InputError(input.string() + ": no such file or folder");
-    if (KindOf(input) == FileKind::kMcap) throw InputError(WhyNoLog(input));
     throw InputError(input.string() +
                      ": is no ROS bag, KITTI drive or sequence, LCM log or folder of lio-sim");
   }
@@ -112,7 +114,7 @@ class Preparation {
 // A bag may have no truth, or several topics of which nobody named one: it is converted then
 // without.
 RosbagReport Preparation::ConvertBag(const RosbagOptions& options) {
-  if (prepared_.truth) return ConvertRosbag(options);
+  if (prepared_.truth || !request_.needs_truth) return ConvertRosbag(options);
   RosbagOptions with_truth = options;
   with_truth.truth_file = OwnTruthFile();
   try {
@@ -187,7 +189,7 @@ void Preparation::FromKittiRaw() {
   const KittiRawReport report = ConvertKittiRaw(options);
   prepared_.is_damaged = report.IsDamaged();
   prepared_.report = FormatReport(report, options);
-  if (!prepared_.truth) {
+  if (!prepared_.truth && request_.needs_truth) {
     prepared_.truth = OwnTruthFile();
     Assume("Truth: the drive's OXTS positions, which are good to a metre.");
   }
@@ -228,7 +230,7 @@ void Preparation::FromKittiOdometry() {
 void Preparation::FromLog(const fs::path& log) {
   prepared_.kind = "LCM log";
   prepared_.log = log;
-  if (!prepared_.truth) prepared_.truth = TruthBeside(log);
+  if (!prepared_.truth) prepared_.truth = LookForTruth(log);
   known_.extrinsic_reason =
       "none (identity) is ASSUMED, since logs do not hold it: measure it, the verdict tells when "
       "it is wrong.";

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -56,6 +57,17 @@ class HoldableBus final : public Bus {
 class LiveRunnerTest : public ::testing::Test {
  protected:
   LiveRunnerTest() {
+    // Made before there are threads, as liod does: TSan does not see into libspdlog.
+    (void)spdlog::default_logger();
+    HearEnd();
+  }
+
+  // For a second runner: subscriptions of the first one would outlive it.
+  void RenewBus() {
+    bus_ = std::make_unique<HoldableBus>();
+    HearEnd();
+  }
+  void HearEnd() {
     bus_->Subscribe(kEndMark, 10, [this](ByteView, std::int64_t) { has_delivered_all_ = true; });
   }
 

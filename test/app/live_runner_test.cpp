@@ -228,7 +228,8 @@ TEST_F(LiveRunnerTest, CommandsSwitchTheFullCloud) {
   int num_full = 0;
   bus_->Subscribe("LIO_CLOUD_FULL", 100'000, [&](ByteView, std::int64_t) { ++num_full; });
   LiveRunner runner(*bus_, SceneOptions(), LiveOptions());
-  EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({1, CommandAction::kCloudFullOn})));
+  EXPECT_TRUE(bus_->Publish(
+      "LIO_CMD", EncodeCommand({.request_id = 1, .action = CommandAction::kCloudFullOn})));
   Play(runner);
   runner.Stop();
   while (bus_->Receive(std::chrono::milliseconds(0)) == ReceiveResult::kMessage) {

@@ -30,9 +30,15 @@ class ReceiverTest : public ::testing::Test {
   Channels channels_;
   FilterInbox inbox_;
   StatusBoard board_{0, 0};
-  std::vector<Command> commands_;
-  Receiver receiver_{*bus_,  channels_, ThreadCpuNs,
-                     inbox_, board_,    [this](const Command& c) { commands_.push_back(c); }};
+  std::vector<std::string> refusals_;
+  Receiver receiver_{*bus_,
+                     channels_,
+                     ThreadCpuNs,
+                     inbox_,
+                     board_,
+                     [this](const Command& command, const std::string& why) {
+                       refusals_.push_back(std::to_string(command.request_id) + ": " + why);
+                     }};
 };
 
 TEST_F(ReceiverTest, WhatArrivedBeforeTheStopIsTaken) {
@@ -55,18 +61,38 @@ TEST_F(ReceiverTest, GarbageIsCountedByReasonAndGoesNoFurther) {
   EXPECT_EQ(refused[static_cast<std::size_t>(DecodeStatus::kTooLarge)], 1);
 }
 
-TEST_F(ReceiverTest, CommandsAreObeyedAndBadOnesCounted) {
-  EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({5, CommandAction::kCloudFullOn})));
+TEST_F(ReceiverTest, CommandsKeepTheirPlaceAndBadOnesAreCounted) {
+  EXPECT_TRUE(bus_->Publish("LIO_IMU", EncodeImu({}, 0)));
+  EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({.request_id = 5})));
+  EXPECT_TRUE(bus_->Publish("LIO_IMU", EncodeImu({}, 1)));
   EXPECT_TRUE(bus_->Publish("LIO_CMD", Bytes(28)));
   ReceiveAll();
-  ASSERT_EQ(commands_.size(), 1u);
-  EXPECT_EQ(commands_[0].request_id, 5);
+  EXPECT_TRUE(std::holds_alternative<Arrival<ImuSample>>(*inbox_.Take()));
+  const auto request = inbox_.Take();
+  ASSERT_TRUE(std::holds_alternative<Request>(*request));
+  EXPECT_EQ(std::get<Request>(*request).command.request_id, 5);
+  EXPECT_EQ(NumItems(), 1);
+  EXPECT_TRUE(refusals_.empty());
   EXPECT_EQ(board_.Compose().num_commands_refused, 1);
+}
+
+TEST_F(ReceiverTest, ACommandThatCanBeAnsweredIsRefusedWithItsReason) {
+  const auto unknown = static_cast<CommandAction>(99);
+  EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({.request_id = 5, .action = unknown})));
+  for (int i = 0; i < 65; ++i) {
+    EXPECT_TRUE(bus_->Publish("LIO_CMD", EncodeCommand({.request_id = 100 + i})));
+  }
+  ReceiveAll();
+  EXPECT_EQ(NumItems(), 64);
+  ASSERT_EQ(refusals_.size(), 2u);
+  EXPECT_EQ(refusals_[0], "5: no action is 99");
+  EXPECT_EQ(refusals_[1], "164: too many commands wait already");
 }
 
 TEST_F(ReceiverTest, AClosedBusEndsIt) {
   const auto closed = OpenNullBus();
-  Receiver receiver(*closed, channels_, ThreadCpuNs, inbox_, board_, [](const Command&) {});
+  Receiver receiver(*closed, channels_, ThreadCpuNs, inbox_, board_,
+                    [](const Command&, const std::string&) {});
   receiver.Run();
   EXPECT_TRUE(receiver.has_ended());
 }

@@ -5,6 +5,7 @@
 #include <bzlib.h>
 #include <gtest/gtest.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <numeric>
 #include <random>
@@ -25,6 +26,8 @@ std::string Compressed(const std::string& how, std::vector<std::uint8_t> content
   std::string out(content.size() + 10'000, '\0');
   if (how == "lz4") {
     out.resize(LZ4F_compressFrame(out.data(), out.size(), content.data(), content.size(), nullptr));
+  } else if (how == "zstd") {
+    out.resize(ZSTD_compress(out.data(), out.size(), content.data(), content.size(), 1));
   } else {
     auto size = static_cast<unsigned>(out.size());
     BZ2_bzBuffToBuffCompress(out.data(), &size, reinterpret_cast<char*>(content.data()),
@@ -34,14 +37,19 @@ std::string Compressed(const std::string& how, std::vector<std::uint8_t> content
   return out;
 }
 
+std::unique_ptr<ByteSource> Inflated(const std::string& how, std::unique_ptr<ByteSource> stored) {
+  if (how == "lz4") return MakeLz4Source(std::move(stored));
+  if (how == "zstd") return MakeZstdSource(std::move(stored));
+  return MakeBz2Source(std::move(stored));
+}
+
 class CompressedSource : public testing::TestWithParam<std::string> {
  protected:
   // Returns what comes out of a file with these bytes, read in pieces of `step`.
   std::vector<std::uint8_t> Inflate(const std::string& bytes, std::size_t step, bool& damaged) {
     std::ifstream file(dir_.Write("compressed", bytes), std::ios::binary);
     auto span = std::make_unique<FileSpan>(file, bytes.size());
-    const auto source =
-        GetParam() == "lz4" ? MakeLz4Source(std::move(span)) : MakeBz2Source(std::move(span));
+    const auto source = Inflated(GetParam(), std::move(span));
     std::vector<std::uint8_t> all;
     std::vector<std::uint8_t> piece(step);
     std::size_t got = step;
@@ -92,8 +100,19 @@ TEST_P(CompressedSource, GivesNothingForNothing) {
   EXPECT_FALSE(damaged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Compressions, CompressedSource, testing::Values("lz4", "bz2"),
+INSTANTIATE_TEST_SUITE_P(Compressions, CompressedSource, testing::Values("lz4", "bz2", "zstd"),
                          [](const auto& test) { return test.param; });
+
+// The header of a frame says how much memory its content may refer back to: here 2 GiB.
+TEST(ZstdSource, AWindowBeyondAllMemoryIsDamage) {
+  const test::TempDir dir;
+  const std::string frame("\x28\xb5\x2f\xfd\x00\xa8\x01\x00\x00", 9);
+  std::ifstream file(dir.Write("frame", frame), std::ios::binary);
+  const auto source = MakeZstdSource(std::make_unique<FileSpan>(file, frame.size()));
+  std::array<std::uint8_t, 8> out;
+  EXPECT_EQ(source->Read(out), 0u);
+  EXPECT_TRUE(source->damaged());
+}
 
 TEST(FileSpan, EndsAtItsSizeOrTheFiles) {
   const test::TempDir dir;
@@ -118,9 +137,7 @@ TEST_P(CompressedSource, IsDamagedWhereItInflatesToMoreThanItMay) {
     const auto path = dir.Write("content", Compressed(GetParam(), content));
     std::ifstream file(path, std::ios::binary);
     auto span = std::make_unique<FileSpan>(file, std::filesystem::file_size(path));
-    const auto source = Limited(
-        GetParam() == "lz4" ? MakeLz4Source(std::move(span)) : MakeBz2Source(std::move(span)),
-        max_bytes);
+    const auto source = Limited(Inflated(GetParam(), std::move(span)), max_bytes);
     std::vector<std::uint8_t> out(content.size() + 100);
     EXPECT_EQ(source->Read(out), std::min(max_bytes, content.size()));
     EXPECT_EQ(source->damaged(), max_bytes < content.size()) << max_bytes;

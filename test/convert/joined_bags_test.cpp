@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "lio/io/input_error.hpp"
+#include "support/mcap_writer.hpp"
 #include "support/ros_bag.hpp"
 #include "support/temp_dir.hpp"
 
@@ -77,6 +78,51 @@ TEST_F(JoinedBagsTest, DamageOfOnePartIsThatOfAll) {
   const auto bag = OpenBag(dir_.path());
   EXPECT_THAT(ReadAll(*bag), ElementsAre(1, 2));
   EXPECT_TRUE(bag->damage().Any());
+}
+
+class JoinedMcapTest : public JoinedBagsTest {
+ protected:
+  void WritePart(const std::string& name, const std::vector<int>& seconds) {
+    test::McapWriter part(dir_.path() / name, {.compression = "zstd"});
+    for (const int second : seconds) {
+      part.Write("/a", "std_msgs/Byte", At(second), {static_cast<std::uint8_t>(second)});
+      part.Write("/b", "std_msgs/Byte", At(second), {100});
+    }
+    part.Close();
+  }
+  void WriteMetadata(int num_messages) {
+    dir_.Write("metadata.yaml",
+               "rosbag2_bagfile_information:\n  storage_identifier: mcap\n"
+               "  relative_file_paths: [x_0.mcap, x_1.mcap]\n  message_count: " +
+                   std::to_string(num_messages) + "\n");
+  }
+  std::vector<int> ReadOneTopic(BagReader& bag) {
+    bag.Select([](const BagTopic& topic) { return topic.name == "/a"; });
+    return ReadAll(bag);
+  }
+};
+
+TEST_F(JoinedMcapTest, AFolderOfRos2IsOneBagWithAndWithoutItsMetadata) {
+  WritePart("x_0.mcap", {1, 2});
+  WritePart("x_1.mcap", {3});
+  for (const bool has_metadata : {false, true}) {
+    if (has_metadata) WriteMetadata(6);
+    const auto bag = OpenBag(dir_.path());
+    EXPECT_TRUE(bag->knows_all_topics());
+    EXPECT_THAT(ReadOneTopic(*bag), ElementsAre(1, 2, 3));
+    EXPECT_FALSE(bag->damage().Any()) << bag->damage().first_reason;
+    EXPECT_EQ(bag->topics()[1].num_messages, 3) << "those that nobody wanted count, too";
+  }
+}
+
+TEST_F(JoinedMcapTest, MessagesOfAMissingPartAreCounted) {
+  WritePart("x_0.mcap", {1, 2});
+  WriteMetadata(6);
+  const auto bag = OpenBag(dir_.path() / "metadata.yaml");
+  EXPECT_THAT(ReadOneTopic(*bag), ElementsAre(1, 2));
+  EXPECT_TRUE(bag->damage().cut_short);
+  EXPECT_EQ(bag->damage().num_messages_missing, 2);
+  EXPECT_EQ(bag->damage().first_reason, "x_1.mcap is missing");
 }
 
 TEST_F(JoinedBagsTest, APartThatIsNoBagIsNamed) {

@@ -5,6 +5,7 @@
 
 #include "lio/convert/bag_reader.hpp"
 #include "lio/io/input_error.hpp"
+#include "support/mcap_writer.hpp"
 #include "support/ros_bag.hpp"
 #include "support/temp_dir.hpp"
 
@@ -58,9 +59,18 @@ TEST_F(OpenBagTest, AFolderOfRos1BagsIsOneBag) {
   EXPECT_EQ(FirstTopic("parts"), "/one");
 }
 
-TEST_F(OpenBagTest, WhatIsNotThereOrMcapIsRefused) {
+TEST_F(OpenBagTest, McapIsToldByItsContent) {
+  for (const char* name : {"a.mcap", "a.bag"}) {
+    test::McapWriter bag(dir_.path() / name, {});
+    bag.Write("/three", "std_msgs/Byte", kReceived, {1});
+    bag.Close();
+    EXPECT_EQ(FirstTopic(name), "/three") << name;
+  }
+}
+
+TEST_F(OpenBagTest, WhatIsNotThereOrNoBagIsRefused) {
   EXPECT_THAT(WhyRefused(dir_.path() / "none.bag"), HasSubstr("no such file or folder"));
-  EXPECT_THAT(WhyRefused(dir_.Write("x.mcap", "?")), HasSubstr("MCAP is not supported"));
+  EXPECT_THAT(WhyRefused(dir_.Write("x.mcap", "?")), HasSubstr("no MCAP file"));
 }
 
 }  // namespace

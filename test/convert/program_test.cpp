@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "support/mcap_writer.hpp"
 #include "support/run_program.hpp"
 #include "support/spinning_lidar.hpp"
 
@@ -32,6 +33,14 @@ class ConvertProgram : public testing::Test {
   std::string Path(const std::string& name) const { return (dir_.path() / name).string(); }
 
   // Writes a bag of `num` clouds on each of the topics, and an IMU.
+  // Writes "drive.mcap" with the messages of the bag.
+  std::string WriteMcap(int num, const std::string& compression) {
+    test::CopyToMcap(WriteBag({"/points"}, num), dir_.path() / "drive.mcap",
+                     {.compression = compression}, [](const BagTopic&, const BagMessage& message) {
+                       return std::vector<std::uint8_t>(message.data.begin(), message.data.end());
+                     });
+    return Path("drive.mcap");
+  }
   std::string WriteBag(const std::vector<std::string>& cloud_topics, int num = 12,
                        const test::Bag1Writer::Options& form = {}) {
     test::Bag1Writer writer(dir_.path() / "drive.bag", form);
@@ -216,6 +225,17 @@ TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {
   EXPECT_THAT(cut.out, HasSubstr("converted up to"));
 }
 
+TEST_F(ConvertProgram, ACutMcapIsConvertedUpToTheCutAndIs5) {
+  const ProgramResult whole = Run({"rosbag", WriteMcap(12, "lz4"), Path("o.lcm")});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string bytes = test::ReadText(dir_.path() / "drive.mcap");
+  dir_.Write("drive.mcap", bytes.substr(0, bytes.size() / 2));
+  const ProgramResult cut = Run({"rosbag", Path("drive.mcap"), Path("o.lcm")});
+  ExpectOneLine(cut, 5);
+  EXPECT_THAT(cut.out, HasSubstr("the bag is cut short"));
+  EXPECT_THAT(cut.out, HasSubstr("converted up to"));
+}
+
 // A bag of four times the length must take the same memory to a few megabytes.
 TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
   const auto peak_kb = [&](int num_clouds) {
@@ -227,6 +247,16 @@ TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
   EXPECT_GT(of_short, 0);
   EXPECT_GT(std::filesystem::file_size(dir_.path() / "o.lcm"), 40'000'000u);
   EXPECT_LT(of_long, of_short + 5'000);
+}
+
+TEST_F(ConvertProgram, MemoryDoesNotGrowWithAnMcapFile) {
+  const auto peak_kb = [&](int num_clouds) {
+    const std::string mcap = WriteMcap(num_clouds, "zstd");
+    return test::PeakMemoryKb({LIO_CONVERT_PROGRAM, "rosbag", mcap, Path("o.lcm")});
+  };
+  const std::int64_t of_short = peak_kb(100);
+  EXPECT_GT(of_short, 0);
+  EXPECT_LT(peak_kb(400), of_short + 5'000);
 }
 
 TEST_F(ConvertProgram, AnOutputThatCannotBeWrittenIsOneLine) {

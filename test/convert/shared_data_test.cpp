@@ -14,6 +14,7 @@
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "support/lio_log.hpp"
+#include "support/mcap_writer.hpp"
 #include "support/ros_bag.hpp"
 #include "support/temp_dir.hpp"
 
@@ -204,6 +205,40 @@ TEST(UlhkSample, GivesTheSameLogAndTruthAsARos2Bag) {
   EXPECT_EQ(report.imu.num(), 801);
   EXPECT_TRUE(test::ReadText(ros1.output) == test::ReadText(ros2.output));
   EXPECT_EQ(test::ReadText(*ros1.truth_file), test::ReadText(*ros2.truth_file));
+}
+
+// ROS 2 records MCAP by default; ROS 1 bags are converted to it, too.
+TEST(UlhkSample, GivesTheSameLogAndTruthAsMcapOfAnyStorage) {
+  LIO_REQUIRE_SHARED_DATA(bag, "ulhk_sample.bag.xz");
+  const test::TempDir dir;
+  RosbagOptions ros1 = Options(bag, dir);
+  ros1.truth_file = dir.path() / "truth.tum";
+  (void)ConvertRosbag(ros1);
+  const auto as_it_is = [](const BagTopic&, const BagMessage& message) {
+    return std::vector<std::uint8_t>(message.data.begin(), message.data.end());
+  };
+  const std::vector<test::McapWriter::Options> storages = {
+      {.compression = "", .chunk_bytes = 0},
+      {.compression = "", .chunk_bytes = 786'432},
+      {.compression = "lz4", .chunk_bytes = 786'432},
+      {.compression = "zstd", .chunk_bytes = 4 << 20, .with_summary = false},
+      {.compression = "zstd", .chunk_bytes = 786'432, .encoding = RosEncoding::kCdr}};
+  for (std::size_t i = 0; i < storages.size(); ++i) {
+    const test::TempDir mcap_dir;
+    const fs::path file = mcap_dir.path() / "drive.mcap";
+    if (storages[i].encoding == RosEncoding::kCdr) {
+      test::CopyToMcap(bag, file, storages[i], InRos2Form);
+    } else {
+      test::CopyToMcap(bag, file, storages[i], as_it_is);
+    }
+    RosbagOptions mcap = Options(file, mcap_dir);
+    mcap.truth_file = mcap_dir.path() / "truth.tum";
+    const RosbagReport report = ConvertRosbag(mcap);
+    EXPECT_FALSE(report.IsDamaged()) << i;
+    EXPECT_EQ(report.lidar.num(), 79) << i;
+    EXPECT_TRUE(test::ReadText(ros1.output) == test::ReadText(mcap.output)) << i;
+    EXPECT_EQ(test::ReadText(*ros1.truth_file), test::ReadText(*mcap.truth_file)) << i;
+  }
 }
 
 // Rearranges drive 0005 as an odometry sequence: camera poses from the OXTS truth at the scans'

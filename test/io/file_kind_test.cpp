@@ -26,7 +26,7 @@ TEST_F(FileKindTest, ContentTellsTheKindAndNotTheName) {
   EXPECT_EQ(KindOf(Make("a.bag", "\xED\xA1\xDA\x01\0\0"s)), FileKind::kLcmLog);
   EXPECT_EQ(KindOf(Make("b.lcm", "#ROSBAG V2.0\n")), FileKind::kRosBag);
   EXPECT_EQ(KindOf(Make("c.lcm", "SQLite format 3\0"s)), FileKind::kRosBag);
-  EXPECT_EQ(KindOf(Make("d.lcm", "\x89MCAP0\r\n")), FileKind::kMcap);
+  EXPECT_EQ(KindOf(Make("d.lcm", "\x89MCAP0\r\n")), FileKind::kRosBag);
   EXPECT_EQ(KindOf(Make("e.lcm", "x")), FileKind::kOther);
   EXPECT_EQ(KindOf(folder_.path() / "not there"), FileKind::kOther);
 }
@@ -34,6 +34,7 @@ TEST_F(FileKindTest, ContentTellsTheKindAndNotTheName) {
 TEST_F(FileKindTest, FoldersAreToldByWhatIsInThem) {
   EXPECT_EQ(KindOf(Make("run/trajectory.tum", "").parent_path()), FileKind::kRunFolder);
   EXPECT_EQ(KindOf(Make("ros2/x.db3", "").parent_path()), FileKind::kRosBag);
+  EXPECT_EQ(KindOf(Make("mcap/x_0.mcap", "").parent_path()), FileKind::kRosBag);
   EXPECT_EQ(KindOf(Make("split/x_0.bag", "").parent_path()), FileKind::kRosBag);
   EXPECT_EQ(KindOf(Make("kitti/velodyne_points/data", "").parent_path().parent_path()),
             FileKind::kKittiRaw);

@@ -11,6 +11,7 @@
 #include "lio/imu_t.hpp"
 #include "lio/odometry_t.hpp"
 #include "lio/registration_t.hpp"
+#include "lio/reply_t.hpp"
 #include "lio/scan_t.hpp"
 #include "lio/status_t.hpp"
 #include "support/temp_dir.hpp"
@@ -30,7 +31,7 @@ TEST(MessagesDoc, FingerprintsAndSizesAreThoseOfTheTypes) {
   for (const std::string& row :
        {Row<imu_t>("imu_t"), Row<scan_t>("scan_t"), Row<odometry_t>("odometry_t"),
         Row<filter_state_t>("filter_state_t"), Row<registration_t>("registration_t"),
-        Row<status_t>("status_t"), Row<command_t>("command_t")}) {
+        Row<status_t>("status_t"), Row<command_t>("command_t"), Row<reply_t>("reply_t")}) {
     EXPECT_THAT(doc, ::testing::HasSubstr(row));
   }
 }

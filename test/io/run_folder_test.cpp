@@ -46,5 +46,13 @@ TEST(RunFolder, AFileInPlaceOfTheFolderIsNamed) {
   EXPECT_THROW(static_cast<void>(MakeFreeFolder(file)), std::runtime_error);
 }
 
+TEST(RunFolder, WhatCannotBeWrittenIsNamedAndNothingIsMade) {
+  const test::TempDir folder;
+  const fs::path file = folder.Write("file", "");
+  EXPECT_EQ(WhyNotWritable(folder.path() / "a" / "b"), "");
+  EXPECT_FALSE(fs::exists(folder.path() / "a"));
+  EXPECT_EQ(WhyNotWritable(file / "run"), file.string() + " is not a folder");
+}
+
 }  // namespace
 }  // namespace lio

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "lio/base/counters_fields.hpp"
-#include "lio/command_t.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
 #include "support/temp_dir.hpp"
@@ -132,32 +131,6 @@ TEST(StatusCodec, LossesLatenciesAndIdentityArrive) {
   EXPECT_EQ(message.version[1], 22);
   EXPECT_EQ(message.version[2], 3);
   EXPECT_EQ(message.note, "waiting for rest");
-}
-
-TEST(CommandCodec, CommandsRoundTripAndAgreeWithTheGeneratedType) {
-  const Bytes bytes = EncodeCommand({42, CommandAction::kCloudFullOn});
-  Command command;
-  ASSERT_EQ(DecodeCommand(bytes, command), DecodeStatus::kOk);
-  EXPECT_EQ(command.request_id, 42);
-  EXPECT_EQ(command.action, CommandAction::kCloudFullOn);
-  command_t message;
-  ASSERT_EQ(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 28);
-  EXPECT_EQ(message.action, command_t::CLOUD_FULL_ON);
-}
-
-TEST(CommandCodec, TruncatedLongerForeignAndUnknownCommandsAreRefused) {
-  Bytes bytes = EncodeCommand({42, CommandAction::kCloudFullOn});
-  Command command;
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_EQ(DecodeCommand({bytes.data(), size}, command), DecodeStatus::kTruncated);
-  }
-  bytes.push_back(0);
-  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kSizeMismatch);
-  bytes.pop_back();
-  bytes[27] = 99;
-  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kBadFormat);
-  bytes[0] ^= 1;
-  EXPECT_EQ(DecodeCommand(bytes, command), DecodeStatus::kWrongType);
 }
 
 TEST(Fnv1a, AgreesWithPublishedValues) {

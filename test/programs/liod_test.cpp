@@ -148,6 +148,63 @@ TEST_F(LiodTest, ARestartKeepsTheFilesOfTheRunBefore) {
   EXPECT_FALSE(std::filesystem::exists(Out("live-3")));
 }
 
+TEST_F(LiodTest, CommandsAreAnsweredOverLcm) {
+  const std::string ask = kBin + "/lio_ask ";
+  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+                               "/log.lcm & player=$!; sleep 2; " + ask + "6 1; " + ask + "2 2; " +
+                               ask + "77 3; " + ask + "4 4 map.pcd; wait $player; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_THAT(result.out, HasSubstr("1 done LIO_STATUS comes now"));
+  EXPECT_THAT(result.out, HasSubstr("2 done the estimate begins anew, in a new map"));
+  EXPECT_THAT(result.out, HasSubstr("3 refused no action is 77"));
+  EXPECT_THAT(result.out, HasSubstr("4 refused the map is kept only with --out and --map"));
+  EXPECT_FALSE(File("live/verdict.json").empty());
+  EXPECT_FALSE(File("live-2/trajectory.tum").empty()) << "it has started again";
+}
+
+TEST_F(LiodTest, SighupCompletesTheFilesAndGoesOnInTheNextFolder) {
+  const auto wait = [this](const std::string& words) {
+    return "while ! grep -q '" + words + "' " + Out("said") + "; do sleep 0.05; done; ";
+  };
+  const auto result =
+      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+               "/log.lcm & player=$!; sleep 3; kill -HUP $liod; " + wait("files go on in") +
+               "test -s " + Out("live/verdict.json") +
+               " || exit 98; wait $player; kill -HUP $liod; " + wait("live-3") + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_FALSE(File("live/trajectory.tum").empty());
+  EXPECT_FALSE(File("live-2/trajectory.tum").empty());
+  EXPECT_EQ(Stats("live-3")["num_imu"], 0);
+  const int num_imu = Stats("live")["num_imu"].get<int>() + Stats("live-2")["num_imu"].get<int>();
+  EXPECT_GT(num_imu, 0);
+}
+
+// A socket in place of systemd's. The daemon is told that the watchdog wants a word each second.
+TEST_F(LiodTest, SystemdHearsOfStartLifeAndEnd) {
+  const std::string heard = Out("heard");
+  const std::string listen =
+      "python3 -c \"import socket,sys\n"
+      "s=socket.socket(socket.AF_UNIX,socket.SOCK_DGRAM); s.bind('" +
+      Out("notify") + "')\nopen('" + heard +
+      "','w').close()\n"
+      "while True:\n"
+      "  d=s.recv(999).decode(); open('" +
+      heard + "','a').write(d+'\\n')\n\" & listener=$!; while [ ! -e " + heard +
+      " ]; do sleep 0.05; done; export NOTIFY_SOCKET=" + Out("notify") + " WATCHDOG_USEC=1000000; ";
+  const auto result = RunAlone(listen + Start("") + "while [ $(grep -c WATCHDOG " + heard +
+                               ") -lt 3 ]; do sleep 0.05; done; kill -TERM $liod; wait $liod; "
+                               "rc=$?; while ! grep -q STOPPING " +
+                               heard + "; do sleep 0.05; done; kill $listener; exit $rc");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(File("heard").find("READY=1\nSTATUS=listening on LIO_IMU and LIO_SCAN"), 0u);
+}
+
+TEST_F(LiodTest, SighupWithoutFilesChangesNothing) {
+  const auto result = RunAlone(Start("") + "kill -HUP $liod; while ! grep -q 'signal: refused' " +
+                               Out("said") + "; do sleep 0.05; done; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+}
+
 TEST_F(LiodTest, ChannelsFollowThePrefix) {
   const auto result = RunAlone(Start("--channel-prefix CAR_") + End());
   EXPECT_EQ(result.exit_code, 0);
@@ -172,6 +229,63 @@ TEST_F(LiodTest, WrongArgumentsAndConfigurationsHaveTheirExitCodes) {
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("voxel_m"));
   EXPECT_EQ(test::RunProgram({kBin + "/liod", "--version"}).exit_code, 0);
+}
+
+// Plays half a log after the silence. LIO_STATUS tells, too, as long as it lasts.
+TEST_F(LiodTest, SilenceIsSaidOnceAndAgainAfterItHadPassed) {
+  const auto wait_for = [this](const std::string& words, int count) {
+    return "i=0; while [ $(grep -c '" + words + "' " + Out("said") + ") -lt " +
+           std::to_string(count) + " ] && [ $i -lt 600 ]; do sleep 0.1; i=$((i+1)); done; ";
+  };
+  const auto result =
+      RunAlone(Start("") + "lcm-logger -q -f -c LIO_STATUS " + Out("status.lcm") +
+               " & logger=$!; sleep 0.2; " + wait_for("liod: nothing comes on", 1) +
+               "sleep 1.5; lcm-logplayer " + kScene + "/log.lcm; " +
+               wait_for("liod: nothing comes on", 2) + "kill $logger; wait $logger; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  const std::string said = File("said");
+  const auto count = [&](const std::string& words) {
+    int num = 0;
+    for (std::size_t at = said.find(words); at != std::string::npos; at = said.find(words, at + 1))
+      ++num;
+    return num;
+  };
+  EXPECT_EQ(count("liod: nothing comes on LIO_IMU and LIO_SCAN"), 2) << said;
+  EXPECT_EQ(count("liod: no longer so: nothing comes"), 1) << said;
+  EXPECT_THAT(said, HasSubstr("ip route get 239.255.76.67"));
+  EXPECT_THAT(File("status.lcm"), HasSubstr("nothing comes on LIO_IMU and LIO_SCAN"));
+}
+
+TEST_F(LiodTest, ASensorThatIsMissingIsSaid) {
+  // The channel filter of lcm-logplayer is an expression of what is played.
+  const auto result =
+      RunAlone(Start("") + "lcm-logplayer -e LIO_SCAN " + kScene +
+               "/log.lcm; i=0; while ! grep -q 'no inertial samples' " + Out("said") +
+               " && [ $i -lt 100 ]; do sleep 0.1; i=$((i+1)); done; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
+  EXPECT_THAT(File("said"), HasSubstr("scans come, but no inertial samples on LIO_IMU"));
+}
+
+// A network namespace whose loopback is down: a start would end with 4 there.
+TEST_F(LiodTest, CheckValidatesAllAndOpensNoNetwork) {
+  const auto check = [this](const std::string& more) {
+    return test::RunProgram({"unshare", "-rn", "sh", "-c",
+                             kBin + "/liod --check --config " + kScene + "/config.yaml " + more});
+  };
+  const auto good = check("--out " + Out("live"));
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("LIO_IMU, LIO_SCAN and LIO_CMD"));
+  EXPECT_THAT(good.out, HasSubstr(kScene + "/config.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(Out("live")));
+  const auto bad = check("--set ndt.voxel=1 --set rig.imu.gyro=2 --lcm-url nonsense");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_EQ(bad.out, "");
+  for (const char* fault : {"ndt.voxel", "rig.imu.gyro", "nonsense"}) {
+    EXPECT_THAT(bad.err, HasSubstr(fault));
+  }
+  EXPECT_EQ(check("--initial-map " + Out("no.pcd")).exit_code, 5);
+  EXPECT_EQ(check("--no-such-option").exit_code, 2);
+  EXPECT_EQ(check("--lcm-url nonsense").exit_code, 4);
 }
 
 TEST_F(LiodTest, AFolderThatCannotBeMadeIsAUsageError) {

@@ -7,6 +7,7 @@
 #include "convert/recorded_bag.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "support/mcap_writer.hpp"
 
 namespace lio {
 namespace {
@@ -87,6 +88,19 @@ TEST_F(RecordingTest, ARos2FolderIsABagToo) {
   WriteBag2(test::Drivers()[0], false);
   const PreparedRecording prepared = Prepare(options_.input);
   EXPECT_EQ(prepared.kind, "ROS bag");
+  EXPECT_EQ(KindOf(prepared.log), FileKind::kLcmLog);
+}
+
+TEST_F(RecordingTest, AnMcapFileIsABagToo) {
+  WriteBag1(test::Drivers()[0]);
+  const auto mcap = dir_.path() / "drive.mcap";
+  test::CopyToMcap(options_.input, mcap, {.compression = "zstd"},
+                   [](const BagTopic&, const BagMessage& message) {
+                     return std::vector<std::uint8_t>(message.data.begin(), message.data.end());
+                   });
+  const PreparedRecording prepared = Prepare(mcap);
+  EXPECT_EQ(prepared.kind, "ROS bag");
+  EXPECT_TRUE(prepared.truth);
   EXPECT_EQ(KindOf(prepared.log), FileKind::kLcmLog);
 }
 

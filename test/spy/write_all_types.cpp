@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   writer.Write(5, channels.registration, EncodeRegistration(scan));
   writer.Write(6, channels.cloud, EncodeCloud(cloud));
   writer.Write(7, channels.status, EncodeStatus(status, "1.2.3"));
-  writer.Write(8, channels.command, EncodeCommand({1, CommandAction::kCloudFullOn}));
+  writer.Write(8, channels.command, EncodeCommand({.request_id = 1}));
+  writer.Write(9, channels.reply, EncodeReply({.request_id = 1, .is_done = true, .text = "done"}));
   writer.Close();
   return 0;
 }

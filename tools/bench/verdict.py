@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Replays simulated drives with right and wrong set-ups, and compares the verdicts with what was
-wrong. Prints two Markdown tables: the first cause that each verdict names, and the position error
-with the wrong rig, with the fix that the verdict proposes, and with the right rig.
+wrong. Prints three Markdown tables: the first cause that each verdict names, how often each cause
+was named for each that was right, and the position error with the wrong rig, with the fix that the
+verdict proposes, and with the right rig.
 
   tools/bench/verdict.py [--seeds 1,2] [--drives street,campus] [--work out/verdict] [--no-fix]
                          [--no-faulty] [--keep-logs]
@@ -11,6 +12,7 @@ with the wrong rig, with the fix that the verdict proposes, and with the right r
 Ends with 1 where a first answer is wrong or a right rig is blamed. Needs tools/setup.sh, and for
 each drive up to 1 GB of disk, which is given back unless the logs are kept for another time."""
 import argparse
+import collections
 import contextlib
 import json
 import math
@@ -181,6 +183,7 @@ class Matrix:
         self.gives_errors = gives_errors
         self.verdicts, self.errors = {}, {}
         self.num_right = self.num_wrong = 0
+        self.counts = collections.Counter()  # of (right cause, first cause)
 
     def add(self, folder, setup, column, expected):
         overlay = SETUPS[setup][0](*read_extrinsic(folder)) if setup in SETUPS else "{}\n"
@@ -188,6 +191,7 @@ class Matrix:
         right = is_right(verdict, expected)
         self.num_right += right
         self.num_wrong += not right
+        self.counts[expected or "none", first_of(verdict) or "none"] += 1
         self.verdicts.setdefault(setup, {})[column] = cell(verdict, code, expected)
         print(f"{column}, {setup}: {self.verdicts[setup][column]}", file=sys.stderr, flush=True)
         if self.gives_errors:
@@ -200,6 +204,16 @@ class Matrix:
             judged(folder, [overlay, *fixes])
             errors.append(centimetres(position_error_m(folder)))
         self.errors.setdefault(setup, {})[column] = " -> ".join(errors)
+
+    def confusion(self):
+        """A row for each cause that is right, a column for each that was named first."""
+        kinds = list(dict.fromkeys(kind for pair in self.counts for kind in pair))
+        lines = ["| right | " + " | ".join(kinds) + " |", "|---" * (len(kinds) + 1) + "|"]
+        for right in kinds:
+            cells = [str(self.counts[right, named] or "") for named in kinds]
+            if any(cells):
+                lines.append(f"| {right} | " + " | ".join(cells) + " |")
+        return "\n".join(lines)
 
     def markdown(self, rows):
         columns = list(dict.fromkeys(column for row in rows.values() for column in row))
@@ -250,6 +264,7 @@ def main():
     matrix = Matrix(not given.no_fix)
     fill(given, matrix)
     print(matrix.markdown(matrix.verdicts))
+    print("\n" + matrix.confusion())
     if matrix.gives_errors:
         print("\n" + matrix.markdown(matrix.errors))
     print(f"\nfirst answer right in {matrix.num_right} of {matrix.num_right + matrix.num_wrong}")

@@ -32,8 +32,9 @@ constexpr const char* kAbout =
     "written in full.";
 
 constexpr const char* kAboutRosbag =
-    "Convert a ROS 1 bag (file) or ROS 2 bag (folder with metadata.yaml, or one .db3) with\n"
-    "sensor_msgs/PointCloud2 and sensor_msgs/Imu. Topics are found by type; unit and\n"
+    "Convert a ROS 1 bag (file), a ROS 2 bag (folder with metadata.yaml, or one .db3) or an\n"
+    "MCAP file of either with sensor_msgs/PointCloud2 and sensor_msgs/Imu. Topics are found by "
+    "type; unit and\n"
     "meaning of time stamps are detected from the data and printed.";
 
 constexpr const char* kAboutRaw =

@@ -3,6 +3,7 @@
 // The subcommands of lio-log: each adds its arguments to the program, and runs after parsing.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lio/io/command_line.hpp"
@@ -29,5 +30,20 @@ struct CalibrateArguments {
 };
 CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments);
 int RunCalibrate(const CalibrateArguments& arguments);
+
+struct DoctorArguments {
+  OptionsArguments options;
+  std::string input;
+  std::string json_file;
+  std::string rig_file;
+  std::string lidar_topic;
+  std::string imu_topic;
+  std::optional<int> num_threads;
+  double start_s = 0.0;
+  double duration_s = 0.0;  // 0 means to the end of the recording
+  int num_passes = 3;
+};
+CLI::App* AddDoctorCommand(CLI::App& app, DoctorArguments& arguments);
+int RunDoctor(const DoctorArguments& arguments);
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-log, the command line; info_command.cpp and calibrate_command.cpp do the work.
+// lio-log, the command line; the files *_command.cpp do the work.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,12 +11,15 @@
 namespace {
 
 constexpr const char* kAbout =
-    "Shows the contents of LCM logs and calibrates a sensor set-up from them.\n\n"
+    "Shows the contents of LCM logs, calibrates a sensor set-up from them, and says what is wrong\n"
+    "with one.\n\n"
     "Examples:\n"
     "  lio-log info drive.lcm\n"
     "  lio-log calibrate drive.lcm --config config/ulhk.yaml\n"
-    "  lio-log calibrate walk.lcm --config my_rig.yaml --json out.json --rig calibrated.yaml\n\n"
-    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log,\n"
+    "  lio-log calibrate walk.lcm --config my_rig.yaml --json out.json --rig calibrated.yaml\n"
+    "  lio-log doctor drive.bag --write-rig rig.yaml\n\n"
+    "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log, 6 doctor\n"
+    "leaves no trust in the result,\n"
     "74 a file or stdout could not be written in full.";
 
 int Main(int argc, char** argv) {
@@ -25,10 +28,13 @@ int Main(int argc, char** argv) {
   lio::InfoArguments info;
   lio::CalibrateArguments calibrate;
   const CLI::App* info_command = AddInfoCommand(app, info);
+  lio::DoctorArguments doctor;
   AddCalibrateCommand(app, calibrate);
+  const CLI::App* doctor_command = AddDoctorCommand(app, doctor);
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
     return *exit_code;
   }
+  if (doctor_command->parsed()) return RunDoctor(doctor);
   return info_command->parsed() ? RunInfo(info) : RunCalibrate(calibrate);
 }
 

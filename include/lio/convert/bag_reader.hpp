@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads recorded ROS drives in one way, whatever their form: ROS 1 bags and ROS 2 folders give the
-// same stream of messages in the order in which they were recorded.
+// Reads recorded ROS drives in one way, whatever their form: ROS 1 bags, ROS 2 folders and
+// MCAP files give the same stream of messages in the order in which they were recorded.
 #pragma once
 
 #include <cstdint>
@@ -68,9 +68,9 @@ class BagReader {
   [[nodiscard]] virtual std::int64_t size_bytes() const = 0;
 };
 
-// Opens a ROS 1 bag (a file, or the folder of a split recording, whose bags are joined) or a ROS 2
-// bag (its folder, its metadata.yaml or one .db3 file).
-// Throws InputError that names the path when it is neither.
+// Opens a ROS 1 bag (a file, or the folder of a split recording, whose bags are joined), a ROS 2
+// bag (its folder, its metadata.yaml or one .db3 file), or an MCAP file of either. Throws
+// InputError that names the path when it is neither.
 [[nodiscard]] std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
 
 [[nodiscard]] std::unique_ptr<BagReader> OpenRosbag1(const std::filesystem::path& path);

@@ -54,8 +54,11 @@ class Bus {
   [[nodiscard]] virtual std::int64_t num_handler_faults() const = 0;
 };
 
-// Opens an LCM transport. An empty `url` stands for LCM_DEFAULT_URL of the environment, or else for
-// LCM's own default. Throws TransportError when LCM cannot open it.
+// Says what an LCM URL stands for: an empty one for LCM_DEFAULT_URL of the environment, or else for
+// LCM's own default.
+[[nodiscard]] std::string EffectiveUrl(const std::string& url);
+
+// Opens an LCM transport at EffectiveUrl(url). Throws TransportError when LCM cannot open it.
 [[nodiscard]] std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
 
 // A bus whose messages come back to its own subscribers, in order.

@@ -13,8 +13,7 @@ namespace lio {
 enum class FileKind : std::int8_t {
   kOther,
   kLcmLog,
-  kRosBag,         // of ROS 1 or 2, a file or a folder
-  kMcap,           // a bag of ROS 2 as MCAP
+  kRosBag,         // of ROS 1 or 2 (SQLite or MCAP), a file or a folder
   kKittiRaw,       // the folder of a drive
   kKittiOdometry,  // the folder of a sequence
   kLogFolder,      // log.lcm with config.yaml beside it, as lio-sim writes them

@@ -22,6 +22,7 @@ struct Channels {
   explicit Channels(const std::string& prefix = kDefaultChannelPrefix);
 
   std::string imu, scan, command;                                        // in
+  std::string reply;                                                     // out, to a command
   std::string odometry, odometry_imu_rate, state, registration, status;  // out
   std::string odometry_local;                                            // out, in map
   std::string odometry_base, odometry_base_imu_rate;                     // out, with a base
@@ -29,8 +30,12 @@ struct Channels {
   std::array<std::string, kNumFeatureSets> features;  // by FeatureSet
 };
 
-// Messages that were refused before the estimator saw them. All zero on a clean log.
+// Messages as they arrived, before the estimator saw them. On a clean log all were taken.
 struct InputCounters {
+  std::int64_t num_imu_received = 0;  // messages of the channel, refused ones included
+  std::int64_t num_imu_taken = 0;     // not refused
+  std::int64_t num_chunks_received = 0;
+  std::int64_t num_chunks_taken = 0;
   std::array<std::int64_t, kNumDecodeStatuses> num_refused{};  // by DecodeStatus; kOk stays 0
   std::int64_t num_imu_missing = 0;  // gaps in imu_t.seq: lost before they arrived
 

@@ -5,14 +5,22 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace lio {
 
 // Throws UsageError when `folder` holds an earlier run, unless it may be overwritten.
 void RefuseEarlierRun(const std::filesystem::path& folder, bool overwrites);
 
-// Makes `folder`, or, when it holds an earlier run, the first of folder-2, folder-3 and so on that
-// does not, and returns it. Throws std::runtime_error when none can be made.
+// Returns `folder` or, when it holds an earlier run, the first of folder-2, folder-3 and so on that
+// does not. Makes nothing.
+[[nodiscard]] std::filesystem::path FreeFolder(const std::filesystem::path& folder);
+
+// Makes FreeFolder(folder) and returns it. Throws std::runtime_error when it cannot be made.
 [[nodiscard]] std::filesystem::path MakeFreeFolder(const std::filesystem::path& folder);
+
+// Why no files can be written into `folder`, in one line; empty when they can, or when the folder
+// is missing and can be made. Makes nothing.
+[[nodiscard]] std::string WhyNotWritable(const std::filesystem::path& folder);
 
 }  // namespace lio

@@ -79,6 +79,10 @@ class RunWriter {
   [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
   // To be called after the last row: the points are turned as the level path is.
   void WriteMap(std::span<const Eigen::Vector3f> points_map, MapFormat format = MapFormat::kPcd);
+  // Writes the map as it is now into `name`, which ends with .pcd or .ply and has no folder in it.
+  // Returns why it could not, in one line, or nothing; the files of the run are not touched.
+  [[nodiscard]] std::string SaveMap(std::span<const Eigen::Vector3f> points_map,
+                                    const std::string& name);
   // Completes all files, as far as each can be written. Throws WriteError with the failure, if
   // there was one.
   void Finish(const RunStats& stats);
@@ -93,6 +97,7 @@ class RunWriter {
   void WriteRows(const Output& output, std::optional<Trust> trust);
   void Summarize(const Output& output);
   void WriteStats(const RunStats& stats);
+  void WriteCloud(std::span<const Eigen::Vector3f> points_map, const std::filesystem::path& file);
 
   std::filesystem::path folder_;
   bool has_base_;

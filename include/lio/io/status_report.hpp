@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon's report on LIO_STATUS and the commands that it takes on LIO_CMD.
+// The daemon's report on LIO_STATUS.
 #pragma once
 
 #include <cstdint>
@@ -49,17 +49,6 @@ struct StatusReport {
 
 // `version` reads "major.minor.patch".
 [[nodiscard]] Bytes EncodeStatus(const StatusReport& report, const std::string& version);
-
-enum class CommandAction : std::int32_t { kCloudFullOff = 0, kCloudFullOn = 1 };
-
-struct Command {
-  std::int64_t request_id = 0;
-  CommandAction action = CommandAction::kCloudFullOff;
-};
-
-// An unknown action gives kBadFormat.
-[[nodiscard]] DecodeStatus DecodeCommand(ByteView bytes, Command& command);
-[[nodiscard]] Bytes EncodeCommand(const Command& command);
 
 // The 64-bit FNV-1a hash of a text, e.g. of the printed options
 // (http://www.isthe.com/chongo/tech/comp/fnv).

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "lio/base/notice.hpp"
+#include "lio/base/pose.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/sensor/imu_sample.hpp"
@@ -49,6 +50,13 @@ using Output = std::variant<ScanOutput, NavOutput, Notice>;
 // The map of the first scans: their own, or one that the registration worker was given.
 enum class StartIn : std::int8_t { kNewMap, kInitialMap };
 
+// A pose of the body that somebody else knows.
+struct GivenPose {
+  Pose T_world_imu;
+  // [position in world (m); right rotation error (rad)]; the least that a start has is added.
+  Matrix6 cov = Matrix6::Zero();
+};
+
 class Odometry {
  public:
   // Throws std::invalid_argument naming every fault of the options.
@@ -61,6 +69,13 @@ class Odometry {
   void AddImu(const ImuSample& sample);
   // `decode_ns`: CPU time that decoding the message took, for the stage times.
   void AddChunk(ScanChunk chunk, std::int64_t decode_ns = 0);
+  // Forgets the motion, the map and what was learned of the sensors: what follows depends on the
+  // messages that follow alone, as in a new Odometry with a new RegistrationWorker, which the
+  // caller makes. Counters go on; outputs that were not taken and scans that wait are lost. The
+  // outcome of a job that is out is still to be given to FinishJob, and has no effect. With a pose
+  // the new world is placed so that the body is there when `stamp` is; with gravity only position
+  // and yaw of it count.
+  void Reset(const std::optional<GivenPose>& at = std::nullopt, Timestamp stamp = {});
   // The log has ended: closes what is still open.
   void Flush();
 

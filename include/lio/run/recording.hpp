@@ -21,6 +21,7 @@ struct RecordingRequest {
   std::optional<std::string> lidar_topic, imu_topic, truth_topic;
   std::function<void(double)> progress;  // called with the share done, 0..1; may be empty
   bool needs_rig = true;                 // false: the user gave one
+  bool needs_truth = true;               // false: none is looked for
 };
 
 struct PreparedRecording {
