@@ -322,6 +322,25 @@ TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
   }
 }
 
+// The error of the samples that are missing is constant: steps that tell nothing of it do not make
+// its integral surer.
+TEST(FilterHistory, GapGrowsWithTheSquareOfItsTimeWhateverStepsItIsMadeIn) {
+  FilterHistory plain = StartedHistory();
+  FilterHistory split = StartedHistory();
+  for (const double t_s : {0.1, 0.2, 0.3}) {
+    EXPECT_EQ(split.AddNoise(StampAt(t_s), {}), EventOutcome::kApplied);
+  }
+  for (FilterHistory* history : {&plain, &split}) {
+    ImuSample sample = SampleAt(0.4);
+    sample.made_up_w_std_radps = 2.f;
+    EXPECT_EQ(history->AddImu(sample), EventOutcome::kApplied);
+  }
+  const double start = StartEstimate().cov(kRot, kRot);
+  const double grown = plain.head().cov(kRot, kRot) - start;
+  EXPECT_NEAR(std::sqrt(grown), 2.0 * 0.4, 0.02);
+  EXPECT_NEAR(split.head().cov(kRot, kRot) - start, grown, 0.02 * grown);
+}
+
 // Noise counts from its own stamp on, whether it was known then or later.
 TEST(FilterHistory, NoiseThatTheSensorShowsCountsFromItsStampOn) {
   const ImuNoise shaken{Vector3::Constant(0.01), Vector3(1.0, 2.0, 3.0)};

@@ -34,7 +34,8 @@ class EstimateReportTest : public testing::Test {
   }
 
   ReportContext Context(const Vector3& g_world = test::kGravity) {
-    return {options_, g_world, 17, TrackingStatus::kDegenerate, &imu_, clocks_, extrinsic_};
+    return {options_, g_world, 17,         TrackingStatus::kDegenerate,
+            &imu_,    clocks_, extrinsic_, yaw_doubt_};
   }
 
   Options options_;
@@ -42,6 +43,7 @@ class EstimateReportTest : public testing::Test {
   ImuBuffer imu_{ImuConvention{}, counters_};
   ClockOffsetFollower clocks_{options_};
   ExtrinsicFollower extrinsic_{options_};
+  YawDoubt yaw_doubt_;
   Estimate estimate_;
 };
 
@@ -58,6 +60,34 @@ TEST_F(EstimateReportTest, WithGravityTheWorldIsTheFilters) {
   EXPECT_EQ(nav.v_world_imu_mps, estimate_.state.v_world_imu);
   EXPECT_EQ(nav.pose_cov, (estimate_.cov.topLeftCorner<6, 6>()));
   EXPECT_EQ(nav.velocity_cov, (estimate_.cov.block<3, 3>(kVel, kVel)));
+}
+
+// The world is turned by an angle a about the pivot: the pose is then off by what a small a makes
+// of it, to first order.
+TEST_F(EstimateReportTest, AnUnknownYawOfTheWorldStandsInEveryCovariance) {
+  const FilterReport sure = MakeFilterReport(estimate_, {}, Context());
+  const Vector3 pivot(3, -2, 1);
+  constexpr double kVar = 0.25;
+  yaw_doubt_.Add(kVar, pivot);
+  const FilterReport unsure = MakeFilterReport(estimate_, {}, Context());
+  constexpr double kStep_rad = 1e-6;
+  const Pose turn{ExpSo3(Vector3(0, 0, kStep_rad)),
+                  pivot - ExpSo3(Vector3(0, 0, kStep_rad)) * pivot};
+  const Pose& T = sure.nav.T_world_imu;
+  const Pose turned = turn * T;
+  Vector6 by_yaw;
+  by_yaw << (turned.translation - T.translation) / kStep_rad,
+      LogSo3(T.rotation.conjugate() * turned.rotation) / kStep_rad;
+  const Matrix6 expected = kVar * by_yaw * by_yaw.transpose();
+  EXPECT_LT((unsure.nav.pose_cov - sure.nav.pose_cov - expected).norm(), 1e-5);
+  EXPECT_LT((unsure.cov.topLeftCorner<6, 6>() - sure.cov.topLeftCorner<6, 6>() - expected).norm(),
+            1e-5);
+  const Vector3 by_yaw_mps = Vector3::UnitZ().cross(sure.nav.v_world_imu_mps);
+  EXPECT_LT(
+      (unsure.nav.velocity_cov - sure.nav.velocity_cov - kVar * by_yaw_mps * by_yaw_mps.transpose())
+          .norm(),
+      1e-9);
+  EXPECT_EQ(unsure.nav.map_pose_cov, sure.nav.map_pose_cov) << "nothing turned in the map";
 }
 
 TEST_F(EstimateReportTest, WithoutGravityTheMapIsTheWorld) {

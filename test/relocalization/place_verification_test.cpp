@@ -51,6 +51,13 @@ TEST(PlaceVerification, ManyMatchesEndTheSearch) {
   EXPECT_FALSE(IsVerifiedBeyondDoubt(Matched(590, 590), last));
 }
 
+TEST(PlaceVerification, ABentScanIsLikelyWithMostOfItsPointsOnSurfaces) {
+  const MatchResult last = Matched(1000, 1000);
+  EXPECT_TRUE(IsLikely(Matched(810, 1000), last));
+  EXPECT_FALSE(IsLikely(Matched(790, 1000), last)) << "too many lie on nothing";
+  EXPECT_FALSE(IsLikely(Matched(590, 600), last)) << "too few are left";
+}
+
 TEST(PlaceVerification, APriorIsWithinReachByPointsTwentyMetresAway) {
   Matrix6 cov = Matrix6::Zero();
   cov.diagonal() << Vector3::Constant(1.0), Vector3::Constant(0.0064);  // 1 m and 20 m * 0.08

@@ -54,9 +54,10 @@ class PlayedMatcher {
     ++num_matches;
     const bool is_near = (guess.translation - truth_.translation).norm() < 1.0 &&
                          LogSo3(guess.rotation.conjugate() * truth_.rotation).norm() < 0.1;
-    return is_near ? Matched(truth_, 0.98) : Matched(guess, 0.5);
+    return is_near ? Matched(truth_, 0.98) : Matched(guess, share_elsewhere);
   }
   int num_matches = 0;
+  double share_elsewhere = 0.5;
 
  private:
   Pose truth_;
@@ -111,8 +112,24 @@ TEST_F(RelocalizerTest, AScanThatIsWherePredictedIsNotSearchedFor) {
 }
 
 TEST_F(RelocalizerTest, AMatchFromASurePriorIsBelieved) {
+  matcher_.share_elsewhere = 0.65;
   const auto found = Search({SearchRegion::kAnywhere, {}}, PriorAt(At(3, 3, 0), 0.1, 0.01));
   EXPECT_TRUE(found.match.IsUsable());
+  EXPECT_EQ(matcher_.num_matches, 1);
+}
+
+TEST_F(RelocalizerTest, AMatchThatLostHalfOfItsSupportIsNotBelievedFromASurePriorEither) {
+  for (const SearchRegion region : {SearchRegion::kPrior, SearchRegion::kAnywhere}) {
+    matcher_.num_matches = 0;
+    const auto found = Search({region, {}}, PriorAt(At(3, 3, 0), 0.1, 0.01));
+    EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints);
+    EXPECT_EQ(matcher_.num_matches, 1) << "nothing is searched for";
+  }
+}
+
+TEST_F(RelocalizerTest, ABentScanNearAnUnsurePriorIsBelievedWithMostOfItsSupport) {
+  matcher_.share_elsewhere = 0.8;
+  EXPECT_TRUE(Search({SearchRegion::kAnywhere, {}}, far_prior_).match.IsUsable());
   EXPECT_EQ(matcher_.num_matches, 1);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "lio/sensor/gap.hpp"
@@ -145,6 +146,19 @@ TEST(ImuBuffer, GapIsBridgedByTheMeanOfTheTimeBefore) {
   EXPECT_EQ(ready[1].sample.stamp, StampAt(2.799));
   EXPECT_FALSE(ready[2].is_made_up);
   EXPECT_EQ(ready[2].sample.w_imu_radps, Vector3(0, 0, -5));
+}
+
+// The rate before is 1 or -1 rad/s about z, so its one-axis spread about the mean is 1 / sqrt(3).
+TEST(ImuBuffer, AMadeUpSampleSaysHowFarTheMotionBeforeWasFromItsMean) {
+  Buffer buffer;
+  for (int i = 0; i < 40; ++i) {
+    buffer.Add(Reading(0.1 * i, Vector3(0, 0, i % 2 == 0 ? 1 : -1), Vector3(0, 0, 9.8)));
+  }
+  const std::vector<ImuReady> ready = buffer.Add(Reading(4.6, Vector3::Zero()));
+  ASSERT_EQ(ready.size(), 3u);
+  EXPECT_NEAR(ready[0].sample.made_up_w_std_radps, 1.0 / std::sqrt(3.0), 0.01);
+  EXPECT_NEAR(ready[0].sample.made_up_f_std_mps2, 0.0, 1e-6);
+  EXPECT_EQ(ready[2].sample.made_up_w_std_radps, 0.f) << "it was measured";
 }
 
 TEST(ImuBuffer, EachGapHasItsOwnMean) {
