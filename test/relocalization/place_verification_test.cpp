@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lio/relocalization/relocalizer.hpp"
+
 namespace lio {
 namespace {
 
