@@ -144,15 +144,21 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
 }
 
 void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) {
-  const std::vector<std::uint32_t> few =
-      SpreadIndices(scan.to_match.size(), kRelocalization.num_coarse_points);
-  const std::vector<Eigen::Vector3f> few_points = Pick(scan.to_match, few);
-  const std::vector<FeatureTag> few_tags = Pick(scan.tags_to_match, few);
+  std::vector<std::uint32_t> few;  // picked once they are needed, which is seldom
+  std::vector<Eigen::Vector3f> few_points;
+  std::vector<FeatureTag> few_tags;
+  const auto pick_few = [&] {
+    if (!few.empty()) return;
+    few = SpreadIndices(scan.to_match.size(), kRelocalization.num_coarse_points);
+    few_points = Pick(scan.to_match, few);
+    few_tags = Pick(scan.tags_to_match, few);
+  };
   const int num_for_deskew = scan.job.refines_deskew ? 1 : 0;
   const CandidateMatcher matcher{[&](const Pose& guess, const Matrix6& cov) {
                                    return MatchFully(scan.InputFrom(guess, cov), scan);
                                  },
                                  [&](const Pose& guess, const Matrix6& cov) {
+                                   pick_few();
                                    MatchInput input = scan.InputFrom(guess, cov);
                                    input.points_imu = few_points;
                                    input.tags = few_tags;

@@ -151,7 +151,9 @@ TEST(OdometryScan, JobsCoverTheirSweepAndGuessWhereItWasTaken) {
     const Pose off = motion(middle_s).Inverse() * job.prior.T_map_imu;
     EXPECT_LT(off.translation.norm(), 0.1) << middle_s;
     EXPECT_NEAR(job.prior.since_last_fix_s, 0.1, 0.01);
-    EXPECT_FALSE(std::get<Track>(job.task).aligns_prior);
+    const auto& task = std::get<Relocalize>(job.task);
+    EXPECT_EQ(task.search.region, SearchRegion::kPrior);
+    EXPECT_FALSE(task.track.aligns_prior);
     EXPECT_GT((motion(middle_s).rotation * job.prior.up_map).z(), 0.0);
   }
   EXPECT_GE(num_clearing, 1);
