@@ -5,6 +5,8 @@
 #include <bit>
 #include <utility>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
 
 void Health::AddFusion(EventOutcome outcome) {
@@ -37,7 +39,8 @@ Health::Verdict Health::AddScan(Timestamp sweep_end, const MatchResult& match, i
   }
   Verdict verdict;
   verdict.rebases_map = has_imu_ && sees_enough &&
-                        (match.status == MatchStatus::kTooFewPoints ||
+                        ((match.status == MatchStatus::kTooFewPoints &&
+                          match.num_matched < MatchParameters::kMinMatched) ||
                          num_unmatched_in_a_row_ > kHealth.rebase_after_scans);
   verdict.restarts = num_unmatched_in_a_row_ >= (has_imu_ ? kHealth.restart_after_scans
                                                           : kHealth.restart_after_scans_lidar_only);

@@ -10,6 +10,7 @@
 
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/preintegration.hpp"
+#include "lio/sensor/gap.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/initializing.hpp"
 #include "pipeline/outage.hpp"
@@ -30,7 +31,7 @@ double UnmeasuredTurnStd_rad(std::span<const ImuSample> samples) {
     std_rad += std::max(made_up, is_saturated ? kSaturatedStd_radps : 0.0) *
                SecondsBetween(from.stamp, to.stamp);
   }
-  return std::min(std_rad, kOutage.max_yaw_std_rad);
+  return std_rad;
 }
 
 }  // namespace
@@ -140,12 +141,17 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
 // the buffer, and adds to `doubt` how far it may be off.
 void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const {
   const std::vector<ImuSample> samples = context_.stream.imu().Between(earlier.stamp, now.stamp);
+  const Timestamp first = samples.empty() ? now.stamp : samples.front().stamp;
+  const double unseen_s =
+      first - earlier.stamp >= kImuGap.sparse ? SecondsBetween(earlier.stamp, first) : 0.0;
+  const double turn_std_rad = std::min(
+      kFilterParameters.imu_outage.gap_gyro_std_radps * unseen_s + UnmeasuredTurnStd_rad(samples),
+      kOutage.max_yaw_std_rad);
+  doubt.Add(turn_std_rad * turn_std_rad, earlier.T_world_imu.translation);
   if (samples.empty()) return;
   const Biases biases{now.state.gyro_bias, now.state.accel_bias};
   const Preintegration turn =
       Preintegrate(samples, samples.front().stamp, samples.back().stamp, biases, {});
-  const double gap_std_rad = UnmeasuredTurnStd_rad(samples);
-  doubt.Add(gap_std_rad * gap_std_rad, earlier.T_world_imu.translation);
   earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
   earlier.T_map_imu.rotation = earlier.T_map_imu.rotation * turn.rotation;
 }

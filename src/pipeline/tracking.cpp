@@ -84,9 +84,9 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   } else if (handover_.last_located && IsAfterClockStep(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
-  } else if (handover_.last_located) {
+  } else if (handover_.last_located && !is_map_rebased_) {
     const SearchRegion region =
-        IsWithinReachOfMatching(job.prior.cov) ? SearchRegion::kPrior : SearchRegion::kAnywhere;
+        IsWithinReachOfMatching(job.prior.cov) ? SearchRegion::kPrior : SearchRegion::kObservable;
     job.task = Relocalize{std::get<Track>(job.task), {region, {}}};
   }
   return job;
@@ -120,6 +120,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
       verdict.rebases_map && !is_sought && is_prior_sure && !context_.place.is_inside();
   GrowMap(outcome, report, is_keyframe, rebases_map, insert);
   AddScanAfterOutage(outcome, report.fused);
+  if (rebases_map || report.fused) is_map_rebased_ = rebases_map;
   if (report.fused || starts_map) {
     handover_.last_fused = end;
     handover_.last_located = outcome.sweep->middle();

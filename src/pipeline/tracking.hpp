@@ -95,7 +95,8 @@ class Tracking {
   KeyframePolicy keyframes_;
   ZeroVelocityUpdater zero_velocity_;
   OutageRecovery outage_;
-  bool is_first_scan_;  // of an empty map
+  bool is_first_scan_;           // of an empty map
+  bool is_map_rebased_ = false;  // and no scan has matched it yet
 };
 
 }  // namespace lio

@@ -7,9 +7,6 @@
 // estimators", IJRR 2010).
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include "lio/filter/published_estimate.hpp"
 
 namespace lio {
@@ -18,27 +15,31 @@ class YawDoubt {
  public:
   // The world was turned about `pivot_world` (m) by an unknown angle of this variance (rad^2).
   void Add(double yaw_var, const Vector3& pivot_world) {
-    if (yaw_var > 0.0) turns_.push_back({yaw_var, pivot_world});
+    const Vector3 moved = Vector3::UnitZ().cross(pivot_world);
+    var_ += yaw_var;
+    sum_ += yaw_var * moved;
+    outer_ += yaw_var * moved * moved.transpose();
   }
-  // Adds what the turns make of it to the covariance of an estimate: an unknown angle moves the
-  // position about its pivot, and turns the pose and the velocity.
+  // Adds what the turns make of it to the covariance of an estimate. An angle a moves the position
+  // p by a z x (p - pivot), and turns the pose and the velocity; the sum over all turns of the
+  // squares is written out in the pivots.
   void AddTo(WorldEstimate& estimate) const {
-    for (const Turn& turn : turns_) {
-      Eigen::Matrix<double, kAccelBias, 1> by_yaw = Eigen::Matrix<double, kAccelBias, 1>::Zero();
-      const Vector3 from_pivot = estimate.T_world_imu.translation - turn.pivot_world;
-      by_yaw.segment<3>(kPos) = Vector3::UnitZ().cross(from_pivot);
-      by_yaw.segment<3>(kRot) = estimate.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
-      by_yaw.segment<3>(kVel) = Vector3::UnitZ().cross(estimate.v_world_imu);
-      estimate.cov += turn.var * by_yaw * by_yaw.transpose();
-    }
+    if (var_ <= 0.0) return;
+    Eigen::Matrix<double, kAccelBias, 1> by_yaw = Eigen::Matrix<double, kAccelBias, 1>::Zero();
+    by_yaw.segment<3>(kPos) = Vector3::UnitZ().cross(estimate.T_world_imu.translation);
+    by_yaw.segment<3>(kRot) = estimate.T_world_imu.rotation.conjugate() * Vector3::UnitZ();
+    by_yaw.segment<3>(kVel) = Vector3::UnitZ().cross(estimate.v_world_imu);
+    estimate.cov += var_ * by_yaw * by_yaw.transpose();
+    const Eigen::Matrix<double, kAccelBias, 3> cross = by_yaw * sum_.transpose();
+    estimate.cov.middleCols<3>(kPos) -= cross;
+    estimate.cov.middleRows<3>(kPos) -= cross.transpose();
+    estimate.cov.block<3, 3>(kPos, kPos) += outer_;
   }
 
  private:
-  struct Turn {
-    double var = 0.0;  // rad^2
-    Vector3 pivot_world;
-  };
-  std::vector<Turn> turns_;
+  double var_ = 0.0;                 // rad^2, of all turns together
+  Vector3 sum_ = Vector3::Zero();    // of variance times z x pivot
+  Matrix3 outer_ = Matrix3::Zero();  // of variance times its square
 };
 
 }  // namespace lio

@@ -42,8 +42,11 @@ bool HasPlenty(const MatchResult& match, const MatchResult& last) {
 }
 
 bool IsLikely(const MatchResult& match, const MatchResult& last) {
-  return HasPlenty(match, last) && static_cast<double>(match.num_matched) * last.num_in_map >=
-                                       kVerify.likely_share * last.num_matched * match.num_in_map;
+  const bool is_observable = match.degenerate_mask == 0 || last.degenerate_mask != 0;
+  const bool has_shares = last.num_in_map > 0;  // as the method ndt counts
+  return has_shares && is_observable && HasPlenty(match, last) &&
+         static_cast<double>(match.num_matched) * last.num_in_map >=
+             kVerify.likely_share * last.num_matched * match.num_in_map;
 }
 
 bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last) {

@@ -15,9 +15,9 @@ namespace lio {
 // Do nearly as many points lie on surfaces as of the last scan?
 [[nodiscard]] bool HasPlenty(const MatchResult& match, const MatchResult& last);
 
-// So many points, and more of them on surfaces than at any wrong place that was measured: where the
-// scan may be bent by a motion that nobody measured, no more can be asked of the pose next to where
-// it was predicted.
+// From an unsure prior: has it so many points, and more of them on surfaces than at any wrong place
+// that was measured? A scan that is bent by a motion that nobody measured cannot show more. No
+// direction may be degenerate unless the last scan had one.
 [[nodiscard]] bool IsLikely(const MatchResult& match, const MatchResult& last);
 
 // The same far from the prior: bare ground agrees everywhere, so that no direction may be

@@ -62,10 +62,17 @@ void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
 }
 
 // The motion in a gap is as far from the one before as that of the last seconds was, per axis.
+// Never zero, so that a made-up sample is told from a measured one.
 float ImuBuffer::StdAround(const Vector3& mean, Vector3 ImuSample::*value) const {
-  double sum_sq = 0.0;
-  for (const ImuSample& sample : sent_) sum_sq += (sample.*value - mean).squaredNorm();
-  return static_cast<float>(std::sqrt(sum_sq / (3.0 * static_cast<double>(sent_.size()))));
+  double sum_sq = kStream.min_made_up_std * kStream.min_made_up_std;
+  int num_samples = 1;
+  for (const ImuSample& sample : sent_) {
+    const bool is_readable = ToSi(convention_, sample).w_imu_radps.norm() <= kMaxGyroRate_radps;
+    if (sample.is_made_up() || !is_readable) continue;
+    sum_sq += (sample.*value - mean).squaredNorm();
+    ++num_samples;
+  }
+  return static_cast<float>(std::sqrt(sum_sq / (3.0 * num_samples)));
 }
 
 void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {

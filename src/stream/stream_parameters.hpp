@@ -16,6 +16,9 @@ struct StreamParameters {
   // Made-up samples stand this far from the measured ones at both edges of a gap. Chosen: less than
   // the period of any unit, so that the line between them takes no time.
   Duration gap_edge{1'000'000};
+  // rad/s and m/s^2. The least deviation that a made-up sample states, weighed as that of one
+  // sample. Chosen: far below any unit's noise.
+  double min_made_up_std = 1e-3;
   // s. Raw samples that are kept for an initialization that looks back, twice. Chosen: 3.5 s of
   // sweeps (InitializingParameters::max_window_s), and margin for those that wait.
   double imu_buffer_s = 6.0;

@@ -341,6 +341,30 @@ TEST(FilterHistory, GapGrowsWithTheSquareOfItsTimeWhateverStepsItIsMadeIn) {
   EXPECT_NEAR(split.head().cov(kRot, kRot) - start, grown, 0.02 * grown);
 }
 
+// To look into a gap is to make a step that tells nothing.
+TEST(FilterHistory, TheEstimateWithinAGapIsThatOfAStepThere) {
+  FilterHistory history = StartedHistory();
+  EXPECT_EQ(history.AddNoise(StampAt(0.1), {}), EventOutcome::kApplied);
+  ImuSample sample = SampleAt(0.4);
+  sample.made_up_w_std_radps = 2.f;
+  EXPECT_EQ(history.AddImu(sample), EventOutcome::kApplied);
+  const ErrorMatrix looked_at = history.At(StampAt(0.25)).cov;
+  EXPECT_EQ(history.AddNoise(StampAt(0.25), {}), EventOutcome::kApplied);
+  EXPECT_NEAR((history.At(StampAt(0.25)).cov - looked_at).norm(), 0.0, 1e-12 * looked_at.norm());
+}
+
+// The samples of a slow unit are 50 ms apart: each pair has a gap of its own between them.
+TEST(FilterHistory, AMeasuredSampleEndsAGap) {
+  FilterHistory history = StartedHistory();
+  const double start = StartEstimate().cov(kRot, kRot);
+  for (int k = 1; k <= 20; ++k) {
+    EXPECT_EQ(history.AddImu(SampleAt(0.05 * k)), EventOutcome::kApplied);
+  }
+  const double std_radps = HistoryOptions{}.imu_outage.gap_gyro_std_radps;
+  const double grown = history.head().cov(kRot, kRot) - start;
+  EXPECT_NEAR(grown, 20.0 * std::pow(0.05 * std_radps, 2), 0.2 * grown);
+}
+
 // Noise counts from its own stamp on, whether it was known then or later.
 TEST(FilterHistory, NoiseThatTheSensorShowsCountsFromItsStampOn) {
   const ImuNoise shaken{Vector3::Constant(0.01), Vector3(1.0, 2.0, 3.0)};

@@ -90,6 +90,21 @@ TEST_F(EstimateReportTest, AnUnknownYawOfTheWorldStandsInEveryCovariance) {
   EXPECT_EQ(unsure.nav.map_pose_cov, sure.nav.map_pose_cov) << "nothing turned in the map";
 }
 
+TEST_F(EstimateReportTest, UnknownYawsAboutSeveralPivotsAddUp) {
+  const Matrix6 sure = MakeFilterReport(estimate_, {}, Context()).nav.pose_cov;
+  Matrix6 sum = Matrix6::Zero();
+  YawDoubt both;
+  for (const Vector3& pivot : {Vector3(3, -2, 1), Vector3(-40, 7, 2)}) {
+    yaw_doubt_ = {};
+    yaw_doubt_.Add(0.3, pivot);
+    both.Add(0.3, pivot);
+    sum += MakeFilterReport(estimate_, {}, Context()).nav.pose_cov - sure;
+  }
+  yaw_doubt_ = both;
+  const Matrix6 together = MakeFilterReport(estimate_, {}, Context()).nav.pose_cov - sure;
+  EXPECT_LT((together - sum).norm(), 1e-9 * sum.norm());
+}
+
 TEST_F(EstimateReportTest, WithoutGravityTheMapIsTheWorld) {
   const NavOutput nav = MakeNav(estimate_, Context(kNoGravity));
   const NavState& state = estimate_.state;

@@ -69,6 +69,16 @@ TEST_F(HealthTest, AScanThatBeginsTheMapCountsAsFused) {
   EXPECT_EQ(counters_.num_matches_rejected, 0);
 }
 
+// A bus alongside hides half of the map: that is no end of it.
+TEST_F(HealthTest, AMatchThatWasRefusedDoesNotEndTheMapAtOnce) {
+  Health health = With(true);
+  MatchResult refused = Match(MatchStatus::kTooFewPoints);
+  refused.num_matched = 800;
+  EXPECT_FALSE(health.AddScan(At(10.1), refused, kManyPoints, false).rebases_map);
+  refused.num_matched = 49;
+  EXPECT_TRUE(health.AddScan(At(10.2), refused, kManyPoints, false).rebases_map);
+}
+
 TEST_F(HealthTest, AMatchThatWasNotFusedIsNoMatch) {
   Health health = With(true);
   (void)health.AddScan(At(10.1), kGood, kManyPoints, false);

@@ -110,6 +110,8 @@ class FilterHistory {
   void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, double in_gap_s) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
   bool IsInGap(Timestamp stamp, std::size_t at) const;
+  // Gives Node::in_gap_s at `stamp`, just before the node of index `at`.
+  double InGap_s(Timestamp stamp, std::size_t at) const;
   // The sample at `stamp`, interpolated between the node before index `at` and the first measured
   // sample from `at` on.
   ImuSample SampleAt(Timestamp stamp, std::size_t at) const;

@@ -16,10 +16,11 @@ struct ImuSample {
   Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
   bool is_rate_saturated = false;   // an axis is at the end of its range: the true rate is larger
   bool is_force_saturated = false;  // likewise for the force
-  // A made-up sample that fills a gap: so far may the true rate and force be off for all of the
-  // gap, 1 sigma per axis. Zero for a measured one.
+  // The true rate and force may be so far off, for all of a gap that a made-up sample fills, 1
+  // sigma per axis. Zero for a measured one.
   float made_up_w_std_radps = 0.f;
   float made_up_f_std_mps2 = 0.f;
+  bool is_made_up() const { return made_up_w_std_radps > 0.f; }
   std::int32_t seq = 0;  // the sender's number: one more for each sample, where it counts
 };
 
