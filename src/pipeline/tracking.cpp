@@ -85,9 +85,7 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
   } else if (handover_.last_located && !is_map_rebased_) {
-    const SearchRegion region =
-        IsWithinReachOfMatching(job.prior.cov) ? SearchRegion::kPrior : SearchRegion::kObservable;
-    job.task = Relocalize{std::get<Track>(job.task), {region, {}}};
+    job.task = Relocalize{std::get<Track>(job.task), {SearchRegion::kTracked, {}}};
   }
   return job;
 }

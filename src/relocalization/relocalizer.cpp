@@ -97,11 +97,14 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
   const MatchResult& last = last_->match;
   if (request.region == SearchRegion::kAlternative) return;
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
-  const bool is_near_prior = found.match.IsUsable() && IsWithinReachOfMatching(prior.cov);
+  const bool is_tracked = request.region == SearchRegion::kTracked;
+  const bool is_prior_sure = IsWithinReachOfMatching(prior.cov);
+  const bool is_near_prior = found.match.IsUsable() && is_prior_sure;
   if (is_near_prior && HasPlenty(found.match, last)) return;
   if (found.match.IsUsable() && IsLikely(found.match, last)) return;
-  if (request.region == SearchRegion::kPrior && !is_near_prior) return;
-  if (!is_near_prior && !IsVerifiedBeyondDoubt(found.match, last)) {
+  if (is_tracked && is_prior_sure && !is_near_prior) return;
+  const bool may_be_elsewhere = !is_near_prior && !(is_tracked && last.degenerate_mask != 0);
+  if (may_be_elsewhere && !IsVerifiedBeyondDoubt(found.match, last)) {
     TryPlaces(request, scan, prior, matcher, found);
   }
   if (IsVerified(found.match, last)) {

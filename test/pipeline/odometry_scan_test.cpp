@@ -152,7 +152,7 @@ TEST(OdometryScan, JobsCoverTheirSweepAndGuessWhereItWasTaken) {
     EXPECT_LT(off.translation.norm(), 0.1) << middle_s;
     EXPECT_NEAR(job.prior.since_last_fix_s, 0.1, 0.01);
     const auto& task = std::get<Relocalize>(job.task);
-    EXPECT_EQ(task.search.region, SearchRegion::kPrior);
+    EXPECT_EQ(task.search.region, SearchRegion::kTracked);
     EXPECT_FALSE(task.track.aligns_prior);
     EXPECT_GT((motion(middle_s).rotation * job.prior.up_map).z(), 0.0);
   }

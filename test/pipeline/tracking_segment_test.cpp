@@ -37,7 +37,7 @@ struct AfterOneSecond : test::AfterOneSecond {
 // Is the scan sought anywhere but at its prior?
 bool IsSought(const MatchJob& job) {
   const auto* task = std::get_if<Relocalize>(&job.task);
-  return task != nullptr && task->search.region != SearchRegion::kPrior;
+  return task != nullptr && task->search.region != SearchRegion::kTracked;
 }
 
 TEST(TrackingSegment, StateGoesOnAlongItsVelocityOverAGap) {

@@ -119,12 +119,22 @@ TEST_F(RelocalizerTest, AMatchFromASurePriorIsBelieved) {
 }
 
 TEST_F(RelocalizerTest, AMatchThatLostHalfOfItsSupportIsNotBelievedFromASurePriorEither) {
-  for (const SearchRegion region : {SearchRegion::kPrior, SearchRegion::kAnywhere}) {
+  for (const SearchRegion region : {SearchRegion::kTracked, SearchRegion::kAnywhere}) {
     matcher_.num_matches = 0;
     const auto found = Search({region, {}}, PriorAt(At(3, 3, 0), 0.1, 0.01));
     EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints);
     EXPECT_EQ(matcher_.num_matches, 1) << "nothing is searched for";
   }
+}
+
+TEST_F(RelocalizerTest, ATrackedScanIsSoughtUnlessTheLastOneWasDegenerate) {
+  EXPECT_TRUE(Search({SearchRegion::kTracked, {}}, far_prior_).is_relocalized);
+  MatchResult degenerate = Matched(earlier_, 0.98);
+  degenerate.degenerate_mask = 1u;
+  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), degenerate);
+  const auto found = Search({SearchRegion::kTracked, {}}, far_prior_);
+  EXPECT_FALSE(found.is_relocalized);
+  EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints) << "it is checked all the same";
 }
 
 TEST_F(RelocalizerTest, ABentScanNearAnUnsurePriorIsBelievedWithMostOfItsSupport) {

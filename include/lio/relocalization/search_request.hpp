@@ -11,11 +11,13 @@
 namespace lio {
 
 enum class SearchRegion : std::int8_t {
-  kPrior,        // nowhere: the match from the prior is only checked against the last scan's
   kAlternative,  // nowhere but at the alternative prior
   // Anywhere, unless the last located scan had degenerate directions: there inertial prediction is
   // better than a search.
   kObservable,
+  // For scans that inertial prediction tracks: a match near a sure prior is only checked, and from
+  // an unsure one the scan is sought, unless the last located one had degenerate directions.
+  kTracked,
   kAnywhere,
 };
 
