@@ -156,8 +156,8 @@ TEST(ImuBuffer, AMadeUpSampleSaysHowFarTheMotionBeforeWasFromItsMean) {
   }
   const std::vector<ImuReady> ready = buffer.Add(Reading(4.6, Vector3::Zero()));
   ASSERT_EQ(ready.size(), 3u);
-  EXPECT_NEAR(ready[0].sample.made_up_w_std_radps, 1.0 / std::sqrt(3.0), 0.01);
-  EXPECT_NEAR(ready[0].sample.made_up_f_std_mps2, 0.0, 1e-6);
+  EXPECT_NEAR(ready[0].sample.made_up_w_std_radps, 1.0 / std::sqrt(3.0), 0.02);
+  EXPECT_NEAR(ready[0].sample.made_up_f_std_mps2, 0.0, 1e-3);
   EXPECT_EQ(ready[2].sample.made_up_w_std_radps, 0.f) << "it was measured";
 }
 
