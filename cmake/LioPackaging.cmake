@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# What makes liod a service of a Debian machine: the systemd unit, the sysctl file that a user may
+# These files make liod a service of a Debian machine: the systemd unit, the sysctl file a user may
 # copy, manual pages (where help2man is), and the Debian package that cpack makes.
 configure_file(${CMAKE_SOURCE_DIR}/packaging/liod.service.in ${CMAKE_BINARY_DIR}/liod.service @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/liod.service DESTINATION lib/systemd/system)
@@ -54,7 +54,7 @@ set(CPACK_COMPONENT_LIOD-DOC_DESCRIPTION
   "Messages, configuration, design and results of liod, and examples.")
 include(CPack)
 
-# What Debian wants of every package: its licence and its changes.
+# Debian wants the licence and the changes in every package.
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC) # follows SOURCE_DATE_EPOCH
 file(WRITE ${CMAKE_BINARY_DIR}/packaging/changelog
   "liod (${PROJECT_VERSION}) unstable; urgency=medium\n\n"

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bag_limits.hpp"
+#include "chunked_reader.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/printable.hpp"
@@ -19,21 +20,14 @@
 namespace lio {
 namespace {
 
-class McapReader : public BagReader {
+class McapReader : public ChunkedReader {
  public:
   explicit McapReader(const std::filesystem::path& path);
 
   const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
   bool knows_all_topics() const override { return knows_all_topics_; }
-  void Select(std::function<bool(const BagTopic&)> wanted) override { wanted_ = std::move(wanted); }
-  bool Next(BagMessage& message) override;
-  const BagDamage& damage() const override { return damage_; }
-  std::optional<Timestamp> begin_time() const override { return begin_time_; }
-  std::int64_t position_bytes() const override { return static_cast<std::int64_t>(position_); }
-  std::int64_t size_bytes() const override { return static_cast<std::int64_t>(size_); }
 
  private:
-  enum class Step { kMessage, kGoOn, kEnd };
   struct Chunk {
     McapChunkHeader header;
     std::uint64_t begin = 0;  // file positions of the present chunk's stored records
@@ -43,37 +37,24 @@ class McapReader : public BagReader {
     std::uint64_t understood = 0;  // bytes of the chunk's records that were sound
   };
 
-  Step StepOutside(BagMessage& message);
-  Step StepInside(BagMessage& message);
+  Step StepOutside(BagMessage& message) override;
+  Step StepInside(BagMessage& message) override;
   void EnterChunk(const McapRecord& record);
   [[nodiscard]] std::unique_ptr<ByteSource> OpenChunk();
   [[nodiscard]] bool IsChunkSound();
   void DropChunk(const std::string& reason);
   void LeaveChunk(RecordStatus status);
-  void GoOnBehindChunk();
   Step TakeMessage(const McapRecord& record, ByteSource& source, BagMessage& message);
   [[nodiscard]] bool TakeDefinition(const McapRecord& record, ByteSource& source);
   Step EndOfFile(const std::string& reason);
-  void Finish();
-  void Damage(const std::string& reason);
-  std::uint64_t Here() { return static_cast<std::uint64_t>(file_.tellg()); }
+  void CountMissing() override;
 
-  std::ifstream file_;
-  std::uint64_t size_ = 0;
-  std::uint64_t position_ = 0;  // start of the outer record being read
-  std::unique_ptr<FileSpan> outside_;
-  std::unique_ptr<ByteSource> inside_;  // content of the present chunk
   Chunk chunk_;
-  bool finished_ = false;
 
   McapSummary summary_;
   McapTopics topics_;
   bool knows_all_topics_ = false;
   std::uint64_t num_messages_ = 0;
-  std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
-  std::optional<Timestamp> begin_time_;
-  std::vector<std::uint8_t> buffer_;
-  BagDamage damage_;
 };
 
 McapReader::McapReader(const std::filesystem::path& path) {
@@ -96,16 +77,7 @@ McapReader::McapReader(const std::filesystem::path& path) {
   outside_ = std::make_unique<FileSpan>(file_, size_ - position_);
 }
 
-bool McapReader::Next(BagMessage& message) {
-  while (!finished_) {
-    const Step step = inside_ ? StepInside(message) : StepOutside(message);
-    if (step == Step::kMessage) return true;
-    if (step == Step::kEnd) Finish();
-  }
-  return false;
-}
-
-McapReader::Step McapReader::StepOutside(BagMessage& message) {
+ChunkedReader::Step McapReader::StepOutside(BagMessage& message) {
   position_ = Here();
   McapRecord record;
   const RecordStatus status = ReadMcapRecord(*outside_, record);
@@ -136,7 +108,7 @@ McapReader::Step McapReader::StepOutside(BagMessage& message) {
 }
 
 // Nothing more can be read from `position_` on.
-McapReader::Step McapReader::EndOfFile(const std::string& reason) {
+ChunkedReader::Step McapReader::EndOfFile(const std::string& reason) {
   damage_.cut_short = true;
   damage_.lost_bytes += static_cast<std::int64_t>(size_ - position_);
   Damage(reason);
@@ -195,10 +167,10 @@ void McapReader::DropChunk(const std::string& reason) {
   damage_.cut_short = damage_.cut_short || chunk_.missing > 0;
   damage_.lost_bytes += static_cast<std::int64_t>(chunk_.end + chunk_.missing - position_);
   Damage(reason);
-  GoOnBehindChunk();
+  GoOnBehindChunk(chunk_.end);
 }
 
-McapReader::Step McapReader::StepInside(BagMessage& message) {
+ChunkedReader::Step McapReader::StepInside(BagMessage& message) {
   chunk_.understood = inside_->num_delivered();
   McapRecord record;
   RecordStatus status = ReadMcapRecord(*inside_, record);
@@ -223,26 +195,14 @@ void McapReader::LeaveChunk(RecordStatus status) {
   if (status != RecordStatus::kEnd) {
     if (chunk_.missing == 0) ++damage_.num_chunks_damaged;
     Damage("a broken chunk");
-    const double understood_ratio =
-        chunk_.header.inflated_bytes == 0
-            ? 0.0
-            : std::min(1.0, static_cast<double>(chunk_.understood) /
-                                static_cast<double>(chunk_.header.inflated_bytes));
-    damage_.lost_bytes += static_cast<std::int64_t>(
-        static_cast<double>(chunk_.end - chunk_.begin + chunk_.missing) * (1.0 - understood_ratio));
+    damage_.lost_bytes += LostBytes(chunk_.end - chunk_.begin + chunk_.missing, chunk_.understood,
+                                    chunk_.header.inflated_bytes);
   }
-  GoOnBehindChunk();
+  GoOnBehindChunk(chunk_.end);
 }
 
-void McapReader::GoOnBehindChunk() {
-  inside_.reset();
-  file_.clear();
-  file_.seekg(static_cast<std::streamoff>(chunk_.end));
-  outside_ = std::make_unique<FileSpan>(file_, size_ - chunk_.end);
-}
-
-McapReader::Step McapReader::TakeMessage(const McapRecord& record, ByteSource& source,
-                                         BagMessage& message) {
+ChunkedReader::Step McapReader::TakeMessage(const McapRecord& record, ByteSource& source,
+                                            BagMessage& message) {
   const bool has_header = record.content_bytes >= kMcapMessageHeaderBytes;
   const auto header = has_header ? ReadMcapMessageHeader(source) : std::nullopt;
   const auto topic = header ? topics_.IndexOf(header->channel) : std::nullopt;
@@ -289,9 +249,7 @@ bool McapReader::TakeDefinition(const McapRecord& record, ByteSource& source) {
   return true;
 }
 
-void McapReader::Finish() {
-  finished_ = true;
-  position_ = size_;
+void McapReader::CountMissing() {
   if (!summary_.statistics || num_messages_ >= summary_.statistics->num_messages) return;
   const std::uint64_t missing = summary_.statistics->num_messages - num_messages_;
   constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
@@ -299,11 +257,6 @@ void McapReader::Finish() {
   damage_.cut_short = damage_.cut_short || !damage_.Any();
   Damage(std::to_string(num_messages_) + " of " +
          std::to_string(summary_.statistics->num_messages) + " messages exist");
-}
-
-void McapReader::Damage(const std::string& reason) {
-  if (!damage_.first_reason.empty()) return;
-  damage_.first_reason = reason + " at byte " + std::to_string(position_);
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <map>
 
 #include "bag_limits.hpp"
-#include "byte_source.hpp"
-#include "lio/convert/bag_reader.hpp"
+#include "chunked_reader.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/printable.hpp"
@@ -19,21 +18,14 @@ namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 
-class Rosbag1Reader : public BagReader {
+class Rosbag1Reader : public ChunkedReader {
  public:
   explicit Rosbag1Reader(const std::filesystem::path& path);
 
   const std::vector<BagTopic>& topics() const override { return topics_; }
   bool knows_all_topics() const override { return knows_all_topics_; }
-  void Select(std::function<bool(const BagTopic&)> wanted) override { wanted_ = std::move(wanted); }
-  bool Next(BagMessage& message) override;
-  const BagDamage& damage() const override { return damage_; }
-  std::optional<Timestamp> begin_time() const override { return begin_time_; }
-  std::int64_t position_bytes() const override { return static_cast<std::int64_t>(position_); }
-  std::int64_t size_bytes() const override { return static_cast<std::int64_t>(size_); }
 
  private:
-  enum class Step { kMessage, kGoOn, kEnd };
   struct Chunk {
     std::uint64_t begin = 0;  // file positions of the present chunk's data
     std::uint64_t end = 0;
@@ -44,23 +36,15 @@ class Rosbag1Reader : public BagReader {
 
   void ReadBagHeader();
   void ReadTopicsOfIndex();
-  Step StepOutside(BagMessage& message);
-  Step StepInside(BagMessage& message);
+  Step StepOutside(BagMessage& message) override;
+  Step StepInside(BagMessage& message) override;
   void EnterChunk(const RecordHeader& header);
   void LeaveChunk(RecordStatus status);
   Step TakeMessage(const RecordHeader& header, ByteSource& source, BagMessage& message);
   bool TakeConnection(const RecordHeader& header, ByteSource& source);
-  void Finish();
-  void Damage(const std::string& reason);
-  std::uint64_t Here() { return static_cast<std::uint64_t>(file_.tellg()); }
+  void CountMissing() override;
 
-  std::ifstream file_;
-  std::uint64_t size_ = 0;
-  std::uint64_t position_ = 0;  // start of the outer record being read
-  std::unique_ptr<FileSpan> outside_;
-  std::unique_ptr<ByteSource> inside_;  // content of the present chunk
   Chunk chunk_;
-  bool finished_ = false;
 
   RecordHeader bag_header_;
   std::uint32_t num_chunks_ = 0;
@@ -68,10 +52,6 @@ class Rosbag1Reader : public BagReader {
   std::vector<BagTopic> topics_;
   bool knows_all_topics_ = false;
   std::map<std::uint32_t, std::size_t> topic_of_connection_;
-  std::function<bool(const BagTopic&)> wanted_ = [](const BagTopic&) { return true; };
-  std::optional<Timestamp> begin_time_;
-  std::vector<std::uint8_t> buffer_;
-  BagDamage damage_;
 };
 
 Rosbag1Reader::Rosbag1Reader(const std::filesystem::path& path) {
@@ -120,16 +100,7 @@ void Rosbag1Reader::ReadTopicsOfIndex() {
   file_.seekg(static_cast<std::streamoff>(here));
 }
 
-bool Rosbag1Reader::Next(BagMessage& message) {
-  while (!finished_) {
-    const Step step = inside_ ? StepInside(message) : StepOutside(message);
-    if (step == Step::kMessage) return true;
-    if (step == Step::kEnd) Finish();
-  }
-  return false;
-}
-
-Rosbag1Reader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
+ChunkedReader::Step Rosbag1Reader::StepOutside(BagMessage& message) {
   position_ = Here();
   RecordHeader header;
   const RecordStatus status = ReadRecordHeader(*outside_, header);
@@ -190,7 +161,7 @@ void Rosbag1Reader::EnterChunk(const RecordHeader& header) {
   }
 }
 
-Rosbag1Reader::Step Rosbag1Reader::StepInside(BagMessage& message) {
+ChunkedReader::Step Rosbag1Reader::StepInside(BagMessage& message) {
   chunk_.understood = inside_->num_delivered();
   RecordHeader header;
   const RecordStatus status = ReadRecordHeader(*inside_, header);
@@ -214,20 +185,12 @@ void Rosbag1Reader::LeaveChunk(RecordStatus status) {
   } else if (status != RecordStatus::kEnd) {
     ++damage_.num_chunks_damaged;
     Damage("broken chunk");
-    const double understood_ratio = chunk_.inflated == 0
-                                        ? 0.0
-                                        : std::min(1.0, static_cast<double>(chunk_.understood) /
-                                                            static_cast<double>(chunk_.inflated));
-    damage_.lost_bytes += static_cast<std::int64_t>(static_cast<double>(chunk_.end - chunk_.begin) *
-                                                    (1.0 - understood_ratio));
+    damage_.lost_bytes += LostBytes(chunk_.end - chunk_.begin, chunk_.understood, chunk_.inflated);
   }
-  inside_.reset();
-  file_.clear();
-  file_.seekg(static_cast<std::streamoff>(chunk_.end));
-  outside_ = std::make_unique<FileSpan>(file_, size_ - chunk_.end);
+  GoOnBehindChunk(chunk_.end);
 }
 
-Rosbag1Reader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteSource& source,
+ChunkedReader::Step Rosbag1Reader::TakeMessage(const RecordHeader& header, ByteSource& source,
                                                BagMessage& message) {
   const auto topic = header.connection ? topic_of_connection_.find(*header.connection)
                                        : topic_of_connection_.end();
@@ -281,9 +244,7 @@ bool Rosbag1Reader::TakeConnection(const RecordHeader& header, ByteSource& sourc
   return true;
 }
 
-void Rosbag1Reader::Finish() {
-  finished_ = true;
-  position_ = size_;
+void Rosbag1Reader::CountMissing() {
   const std::uint64_t index = bag_header_.index_position.value_or(0);
   const std::uint64_t missing = std::max(chunk_.missing, index > size_ ? index - size_ : 0);
   if (missing > 0) damage_.cut_short = true;
@@ -295,11 +256,6 @@ void Rosbag1Reader::Finish() {
     Damage(std::to_string(num_chunks_) + " of " + std::to_string(bag_header_.num_chunks) +
            " chunks exist");
   }
-}
-
-void Rosbag1Reader::Damage(const std::string& reason) {
-  if (!damage_.first_reason.empty()) return;
-  damage_.first_reason = reason + " at byte " + std::to_string(position_);
 }
 
 }  // namespace

@@ -21,6 +21,10 @@ WorldEstimate WithDoubt(WorldEstimate estimate, const ReportContext& context) {
   return estimate;
 }
 
+WorldEstimate Published(const Estimate& estimate, const ReportContext& context) {
+  return WithDoubt(InPublishedWorld(estimate, context.g_world), context);
+}
+
 // The variance of the noise in the published rate: white noise of the gyro's density over the time
 // of one sample [(rad/s)^2].
 double RateVariance(Timestamp stamp, const ReportContext& context) {
@@ -40,7 +44,7 @@ NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
   nav.stamp = estimate.stamp;
   nav.scan_seq = context.last_seq;
   nav.status = context.status;
-  const WorldEstimate published = WithDoubt(InPublishedWorld(estimate, context.g_world), context);
+  const WorldEstimate published = Published(estimate, context);
   nav.T_world_imu = published.T_world_imu;
   nav.pose_cov = published.cov.topLeftCorner<6, 6>();
   nav.v_world_imu_mps = published.v_world_imu;
@@ -74,8 +78,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov.topLeftCorner<kMapStart, kMapStart>();
-  filter.cov.topLeftCorner<kAccelBias, kAccelBias>() =
-      WithDoubt(InPublishedWorld(estimate, context.g_world), context).cov;
+  filter.cov.topLeftCorner<kAccelBias, kAccelBias>() = Published(estimate, context).cov;
   return filter;
 }
 

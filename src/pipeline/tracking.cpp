@@ -106,7 +106,6 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
   const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
                            keyframes_.IsKeyframe(outcome.match.T_map_imu);
-  const bool is_prior_sure = IsPriorSure(outcome.sweep->middle());
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   ScanReport report = Fuse(outcome, is_keyframe);
   UpdateBesides(outcome, report.fused, noise);
@@ -114,8 +113,8 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
   // An initial map is not of this path, so it never goes on from a prediction; nor does a map from
   // one that may be anywhere.
-  const bool rebases_map =
-      verdict.rebases_map && !is_sought && is_prior_sure && !context_.place.is_inside();
+  const bool rebases_map = verdict.rebases_map && !is_sought && !context_.place.is_inside() &&
+                           IsPriorSure(outcome.sweep->middle());
   GrowMap(outcome, report, is_keyframe, rebases_map, insert);
   AddScanAfterOutage(outcome, report.fused);
   if (rebases_map || report.fused) is_map_rebased_ = rebases_map;

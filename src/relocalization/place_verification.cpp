@@ -3,7 +3,6 @@
 #include "relocalization/place_verification.hpp"
 
 #include "lio/relocalization/parameters.hpp"
-#include "lio/relocalization/relocalizer.hpp"
 
 namespace lio {
 namespace {
@@ -15,26 +14,28 @@ bool Oscillates(const MatchResult& match) {
   return match.status == MatchStatus::kMaxIterations && match.num_in_map > 0;
 }
 
-}  // namespace
-
-bool IsWithinReachOfMatching(const Matrix6& prior_cov) {
-  const double translation_var = prior_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
-  const double rotation_var = prior_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  return translation_var + kVerify.lever_m * kVerify.lever_m * rotation_var <
-         kVerify.max_prior_std_m * kVerify.max_prior_std_m;
+// Does at least this share of the last scan's share of points lie on surfaces?
+bool HasShare(const MatchResult& match, const MatchResult& last, double share) {
+  return static_cast<double>(match.num_matched) * last.num_in_map >=
+         share * static_cast<double>(last.num_matched) * match.num_in_map;
 }
+
+// No direction is degenerate unless the last scan had one.
+bool IsAsObservable(const MatchResult& match, const MatchResult& last) {
+  return match.degenerate_mask == 0 || last.degenerate_mask != 0;
+}
+
+}  // namespace
 
 bool IsVerified(const MatchResult& match, const MatchResult& last) {
   if (!match.IsUsable() && !Oscillates(match)) return false;
   if (last.num_matched == 0) return true;  // the last scan began the map
-  const bool is_on_surfaces =
-      static_cast<double>(match.num_matched) * last.num_in_map >=
-      kVerify.min_share * static_cast<double>(last.num_matched) * match.num_in_map;
-  return is_on_surfaces && match.num_matched >= kVerify.min_number * last.num_matched;
+  return HasShare(match, last, kVerify.min_share) &&
+         match.num_matched >= kVerify.min_number * last.num_matched;
 }
 
 bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last) {
-  return IsVerified(match, last) && (match.degenerate_mask == 0 || last.degenerate_mask != 0);
+  return IsVerified(match, last) && IsAsObservable(match, last);
 }
 
 bool HasPlenty(const MatchResult& match, const MatchResult& last) {
@@ -42,11 +43,9 @@ bool HasPlenty(const MatchResult& match, const MatchResult& last) {
 }
 
 bool IsLikely(const MatchResult& match, const MatchResult& last) {
-  const bool is_observable = match.degenerate_mask == 0 || last.degenerate_mask != 0;
   const bool has_shares = last.num_in_map > 0;  // as the method ndt counts
-  return has_shares && is_observable && HasPlenty(match, last) &&
-         static_cast<double>(match.num_matched) * last.num_in_map >=
-             kVerify.likely_share * last.num_matched * match.num_in_map;
+  return has_shares && IsAsObservable(match, last) && HasPlenty(match, last) &&
+         HasShare(match, last, kVerify.likely_share);
 }
 
 bool IsVerifiedBeyondDoubt(const MatchResult& match, const MatchResult& last) {

@@ -47,6 +47,14 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
 
 }  // namespace
 
+bool IsWithinReachOfMatching(const Matrix6& prior_cov) {
+  constexpr PlaceVerificationParameters kReach = kRelocalization.verification;
+  const double translation_var = prior_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  const double rotation_var = prior_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  return translation_var + kReach.lever_m * kReach.lever_m * rotation_var <
+         kReach.max_prior_std_m * kReach.max_prior_std_m;
+}
+
 std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
                                                  const MotionPrior& prior) {
   const Quaternion R_level_map = LevelFromMap(prior.up_map);
@@ -99,9 +107,11 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
   const bool is_tracked = request.region == SearchRegion::kTracked;
   const bool is_prior_sure = IsWithinReachOfMatching(prior.cov);
-  const bool is_near_prior = found.match.IsUsable() && is_prior_sure;
-  if (is_near_prior && HasPlenty(found.match, last)) return;
-  if (found.match.IsUsable() && IsLikely(found.match, last)) return;
+  const bool is_near_prior = is_prior_sure && found.match.IsUsable();
+  if (is_near_prior ? HasPlenty(found.match, last)
+                    : found.match.IsUsable() && IsLikely(found.match, last)) {
+    return;
+  }
   if (is_tracked && is_prior_sure && !is_near_prior) return;
   const bool may_be_elsewhere = !is_near_prior && !(is_tracked && last.degenerate_mask != 0);
   if (may_be_elsewhere && !IsVerifiedBeyondDoubt(found.match, last)) {

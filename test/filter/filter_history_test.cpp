@@ -236,15 +236,6 @@ TEST(FilterHistory, TrajectoryOfNoLengthIsOnePose) {
   EXPECT_EQ(history.Trajectory(StampAt(0.1), StampAt(0.1)).size(), 1u);
 }
 
-TEST(FilterHistory, GapInTheSamplesWidensTheCovariance) {
-  FilterHistory with_gap = StartedHistory();
-  FilterHistory without = StartedHistory();
-  AddImuUpTo(without, 0.6);
-  EXPECT_EQ(with_gap.AddImu(SampleAt(0.6)), EventOutcome::kApplied);
-  EXPECT_GT(with_gap.head().cov(kVel, kVel), 10 * without.head().cov(kVel, kVel));
-  EXPECT_GT(with_gap.head().cov(kRot, kRot), 10 * without.head().cov(kRot, kRot));
-}
-
 TEST(FilterHistory, SaturationWidensTheCovarianceOfItsSensorOnly) {
   const auto after = [](bool rate, bool force) {
     FilterHistory history = StartedHistory();
@@ -304,65 +295,6 @@ TEST(FilterHistory, PosesAreFusedThoughTheGyrosScaleIsWrong) {
   }
   EXPECT_EQ(num_refused_late, 0);
   EXPECT_GT(history.RateErrorStd(StampAt(5.5)), 2e-3 * kRate_radps);  // sin(11) is -1
-}
-
-// A scan in the middle of a gap makes two short steps of a long one: it stays a gap.
-TEST(FilterHistory, GapIsAGapWithAPoseInIt) {
-  FilterHistory plain = StartedHistory();
-  FilterHistory split = StartedHistory();
-  EXPECT_EQ(plain.AddImu(SampleAt(0.04)), EventOutcome::kApplied);
-  EXPECT_EQ(split.AddImu(SampleAt(0.04)), EventOutcome::kApplied);
-  const PoseEvent worthless = PoseAt(0.02, Vector6::Zero(), 1e6);
-  EXPECT_EQ(split.AddPose(StampAt(0.02), worthless), EventOutcome::kApplied);
-  for (const int at : {kPos, kRot, kVel, kMapPose, kMapPose + 3}) {
-    const double start = StartEstimate().cov(at, at);
-    const double grown = split.head().cov(at, at) - start;
-    // An interval's error lasts for that interval, so two halves add up to half of its variance.
-    EXPECT_GT(grown, 0.45 * (plain.head().cov(at, at) - start)) << at;
-  }
-}
-
-// The error of the samples that are missing is constant: steps that tell nothing of it do not make
-// its integral surer.
-TEST(FilterHistory, GapGrowsWithTheSquareOfItsTimeWhateverStepsItIsMadeIn) {
-  FilterHistory plain = StartedHistory();
-  FilterHistory split = StartedHistory();
-  for (const double t_s : {0.1, 0.2, 0.3}) {
-    EXPECT_EQ(split.AddNoise(StampAt(t_s), {}), EventOutcome::kApplied);
-  }
-  for (FilterHistory* history : {&plain, &split}) {
-    ImuSample sample = SampleAt(0.4);
-    sample.made_up_w_std_radps = 2.f;
-    EXPECT_EQ(history->AddImu(sample), EventOutcome::kApplied);
-  }
-  const double start = StartEstimate().cov(kRot, kRot);
-  const double grown = plain.head().cov(kRot, kRot) - start;
-  EXPECT_NEAR(std::sqrt(grown), 2.0 * 0.4, 0.02);
-  EXPECT_NEAR(split.head().cov(kRot, kRot) - start, grown, 0.02 * grown);
-}
-
-// To look into a gap is to make a step that tells nothing.
-TEST(FilterHistory, TheEstimateWithinAGapIsThatOfAStepThere) {
-  FilterHistory history = StartedHistory();
-  EXPECT_EQ(history.AddNoise(StampAt(0.1), {}), EventOutcome::kApplied);
-  ImuSample sample = SampleAt(0.4);
-  sample.made_up_w_std_radps = 2.f;
-  EXPECT_EQ(history.AddImu(sample), EventOutcome::kApplied);
-  const ErrorMatrix looked_at = history.At(StampAt(0.25)).cov;
-  EXPECT_EQ(history.AddNoise(StampAt(0.25), {}), EventOutcome::kApplied);
-  EXPECT_NEAR((history.At(StampAt(0.25)).cov - looked_at).norm(), 0.0, 1e-12 * looked_at.norm());
-}
-
-// The samples of a slow unit are 50 ms apart: each pair has a gap of its own between them.
-TEST(FilterHistory, AMeasuredSampleEndsAGap) {
-  FilterHistory history = StartedHistory();
-  const double start = StartEstimate().cov(kRot, kRot);
-  for (int k = 1; k <= 20; ++k) {
-    EXPECT_EQ(history.AddImu(SampleAt(0.05 * k)), EventOutcome::kApplied);
-  }
-  const double std_radps = HistoryOptions{}.imu_outage.gap_gyro_std_radps;
-  const double grown = history.head().cov(kRot, kRot) - start;
-  EXPECT_NEAR(grown, 20.0 * std::pow(0.05 * std_radps, 2), 0.2 * grown);
 }
 
 // Noise counts from its own stamp on, whether it was known then or later.

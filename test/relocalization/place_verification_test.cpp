@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lio/relocalization/relocalizer.hpp"
-
 namespace lio {
 namespace {
 
@@ -58,14 +56,6 @@ TEST(PlaceVerification, ABentScanIsLikelyWithMostOfItsPointsOnSurfaces) {
   EXPECT_TRUE(IsLikely(Matched(810, 1000), last));
   EXPECT_FALSE(IsLikely(Matched(790, 1000), last)) << "too many lie on nothing";
   EXPECT_FALSE(IsLikely(Matched(590, 600), last)) << "too few are left";
-}
-
-TEST(PlaceVerification, APriorIsWithinReachByPointsTwentyMetresAway) {
-  Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(1.0), Vector3::Constant(0.0064);  // 1 m and 20 m * 0.08
-  EXPECT_TRUE(IsWithinReachOfMatching(cov));
-  cov.diagonal().head<3>().setConstant(2.25);
-  EXPECT_FALSE(IsWithinReachOfMatching(cov));
 }
 
 TEST(PlaceVerification, AMatchIsNearTheAlternativeWhenItIsMuchNearer) {

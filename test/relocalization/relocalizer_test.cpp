@@ -97,6 +97,14 @@ class RelocalizerTest : public ::testing::Test {
   Relocalizer relocalizer_;
 };
 
+TEST(ReachOfMatching, APriorIsWithinReachByPointsTwentyMetresAway) {
+  Matrix6 cov = Matrix6::Zero();
+  cov.diagonal() << Vector3::Constant(1.0), Vector3::Constant(0.0064);  // 1 m and 20 m * 0.08
+  EXPECT_TRUE(IsWithinReachOfMatching(cov));
+  cov.diagonal().head<3>().setConstant(2.25);
+  EXPECT_FALSE(IsWithinReachOfMatching(cov));
+}
+
 TEST_F(RelocalizerTest, AScanFarFromItsPriorIsFound) {
   const auto found = Search({SearchRegion::kAnywhere, {}}, far_prior_);
   EXPECT_TRUE(found.is_relocalized);

@@ -90,8 +90,8 @@ struct PlaceVerificationParameters {
   // Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
   // (docs/experiments/relocalization.md).
   double min_share = 0.9;
-  double likely_share =
-      0.8;                  // the same from an unsure prior, of a bent scan; measured as min_share
+  // The same from an unsure prior, for a scan that may be bent. Measured: as min_share.
+  double likely_share = 0.8;
   double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
   // As many end the search and overrule inertial prediction. Chosen; used in
   // docs/experiments/clock_steps.md.
