@@ -101,6 +101,16 @@ void AddErrors(CLI::App& app, Arguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void AddCarrier(CLI::App& app, Arguments& arguments) {
+  const std::map<std::string, sim::Carrier> carriers = {{"person", sim::Carrier::kPerson},
+                                                        {"robot", sim::Carrier::kRobot},
+                                                        {"drone", sim::Carrier::kDrone}};
+  app.add_option("--carrier", arguments.carrier,
+                 "who carries the sensors through mine and warehouse: person, robot, drone")
+      ->transform(CLI::CheckedTransformer(carriers).description(""))
+      ->type_name("NAME");
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
       {"normal", sim::ImuVariant::kNormal},
@@ -150,13 +160,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->check(CLI::ExistingFile);
   app.add_flag("--moving-start", arguments.starts_moving,
                "begin the log in motion instead of at rest");
-  const std::map<std::string, sim::Carrier> carriers = {{"person", sim::Carrier::kPerson},
-                                                        {"robot", sim::Carrier::kRobot},
-                                                        {"drone", sim::Carrier::kDrone}};
-  app.add_option("--carrier", arguments.carrier,
-                 "who carries the sensors through mine and warehouse: person, robot, drone")
-      ->transform(CLI::CheckedTransformer(carriers).description(""))
-      ->type_name("NAME");
+  AddCarrier(app, arguments);
   AddErrors(app, arguments);
   app.add_option("--threads", arguments.num_threads,
                  "number of threads; the files do not depend on it")
