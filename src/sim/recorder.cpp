@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -207,6 +208,16 @@ class Recording {
   RecordStats stats_;
 };
 
+// Returns the model with a narrow view turned to where the body's front is.
+LidarModel FacingForward(LidarModel model, const Scenario& scenario) {
+  if (!model.rosette && model.view_rad >= 2.0 * std::numbers::pi) return model;
+  const Quaternion R_body_lidar =
+      scenario.trajectory->T_body_imu().rotation * scenario.T_imu_lidar.rotation;
+  const Vector3 forward = R_body_lidar.conjugate() * Vector3::UnitX();
+  model.view_azimuth_rad = std::atan2(forward.y(), forward.x());
+  return model;
+}
+
 struct NumberedSweep {
   std::int64_t index = 0;
   SimulatedSweep sweep;
@@ -270,8 +281,9 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
   const double end_s = scenario.begin_s + scenario.duration_s;
   if (scenario.dust_per_m > 0.0) errors.dust.push_back({0.0, end_s, scenario.dust_per_m});
   const LidarSimulator lidar(
-      {options.lidar, scenario.T_imu_lidar, errors, options.seed, scenario.begin_s}, scene,
-      *scenario.trajectory);
+      {FacingForward(options.lidar, scenario), scenario.T_imu_lidar, errors, options.seed,
+       scenario.begin_s},
+      scene, *scenario.trajectory);
   CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {
     recording.AddSweep(numbered.sweep, numbered.index);
     const double done_s = static_cast<double>(numbered.sweep.begin_ns) * 1e-9 - scenario.begin_s;
