@@ -77,11 +77,13 @@ double Rotor::ReportedHeadingAt(double t_s) const {
 }
 
 Matrix3 Rotor::OrientationAt(double t_s) const {
-  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_) : AboutZ(HeadingAt(t_s));
+  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_)
+                  : AboutZ(HeadingAt(t_s));
 }
 
 Matrix3 Rotor::ReportedOrientationAt(double t_s) const {
-  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_) : AboutZ(ReportedHeadingAt(t_s));
+  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_)
+                  : AboutZ(ReportedHeadingAt(t_s));
 }
 
 std::int64_t Rotor::FirstColumnOf(std::int64_t turn) const {
