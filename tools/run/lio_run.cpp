@@ -17,6 +17,7 @@
 #include "lio/run/finish_run.hpp"
 #include "lio/run/recording.hpp"
 #include "lio/run/replay.hpp"
+#include "page_commands.hpp"
 
 namespace lio {
 namespace {
@@ -26,7 +27,8 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "lio-run";
 
 struct Arguments {
-  std::string input;
+  std::vector<std::string> inputs;
+  std::string input;  // the first of them
   std::string out;
   std::string rig;
   std::string truth;
@@ -55,7 +57,8 @@ constexpr const char* kAbout =
     "another vehicle is never taken. Correct the draft and run again with --rig; where the "
     "verdict\n"
     "knows the right lines, DIR/rig_corrected.yaml has them already.\n\n"
-    "A run's folder as INPUT gets its report.html anew, e.g. one that liod --out wrote.";
+    "A run's folder as INPUT gets its report.html anew. Several such folders make one page that\n"
+    "compares them, DIR/report.html.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -63,7 +66,8 @@ constexpr const char* kExamples =
     "  lio-run drive.bag --rig out/drive/rig_draft.yaml --out out/drive --overwrite\n"
     "  lio-run ros2_folder --lidar-topic /velodyne_points --truth truth.tum --out out/ros2\n"
     "  lio-run 2011_09_26/2011_09_26_drive_0005_sync --out out/kitti\n"
-    "  lio-run out/live --truth truth.tum\n\n"
+    "  lio-run out/live --truth truth.tum\n"
+    "  lio-run out/loam out/gicp --out out/compared\n\n"
     "Exit codes: 0 done, 2 usage (also an ambiguous topic), 3 configuration (also one that the "
     "data\n"
     "contradict), 5 damaged, missing or unusable input (its sound parts were run), 6 done, but "
@@ -73,7 +77,8 @@ constexpr const char* kExamples =
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.footer(kExamples);
-  app.add_option("INPUT", arguments.input, "Recording, or the folder of a finished run")
+  app.add_option("INPUT", arguments.inputs,
+                 "Recording, or the folder of a finished run; several such folders make one page")
       ->required();
   app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
       ->type_name("DIR");
@@ -213,7 +218,7 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   fmt::print("path        {}\n", PathOfRun(out).string());
   try {
     WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
-    fmt::print("report      {}\n", (out / "report.html").string());
+    fmt::print("report      {}\n", (out / kReportFile).string());
   } catch (const WriteError&) {
     throw;
   } catch (const std::runtime_error& error) {  // the result itself is sound
@@ -261,29 +266,16 @@ ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Opt
   return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
 }
 
-ExitCode ReportOnly(const Arguments& arguments) {
-  if (!arguments.out.empty() && !fs::equivalent(arguments.out, arguments.input)) {
-    throw UsageError(arguments.input +
-                     " is the folder of a run: its report is written there, leave out --out");
-  }
-  const fs::path folder = arguments.input;
-  const std::optional<fs::path> truth = TruthArgument(arguments);
-  if (truth) {
-    const Score score = ScoreRun(folder, *truth);
-    fmt::print("{}{}\n", score.is_scored ? "score       " : "no score    ", score.line);
-  }
-  WriteReport(folder, {arguments.input, truth, {}});
-  fmt::print("report      {}\n", (folder / "report.html").string());
-  return kExitDone;
-}
-
 int Main(int argc, char** argv) {
   CLI::App app(kAbout, kProgram);
   Arguments arguments;
   AddArguments(app, arguments);
   if (const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *code;
-  if (!arguments.options.print && KindOf(arguments.input) == FileKind::kRunFolder) {
-    return ReportOnly(arguments);
+  arguments.input = arguments.inputs.front();
+  if (!arguments.options.print) {
+    const PageArguments pages = {arguments.inputs, arguments.out, TruthArgument(arguments),
+                                 arguments.overwrites};
+    if (const auto code = WritePages(pages)) return *code;
   }
   PreparedRecording recording;
   if (!arguments.options.print) {
