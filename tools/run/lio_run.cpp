@@ -32,7 +32,7 @@ struct Arguments {
   std::string out;
   std::string rig;
   std::string truth;
-  std::string lidar_topic, imu_topic, truth_topic;
+  std::string lidar_topic, imu_topic, truth_topic, imu_file;
   OptionsArguments options;
   std::optional<int> num_threads;
   double start_s = 0.0;
@@ -44,7 +44,8 @@ constexpr const char* kAbout =
     "Runs odometry over a recording of any kind and leaves a folder with the result.\n\n"
     "INPUT is recognised by its content: a ROS 1 bag (or the folder of its parts), a ROS 2 bag "
     "(its\n"
-    "folder, one .db3 or one .mcap), a KITTI raw drive, a KITTI odometry sequence, an LCM log, or "
+    "folder, one .db3 or one .mcap), a pcap of Velodyne or Ouster packets, a KITTI raw drive, a "
+    "KITTI odometry sequence, an LCM log, or "
     "a folder\n"
     "that lio-sim wrote. It is converted, replayed, and scored where there is a truth. DIR then "
     "has\n"
@@ -90,9 +91,13 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "True trajectory as TUM file (default: beside INPUT, else from it)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile.description(""));
-  app.add_option("--lidar-topic", arguments.lidar_topic, "Topic of a bag's PointCloud2")
+  app.add_option("--lidar-topic", arguments.lidar_topic,
+                 "Topic of a bag's PointCloud2 or CustomMsg, or a capture's sensor, ADDRESS:PORT")
       ->type_name("NAME");
   app.add_option("--imu-topic", arguments.imu_topic, "Topic of a bag's Imu")->type_name("NAME");
+  app.add_option("--imu", arguments.imu_file,
+                 "Log, bag or table of the IMU beside a network capture (default: DRIVE.imu.*)")
+      ->type_name("FILE");
   app.add_option("--truth-topic", arguments.truth_topic, "Topic of a bag's truth")
       ->type_name("NAME");
   app.add_option("--threads", arguments.num_threads, "Instead of pipeline.num_threads")
@@ -153,6 +158,7 @@ PreparedRecording Prepare(const Arguments& arguments) {
   request.lidar_topic = IfGiven(arguments.lidar_topic);
   request.imu_topic = IfGiven(arguments.imu_topic);
   request.truth_topic = IfGiven(arguments.truth_topic);
+  if (!arguments.imu_file.empty()) request.imu_file = arguments.imu_file;
   request.needs_rig = arguments.rig.empty();
   constexpr std::int64_t kSteps = 1000;
   ProgressBar bar("convert", kSteps);
@@ -199,6 +205,7 @@ std::string NextCommand(const Arguments& arguments, const fs::path& rig) {
       {"--truth", &arguments.truth},
       {"--lidar-topic", &arguments.lidar_topic},
       {"--imu-topic", &arguments.imu_topic},
+      {"--imu", &arguments.imu_file},
       {"--truth-topic", &arguments.truth_topic}};
   for (const auto& [name, value] : options) {
     if (!value->empty()) command += fmt::format(" {} {}", name, *value);
