@@ -280,10 +280,9 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
   errors.dust.insert(errors.dust.end(), dust.begin(), dust.end());
   const double end_s = scenario.begin_s + scenario.duration_s;
   if (scenario.dust_per_m > 0.0) errors.dust.push_back({0.0, end_s, scenario.dust_per_m});
-  const LidarSimulator lidar(
-      {FacingForward(options.lidar, scenario), scenario.T_imu_lidar, errors, options.seed,
-       scenario.begin_s},
-      scene, *scenario.trajectory);
+  const LidarSimulator lidar({FacingForward(options.lidar, scenario), scenario.T_imu_lidar, errors,
+                              options.seed, scenario.begin_s},
+                             scene, *scenario.trajectory);
   CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {
     recording.AddSweep(numbered.sweep, numbered.index);
     const double done_s = static_cast<double>(numbered.sweep.begin_ns) * 1e-9 - scenario.begin_s;
