@@ -20,7 +20,8 @@ struct Beam {
 };
 
 // Two prisms behind one another deflect the beams, each by the same angle and turning at a rate of
-// its own (Risley), so that they draw a rosette about the middle of the view, as in Livox's sensors.
+// its own (Risley), so that they draw a rosette about the middle of the view, as in Livox's
+// sensors.
 struct Rosette {
   std::array<double, 2> prism_hz{};
   double deflection_rad = 0.0;
@@ -30,7 +31,7 @@ struct LidarModel {
   std::string name;
   double rotation_hz = 10.0;  // clockwise seen from above
   double column_period_s = 46.08e-6;
-  double cut_azimuth_rad = 0.0;  // heading at which one sweep ends and the next begins
+  double cut_azimuth_rad = 0.0;              // heading at which one sweep ends and the next begins
   double view_rad = 2.0 * std::numbers::pi;  // width of what is reported, in azimuth
   double view_azimuth_rad = 0.0;             // its middle; a narrow view is mounted to face forward
   std::optional<Rosette> rosette;            // absent: a rotor turns the beams about z
