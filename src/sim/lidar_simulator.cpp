@@ -48,6 +48,11 @@ LidarPoint PointAt(double range_m, const Vector3& direction) {
   return point;
 }
 
+bool IsInView(const LidarModel& model, const Vector3& direction) {
+  const double azimuth_rad = std::atan2(direction.y(), direction.x()) - model.view_azimuth_rad;
+  return std::abs(std::remainder(azimuth_rad, kTurn)) <= 0.5 * model.view_rad;
+}
+
 const Dust* DustAt(const std::vector<Dust>& clouds, double t_s) {
   for (const Dust& dust : clouds) {
     if (t_s >= dust.begin_s && t_s < dust.end_s) return &dust;
@@ -195,8 +200,7 @@ void LidarSimulator::AddPoint(const Cast& cast, std::int64_t column, std::size_t
   if (!is_seen) return;
   const Vector3 direction =
       cast.hits.R_lidar_column[static_cast<std::size_t>(column)] * table_directions_[beam];
-  const double azimuth_rad = std::atan2(direction.y(), direction.x()) - model.view_azimuth_rad;
-  if (std::abs(std::remainder(azimuth_rad, kTurn)) > 0.5 * model.view_rad) return;
+  if (!IsInView(model, direction)) return;
   double range_m = echo.range_m + std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
   if (model.range_step_m > 0.0) {
     range_m = model.range_step_m * std::round(range_m / model.range_step_m);
