@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
+#include <ostream>
+#include <string_view>
 
 #include "lio/sim/scene.hpp"
 
@@ -16,6 +19,11 @@ struct Ride {
   std::string place;
   Carrier carrier;
 };
+
+void PrintTo(const Ride& ride, std::ostream* out) {
+  constexpr std::array<std::string_view, 3> kNames = {"person", "robot", "drone"};
+  *out << ride.place << " by " << kNames.at(static_cast<std::size_t>(ride.carrier));
+}
 
 class Carriers : public ::testing::TestWithParam<Ride> {
  protected:
