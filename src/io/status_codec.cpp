@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 #include <charconv>
+#include <exception>
 
 #include "lcm_wire.hpp"
 #include "lio/base/counters_fields.hpp"
+#include "lio/io/output_account.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
 
@@ -21,6 +23,15 @@ void WriteCounters(const Counters& counters, Bytes& bytes) {
     for (int shift = 56; shift >= 0; shift -= 8) {
       bytes.at(at++) = static_cast<std::uint8_t>(value >> shift);
     }
+  }
+}
+
+void ReadCounters(ByteView bytes, Counters& counters) {
+  std::size_t at = kCountersOffset;
+  for (const CounterField& field : kCounterFields) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < 8; ++i) value = value << 8 | bytes[at++];
+    counters.*field.count = static_cast<std::int64_t>(value);
   }
 }
 
@@ -91,6 +102,23 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   Bytes bytes = EncodeMessage(message);
   WriteCounters(report.counters, bytes);
   return bytes;
+}
+
+std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes) {
+  status_t message;
+  try {
+    const auto size = static_cast<int>(bytes.size());
+    if (message.decode(bytes.data(), 0, size) != size) return std::nullopt;
+  } catch (const std::exception&) {  // of a note whose length makes no sense
+    return std::nullopt;
+  }
+  StatusCounts counts;
+  counts.start_utime = message.start_utime;
+  ReadCounters(bytes, counts.counters);
+  counts.num_refused = message.bad_truncated + message.bad_wrong_type + message.bad_size_mismatch +
+                       message.bad_format + message.bad_too_large;
+  counts.num_queue_dropped = message.imu_queue_dropped + message.chunk_queue_dropped;
+  return counts;
 }
 
 std::uint64_t Fnv1a(std::string_view text) {
