@@ -24,7 +24,7 @@ void OutputAccount::Add(const std::string& channel, ByteView bytes) {
   if (channel != channels_.status) return;
   const std::optional<StatusCounts> status = DecodeStatusCounts(bytes);
   if (!status) return;
-  // What was recorded before the start of a second daemon is none of its messages.
+  // Messages recorded before the start of a second daemon are none of its own.
   if (status_ && status->start_utime != status_->start_utime) {
     tally_.num_inputs -= at_status_.num_inputs;
     tally_.num_rows -= at_status_.num_rows;

@@ -37,7 +37,7 @@ TEST_P(FuzzCorpus, EveryInputIsReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzCorpus, ::testing::ValuesIn(fuzz::kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace lio

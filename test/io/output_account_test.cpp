@@ -50,11 +50,11 @@ TEST(StatusCounts, AreAbsentFromForeignAndDamagedBytes) {
     EXPECT_FALSE(DecodeStatusCounts(ByteView(bytes).first(size))) << size;
   }
   // The length of the note stands before its five bytes.
-  for (const std::uint8_t byte : {0x00, 0x7f, 0x80, 0xff}) {
+  for (const int byte : {0x00, 0x7f, 0x80, 0xff}) {
     Bytes damaged = bytes;
-    damaged[damaged.size() - 9] = byte;
+    damaged[damaged.size() - 9] = static_cast<std::uint8_t>(byte);
     damaged[damaged.size() - 6] = 0;
-    EXPECT_FALSE(DecodeStatusCounts(damaged)) << int{byte};
+    EXPECT_FALSE(DecodeStatusCounts(damaged)) << byte;
   }
 }
 

@@ -223,7 +223,7 @@ TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
     values[i] = 1'000'000 + static_cast<int>(i);
     counters.*kCounterFields[i].count = values[i];
   }
-  writer.Finish({.counters = counters, .input = {}, .extra = {}});
+  writer.Finish({.counters = counters, .input = {}, .account = {}, .extra = {}});
   const std::string text = test::ReadText(out_ / "stats.json");
   for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
 }

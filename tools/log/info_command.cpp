@@ -21,7 +21,8 @@ namespace {
 
 constexpr const char* kAboutInfo =
     "Prints the contents of a log: channels with counts, rates and gaps, the time span, damage,\n"
-    "and the same figures of the inertial samples and sweeps by their own stamps. Where the log has\n"
+    "and the same figures of the inertial samples and sweeps by their own stamps. Where the log "
+    "has\n"
     "LIO_STATUS, too, its counts are held against what was recorded.\n\n"
     "Example:\n"
     "  lio-log info drive.lcm";

@@ -72,7 +72,7 @@ struct Ledger {
     return std::accumulate(num_settled.begin(), num_settled.end(), num_received - num_waiting,
                            [](std::int64_t rest, std::int64_t num) { return rest - num; });
   }
-  // What waits is given up, as at a reset.
+  // All that waits is given up, as at a reset.
   void ForgetWaiting() {
     Settle(Fate::kForgotten, static_cast<std::size_t>(std::exchange(num_waiting, 0)));
   }

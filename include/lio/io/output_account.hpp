@@ -13,7 +13,7 @@
 
 namespace lio {
 
-// What a message of LIO_STATUS says of messages.
+// The counts of messages in a message of LIO_STATUS.
 struct StatusCounts {
   std::int64_t start_utime = 0;  // of the daemon
   Counters counters;             // without ledgers

@@ -90,7 +90,7 @@ class Odometry {
   std::vector<Output> TakeOutputs();
 
   const Counters& counters() const;
-  // Where every sample, chunk and scan so far went, with those that wait now.
+  // The fates of every sample, chunk and scan so far, with those that wait now.
   [[nodiscard]] Ledgers ledgers() const;
   TrackingStatus status() const;
   // May the result so far be trusted, and if not, why? Costs some ten milliseconds.

@@ -69,7 +69,7 @@ class SensorStream {
 
   const ImuBuffer& imu() const { return imu_; }
   bool has_imu() const { return has_imu_; }  // false: lidar-only
-  // Of the stream and what it gave out, with all that waits here.
+  // They are those of the stream and what it gave out, with all that waits here.
   [[nodiscard]] Ledgers ledgers() const;
   bool is_flushed() const { return life_ != Life::kOpen; }
 
