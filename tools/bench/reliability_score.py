@@ -36,12 +36,17 @@ def table(path):
 
 def rows_of(folder):
     """Rows of one folder; only scans with a pose."""
-    seq = {row["t_s"]: int(row["scan_seq"]) for row in table(folder / "registration.csv")}
+    matches = table(folder / "registration.csv")
+    match_s = np.array([float(row["t_s"]) for row in matches])
     poses = [line.split() for line in (folder / "trajectory_world.tum").read_text().splitlines()]
     covariances = {row["t_s"]: list(row.values())[1:37]
                    for row in table(folder / "covariance_world.csv")}
     status = {row["t_s"]: int(row["status"]) for row in table(folder / "states.csv")}
-    return [(int(t.replace(".", "")), seq[t], status[t], [float(v) for v in pose],
+
+    # After an outage the state is some microseconds younger than the scan.
+    def seq_at(t):
+        return int(matches[int(np.argmin(np.abs(match_s - float(t))))]["scan_seq"])
+    return [(int(t.replace(".", "")), seq_at(t), status[t], [float(v) for v in pose],
              [float(v) for v in covariances[t]]) for t, *pose in poses]
 
 
