@@ -52,11 +52,12 @@ def rows_of(folder):
 
 def read(run):
     """All rows in the order of their scans; those of a segment stand for those of the whole."""
+    # A sweep that a clock step tears in two has two rows.
     by_scan = {}
     for folder in [run, *sorted(run.glob("segment_*"), key=lambda p: int(p.name[8:]))]:
         for row in rows_of(folder):
-            by_scan[row[1]] = row
-    rows = [by_scan[seq] for seq in sorted(by_scan)]
+            by_scan[row[1], row[0]] = row
+    rows = [by_scan[key] for key in sorted(by_scan)]
     pose = np.array([row[3] for row in rows])
     return Rows(np.array([row[0] for row in rows]) * 1e-9, np.array([row[1] for row in rows]),
                 np.array([row[2] for row in rows]), pose[:, :3], pose[:, 3:],
