@@ -17,6 +17,8 @@ find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED) # Debian's liblz4-dev has no CMak
 find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED) # nor has libzstd-dev
 find_library(ZSTD_LIBRARY zstd REQUIRED)
+find_path(PCAP_INCLUDE_DIR pcap/pcap.h REQUIRED) # nor has libpcap-dev
+find_library(PCAP_LIBRARY pcap REQUIRED)
 include(FindLcm)
 include(FindPclIo)
 if(LIO_BUILD_TESTS)

@@ -24,6 +24,7 @@ USAGE
 # its files are used.
 packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libboost-dev libyaml-cpp-dev
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev liblz4-dev libbz2-dev libzstd-dev
+  libpcap-dev
   libpcl-dev libembree-dev liblcm-dev liblcm-bin
   python3 python3-matplotlib iproute2 util-linux xz-utils)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev

@@ -40,8 +40,9 @@ void DaemonArguments::AddTo(CLI::App& app) {
                  "LCM transport; the default is LCM_DEFAULT_URL or else LCM's multicast group")
       ->type_name("URL");
   app.add_option("--out", out,
-                 "Write the files that lio-replay writes into this folder or, when it holds\n"
-                 "an earlier run, into the first of DIR-2, DIR-3 and so on that holds none")
+                 "Write the files that lio-replay writes, and report.html at the end, into this\n"
+                 "folder or, when it holds an earlier run, into the first of DIR-2, DIR-3 and so "
+                 "on that holds none")
       ->type_name("DIR");
   app.add_flag("--overwrite", overwrites, "With --out: replace the files of an earlier run in DIR");
   app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");

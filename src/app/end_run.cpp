@@ -9,8 +9,24 @@
 
 #include "lio/io/input_error.hpp"
 #include "lio/io/verdict_report.hpp"
+#include "lio/report/run_report.hpp"
 
 namespace lio {
+namespace {
+
+// Returns what could not be written in full; empty when all is well.
+std::string WriteRunReport(const std::filesystem::path& folder) {
+  try {
+    WriteReport(folder, {folder.string(), std::nullopt, {}});
+  } catch (const WriteError& error) {
+    return error.what();
+  } catch (const std::exception& error) {  // the rows themselves are sound
+    spdlog::warn("no report: {}", error.what());
+  }
+  return {};
+}
+
+}  // namespace
 
 void TellVerdict(const Verdict& verdict) {
   std::istringstream lines(VerdictSummary(verdict));
@@ -35,6 +51,9 @@ ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url) {
     return kExitInternalFault;
   }
   if (runner.verdict()) TellVerdict(*runner.verdict());
+  if (unfinished.empty() && runner.verdict() && runner.out()) {
+    unfinished = WriteRunReport(*runner.out());
+  }
   if (!unfinished.empty()) {
     spdlog::error("{}: the files are not complete", unfinished);
     return kExitWriteFailed;

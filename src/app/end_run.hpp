@@ -17,9 +17,9 @@ namespace lio {
 void TellVerdict(const Verdict& verdict);
 
 // Stops the runner and tells in one line on stderr why, unless it was asked to end or a log that
-// `lcm_url` names is over; then it tells the verdict on the run. Returns the exit code, which is
-// kExitNoTrust where files were written that cannot be trusted, and kExitWriteFailed where they
-// could not be completed.
+// `lcm_url` names is over; then it tells the verdict on the run and writes its page. Returns the
+// exit code, which is kExitNoTrust where files were written that cannot be trusted, and
+// kExitWriteFailed where they could not be completed.
 [[nodiscard]] ExitCode EndRun(LiveRunner& runner, const std::string& lcm_url);
 
 }  // namespace lio

@@ -77,6 +77,10 @@ class LiveRunner {
   // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
   [[nodiscard]] bool writes_files() const { return files_.has_value(); }
+  // The folder of the files that are written now; null without any.
+  [[nodiscard]] const std::filesystem::path* out() const {
+    return files_ ? &files_->folder() : nullptr;
+  }
 
   // From any thread: completes the files and goes on in a new folder, as the command NEW_FILES.
   void RenewFiles();

@@ -74,6 +74,11 @@ double ReadFloat(const RosCloud& cloud, const CloudField& field, std::size_t sta
                                            : LoadAs<double>(at, cloud.big_endian);
 }
 
+bool IsNoise(const RosCloud& cloud, std::uint8_t tag) {
+  const std::uint8_t noise = cloud.noise_tag;
+  return noise != 0 && ((tag & 3) == noise || ((tag >> 2) & 3) == noise);
+}
+
 // Returns where the kept points begin in the cloud's data.
 std::vector<std::size_t> KeptStarts(const RosCloud& cloud, const PointLayout& layout,
                                     CloudPoints& points) {
@@ -94,6 +99,8 @@ std::vector<std::size_t> KeptStarts(const RosCloud& cloud, const PointLayout& la
         ++points.num_nonfinite;
       } else if (x == 0.0f && y == 0.0f && z == 0.0f) {
         ++points.num_zero;
+      } else if (layout.tag && IsNoise(cloud, cloud.data[start + layout.tag->offset])) {
+        ++points.num_noise;
       } else {
         starts.push_back(start);
         if (organised) points.row.push_back(row);
@@ -123,6 +130,8 @@ std::optional<PointLayout> FindLayout(const std::vector<CloudField>& fields) {
   layout.z = *z;
   layout.intensity = Find(fields, {"intensity", "reflectivity", "i"});
   layout.ring = Find(fields, {"ring", "channel", "line", "laser_id"});
+  layout.tag = Find(fields, {"tag"});
+  if (layout.tag && layout.tag->type != FieldType::kUint8) layout.tag.reset();
   layout.time = Find(fields, {"time", "t", "timestamp", "time_stamp", "offset_time", "ts"});
   return layout;
 }
@@ -132,6 +141,7 @@ void ReadPoints(const RosCloud& cloud, const PointLayout& layout, CloudPoints& p
   points.column.clear();
   points.num_nonfinite = 0;
   points.num_zero = 0;
+  points.num_noise = 0;
   const std::vector<std::size_t> starts = KeptStarts(cloud, layout, points);
   ReadColumn(cloud, layout.x, starts, points.x_m);
   ReadColumn(cloud, layout.y, starts, points.y_m);

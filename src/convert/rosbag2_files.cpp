@@ -5,6 +5,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <string>
 
 #include "lio/io/file_kind.hpp"
@@ -22,12 +24,23 @@ bool IsStoredAsMcap(const YAML::Node& info, const fs::path& path) {
     throw InputError(path.string() + ": storage '" + storage +
                      "' is not supported: convert it with 'ros2 bag convert' to sqlite3");
   }
-  const auto compression = info["compression_format"].as<std::string>("");
-  if (!compression.empty()) {
-    throw InputError(path.string() + ": compression '" + compression +
+  return storage == "mcap";
+}
+
+// Returns whether each message is compressed. Files that are compressed as a whole have another
+// ending than the readers take.
+bool HasZstdMessages(const YAML::Node& info, const fs::path& path) {
+  const auto format = info["compression_format"].as<std::string>("");
+  if (format.empty()) return false;
+  auto mode = info["compression_mode"].as<std::string>("");
+  std::transform(mode.begin(), mode.end(), mode.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (format != "zstd" || (mode != "message" && mode != "file")) {
+    throw InputError(path.string() + ": compression '" + format + "' in mode '" + mode +
                      "' is not supported: convert it with 'ros2 bag convert' to no compression");
   }
-  return storage == "mcap";
+  return mode == "message";
 }
 
 Rosbag2Files FilesOfMetadata(const fs::path& path) {
@@ -37,6 +50,7 @@ Rosbag2Files FilesOfMetadata(const fs::path& path) {
     const YAML::Node info = YAML::LoadFile(path.string())["rosbag2_bagfile_information"];
     if (!info.IsMap()) throw InputError(path.string() + ": no metadata of a ROS 2 bag");
     files.is_mcap = IsStoredAsMcap(info, path);
+    files.has_zstd_messages = HasZstdMessages(info, path);
     for (const YAML::Node& name : info["relative_file_paths"]) {
       // Old recorders wrote the folder's own name in front.
       const fs::path relative = name.as<std::string>();
@@ -74,6 +88,16 @@ Rosbag2Files FindFiles(const fs::path& path) {
 }
 
 }  // namespace
+
+bool IsZstdFile(const fs::path& path) {
+  constexpr std::array<char, 4> kMagic = {'\x28', '\xB5', '\x2F', '\xFD'};
+  if (path.extension() != kZstdEnding && path.extension() != ".zst") return false;
+  const std::string inner = path.stem().extension();
+  if (inner != ".mcap" && inner != ".db3" && inner != ".bag") return false;
+  std::array<char, 4> bytes{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(bytes.data(), bytes.size()) && bytes == kMagic;
+}
 
 Rosbag2Files FindRosbag2Files(const fs::path& path) {
   Rosbag2Files files = FindFiles(path);

@@ -7,6 +7,8 @@
 #include "cloud_to_sweep.hpp"
 #include "convert/ordered_log.hpp"
 #include "lio/io/input_error.hpp"
+#include "livox_message.hpp"
+#include "plain_bag.hpp"
 
 namespace lio {
 namespace {
@@ -16,9 +18,7 @@ constexpr double kTopicSearchSeconds = 30.0;
 
 bool HasScans(const std::vector<BagTopic>& topics) {
   return std::any_of(topics.begin(), topics.end(), [](const BagTopic& topic) {
-    const bool is_scan =
-        topic.type == "sensor_msgs/PointCloud2" || topic.type.ends_with("/CustomMsg");
-    return is_scan && topic.num_messages > 0;
+    return IsScanType(topic.type) && topic.num_messages > 0;
   });
 }
 
@@ -76,7 +76,7 @@ BagTopic RosbagConversion::TruthTopic() const {
 
 bool RosbagConversion::IsWanted(const BagTopic& topic) const {
   const TopicChoice& topics = report_.topics;
-  return (topic.name == topics.lidar && topic.type == "sensor_msgs/PointCloud2") ||
+  return (topic.name == topics.lidar && IsScanType(topic.type)) ||
          (topic.name == topics.imu && topic.type == "sensor_msgs/Imu") ||
          (truth_ && topic.name == topics.truth && IsTruthType(topic.type));
 }
@@ -104,7 +104,7 @@ void RosbagConversion::Run() {
     const BagTopic& topic = bag->topics()[message.topic];
     if (topic.type == "sensor_msgs/Imu") {
       AddImu(topic, message);
-    } else if (topic.type == "sensor_msgs/PointCloud2") {
+    } else if (IsScanType(topic.type)) {
       AddCloud(topic, message);
     } else {
       truth_->Add(message);
@@ -125,7 +125,7 @@ void RosbagConversion::AddImu(const BagTopic& topic, const BagMessage& message) 
 }
 
 void RosbagConversion::AddCloud(const BagTopic& topic, const BagMessage& message) {
-  const auto cloud = DecodeRosCloud(message.data, topic.encoding);
+  const auto cloud = DecodeScan(topic, message.data);
   if (!cloud) {
     ++report_.num_damaged[topic.name + ": sizes or fields are inconsistent"];
     return;
@@ -138,6 +138,7 @@ void RosbagConversion::AddCloud(const BagTopic& topic, const BagMessage& message
   }
   report_.num_points_nonfinite += to_sweep_.points().num_nonfinite;
   report_.num_points_zero += to_sweep_.points().num_zero;
+  report_.num_points_noise += to_sweep_.points().num_noise;
   if (status == CloudStatus::kBadTime) {
     ++report_.num_damaged[topic.name + ": point times form no sweep near the stamp"];
   } else if (status == CloudStatus::kEmpty) {
@@ -174,8 +175,7 @@ void RosbagConversion::Finish(const BagReader& bag) {
                                      [&](const BagTopic& other) {
                                        return other.name == topic.name && other.type == topic.type;
                                      });
-    const bool is_sensor =
-        topic.type == "sensor_msgs/PointCloud2" || topic.type == "sensor_msgs/Imu";
+    const bool is_sensor = IsScanType(topic.type) || topic.type == "sensor_msgs/Imu";
     if (is_new && is_sensor) {
       report_.notes.push_back(topic.name + " (" + topic.type +
                               ") began later and was left out: name the topics to choose");
@@ -190,7 +190,10 @@ bool RosbagReport::IsDamaged() const {
   return damage.Any() || !num_damaged.empty() || (truth && truth->num_damaged > 0);
 }
 
-RosbagReport ConvertRosbag(const RosbagOptions& options) {
+RosbagReport ConvertRosbag(const RosbagOptions& wishes) {
+  const PlainBag bag(wishes.input);
+  RosbagOptions options = wishes;
+  options.input = bag.path();
   RosbagReport report;
   report.all_topics = FindTopics(options);
   report.topics = ChooseTopics(report.all_topics, options);

@@ -8,6 +8,7 @@
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/stream_stats.hpp"
+#include "livox_message.hpp"
 
 namespace lio {
 namespace {
@@ -21,6 +22,7 @@ struct ProbedCloud {
   const CloudPoints* points = nullptr;
   const PointLayout* layout = nullptr;
   Timestamp received;
+  bool is_livox = false;
 };
 
 struct ProbeCounts {
@@ -37,7 +39,7 @@ ProbeCounts ForFirstClouds(const TopicChoice& topics, const RosbagOptions& optio
                            Visit&& visit) {
   const auto bag = OpenBag(options.input);
   bag->Select([&](const BagTopic& topic) {
-    return (topic.name == topics.lidar && topic.type == "sensor_msgs/PointCloud2") ||
+    return (topic.name == topics.lidar && IsScanType(topic.type)) ||
            (topic.name == topics.imu && topic.type == "sensor_msgs/Imu");
   });
   ProbeCounts counts;
@@ -52,7 +54,7 @@ ProbeCounts ForFirstClouds(const TopicChoice& topics, const RosbagOptions& optio
       }
       continue;
     }
-    const auto cloud = DecodeRosCloud(message.data, topic.encoding);
+    const auto cloud = DecodeScan(topic, message.data);
     if (!cloud) {
       ++counts.num_damaged;
       continue;
@@ -66,7 +68,7 @@ ProbeCounts ForFirstClouds(const TopicChoice& topics, const RosbagOptions& optio
     ReadPoints(*cloud, *layout, points);
     if (points.size() == 0) continue;
     ++counts.num_read;
-    visit(ProbedCloud{&*cloud, &points, &*layout, message.received});
+    visit(ProbedCloud{&*cloud, &points, &*layout, message.received, IsLivoxType(topic.type)});
   }
   return counts;
 }
@@ -85,6 +87,7 @@ void RequireClouds(const ProbeCounts& counts, const TopicChoice& topics) {
 void DecideTime(const TopicChoice& topics, const RosbagOptions& options, CloudRules& rules) {
   std::vector<CloudObservation> clouds;
   std::string field;
+  bool is_livox = false;
   const ProbeCounts counts =
       ForFirstClouds(topics, options, kNumTimeClouds, [&](const ProbedCloud& probed) {
         if (probed.points->time.empty()) return;
@@ -92,10 +95,16 @@ void DecideTime(const TopicChoice& topics, const RosbagOptions& options, CloudRu
             std::minmax_element(probed.points->time.begin(), probed.points->time.end());
         clouds.push_back({probed.cloud->stamp, probed.received, *first, *last});
         field = probed.layout->time->name;
+        is_livox = probed.is_livox;
       });
   std::optional<double> imu_delay_s;
   if (!counts.imu_delays_s.empty()) imu_delay_s = UpperMedian(counts.imu_delays_s);
-  rules.point_time = DetectPointTime(clouds, options.point_time, imu_delay_s);
+  PointTimeWishes wishes = options.point_time;
+  if (is_livox && !wishes.stamp) wishes.stamp = StampMeaning::kSweepStart;
+  rules.point_time = DetectPointTime(clouds, wishes, imu_delay_s);
+  if (rules.point_time && is_livox && !options.point_time.stamp) {
+    rules.point_time->stamp_reason = "CustomMsg has the first point's";
+  }
   if (rules.point_time) {
     const PointTimeRule& rule = *rules.point_time;
     rules.point_time_text = fmt::format(

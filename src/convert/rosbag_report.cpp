@@ -42,6 +42,9 @@ void AddLidar(Lines& lines, const RosbagReport& report) {
             static_cast<double>(report.num_points) / static_cast<double>(report.lidar.num()));
   AddStream(lines, report.lidar);
   lines.Add("", "fields {}", report.rules.fields);
+  if (report.num_points_noise > 0) {
+    lines.Add("", "left out: {} points that the sensor tags as noise", report.num_points_noise);
+  }
   if (report.num_points_nonfinite + report.num_points_zero + report.num_empty > 0) {
     lines.Add("", "left out: {} points not finite, {} without return, {} clouds without points",
               report.num_points_nonfinite, report.num_points_zero, report.num_empty);

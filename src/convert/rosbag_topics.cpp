@@ -4,20 +4,20 @@
 
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/input_error.hpp"
+#include "livox_message.hpp"
 
 namespace lio {
 namespace {
 
+constexpr const char* kScanTypes = "sensor_msgs/PointCloud2 or Livox CustomMsg";
+
 using TypeTest = bool (*)(const std::string&);
 
 bool IsCloud(const std::string& type) {
-  return type == "sensor_msgs/PointCloud2";
+  return IsScanType(type);
 }
 bool IsImu(const std::string& type) {
   return type == "sensor_msgs/Imu";
-}
-bool IsLivox(const std::string& type) {
-  return type.ends_with("/CustomMsg");
 }
 
 std::string List(const std::vector<const BagTopic*>& topics) {
@@ -35,11 +35,6 @@ std::string ListAll(const std::vector<BagTopic>& topics) {
   return List(all);
 }
 
-void RefuseLivox(const BagTopic& topic) {
-  throw InputError(topic.name + " has type " + topic.type +
-                   ", which is not supported: record with the driver's PointCloud2 output");
-}
-
 const BagTopic& Named(const std::vector<BagTopic>& topics, const std::string& name,
                       const std::string& option, TypeTest is_type, const std::string& need) {
   std::vector<const BagTopic*> same;
@@ -52,7 +47,6 @@ const BagTopic& Named(const std::vector<BagTopic>& topics, const std::string& na
   for (const BagTopic* topic : same) {
     if (is_type(topic->type)) return *topic;
   }
-  if (IsLivox(same.front()->type)) RefuseLivox(*same.front());
   throw UsageError(option + " " + name + " has type " + same.front()->type + ", needed is " + need);
 }
 
@@ -74,16 +68,12 @@ const BagTopic* ByType(const std::vector<BagTopic>& topics, const std::string& o
 TopicChoice ChooseTopics(const std::vector<BagTopic>& topics, const RosbagOptions& options) {
   TopicChoice choice;
   if (options.lidar_topic) {
-    choice.lidar =
-        Named(topics, *options.lidar_topic, "--lidar-topic", IsCloud, "sensor_msgs/PointCloud2")
-            .name;
-  } else if (const BagTopic* cloud = ByType(topics, "--lidar-topic", IsCloud, "PointCloud2")) {
+    choice.lidar = Named(topics, *options.lidar_topic, "--lidar-topic", IsCloud, kScanTypes).name;
+  } else if (const BagTopic* cloud =
+                 ByType(topics, "--lidar-topic", IsCloud, "PointCloud2 or CustomMsg")) {
     choice.lidar = cloud->name;
   } else {
-    const auto livox = std::find_if(topics.begin(), topics.end(),
-                                    [](const BagTopic& topic) { return IsLivox(topic.type); });
-    if (livox != topics.end()) RefuseLivox(*livox);
-    throw InputError("no sensor_msgs/PointCloud2 in the bag: it has " + ListAll(topics));
+    throw InputError("no " + std::string(kScanTypes) + " in the bag: it has " + ListAll(topics));
   }
   if (options.imu_topic) {
     choice.imu = Named(topics, *options.imu_topic, "--imu-topic", IsImu, "sensor_msgs/Imu").name;

@@ -6,6 +6,7 @@
 
 #include "lio/convert/bag_reader.hpp"
 #include "lio/convert/ros_messages.hpp"
+#include "plain_bag.hpp"
 
 namespace lio {
 namespace {
@@ -80,7 +81,8 @@ std::optional<Pose> FrameTree::Find(const std::string& target, const std::string
 
 MountedSensors FindMounting(const std::filesystem::path& bag_path, const std::string& lidar_topic,
                             const std::string& imu_topic) {
-  const auto bag = OpenBag(bag_path);
+  const PlainBag plain(bag_path);
+  const auto bag = OpenBag(plain.path());
   bag->Select([&](const BagTopic& topic) {
     return topic.name == lidar_topic || topic.name == imu_topic || IsStaticTransform(topic);
   });

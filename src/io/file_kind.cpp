@@ -23,6 +23,13 @@ std::string FirstBytes(const fs::path& file) {
   return bytes;
 }
 
+// A bag that is compressed as a whole keeps its own ending in front of that of the compressor.
+bool IsCompressedBag(const fs::path& file) {
+  if (file.extension() != ".zstd" && file.extension() != ".zst") return false;
+  const std::string inner = file.stem().extension();
+  return inner == ".mcap" || inner == ".db3" || inner == ".bag";
+}
+
 FileKind KindOfFile(const fs::path& file) {
   using namespace std::string_view_literals;
   const std::string bytes = FirstBytes(file);
@@ -30,6 +37,11 @@ FileKind KindOfFile(const fs::path& file) {
   if (bytes.starts_with("#ROSBAG V2.0"sv)) return FileKind::kRosBag;
   if (bytes.starts_with("SQLite format 3"sv)) return FileKind::kRosBag;
   if (bytes.starts_with("\x89MCAP0\r\n"sv)) return FileKind::kRosBag;
+  for (const auto magic : {"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
+                           "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv}) {
+    if (bytes.starts_with(magic)) return FileKind::kCapture;
+  }
+  if (bytes.starts_with("\x28\xB5\x2F\xFD"sv) && IsCompressedBag(file)) return FileKind::kRosBag;
   return FileKind::kOther;
 }
 
@@ -45,7 +57,8 @@ FileKind KindOfFolder(const fs::path& folder) {
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string extension = entry.path().extension();
-    if (extension == ".mcap" || extension == ".db3" || extension == ".bag") {
+    if (extension == ".mcap" || extension == ".db3" || extension == ".bag" ||
+        IsCompressedBag(entry.path())) {
       return FileKind::kRosBag;
     }
   }
@@ -93,6 +106,8 @@ std::string WhyNoLog(const fs::path& path) {
   switch (KindOf(path)) {
     case FileKind::kRosBag:
       return ConvertWith(path, "a ROS bag", "rosbag");
+    case FileKind::kCapture:
+      return ConvertWith(path, "a network capture", "pcap");
     case FileKind::kKittiRaw:
       return ConvertWith(path, "a KITTI raw drive", "kitti-raw");
     case FileKind::kKittiOdometry:

@@ -48,6 +48,14 @@ std::string Filled(std::string_view page,
   return text;
 }
 
+// The parts of the script share one scope, and the last of them starts the page.
+std::string PageScript() {
+  std::string script;
+  for (const std::string_view part : {kRunsJs, kTextsJs, kTimePlotsJs, kChartsJs, kPathJs, kMainJs})
+    script += part;
+  return script;
+}
+
 }  // namespace
 
 std::string ReportPage(const nlohmann::ordered_json& data) {
@@ -59,11 +67,17 @@ std::string ReportPage(const nlohmann::ordered_json& data) {
                             {"@PAGE_CSS@", std::string(kPageCss)},
                             {"@DATA@", ForScript(json)},
                             {"@PLOT_JS@", std::string(kPlotJs)},
-                            {"@PAGE_JS@", std::string(kPageJs)}});
+                            {"@PAGE_JS@", PageScript()}});
 }
 
 void WriteReport(const std::filesystem::path& folder, const ReportInputs& inputs) {
-  WriteText(folder / "report.html", ReportPage(ReportData(folder, inputs)));
+  WriteText(folder / kReportFile, ReportPage(ReportData(folder, inputs)));
+}
+
+void WriteComparison(const std::filesystem::path& page, const std::vector<ComparedRun>& runs) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ComparedRun& run : runs) all.push_back(ReportData(run.folder, run.inputs));
+  WriteText(page, ReportPage({{"runs", std::move(all)}}));
 }
 
 }  // namespace lio

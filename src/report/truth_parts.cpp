@@ -35,6 +35,15 @@ Json PathJson(const Evaluation& evaluation, Timestamp begin) {
   return columns.json();
 }
 
+// How the truth was laid into the run's frame: p_run = Rz(yaw_rad) * p_truth + shift_m.
+Json JoinedJson(const Evaluation& level) {
+  const Pose T_run_truth = level.alignment.T_truth_estimate.Inverse();
+  const Vector3 x_axis = T_run_truth.rotation * Vector3::UnitX();
+  const Vector3& shift = T_run_truth.translation;
+  return {{"yaw_rad", std::atan2(x_axis.y(), x_axis.x())},
+          {"shift_m", {shift.x(), shift.y(), shift.z()}}};
+}
+
 double Sigma(const Matrix6& cov, int i) {
   return std::sqrt(std::max(0.0, cov(i, i)));
 }
@@ -116,6 +125,7 @@ Json TruthParts(const std::filesystem::path& folder, const std::filesystem::path
     if (reference.format != TrajectoryFormat::kTum) return parts;
     const Evaluation level = Evaluate(reference, estimate, {AlignMode::kYaw, {}});
     parts["path"] = PathJson(level, begin);
+    parts["joined"] = JoinedJson(level);
     RunFiles run = LoadRun(folder, std::filesystem::absolute(truth), frame);
     // The truth of another body is turned into the IMU's axes; where that body sits stays unknown.
     if (figures.rotation_offset.is_removed) TurnTruth(figures.rotation_offset.rotation, run);

@@ -7,6 +7,7 @@
 #include "draft_rig.hpp"
 #include "lio/convert/kitti_odometry.hpp"
 #include "lio/convert/kitti_raw.hpp"
+#include "lio/convert/pcap_convert.hpp"
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/convert/static_transforms.hpp"
 #include "lio/io/beam_table.hpp"
@@ -64,6 +65,9 @@ class Preparation {
       case FileKind::kRosBag:
         FromBag();
         break;
+      case FileKind::kCapture:
+        FromCapture();
+        break;
       case FileKind::kKittiRaw:
         FromKittiRaw();
         break;
@@ -96,12 +100,14 @@ class Preparation {
     const fs::path& input = request_.input;
     if (!fs::exists(input)) throw InputError(input.string() + ": no such file or folder");
     throw InputError(input.string() +
-                     ": is no ROS bag, KITTI drive or sequence, LCM log or folder of lio-sim");
+                     ": is no ROS bag, network capture, KITTI drive or sequence, LCM log or folder "
+                     "of lio-sim");
   }
 
   void FromBag();
   RosbagReport ConvertBag(const RosbagOptions& options);
   void LearnMounting(const TopicChoice& topics);
+  void FromCapture();
   void FromKittiRaw();
   void FromKittiOdometry();
   void FromLog(const fs::path& log);
@@ -171,6 +177,30 @@ void Preparation::LearnMounting(const TopicChoice& topics) {
   known_.T_imu_lidar.reset();
   known_.extrinsic_reason = fmt::format(
       "none (identity) is ASSUMED, since {}: measure it, the verdict tells when it is wrong.", why);
+}
+
+void Preparation::FromCapture() {
+  prepared_.kind = "network capture";
+  PcapOptions options;
+  options.input = request_.input;
+  options.output = prepared_.log;
+  options.sensor = request_.lidar_topic;
+  options.imu = request_.imu_file;
+  options.progress = request_.progress;
+  const PcapReport report = ConvertPcap(options);
+  prepared_.is_damaged = report.IsDamaged();
+  prepared_.report = FormatReport(report, options);
+  Assume(fmt::format("Lidar {} at {}, IMU: {}; the stamps' clock is {}.", report.model,
+                     report.sensor, report.imu_text.empty() ? "none" : report.imu_text,
+                     report.clock_text));
+  known_.lidar_name = report.sensor;
+  known_.imu_name = report.imu_text;
+  known_.T_imu_lidar = report.T_imu_lidar;
+  known_.extrinsic_reason =
+      report.T_imu_lidar
+          ? "from the sensor's own description, the .json file."
+          : "none (identity) is ASSUMED, since captures do not hold it: measure it, the verdict "
+            "tells when it is wrong.";
 }
 
 void Preparation::FromKittiRaw() {

@@ -78,8 +78,9 @@ TEST_F(Rosbag2FilesTest, McapIsToldFromSqlite) {
 TEST_F(Rosbag2FilesTest, OtherStoragesAreRefusedByName) {
   WriteMetadata("  storage_identifier: rock\n  relative_file_paths: [a.rock]\n");
   EXPECT_THAT(WhyRefused(folder_), HasSubstr("'rock' is not supported"));
-  WriteMetadata("  compression_format: zstd\n  relative_file_paths: [a.db3]\n");
-  EXPECT_THAT(WhyRefused(folder_), HasSubstr("'zstd' is not supported"));
+  WriteMetadata(
+      "  compression_format: lz4\n  compression_mode: file\n  relative_file_paths: [a.db3]\n");
+  EXPECT_THAT(WhyRefused(folder_), HasSubstr("'lz4' in mode 'file' is not supported"));
 }
 
 TEST_F(Rosbag2FilesTest, WhatNamesNoFilesIsRefused) {

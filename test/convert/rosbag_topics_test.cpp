@@ -71,11 +71,12 @@ TEST(ChooseTopics, RefusesWrongNamesAndTypes) {
   EXPECT_THAT(Refusal<UsageError>({kPoints, kImu}, options), HasSubstr("sensor_msgs/Imu"));
 }
 
-TEST(ChooseTopics, RefusesLivoxByName) {
-  EXPECT_THAT(Refusal<InputError>({kLivox, kImu}), HasSubstr("livox_ros_driver2/CustomMsg"));
+TEST(ChooseTopics, TakesLivoxMessagesAsScans) {
   RosbagOptions options;
+  EXPECT_EQ(ChooseTopics({kLivox, kImu}, options).lidar, "/livox");
+  EXPECT_THAT(Refusal<UsageError>({kLivox, kPoints}), HasSubstr("livox_ros_driver2/CustomMsg"));
   options.lidar_topic = "/livox";
-  EXPECT_THAT(Refusal<InputError>({kLivox, kPoints}, options), HasSubstr("CustomMsg"));
+  EXPECT_EQ(ChooseTopics({kLivox, kPoints}, options).lidar, "/livox");
 }
 
 TEST(ChooseTopics, SaysWhatThereIsInsteadOfClouds) {

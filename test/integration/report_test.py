@@ -61,6 +61,33 @@ class Report(unittest.TestCase):
         out = self.run_drive("report-lidar", "--set", "pipeline.use_imu=false")
         self.check(out / "report.html", 12)
 
+    def test_two_runs_on_one_page_are_drawn_and_linked(self):
+        runs = [self.run_drive("report-both"),
+                self.run_drive("report-alone", "--set", "pipeline.use_imu=false")]
+        out = support.WORK / "report-compared"
+        done = support.run("lio-run", *runs, "--out", out, "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Path, six of errors, height, three each of velocity and two biases, clock offset, status,
+        # trust, NIS, points, times.
+        said = self.check(out / "report.html", 23)
+        self.assertEqual(int(said["pointed"]), 22, "cursors follow the pointer on the paths")
+        self.assertEqual(int(said["zoomed"]), 22, "a zoom of one plot is that of all")
+
+    def test_lio_replay_and_liod_leave_the_same_page_when_they_end(self):
+        log, config = self.drive / "log.lcm", self.drive / "config.yaml"
+        out = support.WORK / "report-replay"
+        done = support.run("lio-replay", "--config", config, log, "--out", out, "--overwrite",
+                           "--report")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.check(out / "report.html", 11)
+        live = support.WORK / "report-live"
+        done = support.run("liod", "--config", config, "--out", live, "--overwrite", "--lcm-url",
+                           f"file://{log}?speed=0")
+        self.assertIn(done.returncode, (0, 6), done.stderr)
+        said, console = browse(live / "report.html")
+        self.assertEqual(console, [])
+        self.assertEqual(said.get("drawn"), said["plots"], said)
+
     def test_a_run_without_a_pose_is_a_page_too(self):
         out = self.run_drive("report-none", "--duration", "1", exit_code=6)
         said, console = browse(out / "report.html")

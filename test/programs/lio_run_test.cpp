@@ -86,6 +86,27 @@ TEST_F(LioRunTest, AFinishedRunGetsItsReportAnew) {
   EXPECT_THAT(result.out, HasSubstr("position error"));
 }
 
+TEST_F(LioRunTest, AReportMadeAnewKeepsTheTruthThatTheRunWasScoredWith) {
+  ASSERT_EQ(Run({kScene, "--out", Path("out"), "--truth", kScene + "/truth.tum"}).exit_code, 0);
+  const auto result = Run({Path("out")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("position error"));
+}
+
+TEST_F(LioRunTest, SeveralRunsMakeOnePageAndAllMustBeRuns) {
+  ASSERT_EQ(Run({kScene, "--out", Path("a")}).exit_code, 0);
+  ASSERT_EQ(Run({kScene, "--out", Path("b"), "--set", "pipeline.use_imu=false"}).exit_code, 0);
+  const auto compared = Run({Path("a"), Path("b"), "--out", Path("both")});
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_THAT(test::ReadText(Path("both/report.html")), HasSubstr("\"runs\":[{"));
+  const auto again = Run({Path("a"), Path("b"), "--out", Path("both")});
+  EXPECT_EQ(again.exit_code, 2) << "a page is only replaced when asked to";
+  EXPECT_THAT(again.err, HasSubstr("--overwrite"));
+  EXPECT_THAT(Run({Path("a"), kScene, "--out", Path("both")}).err, HasSubstr("is no folder of"));
+  EXPECT_THAT(Run({Path("a"), Path("b")}).err, HasSubstr("--out is required"));
+  EXPECT_THAT(Run({Path("a"), Path("b"), "--out", Path("a")}).err, HasSubstr("of its own"));
+}
+
 TEST_F(LioRunTest, AResultWithoutTrustEndsWithSix) {
   const auto result = Run({kScene, "--out", Path("out"), "--duration", "1"});
   EXPECT_EQ(result.exit_code, 6) << result.err;

@@ -32,6 +32,24 @@ TEST_F(ReportPageTest, IsOneFileThatAsksForNoOther) {
   EXPECT_FALSE(std::regex_search(page.substr(0, page.find("var uPlot")), fetches));
 }
 
+TEST_F(ReportPageTest, SeveralRunsAreComparedOnOnePage) {
+  const auto page = folder_.path() / "compared.html";
+  WriteComparison(page, {{out_, {"first", WriteTruth(), {}}}, {out_, {"second", {}, {}}}});
+  const auto data = nlohmann::ordered_json::parse(DataOf(test::ReadText(page)));
+  ASSERT_EQ(data["runs"].size(), 2U);
+  EXPECT_EQ(data["runs"][0]["input"], "first");
+  EXPECT_EQ(data["runs"][1]["begin"], data["runs"][0]["begin"]);
+  EXPECT_FALSE(data["runs"][1].contains("truth"));
+}
+
+TEST_F(ReportPageTest, TheTruthSaysHowItWasLaidIntoTheFrameOfTheRun) {
+  const auto data = ReportData(out_, {"drive.bag", WriteTruth(), {}});
+  const auto& joined = data["truth"]["joined"];
+  EXPECT_NEAR(joined["yaw_rad"].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(joined["shift_m"][0].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(joined["shift_m"][1].get<double>(), -0.1, 1e-6) << "the truth is 0.1 m to the left";
+}
+
 TEST(ReportPage, TextsOfTheRunCannotEndTheScript) {
   const nlohmann::ordered_json data = {{"input", "</script><script>alert(1)</script><!-- @DATA@"}};
   const std::string page = ReportPage(data);

@@ -7,6 +7,7 @@
 
 #include "lio/convert/kitti_odometry.hpp"
 #include "lio/convert/kitti_raw.hpp"
+#include "lio/convert/pcap_convert.hpp"
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
@@ -22,6 +23,7 @@ constexpr const char* kAbout =
     "Examples:\n"
     "  lio-convert rosbag drive.bag drive.lcm --truth drive.tum\n"
     "  lio-convert rosbag ros2_folder drive.lcm --lidar-topic /velodyne_points\n"
+    "  lio-convert pcap drive.pcap drive.lcm --imu drive.csv\n"
     "  lio-convert kitti-raw 2011_09_26/2011_09_26_drive_0005_sync drive.lcm \\\n"
     "      --truth drive.tum --rig rig.yaml --imu-rate 100\n"
     "  lio-convert kitti-odometry sequences/05 05.lcm --truth 05.tum \\\n"
@@ -36,6 +38,11 @@ constexpr const char* kAboutRosbag =
     "MCAP file of either with sensor_msgs/PointCloud2 and sensor_msgs/Imu. Topics are found by "
     "type; unit and\n"
     "meaning of time stamps are detected from the data and printed.";
+
+constexpr const char* kAboutPcap =
+    "Convert a network capture (pcap or pcapng) of the packets of a Velodyne VLP-16 or HDL-32E or\n"
+    "of an Ouster, with the Ouster's own IMU, or with an IMU's file that lies beside it: an LCM\n"
+    "log, a ROS bag, or a table of stamp, wx, wy, wz [rad/s], ax, ay, az [m/s^2].";
 
 constexpr const char* kAboutRaw =
     "Convert a KITTI raw drive, synchronised or extract release. Point times are computed\n"
@@ -81,7 +88,8 @@ CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
   CLI::App* command = app.add_subcommand("rosbag", kAboutRosbag);
   command->add_option("IN", options.input, "Bag to convert")->required();
   command->add_option("OUT.lcm", options.output, "The log to write")->required();
-  command->add_option("--lidar-topic", options.lidar_topic, "Topic of the PointCloud2 messages");
+  command->add_option("--lidar-topic", options.lidar_topic,
+                      "Topic of the PointCloud2 or CustomMsg messages");
   command->add_option("--imu-topic", options.imu_topic, "Topic of the Imu messages");
   auto* truth = command->add_option("--truth", options.truth_file, "Write the truth, as TUM file");
   command
@@ -126,6 +134,22 @@ CLI::App* AddRosbag(CLI::App& app, lio::RosbagOptions& options) {
   return command;
 }
 
+CLI::App* AddPcap(CLI::App& app, lio::PcapOptions& options) {
+  CLI::App* command = app.add_subcommand("pcap", kAboutPcap);
+  command->add_option("IN.pcap", options.input, "Capture to convert")->required();
+  command->add_option("OUT.lcm", options.output, "The log to write")->required();
+  command->add_option("--sensor", options.sensor,
+                      "The lidar, where several are: ADDRESS:PORT, e.g. 192.168.1.201:2368");
+  command->add_option(
+      "--imu", options.imu,
+      "Log, bag or table of the IMU (default: IN.imu.csv, .lcm, .bag, .db3, .mcap)");
+  command->add_option("--metadata", options.metadata,
+                      "Description of an Ouster sensor (default: IN.json)");
+  command->add_flag("--whole-scans", options.whole_scans,
+                    "Write one message per sweep instead of chunks");
+  return command;
+}
+
 CLI::App* AddKittiRaw(CLI::App& app, lio::KittiRawOptions& options) {
   CLI::App* command = app.add_subcommand("kitti-raw", kAboutRaw);
   command->add_option("DRIVE_DIR", options.drive, "The drive's folder")->required();
@@ -156,9 +180,11 @@ int Convert(int argc, char** argv) {
   CLI::App app(kAbout, "lio-convert");
   app.require_subcommand(1);
   lio::RosbagOptions rosbag;
+  lio::PcapOptions pcap;
   lio::KittiRawOptions raw;
   lio::KittiOdometryOptions odometry;
   const CLI::App* rosbag_command = AddRosbag(app, rosbag);
+  const CLI::App* pcap_command = AddPcap(app, pcap);
   const CLI::App* raw_command = AddKittiRaw(app, raw);
   AddKittiOdometry(app, odometry);
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
@@ -167,6 +193,11 @@ int Convert(int argc, char** argv) {
   if (rosbag_command->parsed()) {
     Guard(rosbag.input, {rosbag.output, rosbag.truth_file});
     return Run(rosbag, lio::ConvertRosbag);
+  }
+  if (pcap_command->parsed()) {
+    Guard(pcap.input, {pcap.output});
+    if (pcap.imu) lio::RefuseToOverwrite(*pcap.imu, pcap.output);
+    return Run(pcap, lio::ConvertPcap);
   }
   if (raw_command->parsed()) {
     Guard(raw.drive, {raw.output, raw.truth_file, raw.rig_file});

@@ -13,6 +13,7 @@
 #include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
+#include "lio/report/run_report.hpp"
 #include "lio/run/replay.hpp"
 
 namespace lio {
@@ -26,6 +27,7 @@ struct ReplayArguments {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::optional<int> num_threads;
   bool writes_map = false;
+  bool writes_report = false;
   std::string map_format = "pcd";
   InitialMapArguments initial_map;
   double start_s = 0.0;
@@ -40,8 +42,9 @@ constexpr const char* kDescription =
     "LIO_ODOM_LOCAL: the pose of imu in map, which never turns), trajectory_world.tum (as on\n"
     "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
     "registration.csv, states.csv, notices.tsv, stats.json, verdict.json (may the result be\n"
-    "trusted, and if not, why), options.yaml, map.pcd with --map, and trajectory_base.tum when\n"
-    "the rig has T_base_imu. Where the clock goes back, segment_2/ and so on have every row from\n"
+    "trusted, and if not, why), options.yaml, map.pcd with --map, report.html with --report, and\n"
+    "trajectory_base.tum when the rig has T_base_imu. Where the clock goes back, segment_2/ and so "
+    "on have every row from\n"
     "there on, besides. A summary of the verdict goes to stdout.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 
@@ -73,6 +76,8 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(1, 64));
   app.add_flag("--map", arguments.writes_map, "Write map.pcd with one point per voxel of 0.2 m");
+  app.add_flag("--report", arguments.writes_report,
+               "Write report.html, a page with plots; with --map the path lies on the map");
   app.add_option("--map-format", arguments.map_format,
                  "Format of the map: pcd, or ply to have map.ply in place of map.pcd")
       ->needs("--map")
@@ -92,6 +97,17 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
   AddOptionsArguments(app, arguments.options);
 }
 
+// A page that cannot be made does not spoil the run, but one that cannot be written does.
+void TellReport(const ReplayArguments& arguments) {
+  try {
+    WriteReport(arguments.out, {arguments.log, std::nullopt, {}});
+  } catch (const WriteError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "lio-replay: no report: {}\n", error.what());
+  }
+}
+
 // Tells how the run went; the exit code.
 ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& writer,
              const ReplayArguments& arguments, const LogInputOptions& input_options) {
@@ -100,6 +116,7 @@ ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& write
     fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
     return kExitConfiguration;
   }
+  if (arguments.writes_report && !writer.failure()) TellReport(arguments);
   fmt::print("{}", VerdictSummary(replay.verdict()));
   if (writer.failure()) return kExitWriteFailed;
   const std::string complaint =

@@ -17,6 +17,7 @@
 #include "lio/run/finish_run.hpp"
 #include "lio/run/recording.hpp"
 #include "lio/run/replay.hpp"
+#include "page_commands.hpp"
 
 namespace lio {
 namespace {
@@ -26,11 +27,12 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "lio-run";
 
 struct Arguments {
-  std::string input;
+  std::vector<std::string> inputs;
+  std::string input;  // the first of them
   std::string out;
   std::string rig;
   std::string truth;
-  std::string lidar_topic, imu_topic, truth_topic;
+  std::string lidar_topic, imu_topic, truth_topic, imu_file;
   OptionsArguments options;
   std::optional<int> num_threads;
   double start_s = 0.0;
@@ -42,7 +44,8 @@ constexpr const char* kAbout =
     "Runs odometry over a recording of any kind and leaves a folder with the result.\n\n"
     "INPUT is recognised by its content: a ROS 1 bag (or the folder of its parts), a ROS 2 bag "
     "(its\n"
-    "folder, one .db3 or one .mcap), a KITTI raw drive, a KITTI odometry sequence, an LCM log, or "
+    "folder, one .db3 or one .mcap), a pcap of Velodyne or Ouster packets, a KITTI raw drive, a "
+    "KITTI odometry sequence, an LCM log, or "
     "a folder\n"
     "that lio-sim wrote. It is converted, replayed, and scored where there is a truth. DIR then "
     "has\n"
@@ -55,7 +58,8 @@ constexpr const char* kAbout =
     "another vehicle is never taken. Correct the draft and run again with --rig; where the "
     "verdict\n"
     "knows the right lines, DIR/rig_corrected.yaml has them already.\n\n"
-    "A run's folder as INPUT gets its report.html anew, e.g. one that liod --out wrote.";
+    "A run's folder as INPUT gets its report.html anew. Several such folders make one page that\n"
+    "compares them, DIR/report.html.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -63,7 +67,8 @@ constexpr const char* kExamples =
     "  lio-run drive.bag --rig out/drive/rig_draft.yaml --out out/drive --overwrite\n"
     "  lio-run ros2_folder --lidar-topic /velodyne_points --truth truth.tum --out out/ros2\n"
     "  lio-run 2011_09_26/2011_09_26_drive_0005_sync --out out/kitti\n"
-    "  lio-run out/live --truth truth.tum\n\n"
+    "  lio-run out/live --truth truth.tum\n"
+    "  lio-run out/loam out/gicp --out out/compared\n\n"
     "Exit codes: 0 done, 2 usage (also an ambiguous topic), 3 configuration (also one that the "
     "data\n"
     "contradict), 5 damaged, missing or unusable input (its sound parts were run), 6 done, but "
@@ -73,7 +78,8 @@ constexpr const char* kExamples =
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.footer(kExamples);
-  app.add_option("INPUT", arguments.input, "Recording, or the folder of a finished run")
+  app.add_option("INPUT", arguments.inputs,
+                 "Recording, or the folder of a finished run; several such folders make one page")
       ->required();
   app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
       ->type_name("DIR");
@@ -85,9 +91,13 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "True trajectory as TUM file (default: beside INPUT, else from it)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile.description(""));
-  app.add_option("--lidar-topic", arguments.lidar_topic, "Topic of a bag's PointCloud2")
+  app.add_option("--lidar-topic", arguments.lidar_topic,
+                 "Topic of a bag's PointCloud2 or CustomMsg, or a capture's sensor, ADDRESS:PORT")
       ->type_name("NAME");
   app.add_option("--imu-topic", arguments.imu_topic, "Topic of a bag's Imu")->type_name("NAME");
+  app.add_option("--imu", arguments.imu_file,
+                 "Log, bag or table of the IMU beside a network capture (default: DRIVE.imu.*)")
+      ->type_name("FILE");
   app.add_option("--truth-topic", arguments.truth_topic, "Topic of a bag's truth")
       ->type_name("NAME");
   app.add_option("--threads", arguments.num_threads, "Instead of pipeline.num_threads")
@@ -148,6 +158,7 @@ PreparedRecording Prepare(const Arguments& arguments) {
   request.lidar_topic = IfGiven(arguments.lidar_topic);
   request.imu_topic = IfGiven(arguments.imu_topic);
   request.truth_topic = IfGiven(arguments.truth_topic);
+  if (!arguments.imu_file.empty()) request.imu_file = arguments.imu_file;
   request.needs_rig = arguments.rig.empty();
   constexpr std::int64_t kSteps = 1000;
   ProgressBar bar("convert", kSteps);
@@ -194,6 +205,7 @@ std::string NextCommand(const Arguments& arguments, const fs::path& rig) {
       {"--truth", &arguments.truth},
       {"--lidar-topic", &arguments.lidar_topic},
       {"--imu-topic", &arguments.imu_topic},
+      {"--imu", &arguments.imu_file},
       {"--truth-topic", &arguments.truth_topic}};
   for (const auto& [name, value] : options) {
     if (!value->empty()) command += fmt::format(" {} {}", name, *value);
@@ -213,7 +225,7 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   fmt::print("path        {}\n", PathOfRun(out).string());
   try {
     WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
-    fmt::print("report      {}\n", (out / "report.html").string());
+    fmt::print("report      {}\n", (out / kReportFile).string());
   } catch (const WriteError&) {
     throw;
   } catch (const std::runtime_error& error) {  // the result itself is sound
@@ -261,29 +273,16 @@ ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Opt
   return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
 }
 
-ExitCode ReportOnly(const Arguments& arguments) {
-  if (!arguments.out.empty() && !fs::equivalent(arguments.out, arguments.input)) {
-    throw UsageError(arguments.input +
-                     " is the folder of a run: its report is written there, leave out --out");
-  }
-  const fs::path folder = arguments.input;
-  const std::optional<fs::path> truth = TruthArgument(arguments);
-  if (truth) {
-    const Score score = ScoreRun(folder, *truth);
-    fmt::print("{}{}\n", score.is_scored ? "score       " : "no score    ", score.line);
-  }
-  WriteReport(folder, {arguments.input, truth, {}});
-  fmt::print("report      {}\n", (folder / "report.html").string());
-  return kExitDone;
-}
-
 int Main(int argc, char** argv) {
   CLI::App app(kAbout, kProgram);
   Arguments arguments;
   AddArguments(app, arguments);
   if (const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *code;
-  if (!arguments.options.print && KindOf(arguments.input) == FileKind::kRunFolder) {
-    return ReportOnly(arguments);
+  arguments.input = arguments.inputs.front();
+  if (!arguments.options.print) {
+    const PageArguments pages = {arguments.inputs, arguments.out, TruthArgument(arguments),
+                                 arguments.overwrites};
+    if (const auto code = WritePages(pages)) return *code;
   }
   PreparedRecording recording;
   if (!arguments.options.print) {

@@ -16,6 +16,7 @@ struct PointLayout {
   CloudField x, y, z;                   // metres, float32 or float64
   std::optional<CloudField> intensity;  // "intensity", else "reflectivity", "i"
   std::optional<CloudField> ring;       // "ring", else "channel", "line", "laser_id"
+  std::optional<CloudField> tag;        // "tag" as uint8, Livox's judgement of the point
   std::optional<CloudField> time;  // "time", "t", "timestamp", "time_stamp", "offset_time", "ts"
 };
 
@@ -23,7 +24,7 @@ struct PointLayout {
 [[nodiscard]] std::optional<PointLayout> FindLayout(const std::vector<CloudField>& fields);
 
 // Holds the points of one cloud as columns, in the message's order. Points that are not finite, at
-// the origin (a driver's "no return") or without finite time are left out.
+// the origin (a driver's "no return"), without finite time or tagged as noise are left out.
 struct CloudPoints {
   std::vector<float> x_m, y_m, z_m;  // lidar frame
   std::vector<float> intensity;      // 0 if the source has none
@@ -32,7 +33,8 @@ struct CloudPoints {
   std::vector<std::uint32_t> row;    // row in an organised cloud; empty for height 1
   std::vector<std::uint32_t> column;
   std::int64_t num_nonfinite = 0;
-  std::int64_t num_zero = 0;  // points without return
+  std::int64_t num_zero = 0;   // points without return
+  std::int64_t num_noise = 0;  // points that the sensor's tag calls noise
 
   [[nodiscard]] std::size_t size() const { return x_m.size(); }
 };

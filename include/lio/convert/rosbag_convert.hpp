@@ -42,7 +42,7 @@ struct TopicChoice {
 
 // Finds topics by type if the options name none. Throws UsageError for an ambiguous topic, and for
 // a named one that is missing or of a wrong type. Throws InputError when the bag has no
-// PointCloud2; the error says so when the bag has Livox's own messages instead.
+// PointCloud2 and no CustomMsg of a Livox lidar.
 [[nodiscard]] TopicChoice ChooseTopics(const std::vector<BagTopic>& topics,
                                        const RosbagOptions& options);
 
@@ -72,6 +72,7 @@ struct RosbagReport {
   std::int64_t num_points = 0;
   std::int64_t num_points_nonfinite = 0;
   std::int64_t num_points_zero = 0;
+  std::int64_t num_points_noise = 0;  // tagged as noise by the sensor
   double longest_sweep_s = 0.0;
   std::map<std::string, std::int64_t> num_damaged;  // messages skipped, by reason
   std::int64_t num_empty = 0;                       // clouds without one usable return

@@ -11,6 +11,8 @@
 
 namespace lio {
 
+inline constexpr const char* kReportFile = "report.html";
+
 struct ReportInputs {
   std::string input;                           // the recording, for the title
   std::optional<std::filesystem::path> truth;  // a TUM file
@@ -23,11 +25,20 @@ struct ReportInputs {
 [[nodiscard]] nlohmann::ordered_json ReportData(const std::filesystem::path& folder,
                                                 const ReportInputs& inputs);
 
-// The whole page as text.
+// The whole page as text: of ReportData, or of {"runs": [ReportData, ...]} for several runs on one
+// page.
 [[nodiscard]] std::string ReportPage(const nlohmann::ordered_json& data);
 
 // Writes folder/report.html. Throws std::runtime_error as ReportData does, and when the file cannot
 // be written.
 void WriteReport(const std::filesystem::path& folder, const ReportInputs& inputs);
+
+struct ComparedRun {
+  std::filesystem::path folder;
+  ReportInputs inputs;
+};
+
+// Writes a page with all of the runs on it. Throws as WriteReport does.
+void WriteComparison(const std::filesystem::path& page, const std::vector<ComparedRun>& runs);
 
 }  // namespace lio

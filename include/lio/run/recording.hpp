@@ -19,9 +19,10 @@ struct RecordingRequest {
   std::filesystem::path out;  // folder that exists
   std::optional<std::filesystem::path> truth;
   std::optional<std::string> lidar_topic, imu_topic, truth_topic;
-  std::function<void(double)> progress;  // called with the share done, 0..1; may be empty
-  bool needs_rig = true;                 // false: the user gave one
-  bool needs_truth = true;               // false: none is looked for
+  std::optional<std::filesystem::path> imu_file;  // beside a network capture
+  std::function<void(double)> progress;           // called with the share done, 0..1; may be empty
+  bool needs_rig = true;                          // false: the user gave one
+  bool needs_truth = true;                        // false: none is looked for
 };
 
 struct PreparedRecording {
