@@ -5,6 +5,7 @@
 # stand here, too (test/integration/install_test.py checks both).
 set(LIO_PUBLIC_HEADERS
   lio/base/counters.hpp
+  lio/base/ledger.hpp
   lio/base/notice.hpp
   lio/base/pose.hpp
   lio/base/rotation.hpp

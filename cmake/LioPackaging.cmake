@@ -25,6 +25,25 @@ if(LIO_HELP2MAN AND NOT LIO_SANITIZE)
   add_dependencies(lio_programs lio_man_pages)
 endif()
 
+# A completion of each program for bash, from its --help as well.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+set(completions "")
+if(Python3_FOUND AND NOT LIO_SANITIZE)
+  foreach(program liod lio-replay lio-run lio-sim lio-eval lio-log lio-convert)
+    set(completion ${CMAKE_BINARY_DIR}/completions/${program})
+    add_custom_command(OUTPUT ${completion}
+      COMMAND Python3::Interpreter ${CMAKE_SOURCE_DIR}/packaging/completion.py
+        $<TARGET_FILE:${program}> ${completion}
+      DEPENDS ${program} packaging/completion.py COMMENT "Completion of ${program}" VERBATIM)
+    list(APPEND completions ${completion})
+    install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+      OPTIONAL)
+  endforeach()
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/completions)
+  add_custom_target(lio_completions ALL DEPENDS ${completions})
+  add_dependencies(lio_programs lio_completions)
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME liod)
 set(CPACK_PACKAGE_CONTACT "The liod authors <liod@example.org>")
@@ -60,8 +79,14 @@ file(WRITE ${CMAKE_BINARY_DIR}/packaging/changelog
   "liod (${PROJECT_VERSION}) unstable; urgency=medium\n\n"
   "  * CHANGELOG.md of liod-doc has the changes.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${now}\n")
 execute_process(COMMAND gzip -9nkf ${CMAKE_BINARY_DIR}/packaging/changelog)
+# report.html contains uPlot, whose licence asks for its text.
+file(READ ${CMAKE_SOURCE_DIR}/LICENSE licence)
+file(READ ${CMAKE_SOURCE_DIR}/third_party/uplot/LICENSE uplot_licence)
+file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${licence}\n"
+  "The pages report.html contain uPlot, https://github.com/leeoniya/uPlot, by this licence:\n\n"
+  "${uplot_licence}")
 foreach(package liod liod-dev liod-doc)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
+  install(FILES ${CMAKE_BINARY_DIR}/packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
     COMPONENT ${package})
   install(FILES ${CMAKE_BINARY_DIR}/packaging/changelog.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${package})

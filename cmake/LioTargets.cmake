@@ -45,6 +45,11 @@ function(lio_library name)
     PRIVATE ${CMAKE_SOURCE_DIR}/src) # "MODULE/..." private headers
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:lio_warnings>)
+  # Fuzzers see which branches an input takes in what reads bytes; the estimator would only be slowed.
+  if(LIO_FUZZ AND name MATCHES "^lio_(io|convert)$")
+    target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
+    target_link_options(${name} INTERFACE -fsanitize=fuzzer-no-link)
+  endif()
   lio_precompile(${name})
 endfunction()
 

@@ -105,6 +105,13 @@ std::optional<MatchOutcome> FilterInbox::TakeOutcome() {
   return std::exchange(outcome_, std::nullopt);
 }
 
+FilterInbox::Losses FilterInbox::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return {static_cast<std::int64_t>(num_imu_), std::ssize(messages_) -
+                                                   static_cast<std::int64_t>(num_imu_) -
+                                                   static_cast<std::int64_t>(num_requests_)};
+}
+
 FilterInbox::Losses FilterInbox::losses() const {
   const std::lock_guard lock(mutex_);
   return losses_;

@@ -73,6 +73,7 @@ class FilterInbox {
   [[nodiscard]] std::optional<MatchOutcome> TakeOutcome();
 
   [[nodiscard]] Losses losses() const;
+  [[nodiscard]] Losses waiting() const;  // messages in the inbox
 
  private:
   void DropOldestScan();

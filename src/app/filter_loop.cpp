@@ -43,7 +43,11 @@ double FilterLoop::input_duration_s() const {
 void FilterLoop::Run() {
   while (const std::unique_ptr<InboxItem> item = to_.inbox.Take()) {
     const bool is_message = item->index() < kFirstOther;
-    if (is_cut_short_ && is_message) continue;
+    if (is_cut_short_ && is_message) {
+      const bool is_chunk = std::holds_alternative<Arrival<ScanChunk>>(*item);
+      ++(is_chunk ? given_up_.num_chunks : given_up_.num_imu);
+      continue;
+    }
     std::visit([this](auto& content) { Handle(content); }, *item);
     Emit();
   }

@@ -54,6 +54,9 @@ class FilterLoop {
   // After Run, or on the filter thread.
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
   [[nodiscard]] Verdict Judge() const { return odometry_.Judge(); }
+  [[nodiscard]] Ledgers ledgers() const { return odometry_.ledgers(); }
+  // Messages that were not looked at after CutShort.
+  [[nodiscard]] const FilterInbox::Losses& given_up() const { return given_up_; }
   // Host's time from the first message to the last.
   [[nodiscard]] double input_duration_s() const;
 
@@ -84,6 +87,7 @@ class FilterLoop {
   std::atomic<bool> is_cut_short_ = false;
   std::atomic<std::int64_t> num_matches_done_ = 0;
 
+  FilterInbox::Losses given_up_;
   bool has_job_out_ = false;
   std::int64_t decode_ns_ = 0;  // CPU time of decoding inertial samples since the last scan
   Timestamp newest_stamp_{0};

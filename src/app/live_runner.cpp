@@ -97,7 +97,11 @@ void LiveRunner::Stop() {
   if (live_.writes_map && files_->writer() != nullptr) {
     files_->writer()->WriteMap(match_worker_.map_cloud().points_map());
   }
-  files_->Finish(Stats());
+  const RunStats stats = Stats();
+  if (const std::string why = WhyOpen(stats.account, stats.input); !why.empty()) {
+    spdlog::warn("{}; please report this", why);
+  }
+  files_->Finish(stats);
   if (files_->failure()) throw WriteError(*files_->failure());
 }
 
@@ -131,6 +135,13 @@ void LiveRunner::WatchInput(StatusReport& report) {
 
 RunStats LiveRunner::JudgedStats() const {
   RunStats stats = Stats();
+  // Messages come meanwhile: those that the estimator has not seen wait.
+  const auto waits = [](TransitCounters& transit, std::int64_t taken, std::int64_t seen) {
+    transit.num_waiting = taken - transit.num_dropped - transit.num_given_up - seen;
+  };
+  const Ledgers& ledgers = stats.account.ledgers;
+  waits(stats.account.imu, stats.input.num_imu_taken, ledgers.samples.num_received);
+  waits(stats.account.chunks, stats.input.num_chunks_taken, ledgers.chunks.num_received);
   if (stats.counters.num_imu + stats.counters.num_chunks > 0) stats.verdict = filter_.Judge();
   return stats;
 }
@@ -140,6 +151,9 @@ RunStats LiveRunner::Stats() const {
   RunStats stats;
   if (verdict_) stats.verdict = *verdict_;
   stats.counters = filter_.counters();
+  stats.account = {filter_.ledgers(),
+                   {losses.num_imu, filter_.given_up().num_imu, inbox_.waiting().num_imu},
+                   {losses.num_chunks, filter_.given_up().num_chunks, inbox_.waiting().num_chunks}};
   stats.input = board_.input();
   stats.extra = {{"num_imu_queue_dropped", losses.num_imu},
                  {"num_chunks_queue_dropped", losses.num_chunks},

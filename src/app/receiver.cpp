@@ -61,6 +61,7 @@ void Receiver::OnImu(ByteView data, std::int64_t recv_utime) {
   Arrival<ImuSample> arrival{{}, recv_utime, 0};
   if (!decoder_.Imu(data, arrival.data)) return;
   arrival.decode_ns = clock_() - begin;
+  ReportCounters();  // first, so that no message is in the inbox before it is counted
   inbox_.Put(std::move(arrival));
 }
 
@@ -69,6 +70,7 @@ void Receiver::OnScan(ByteView data, std::int64_t recv_utime) {
   Arrival<ScanChunk> arrival{{}, recv_utime, 0};
   if (!decoder_.Chunk(data, arrival.data)) return;
   arrival.decode_ns = clock_() - begin;
+  ReportCounters();
   inbox_.Put(std::move(arrival));
 }
 

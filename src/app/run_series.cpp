@@ -16,7 +16,12 @@ RunStats Between(const RunStats& begin, const RunStats& end) {
   }
   for (std::size_t i = 0; i < span.input.num_refused.size(); ++i) {
     span.input.num_refused[i] -= begin.input.num_refused[i];
+    span.input.num_imu_refused[i] -= begin.input.num_imu_refused[i];
+    span.input.num_chunks_refused[i] -= begin.input.num_chunks_refused[i];
   }
+  span.account.ledgers -= begin.account.ledgers;
+  span.account.imu -= begin.account.imu;
+  span.account.chunks -= begin.account.chunks;
   span.input.num_imu_received -= begin.input.num_imu_received;
   span.input.num_imu_taken -= begin.input.num_imu_taken;
   span.input.num_chunks_received -= begin.input.num_chunks_received;

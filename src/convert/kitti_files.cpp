@@ -69,6 +69,8 @@ std::optional<Timestamp> ParseKittiStamp(std::string_view line) {
   if (!year_number || !month_number || !day_number || !hour || !minute || !second) return {};
   const year_month_day date{year{*year_number}, month{static_cast<unsigned>(*month_number)},
                             day{static_cast<unsigned>(*day_number)}};
+  // Nanoseconds of 64 bits end in 2262, and there were no drives before 1970.
+  if (*year_number < 1970 || *year_number > 2261) return {};
   if (!date.ok() || *hour > 23 || *minute > 59 || *second > 60) return {};
   const std::string_view fraction_text = line.substr(19);
   std::int64_t fraction_ns = 0;

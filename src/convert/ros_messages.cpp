@@ -49,7 +49,10 @@ bool IsConsistent(RosCloud& cloud) {
   if (cloud.row_step == 0 && packed_row <= UINT32_MAX) {
     cloud.row_step = static_cast<std::uint32_t>(packed_row);
   }
-  if (cloud.num_points() == 0) return true;
+  if (cloud.num_points() == 0) {
+    cloud.width = cloud.height = 0;  // nobody need walk through four billion empty rows
+    return true;
+  }
   if (cloud.point_step == 0 || cloud.row_step < packed_row) return false;
   const std::uint64_t needed = std::uint64_t{cloud.row_step} * (cloud.height - 1) + packed_row;
   const std::uint64_t whole = std::uint64_t{cloud.row_step} * cloud.height;

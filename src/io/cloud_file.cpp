@@ -12,6 +12,8 @@
 #include <fstream>
 #include <string>
 
+#include "io/pcd_check.hpp"
+#include "io/ply_check.hpp"
 #include "lio/io/output_file.hpp"
 
 namespace lio {
@@ -44,6 +46,7 @@ CloudKind KindOfCloud(const std::filesystem::path& path) {
 std::optional<pcl::PCLPointCloud2> ReadCloud(const std::filesystem::path& path, CloudKind kind) {
   // PCL's reader breaks down over text that is no header of a cloud.
   if (kind == CloudKind::kOther || KindOfCloud(path) != kind) return std::nullopt;
+  if (!(kind == CloudKind::kPcd ? IsSoundPcd(path) : IsSoundPly(path))) return std::nullopt;
   const QuietPcl quiet;
   pcl::PCLPointCloud2 cloud;
   try {

@@ -28,15 +28,18 @@ std::int64_t InputCounters::TotalRefused() const {
   return std::accumulate(num_refused.begin(), num_refused.end(), std::int64_t{0});
 }
 
-bool InputDecoder::Accept(DecodeStatus status) {
-  if (status != DecodeStatus::kOk) Refuse(status);
-  return status == DecodeStatus::kOk;
+bool InputDecoder::Accept(DecodeStatus status,
+                          std::array<std::int64_t, kNumDecodeStatuses>& of_channel) {
+  if (status == DecodeStatus::kOk) return true;
+  Refuse(status);
+  ++of_channel[static_cast<std::size_t>(status)];
+  return false;
 }
 
 bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
   std::int32_t seq = 0;
   ++counters_.num_imu_received;
-  if (!Accept(DecodeImu(bytes, sample, seq))) return false;
+  if (!Accept(DecodeImu(bytes, sample, seq), counters_.num_imu_refused)) return false;
   ++counters_.num_imu_taken;
   sample.seq = seq;
   // The difference is modulo 2^32, so that a sequence that wraps has no gap. A step back comes from
@@ -53,7 +56,7 @@ bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
 
 bool InputDecoder::Chunk(ByteView bytes, ScanChunk& chunk) {
   ++counters_.num_chunks_received;
-  if (!Accept(DecodeChunk(bytes, chunk))) return false;
+  if (!Accept(DecodeChunk(bytes, chunk), counters_.num_chunks_refused)) return false;
   ++counters_.num_chunks_taken;
   return true;
 }

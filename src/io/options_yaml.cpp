@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "io/nearest_name.hpp"
+#include "io/yaml_documents.hpp"
 #include "lio/io/beam_table.hpp"
 #include "lio/io/printable.hpp"
 #include "lio/pipeline/options_fields.hpp"
@@ -115,9 +117,10 @@ class Loader {
   void CheckGivenOnce(const YAML::Node& map, const std::string& path);
   void SettleOptionalGroups();
 
-  std::string Where(const YAML::Node& node) const {
-    return is_set_ ? source_ : source_ + ":" + std::to_string(node.Mark().line + 1);
+  std::string LineOf(const YAML::Mark& mark) const {
+    return is_set_ ? source_ : source_ + ":" + std::to_string(mark.line + 1);
   }
+  std::string Where(const YAML::Node& node) const { return LineOf(node.Mark()); }
   void Fault(const std::string& where, const std::string& what) {
     constexpr std::size_t kMaxBytes = 400;  // keys may be long, too
     result_.faults.push_back(where + ": " + Excerpt(what, kMaxBytes));
@@ -142,11 +145,11 @@ void Loader::ApplyFile(const std::filesystem::path& file) {
     return;
   }
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(stream);
-    if (documents.size() > 1) Fault(Where(documents[1]), "holds a second YAML document");
-    if (!documents.empty()) ApplyMap(documents.front(), "");
+    const YamlDocument document = LoadYamlDocument({std::istreambuf_iterator<char>(stream), {}});
+    if (document.second_at) Fault(LineOf(*document.second_at), "holds a second YAML document");
+    ApplyMap(document.first, "");
   } catch (const YAML::Exception& e) {
-    Fault(source_ + ":" + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
+    Fault(LineOf(e.mark), "is not valid YAML: " + e.msg);
     is_file_unusable_ = true;
   }
 }

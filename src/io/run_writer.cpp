@@ -190,6 +190,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
   json["num_rows_not_later"] = whole_.num_rows_not_later();
   json["num_segments"] = num_segments_;
   for (const auto& [name, count] : stats.extra) json[name] = count;
+  json["account"] = Json::parse(AccountJson(stats.account, stats.input));
   json["log_duration_s"] = stats.log_duration_s;
   json["wall_s"] = stats.wall_s;
   json["realtime_factor"] = stats.wall_s > 0 ? stats.log_duration_s / stats.wall_s : 0.0;

@@ -4,6 +4,7 @@
 
 #include "lcm_wire.hpp"
 #include "lio/base/counters_fields.hpp"
+#include "lio/io/output_account.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
 
@@ -13,6 +14,12 @@ namespace {
 // On the wire the estimator's counts follow one another in the order of kCounterFields, after the
 // fingerprint, utime, start_utime, sensor_utime, seq and state. A test compares with the type.
 constexpr std::size_t kCountersOffset = 8 + 8 + 8 + 8 + 4 + 1;
+constexpr std::size_t kStartUtimeOffset = 8 + 8;
+constexpr std::size_t kCountBytes = 8;
+// Behind them stand the refusals by reason, imu_seq_missing, and what queues dropped.
+constexpr std::size_t kLossesOffset = kCountersOffset + kCounterFields.size() * kCountBytes;
+constexpr std::size_t kNumLosses = kNumDecodeStatuses - 1 + 3;
+constexpr std::int64_t kMaxCount = std::int64_t{1} << 50;  // sums of these do not overflow
 
 void WriteCounters(const Counters& counters, Bytes& bytes) {
   std::size_t at = kCountersOffset;
@@ -22,6 +29,12 @@ void WriteCounters(const Counters& counters, Bytes& bytes) {
       bytes.at(at++) = static_cast<std::uint8_t>(value >> shift);
     }
   }
+}
+
+std::int64_t ReadInt64(ByteView bytes, std::size_t at) {
+  std::uint64_t value = 0;
+  for (std::size_t i = at; i < at + kCountBytes; ++i) value = value << 8 | bytes[i];
+  return static_cast<std::int64_t>(value);
 }
 
 void CopyLosses(const StatusReport& from, status_t& to) {
@@ -91,6 +104,26 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   Bytes bytes = EncodeMessage(message);
   WriteCounters(report.counters, bytes);
   return bytes;
+}
+
+std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes) {
+  if (bytes.size() < kLossesOffset + kNumLosses * kCountBytes) return std::nullopt;
+  if (ReadInt64(bytes, 0) != status_t::getHash()) return std::nullopt;
+  StatusCounts counts;
+  counts.start_utime = ReadInt64(bytes, kStartUtimeOffset);
+  std::size_t at = kCountersOffset;
+  bool is_sound = true;
+  const auto next = [&] {
+    const std::int64_t count = ReadInt64(bytes, at);
+    at += kCountBytes;
+    is_sound = is_sound && count >= 0 && count <= kMaxCount;
+    return count;
+  };
+  for (const CounterField& field : kCounterFields) counts.counters.*field.count = next();
+  for (int i = 1; i < kNumDecodeStatuses && is_sound; ++i) counts.num_refused += next();
+  at += kCountBytes;  // imu_seq_missing
+  for (int i = 0; i < 2 && is_sound; ++i) counts.num_queue_dropped += next();
+  return is_sound ? std::optional(counts) : std::nullopt;
 }
 
 std::uint64_t Fnv1a(std::string_view text) {

@@ -137,7 +137,7 @@ bool Initializing::IsVeryCalm(Timestamp stamp) const {
 }
 
 void Initializing::ForgetOldestScan() {
-  context_.sweeps.pop_front();
+  context_.ForgetSweeps(1);
   scans_.erase(scans_.begin());
 }
 
@@ -147,7 +147,7 @@ std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segmen
     handover.ShiftTimesBy(segment.first.stamp - *segment.last_imu);
     context_.clocks.Interrupt();
   }
-  context_.sweeps.clear();
+  context_.ForgetSweeps(context_.sweeps.size());
   ++context_.counters.num_restarts;
   context_.outputs.Notify(segment.first.stamp, Notice::Severity::kWarning,
                           "the IMU's stamps jumped: initialization begins again; look for lost "

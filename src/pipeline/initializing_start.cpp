@@ -132,8 +132,7 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   if (SecondsBetween(begin, stamp) < kInitializing.max_window_s) return std::nullopt;
   // Perhaps the tracker was misled by a gyro in wrong units or axes, or lost its way without one.
   context_.convention.TrustGyro(!context_.convention.trusts_gyro());
-  context_.sweeps.erase(context_.sweeps.begin(),
-                        context_.sweeps.begin() + static_cast<std::ptrdiff_t>(scans_.size()));
+  context_.ForgetSweeps(scans_.size());
   return Retry();
 }
 
@@ -175,8 +174,7 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
   handover_.last_fix = MakeFix(start.estimate.stamp, start.estimate, start.g_world);
   handover_.last_fused = start.estimate.stamp;
   context_.convention.BeginMap(start.estimate.stamp);
-  context_.sweeps.erase(context_.sweeps.begin(),
-                        context_.sweeps.begin() + static_cast<std::ptrdiff_t>(first_sweep));
+  context_.ForgetSweeps(first_sweep);
   const ImuConvention& convention = context_.stream.imu().convention();
   const std::string read_as = convention == ImuConvention{} ? "" : "; " + Describe(convention);
   context_.outputs.Notify(start.estimate.stamp, Notice::Severity::kInfo, start.how + read_as);

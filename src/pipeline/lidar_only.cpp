@@ -125,7 +125,7 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   }
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
-  context_.sweeps.pop_front();
+  context_.EndSweep(report.fused || starts_map);
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
   if (is_imu_back_ && report.fused && is_place_sure) return ReturnToImu(outcome);
   return std::nullopt;

@@ -38,6 +38,17 @@ struct ModeContext {
   RigExaminer& examiner;
   const PlaceKnowledge& place;
 
+  // The oldest sweep has its row. Used: it was fused, or a map begins with it.
+  void EndSweep(bool is_used) const {
+    counters.ledgers.scans.Settle(is_used ? ScanFate::kUsed : ScanFate::kRejected);
+    sweeps.pop_front();
+  }
+  // The oldest sweeps get no row: a start, or one anew, comes after them.
+  void ForgetSweeps(std::size_t num) const {
+    counters.ledgers.scans.Settle(ScanFate::kBeforeStart, num);
+    sweeps.erase(sweeps.begin(), sweeps.begin() + static_cast<std::ptrdiff_t>(num));
+  }
+
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 };
 

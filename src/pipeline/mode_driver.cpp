@@ -66,7 +66,7 @@ void ModeDriver::GoOn(Next transition) {
   const auto* tracking = As<Tracking>();
   context_.stream.SetBegin(tracking ? std::optional(tracking->begin()) : std::nullopt);
   if (transition && kind() == ModeKind::kRejected) {
-    context_.sweeps.clear();
+    context_.ForgetSweeps(context_.sweeps.size());
     context_.stream.Reject();
   }
 }
@@ -123,7 +123,7 @@ ModeDriver::Next ModeDriver::Take(const ImuAbsent& event) {
 }
 
 ModeDriver::Next ModeDriver::Take(const ImuAppeared& event) {
-  context_.sweeps.clear();
+  context_.ForgetSweeps(context_.sweeps.size());
   context_.clocks.Restart();
   if (auto* lidar_only = As<LidarOnly>()) return lidar_only->TakeImu(event);
   auto* initializing = As<Initializing>();

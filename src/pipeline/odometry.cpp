@@ -122,6 +122,11 @@ void Odometry::Reset(const std::optional<GivenPose>& at, Timestamp stamp) {
   }
   auto next = std::make_unique<Impl>(impl_->options, impl_->clock, impl_->start_in, handover);
   next->counters = impl_->counters;
+  Ledgers& kept = next->counters.ledgers;
+  kept = ledgers();
+  kept.samples.ForgetWaiting();
+  kept.chunks.ForgetWaiting();
+  kept.scans.ForgetWaiting();
   ++next->counters.num_restarts;
   impl_ = std::move(next);
 }
@@ -154,8 +159,9 @@ InsertTask Odometry::FinishJob(MatchOutcome outcome) {
 
 void Odometry::ShedLoad() {
   const bool looks_back = impl_->mode.kind() == ModeKind::kInitializing;
-  impl_->counters.num_scans_dropped +=
-      static_cast<std::int64_t>(impl_->queue.Shed(impl_->mode.next_sweep(), looks_back));
+  const std::size_t num_shed = impl_->queue.Shed(impl_->mode.next_sweep(), looks_back);
+  impl_->counters.num_scans_dropped += static_cast<std::int64_t>(num_shed);
+  impl_->counters.ledgers.scans.Settle(ScanFate::kDropped, num_shed);
 }
 
 std::vector<Output> Odometry::TakeOutputs() {
@@ -179,6 +185,12 @@ Trust Odometry::trust() const {
 
 const Counters& Odometry::counters() const {
   return impl_->counters;
+}
+
+Ledgers Odometry::ledgers() const {
+  Ledgers ledgers = impl_->stream.ledgers();
+  ledgers.scans.num_waiting += std::ssize(impl_->queue.sweeps());
+  return ledgers;
 }
 
 TrackingStatus Odometry::status() const {

@@ -50,7 +50,12 @@ HistoryOptions Tracking::HistoryOptionsAt(Timestamp stamp) const {
 }
 
 void Tracking::AddImu(const ImuReady& event) {
-  if (history_.AddImu(event.sample) == EventOutcome::kTooOld) ++context_.counters.num_imu_late;
+  if (history_.AddImu(event.sample) == EventOutcome::kTooOld) {
+    ++context_.counters.num_imu_late;
+    if (!event.is_made_up) {
+      context_.counters.ledgers.samples.Move(SampleFate::kUsed, SampleFate::kLate);
+    }
+  }
   if (!event.is_made_up) PublishAtImuRate();
 }
 
@@ -149,7 +154,7 @@ void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const Imu
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
-  context_.sweeps.pop_front();
+  context_.EndSweep(report.fused || outcome.match.status == MatchStatus::kEmptyMap);
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
 }

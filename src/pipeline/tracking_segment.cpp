@@ -42,7 +42,7 @@ Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& opti
 // After a gap or a step of the clock the state goes on from where it was, unsure of what happened
 // in between, at the new time.
 void Tracking::StartSegment(const SegmentStarts& segment) {
-  context_.sweeps.clear();
+  context_.ForgetSweeps(context_.sweeps.size());
   ++context_.counters.num_restarts;
   handover_.clock_step.reset();
   handover_.last_published.reset();

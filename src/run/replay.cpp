@@ -109,7 +109,11 @@ void Replay::Finish(const LogInput& input, double wall_s) {
   RunStats stats;
   stats.counters = odometry_.counters();
   stats.input = input.counters();
+  stats.account.ledgers = odometry_.ledgers();
   stats.num_skipped_bytes = input.num_skipped_bytes();
+  if (const std::string why = WhyOpen(stats.account, stats.input); !why.empty()) {
+    fmt::print(stderr, "{}: {}; please report this\n", settings_.program, why);
+  }
   stats.log_duration_s = input.duration_s();
   stats.wall_s = wall_s;
   stats.verdict = verdict_;

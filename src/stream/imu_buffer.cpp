@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/stream/imu_buffer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lio/filter/sample_lookup.hpp"
@@ -47,6 +48,9 @@ std::optional<ImuSample> ImuBuffer::Read(const ImuSample& sent) {
   const ImuSample sample = ToSi(convention_, sent);
   if (sample.w_imu_radps.norm() <= kMaxGyroRate_radps) return sample;
   ++counters_->num_imu_out_of_range;
+  if (!sent.is_made_up()) {
+    counters_->ledgers.samples.Move(SampleFate::kUsed, SampleFate::kOutOfRange);
+  }
   return std::nullopt;
 }
 
@@ -107,6 +111,12 @@ ImuNoise ImuBuffer::NoiseAt(Timestamp stamp) const {
 
 void ImuBuffer::SetConvention(const ImuConvention& convention) {
   counters_->num_imu_out_of_range -= std::ssize(sent_) - std::ssize(samples_);
+  const auto num_measured = [](const std::deque<ImuSample>& samples) {
+    return std::count_if(samples.begin(), samples.end(),
+                         [](const ImuSample& sample) { return !sample.is_made_up(); });
+  };
+  counters_->ledgers.samples.Move(SampleFate::kOutOfRange, SampleFate::kUsed,
+                                  num_measured(sent_) - num_measured(samples_));
   samples_.clear();
   convention_ = convention;
   for (const ImuSample& sent : sent_) {

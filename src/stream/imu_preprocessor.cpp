@@ -24,11 +24,13 @@ bool IsAsLong(double step_s, double as_s) {
 bool ImuPreprocessor::IsSane(const ImuSample& sample) {
   if (!sample.w_imu_radps.allFinite() || !sample.f_imu_mps2.allFinite()) {
     ++counters_->num_imu_nonfinite;
+    counters_->ledgers.samples.Settle(SampleFate::kNonfinite);
     return false;
   }
   if (sample.w_imu_radps.norm() > max_rate_ ||
       sample.f_imu_mps2.norm() > kImuPreprocessor.max_force_mps2) {
     ++counters_->num_imu_out_of_range;
+    counters_->ledgers.samples.Settle(SampleFate::kOutOfRange);
     return false;
   }
   return true;
@@ -81,6 +83,7 @@ std::vector<ImuSample> ImuPreprocessor::Release() {
   for (const ImuSample& sample : std::exchange(suspects_, {})) {
     if (IsFar(sample.stamp)) {
       ++counters_->num_imu_out_of_range;
+      counters_->ledgers.samples.Settle(SampleFate::kOutOfRange);
     } else {
       if (IsBehindHole(sample.stamp)) ++counters_->num_imu_gaps;
       released.push_back(sample);

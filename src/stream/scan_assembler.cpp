@@ -54,6 +54,7 @@ ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   for (ScanChunk& slot : partial.chunks) slot.chunk_count = 0;
   const auto after = std::find_if(open_.begin(), open_.end(),
                                   [&](const Partial& p) { return chunk.stamp < p.name.first; });
+  counters_->ledgers.scans.Receive();
   return &*open_.insert(after, std::move(partial));
 }
 
@@ -63,22 +64,27 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   const Timestamp last = chunk.stamp + last_offset;
   if (!IsUsable(chunk) || last_offset > kScanAssembler.max_sweep_span || IsTornOff(chunk, last)) {
     ++counters_->num_chunks_bad;
+    counters_->ledgers.chunks.Settle(ChunkFate::kBad);
     return;
   }
   Partial* partial = FindOrOpen(chunk);
   if (partial == nullptr) {
     ++counters_->num_chunks_late;
+    counters_->ledgers.chunks.Settle(ChunkFate::kLate);
     return;
   }
   ScanChunk& slot = partial->chunks[static_cast<std::size_t>(chunk.chunk_index)];
   if (slot.chunk_count != 0) {
     ++counters_->num_chunks_duplicate;
+    counters_->ledgers.chunks.Settle(ChunkFate::kDuplicate);
     return;
   }
   if (partial->num_points + chunk.points.size() > kScanAssembler.max_points) {
     ++counters_->num_chunks_bad;
+    counters_->ledgers.chunks.Settle(ChunkFate::kBad);
     return;
   }
+  counters_->ledgers.chunks.Settle(ChunkFate::kUsed);
   partial->num_points += chunk.points.size();
   partial->name.first = std::min(partial->name.first, chunk.stamp);
   partial->name.last = std::max(partial->name.last, last);

@@ -23,6 +23,7 @@ void ScanGate::Add(Sweep sweep) {
   ++counters_->num_scans;
   if (sweep.points.empty()) {
     ++counters_->num_scans_empty;
+    counters_->ledgers.scans.Settle(ScanFate::kEmpty);
     return;
   }
   if (Quarantine(sweep)) return;
@@ -42,17 +43,19 @@ void ScanGate::Accept(Sweep sweep) {
   while (waiting_span_s() > kScanGate.max_wait_s || HasTooMany(waiting_)) {
     waiting_.pop_front();
     ++counters_->num_scans_without_imu;
+    counters_->ledgers.scans.Settle(ScanFate::kWithoutImu);
   }
 }
 
 // Counts a late sweep. False: so many come late that time itself has moved back.
 bool ScanGate::DropLate() {
   ++counters_->num_scans_late;
-  if (++num_late_in_a_row_ < kScanGate.max_late_in_a_row) return true;
+  if (++num_late_in_a_row_ < kScanGate.max_late_in_a_row) {
+    counters_->ledgers.scans.Settle(ScanFate::kLate);
+    return true;
+  }
   ++counters_->num_clock_jumps;
-  counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
-  waiting_.clear();
-  last_end_.reset();
+  DropWaiting();
   return false;
 }
 
@@ -64,6 +67,7 @@ bool ScanGate::Quarantine(Sweep& sweep) {
       Accept(std::move(*suspect_));
     } else {
       ++counters_->num_scans_late;
+      counters_->ledgers.scans.Settle(ScanFate::kLate);
     }
     suspect_.reset();
   }
@@ -78,8 +82,12 @@ void ScanGate::Flush() {
 }
 
 void ScanGate::StartSegment(Timestamp first) {
-  if (!last_end_ || *last_end_ <= first) return;
+  if (last_end_ && *last_end_ > first) DropWaiting();
+}
+
+void ScanGate::DropWaiting() {
   counters_->num_scans_without_imu += static_cast<std::int64_t>(waiting_.size());
+  counters_->ledgers.scans.Settle(ScanFate::kWithoutImu, waiting_.size());
   waiting_.clear();
   last_end_.reset();
 }

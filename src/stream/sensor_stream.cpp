@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "stream/stream_parameters.hpp"
@@ -35,16 +36,20 @@ void SensorStream::Notify(Timestamp stamp, Notice::Severity severity, std::strin
 }
 
 void SensorStream::AddImu(const ImuSample& sample) {
+  counters_->ledgers.samples.Receive();
   if (!options_.use_imu || life_ == Life::kRejected) {
     ++counters_->num_imu;
+    counters_->ledgers.samples.Settle(SampleFate::kUnwanted);
     return;
   }
   if (!RefuseForeign(sample)) Enqueue({sample, std::nullopt, 0});
 }
 
 void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
+  counters_->ledgers.chunks.Receive();
   if (life_ == Life::kRejected) {
     ++counters_->num_chunks;
+    counters_->ledgers.chunks.Settle(ChunkFate::kUnwanted);
     return;
   }
   if (RefuseForeign(chunk)) return;
@@ -55,6 +60,7 @@ void SensorStream::AddChunk(ScanChunk chunk, std::int64_t decode_ns) {
 bool SensorStream::RefuseForeign(const ImuSample& sample) {
   if (!senders_.imu.IsForeign(sample.seq, sample.stamp)) return false;
   ++counters_->num_imu;
+  counters_->ledgers.samples.Settle(SampleFate::kForeign);
   if (counters_->num_imu_foreign++ == 0) {
     Notify(sample.stamp, Notice::Severity::kWarning,
            fmt::format("two senders of inertial samples on one channel: the one that came first is "
@@ -74,6 +80,7 @@ bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
     return false;
   }
   ++counters_->num_chunks;
+  counters_->ledgers.chunks.Settle(ChunkFate::kForeign);
   if (counters_->num_chunks_foreign++ == 0) {
     Notify(chunk.stamp, Notice::Severity::kWarning,
            fmt::format("two lidars on one channel: sensor_id {} came first and is kept, sensor_id "
@@ -93,8 +100,15 @@ void SensorStream::Enqueue(Message message) {
     inbox_.messages.push_back(std::move(message));
     return;
   }
-  ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
-  ++(message.chunk ? counters_->num_chunks_late : counters_->num_imu_late);
+  if (message.chunk) {
+    ++counters_->num_chunks;
+    ++counters_->num_chunks_late;
+    counters_->ledgers.chunks.Settle(ChunkFate::kLate);
+  } else {
+    ++counters_->num_imu;
+    ++counters_->num_imu_late;
+    counters_->ledgers.samples.Settle(SampleFate::kLate);
+  }
 }
 
 void SensorStream::Flush() {
@@ -104,12 +118,40 @@ void SensorStream::Flush() {
 void SensorStream::Reject() {
   life_ = Life::kRejected;
   state_ = State::kFlowing;
-  step_ = {};
+  Ledgers& ledgers = counters_->ledgers;
+  ledgers.samples.Settle(SampleFate::kUnwanted, std::exchange(step_, {}).result.accepted.size());
+  ledgers.scans.Settle(ScanFate::kUnwanted, NumSweepsReady());
   events_.clear();
   inbox_.num_points = 0;
   for (const Message& message : std::exchange(inbox_.messages, {})) {
-    ++(message.chunk ? counters_->num_chunks : counters_->num_imu);
+    if (message.chunk) {
+      ++counters_->num_chunks;
+      ledgers.chunks.Settle(ChunkFate::kUnwanted);
+    } else {
+      ++counters_->num_imu;
+      ledgers.samples.Settle(SampleFate::kUnwanted);
+    }
   }
+}
+
+std::size_t SensorStream::NumSweepsReady() const {
+  return static_cast<std::size_t>(std::count_if(
+      events_.begin(), events_.end(),
+      [](const StreamEvent& event) { return std::holds_alternative<SweepReady>(event); }));
+}
+
+Ledgers SensorStream::ledgers() const {
+  Ledgers ledgers = counters_->ledgers;
+  const auto num_chunks =
+      std::count_if(inbox_.messages.begin(), inbox_.messages.end(),
+                    [](const Message& message) { return message.chunk.has_value(); });
+  ledgers.chunks.num_waiting = num_chunks;
+  ledgers.samples.num_waiting = std::ssize(inbox_.messages) - num_chunks +
+                                std::ssize(step_.result.accepted) + std::ssize(late_imu_) +
+                                static_cast<std::int64_t>(preprocessor_.num_held());
+  ledgers.scans.num_waiting =
+      static_cast<std::int64_t>(NumSweepsReady() + assembler_.num_held() + gate_.num_held());
+  return ledgers;
 }
 
 std::optional<StreamEvent> SensorStream::Next(std::size_t num_unmatched) {
@@ -202,11 +244,13 @@ void SensorStream::AcceptAll(const std::vector<ImuSample>& samples) {
 void SensorStream::Accept(const ImuSample& sent) {
   if (imu_.IsFrozen(sent.stamp)) {
     ++counters_->num_imu_late;
+    counters_->ledgers.samples.Settle(SampleFate::kLate);
     return;
   }
   std::vector<ImuReady> ready;
   const bool is_new = imu_.Add(MarkSaturated(sent), ready);
   Emit(std::move(ready));
+  counters_->ledgers.samples.Settle(is_new ? SampleFate::kUsed : SampleFate::kDuplicate);
   if (!is_new) {
     ++counters_->num_imu_duplicate;
     return;
@@ -236,10 +280,11 @@ void SensorStream::Emit(std::vector<ImuReady> ready) {
 void SensorStream::LoseImu() {
   state_ = State::kFlowing;
   ++counters_->num_imu_gaps;
+  ForgetLateImu();
+  counters_->ledgers.samples.Settle(SampleFate::kForgotten, preprocessor_.num_held());
   preprocessor_ = ImuPreprocessor(*counters_, MaxRateSent(options_.units));
   GoLidarOnly("no inertial samples come any more");
   imu_.Clear();
-  late_imu_.clear();
   OpenGate();
 }
 

@@ -108,18 +108,23 @@ void SensorStream::StartSegment() {
   events_.emplace_back(SegmentStarts{ToSi(imu_.convention(), first), step_.result.step, last_imu});
 }
 
+void SensorStream::ForgetLateImu() {
+  counters_->ledgers.samples.Settle(SampleFate::kForgotten, std::exchange(late_imu_, {}).size());
+}
+
 // An IMU that comes up after the lidar. A stray sample is none, and neither is one by another
 // clock.
 void SensorStream::TakeLateImu(const ImuSample& sample) {
   ImuSample shifted = sample;
   shifted.stamp = sample.stamp + imu_clock_shift_;
   const ImuPreprocessor::Result result = preprocessor_.Add(shifted);
-  if (result.step != Step::kNone) late_imu_.clear();
+  if (result.step != Step::kNone) ForgetLateImu();
   for (const ImuSample& accepted : result.accepted) {
     const bool is_apart = NotifyIfClocksApart(accepted.stamp, newest_chunk_);
-    if (is_apart) late_imu_.clear();
+    if (is_apart) ForgetLateImu();
     if (is_apart || (!late_imu_.empty() && accepted.stamp <= late_imu_.back().stamp)) {
       ++counters_->num_imu_late;
+      counters_->ledgers.samples.Settle(SampleFate::kLate);
       continue;
     }
     late_imu_.push_back(accepted);

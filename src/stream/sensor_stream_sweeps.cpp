@@ -63,6 +63,7 @@ void SensorStream::Admit(std::shared_ptr<Sweep> sweep) {
   const Timestamp earliest = begin_ ? *begin_ : imu_.sent().front().stamp;
   if (sweep->start + kStream.stamp_slack < earliest) {
     ++counters_->num_scans_without_imu;
+    counters_->ledgers.scans.Settle(ScanFate::kWithoutImu);
     NotifyIfClocksApart(earliest, sweep->start);
     return;
   }

@@ -125,6 +125,13 @@ class LiveRunnerTest : public ::testing::Test {
     return live;
   }
   nlohmann::json Stats() { return nlohmann::json::parse(test::ReadText(out_ / "stats.json")); }
+  // Every message that was received has a fate in stats.json.
+  void ExpectAccountCloses() {
+    for (const auto& [kind, fates] : Stats()["account"].items()) {
+      EXPECT_EQ(fates["unaccounted"], 0) << kind << ": " << fates;
+      EXPECT_GT(fates["received"], 0) << kind;
+    }
+  }
   std::string Live(const std::string& name) { return test::ReadText(out_ / name); }
   std::ptrdiff_t NumLines(const std::string& name) {
     const std::string text = Live(name);

@@ -38,6 +38,22 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
   EXPECT_EQ(Stats()["num_imu"], replayed.counters.num_imu);
   EXPECT_EQ(Stats()["num_scans_dropped"], 0);
   EXPECT_EQ(Stats()["num_chunks_queue_dropped"], 0);
+  ExpectAccountCloses();
+}
+
+TEST_F(LiveRunnerTest, TheAccountClosesWithHostileBytesAmongTheMessages) {
+  LiveRunner runner(*bus_, SceneOptions(), WithFiles());
+  Play(runner, 500, [&](std::int32_t num_scans) {
+    const auto size = static_cast<std::size_t>(num_scans % 90);
+    for (const char* channel : {"LIO_IMU", "LIO_SCAN", "LIO_CMD"}) {
+      EXPECT_TRUE(bus_->Publish(channel, Bytes(size, static_cast<std::uint8_t>(num_scans))));
+    }
+    return true;
+  });
+  runner.Stop();
+  ExpectAccountCloses();
+  EXPECT_GT(Stats()["account"]["imu"]["truncated"], 0);
+  EXPECT_GT(Stats()["account"]["chunks"]["truncated"], 0);
 }
 
 // A newer cloud replaces one that still waits to be sent. So the log is held up while
@@ -200,6 +216,8 @@ TEST_F(LiveRunnerTest, StoppingGivesUpTheScansThatWaitWhenItsTimeIsOver) {
   EXPECT_EQ(NumLines("covariance.csv"), NumLines("trajectory.tum") + 1);
   EXPECT_TRUE(std::filesystem::exists(out_ / "map.pcd"));
   EXPECT_EQ(Stats()["num_shutdowns_cut_short"], 1);
+  ExpectAccountCloses();
+  EXPECT_GT(Stats()["account"]["imu"]["given_up"], 0);
 }
 
 TEST_F(LiveRunnerTest, OverloadDropsWholeScansAndCountsThem) {
@@ -215,6 +233,7 @@ TEST_F(LiveRunnerTest, OverloadDropsWholeScansAndCountsThem) {
   EXPECT_EQ(Stats()["num_chunks_missing"], 0);
   EXPECT_GT(Stats()["num_scans_dropped"], 0);
   EXPECT_LT(Stats()["num_scans_dropped"], Stats()["num_scans"]);
+  ExpectAccountCloses();
 }
 
 TEST_F(LiveRunnerTest, WithoutInputItStopsAtOnceAndItsFilesAreThere) {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -217,12 +216,14 @@ TEST_F(RunWriterTest, StatsHoldCountsSpeedAndStageTimes) {
 
 TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
   RunWriter writer(out_, Options{});
-  // All members are int64, one after the other: each gets a value of its own.
-  constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
-  std::array<std::int64_t, kNumCounters> values{};
-  for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1'000'000 + static_cast<int>(i);
-  const auto counters = std::bit_cast<Counters>(values);
-  writer.Finish({.counters = counters, .input = {}, .extra = {}});
+  // Each gets a value of its own.
+  std::array<std::int64_t, kCounterFields.size()> values{};
+  Counters counters;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = 1'000'000 + static_cast<int>(i);
+    counters.*kCounterFields[i].count = values[i];
+  }
+  writer.Finish({.counters = counters, .input = {}, .account = {}, .extra = {}});
   const std::string text = test::ReadText(out_ / "stats.json");
   for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
 }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -25,12 +24,14 @@ status_t Decoded(const Bytes& bytes) {
 }
 
 TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
-  // All members are int64, one after the other, here and on the wire: each gets a value of its own.
-  constexpr std::size_t kNumCounters = sizeof(Counters) / sizeof(std::int64_t);
+  // Each gets a value of its own.
+  constexpr std::size_t kNumCounters = kCounterFields.size();
   std::array<std::int64_t, kNumCounters> values{};
-  for (std::size_t i = 0; i < kNumCounters; ++i) values[i] = 1000 + static_cast<int>(i);
   StatusReport report;
-  report.counters = std::bit_cast<Counters>(values);
+  for (std::size_t i = 0; i < kNumCounters; ++i) {
+    values[i] = 1000 + static_cast<int>(i);
+    report.counters.*kCounterFields[i].count = values[i];
+  }
   const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
   const std::set<std::int64_t> arrived = {message.imu,
                                           message.imu_nonfinite,

@@ -20,6 +20,10 @@ for program in "$folder"/root/usr/bin/lio*; do
   [[ ${program##*/} == lio-spy ]] || "$program" --version
 done
 "$folder/root/usr/bin/liod" --print-options >/dev/null 2>&1 || (($? == 3)) # no rig is named
+if command -v python3 >/dev/null; then
+  (source "$folder/root/usr/share/bash-completion/completions/liod" && complete -p liod)
+fi
+grep -q uPlot "$folder/root/usr/share/doc/liod/copyright"
 depends=$(dpkg-deb -f "$folder"/liod_*.deb Depends)
 for library in liblcm1 libyaml-cpp libc6; do
   [[ $depends == *$library* ]] || { echo "no dependency on $library: $depends" && exit 1; }

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "lio/io/event_log.hpp"
 #include "lio/io/input_decoder.hpp"
+#include "lio/io/output_account.hpp"
 #include "lio/io/printable.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/io/stream_stats.hpp"
@@ -20,7 +21,9 @@ namespace {
 
 constexpr const char* kAboutInfo =
     "Prints the contents of a log: channels with counts, rates and gaps, the time span, damage,\n"
-    "and the same figures of the inertial samples and sweeps by their own stamps.\n\n"
+    "and the same figures of the inertial samples and sweeps by their own stamps. Where the log "
+    "has\n"
+    "LIO_STATUS, too, its counts are held against what was recorded.\n\n"
     "Example:\n"
     "  lio-log info drive.lcm";
 
@@ -31,7 +34,7 @@ struct ChannelInfo {
 
 class LogInfo {
  public:
-  explicit LogInfo(const std::string& prefix) : channels_(prefix) {}
+  explicit LogInfo(const std::string& prefix) : channels_(prefix), account_(channels_) {}
 
   void Read(EventLogReader& reader) {
     ProgressBar bar("lio-log", reader.size_bytes());
@@ -44,6 +47,7 @@ class LogInfo {
       channel.num_bytes += static_cast<std::int64_t>(event.data.size());
       first_ = std::min(first_.value_or(received), received);
       last_ = std::max(last_.value_or(received), received);
+      account_.Add(event.channel, event.data);
       if (event.channel == channels_.imu) AddSample(event, received);
       if (event.channel == channels_.scan) AddChunk(event, received);
     }
@@ -77,6 +81,7 @@ class LogInfo {
       fmt::print("  points per sweep: {:.0f}\n",
                  static_cast<double>(num_points_) / static_cast<double>(sweeps_.num()));
     }
+    fmt::print("{}", account_.Text());
     fmt::print("\ndamage: {} bytes skipped, {} messages refused, {} inertial samples missing\n",
                reader.skipped_bytes(), decoder_.counters().TotalRefused(),
                decoder_.counters().num_imu_missing);
@@ -112,6 +117,7 @@ class LogInfo {
   }
 
   Channels channels_;
+  OutputAccount account_;
   InputDecoder decoder_;
   ScanChunk chunk_;
   std::map<std::string, ChannelInfo> by_channel_;

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "lio/base/ledger.hpp"
+
 namespace lio {
 
 struct Counters {
@@ -35,6 +37,8 @@ struct Counters {
   std::int64_t num_restarts = 0;
   std::int64_t num_imu_foreign = 0;     // of a second sender on the channel
   std::int64_t num_chunks_foreign = 0;  // likewise
+
+  Ledgers ledgers;  // without what waits
 };
 
 }  // namespace lio

@@ -64,7 +64,7 @@ inline constexpr std::array kCounterFields = std::to_array<CounterField>({
     {"num_chunks_foreign", &Counters::num_chunks_foreign,
      "chunks refused: of a second lidar on the channel"},
 });
-static_assert(kCounterFields.size() * sizeof(std::int64_t) == sizeof(Counters),
+static_assert(kCounterFields.size() * sizeof(std::int64_t) + sizeof(Ledgers) == sizeof(Counters),
               "a counter has no line in kCounterFields");
 
 }  // namespace lio

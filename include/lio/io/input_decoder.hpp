@@ -37,6 +37,10 @@ struct InputCounters {
   std::int64_t num_chunks_received = 0;
   std::int64_t num_chunks_taken = 0;
   std::array<std::int64_t, kNumDecodeStatuses> num_refused{};  // by DecodeStatus; kOk stays 0
+  // The same of one channel. Messages that the bus found too large are in neither, since nobody
+  // looked at their channel.
+  std::array<std::int64_t, kNumDecodeStatuses> num_imu_refused{};
+  std::array<std::int64_t, kNumDecodeStatuses> num_chunks_refused{};
   std::int64_t num_imu_missing = 0;  // gaps in imu_t.seq: lost before they arrived
 
   [[nodiscard]] std::int64_t TotalRefused() const;
@@ -54,7 +58,8 @@ class InputDecoder {
   [[nodiscard]] const InputCounters& counters() const { return counters_; }
 
  private:
-  [[nodiscard]] bool Accept(DecodeStatus status);
+  [[nodiscard]] bool Accept(DecodeStatus status,
+                            std::array<std::int64_t, kNumDecodeStatuses>& of_channel);
 
   InputCounters counters_;
   bool has_imu_ = false;

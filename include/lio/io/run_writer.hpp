@@ -41,6 +41,7 @@
 #include <utility>
 #include <vector>
 
+#include "lio/io/account.hpp"
 #include "lio/io/input_decoder.hpp"
 #include "lio/io/quantile_sketch.hpp"
 #include "lio/io/row_files.hpp"
@@ -52,6 +53,7 @@ namespace lio {
 struct RunStats {
   Counters counters;
   InputCounters input;
+  Account account;
   std::int64_t num_skipped_bytes = 0;                       // damage of the log
   std::vector<std::pair<std::string, std::int64_t>> extra;  // further counts, in this order
   double log_duration_s = 0.0;                              // from the first message to the last

@@ -90,6 +90,8 @@ class Odometry {
   std::vector<Output> TakeOutputs();
 
   const Counters& counters() const;
+  // The fates of every sample, chunk and scan so far, with those that wait now.
+  [[nodiscard]] Ledgers ledgers() const;
   TrackingStatus status() const;
   // May the result so far be trusted, and if not, why? Costs some ten milliseconds.
   [[nodiscard]] Verdict Judge() const;

@@ -43,6 +43,8 @@ class ImuPreprocessor {
   };
   Result Add(const ImuSample& sample);
   // Are samples held that may be the first ones after a step?
+  // Samples that wait until others bear them out.
+  std::size_t num_held() const { return suspects_.size(); }
   bool is_in_doubt() const { return !suspects_.empty(); }
   // The samples that are still held, when no more will come.
   std::vector<ImuSample> Flush();

@@ -30,6 +30,8 @@ class ScanAssembler {
 
   // Closed sweeps in order of time, oldest first.
   std::optional<Sweep> Take();
+  // Sweeps that are open, or closed and not taken.
+  [[nodiscard]] std::size_t num_held() const { return open_.size() + closed_.size(); }
 
  private:
   struct SweepName {

@@ -28,6 +28,7 @@ class ScanGate {
   std::shared_ptr<Sweep> Open(std::optional<Timestamp> newest_imu, Duration correction = {});
   // Has the inertial stream not moved for too long while the lidar went on?
   [[nodiscard]] bool IsImuSilent() const;
+  [[nodiscard]] std::size_t num_held() const { return waiting_.size() + (suspect_ ? 1 : 0); }
   // The oldest sweep whatever the inertial stream says.
   std::shared_ptr<Sweep> Force();
   // No more sweeps come: lets in the one that is held.
@@ -43,6 +44,7 @@ class ScanGate {
  private:
   void Accept(Sweep sweep);
   bool DropLate();
+  void DropWaiting();
   bool Quarantine(Sweep& sweep);
 
   Counters* counters_;

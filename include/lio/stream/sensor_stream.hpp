@@ -69,6 +69,8 @@ class SensorStream {
 
   const ImuBuffer& imu() const { return imu_; }
   bool has_imu() const { return has_imu_; }  // false: lidar-only
+  // They are those of the stream and what it gave out, with all that waits here.
+  [[nodiscard]] Ledgers ledgers() const;
   bool is_flushed() const { return life_ != Life::kOpen; }
 
  private:
@@ -123,6 +125,8 @@ class SensorStream {
   void Accept(const ImuSample& sent);
   ImuSample MarkSaturated(ImuSample sent);
   void Emit(std::vector<ImuReady> ready);
+  [[nodiscard]] std::size_t NumSweepsReady() const;  // among the events
+  void ForgetLateImu();
   void Notify(Timestamp stamp, Notice::Severity severity, std::string text);
 
   // Sweeps: sensor_stream_sweeps.cpp.

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The account of a run: what became of every message and scan, from the bytes that came to the
+// estimate. It closes, or says by how much it does not.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "lio/base/ledger.hpp"
+#include "lio/io/input_decoder.hpp"
+
+namespace lio {
+
+// Messages between the decoder and the estimator; all zero in a replay.
+struct TransitCounters {
+  std::int64_t num_dropped = 0;   // the queue was full
+  std::int64_t num_given_up = 0;  // the daemon had to end before they were looked at
+  std::int64_t num_waiting = 0;
+
+  TransitCounters& operator-=(const TransitCounters& begin) {
+    num_dropped -= begin.num_dropped;
+    num_given_up -= begin.num_given_up;
+    num_waiting -= begin.num_waiting;
+    return *this;
+  }
+};
+
+struct Account {
+  Ledgers ledgers;  // of the estimator, with what waits
+  TransitCounters imu;
+  TransitCounters chunks;
+};
+
+// The object "account" of stats.json, without its key.
+[[nodiscard]] std::string AccountJson(const Account& account, const InputCounters& input);
+
+// Samples, chunks and scans that were received but have no fate, in a sentence; empty when the
+// account closes.
+[[nodiscard]] std::string WhyOpen(const Account& account, const InputCounters& input);
+
+}  // namespace lio

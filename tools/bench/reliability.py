@@ -1,0 +1,149 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""Makes the table of faults of docs/reliability.md; see --help.
+
+Each case is one drive with one fault, replayed, and some of them played to liod as well. Scans are
+cast once a drive. Results are kept in out/reliability, so an interrupted measurement goes on.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import live
+import reliability_score
+from reliability_cases import START_S, all_cases
+from simulated_runs import BIN
+
+DURATION_S = 60
+IMUS = {"campus": "consumer_mems"}  # in the hand; elsewhere the IMU of a car
+SPEED = 3
+OUT = pathlib.Path("out/reliability")
+COLUMNS = ("drive", "fault", "by", "crash", "wrong while OK [s]", "ANEES after", "LOST [s]",
+           "error at the end [m]", "tracks at the end", "rows lost")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scenario", action="append", help="of lio-sim (street and campus)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", help="cases whose name contains this")
+    parser.add_argument("--no-live", action="store_true", help="by replay alone")
+    parser.add_argument("--docs", action="store_true",
+                        help="put the table into docs/reliability.md")
+    return parser.parse_args()
+
+
+def simulate(scenario, seed, folder, *words):
+    if (folder / "complete").exists():
+        return
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    subprocess.run([BIN / "lio-sim", "--scenario", scenario, "--seed", str(seed), "--lidar",
+                    "vlp16", "--imu", IMUS.get(scenario, "xsens_mti10"), "--duration", str(DURATION_S), "--threads",
+                    "2", *words, "--out", folder],
+                   check=True, capture_output=True)
+    (folder / "complete").write_text("")
+
+
+def run_replay(log, run):
+    shutil.rmtree(run, ignore_errors=True)
+    return subprocess.run([BIN / "lio-replay", "--config", log / "config.yaml", log / "log.lcm",
+                           "--out", run], check=False, capture_output=True).returncode
+
+
+def run_live(log, run):
+    shutil.rmtree(run, ignore_errors=True)
+    liod = live.Liod(run, "--config", log / "config.yaml")
+    live.play(log / "log.lcm", SPEED)
+    liod.wait_until_idle()
+    return liod.stop()
+
+
+def rows_lost(run, num_rows):
+    """Scans that the estimator gave a row for and that no file has, and what has no fate."""
+    account = json.loads((run / "stats.json").read_text())["account"]
+    unaccounted = sum(abs(fates["unaccounted"]) for fates in account.values())
+    return account["scans"]["used"] + account["scans"]["rejected"] - num_rows + unaccounted
+
+
+def measure(case, by, log, clean):
+    run = log / by
+    code = (run_live if by == "live" else run_replay)(log, run)
+    result = {"code": code}
+    if code not in (0, 6):
+        return result
+    true_end_s = {int(row["scan_seq"]): float(row["t_s"])
+                  for row in reliability_score.table(clean / "replay" / "registration.csv")}
+    begin_s = float((clean / "truth.tum").open(encoding="utf-8").readline().split()[0])
+    result |= reliability_score.score(run, clean / "truth.tum", case, begin_s, true_end_s)
+    result["rows_lost"] = rows_lost(run, result["num_rows"])
+    return result
+
+
+def text_of(drive, case, by, r):
+    if "num_rows" not in r:
+        return [drive, case.name, by, f"code {r['code']}", *[""] * 6]
+    anees = "LOST" if r["anees_after"] is None else f"{r['anees_after']:.2g}"
+    wrong = f"{r['wrong_ok_s']:.1f}"
+    return [drive, case.name, by, "no",
+            f"**{wrong}**" if r["wrong_ok_s"] > 1.0 else wrong,
+            f"**{anees}**" if (r["anees_after"] or 0.0) >= 2.0 else anees,
+            f"{r['lost_s']:.1f}", f"{r['end_m']:.2g}",
+            "yes" if r["is_tracking"] else f"**no** ({r['drift_m']:.2g} m in 5 s)",
+            f"**{r['rows_lost']}**" if r["rows_lost"] else "0"]
+
+
+def markdown(rows):
+    lines = [COLUMNS, ["---"] * len(COLUMNS), *rows]
+    return "".join(f"| {' | '.join(map(str, line))} |\n" for line in lines)
+
+
+def run_case(scenario, case, options, kept):
+    clean = OUT / f"{scenario}-{options.seed}" / "none"
+    name = case.name.replace(" ", "_").replace("'", "")
+    log = clean.parent / name
+    rows = []
+    for by in ("replay", "live") if case.is_live and not options.no_live else ("replay",):
+        key = f"{scenario} {options.seed} {case.name} {by}"
+        if key not in kept:
+            words = [word for fault in case.faults for word in ("--fault", fault)]
+            if log != clean and not case.is_cast_anew:
+                words += ["--scans", str(clean / "log.lcm")]
+            simulate(scenario, options.seed, log, *words)
+            kept[key] = measure(case, by, log, clean)
+            (OUT / "results.json").write_text(json.dumps(kept, indent=1))
+        rows.append(text_of(scenario, case, by, kept[key]))
+        print(" | ".join(rows[-1]), flush=True)
+    if log != clean:
+        (log / "log.lcm").unlink(missing_ok=True)
+        (log / "complete").unlink(missing_ok=True)
+    return rows
+
+
+def main():
+    options = arguments()
+    if not options.no_live:
+        live.enter_namespace()
+    OUT.mkdir(parents=True, exist_ok=True)
+    results = OUT / "results.json"
+    kept = json.loads(results.read_text()) if results.exists() else {}
+    cases = [case for case in all_cases()
+             if not options.only or options.only in case.name or case.name == "none"]
+    rows = []
+    for scenario in options.scenario or ("street", "campus"):
+        for case in cases:
+            rows += run_case(scenario, case, options, kept)
+    table = OUT / "table.md"
+    table.write_text(markdown(rows), encoding="utf-8")
+    print(f"{len(rows)} runs, faults from {START_S:g} s on; the table is in {table}")
+    if options.docs:
+        subprocess.run([sys.executable, "-B", "tools/bench/put_table.py", "docs/reliability.md",
+                        "faults", table], check=True)
+
+
+if __name__ == "__main__":
+    main()
