@@ -40,13 +40,10 @@ Vector3 Direction(double elevation_rad, double azimuth_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-// Returns the point at a range along `direction`, which is turned to the column's heading.
-LidarPoint PointAt(double range_m, double heading_rad, const Vector3& direction) {
-  const double c = std::cos(heading_rad);
-  const double s = std::sin(heading_rad);
+LidarPoint PointAt(double range_m, const Vector3& direction) {
   LidarPoint point;
-  point.x_m = static_cast<float>(range_m * (c * direction.x() - s * direction.y()));
-  point.y_m = static_cast<float>(range_m * (s * direction.x() + c * direction.y()));
+  point.x_m = static_cast<float>(range_m * direction.x());
+  point.y_m = static_cast<float>(range_m * direction.y());
   point.z_m = static_cast<float>(range_m * direction.z());
   return point;
 }
@@ -196,13 +193,16 @@ void LidarSimulator::AddPoint(const Cast& cast, std::int64_t column, std::size_t
     }
   }
   if (!is_seen) return;
+  const Vector3 direction =
+      cast.hits.R_lidar_column[static_cast<std::size_t>(column)] * table_directions_[beam];
+  const double azimuth_rad = std::atan2(direction.y(), direction.x()) - model.view_azimuth_rad;
+  if (std::abs(std::remainder(azimuth_rad, kTurn)) > 0.5 * model.view_rad) return;
   double range_m = echo.range_m + std_scale * model.range_std_m * GaussianFrom(MixBits(key + 4));
   if (model.range_step_m > 0.0) {
     range_m = model.range_step_m * std::round(range_m / model.range_step_m);
   }
   if (range_m < model.min_range_m || range_m > model.max_range_m) return;
-  LidarPoint point = PointAt(range_m, cast.hits.headings_rad[static_cast<std::size_t>(column)],
-                             table_directions_[beam]);
+  LidarPoint point = PointAt(range_m, direction);
   point.t_offset_ns = static_cast<std::uint32_t>(
       std::max<std::int64_t>(0, std::llround(t_s * 1e9) - sweep.begin_ns));
   point.intensity = IntensityOf(backscatter * (0.95 + 0.1 * Halves(MixBits(key + 5)).a));

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "lio/sim/recorder.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +19,7 @@
 #include "lio/io/trajectory_file.hpp"
 #include "lio/sim/messages.hpp"
 #include "rig_file.hpp"
+#include "scenario_parts.hpp"
 
 namespace lio::sim {
 namespace {
@@ -103,6 +106,17 @@ ImuEffects EffectsOn(const Scenario& scenario, ImuEffects effects) {
   return effects;
 }
 
+// Returns the faults asked for and, in the field, the shaking by the carrier's motors.
+std::vector<Fault> FaultsOn(const Scenario& scenario, const RecordOptions& options) {
+  std::vector<Fault> faults = options.faults;
+  if (options.imu_effects.vibrates && scenario.shake_accel_mps2 > 0.0) {
+    const double start_s = std::max(0.0, kStartRest_s - scenario.begin_s);
+    faults.push_back(ParseFault(fmt::format("shaking:start={},accel={},gyro={}", start_s,
+                                            scenario.shake_accel_mps2, scenario.shake_gyro_radps)));
+  }
+  return faults;
+}
+
 class Recording {
  public:
   Recording(const Scenario& scenario, const RecordOptions& options,
@@ -114,7 +128,8 @@ class Recording {
               EffectsOn(scenario, options.imu_effects), options.seed},
              *scenario.trajectory),
         clocks_(options.clock_errors, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
-        faults_(options.faults, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
+        faults_(FaultsOn(scenario, options), options.seed,
+                StampOf(std::llround(scenario.begin_s * 1e9))),
         log_(folder / "log.lcm"),
         truth_(folder) {}
 
@@ -193,6 +208,16 @@ class Recording {
   RecordStats stats_;
 };
 
+// Returns the model with a narrow view turned to where the body's front is.
+LidarModel FacingForward(LidarModel model, const Scenario& scenario) {
+  if (!model.rosette && model.view_rad >= 2.0 * std::numbers::pi) return model;
+  const Quaternion R_body_lidar =
+      scenario.trajectory->T_body_imu().rotation * scenario.T_imu_lidar.rotation;
+  const Vector3 forward = R_body_lidar.conjugate() * Vector3::UnitX();
+  model.view_azimuth_rad = std::atan2(forward.y(), forward.x());
+  return model;
+}
+
 struct NumberedSweep {
   std::int64_t index = 0;
   SimulatedSweep sweep;
@@ -253,10 +278,12 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
   LidarErrors errors = options.lidar_errors;
   const std::vector<Dust> dust = DustOf(options.faults, scenario.begin_s);
   errors.dust.insert(errors.dust.end(), dust.begin(), dust.end());
-  const LidarSimulator lidar(
-      {options.lidar, scenario.T_imu_lidar, errors, options.seed, scenario.begin_s}, scene,
-      *scenario.trajectory);
   const double end_s = scenario.begin_s + scenario.duration_s;
+  if (scenario.dust_per_m > 0.0) errors.dust.push_back({0.0, end_s, scenario.dust_per_m});
+  const LidarSimulator lidar(
+      {FacingForward(options.lidar, scenario), scenario.T_imu_lidar, errors, options.seed,
+       scenario.begin_s},
+      scene, *scenario.trajectory);
   CastSweeps(lidar, end_s, options.num_threads, [&](const NumberedSweep& numbered) {
     recording.AddSweep(numbered.sweep, numbered.index);
     const double done_s = static_cast<double>(numbered.sweep.begin_ns) * 1e-9 - scenario.begin_s;

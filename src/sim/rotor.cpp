@@ -14,6 +14,21 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 // The controller hunts slowly, and disturbances pass within a few turns. Chosen.
 constexpr std::array<std::array<double, 2>, 2> kWobble_hz = {{{0.2, 0.6}, {1.0, 3.0}}};
 
+Matrix3 AboutZ(double heading_rad) {
+  return Eigen::AngleAxisd(heading_rad, Vector3::UnitZ()).toRotationMatrix();
+}
+
+// Small deflections in different directions add up.
+Matrix3 DeflectedBy(const Rosette& rosette, double middle_rad, double t_s) {
+  double left_rad = middle_rad;
+  double up_rad = 0.0;
+  for (const double prism_hz : rosette.prism_hz) {
+    left_rad += rosette.deflection_rad * std::cos(kTurn * prism_hz * t_s);
+    up_rad += rosette.deflection_rad * std::sin(kTurn * prism_hz * t_s);
+  }
+  return AboutZ(left_rad) * Eigen::AngleAxisd(-up_rad, Vector3::UnitY()).toRotationMatrix();
+}
+
 }  // namespace
 
 Rotor::Rotor(const LidarModel& model, const RotorErrors& errors, std::uint64_t seed, double begin_s)
@@ -21,6 +36,8 @@ Rotor::Rotor(const LidarModel& model, const RotorErrors& errors, std::uint64_t s
       column_period_s_(model.column_period_s),
       cut_azimuth_rad_(model.cut_azimuth_rad),
       begin_s_(begin_s),
+      view_azimuth_rad_(model.view_azimuth_rad),
+      rosette_(model.rosette),
       wobbles_(errors.speed_std_ratio > 0.0) {
   Random random(seed, Purpose::kRotor);
   for (std::size_t i = 0; i < waves_.size(); ++i) {
@@ -57,6 +74,16 @@ double Rotor::ReportedHeadingAt(double t_s) const {
   const double heading = HeadingAt(t_s);
   if (encoder_rad_ == 0.0) return heading;
   return heading + encoder_rad_ * std::sin(heading + encoder_phase_rad_);
+}
+
+Matrix3 Rotor::OrientationAt(double t_s) const {
+  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_)
+                  : AboutZ(HeadingAt(t_s));
+}
+
+Matrix3 Rotor::ReportedOrientationAt(double t_s) const {
+  return rosette_ ? DeflectedBy(*rosette_, view_azimuth_rad_, t_s - begin_s_)
+                  : AboutZ(ReportedHeadingAt(t_s));
 }
 
 std::int64_t Rotor::FirstColumnOf(std::int64_t turn) const {

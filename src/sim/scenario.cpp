@@ -14,6 +14,7 @@ constexpr double kLongest_s = 3600.0;
 struct Maker {
   ScenarioEntry entry;
   Scenario (*make)(const ScenarioOptions& options);
+  bool takes_carriers = false;
 };
 
 const std::vector<Maker>& Makers() {
@@ -27,6 +28,10 @@ const std::vector<Maker>& Makers() {
       {{"campus", "on foot around a campus, sensor in hand"}, MakeCampus},
       {{"hall", "a sports hall, sensor in hand, turned at up to 300 deg/s"}, MakeHall},
       {{"office", "corridors, doors and stairs of an office, sensor in hand"}, MakeOffice},
+      {{"mine", "a rough, narrow, dusty gallery with side drifts"}, MakeMine, true},
+      {{"warehouse", "aisles between rows of equal racks, people, fork lifts"},
+       MakeWarehouse,
+       true},
       {{"parked", "parked at a crossing among traffic"}, MakeParked},
   };
   return makers;
@@ -50,6 +55,9 @@ Scenario MakeScenario(const std::string& name, const ScenarioOptions& options) {
     if (maker.entry.name != name) continue;
     if (options.duration_s && !(*options.duration_s > 0.0 && *options.duration_s <= kLongest_s)) {
       throw std::invalid_argument("the duration must be above 0 and at most 3600 s");
+    }
+    if (options.carrier && !maker.takes_carriers) {
+      throw std::invalid_argument("the drive of '" + name + "' has a carrier of its own");
     }
     Scenario scenario = maker.make(options);
     scenario.name = name;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "carrier.hpp"
 #include "office_building.hpp"
 #include "scenario_parts.hpp"
 
@@ -132,27 +133,6 @@ void AddDoors(World& world, const std::shared_ptr<const Drive>& drive,
   AddMesh(world.fixed, MakeDoorLeaf(), stair_door(Shape::kStorey_m));
 }
 
-// Turns the sensor aside and back, as a head is turned, and up and down.
-void AddGlances(std::vector<BodyKnot>& knots, Random& random) {
-  constexpr double kFastest_radps = 1.2;
-  double begin_s = kStartRest_s + 1.5;
-  const double end_s = kKnot_s * static_cast<double>(knots.size());
-  while (begin_s < end_s) {
-    const double length_s = random.Uniform(1.1, 1.5);
-    const double sign = random.Chance(0.5) ? 1.0 : -1.0;
-    const double turn_rad = sign * random.Uniform(0.6, 1.0) * kFastest_radps * length_s / kPi;
-    const double tilt_rad = random.Uniform(-0.3, 0.3);
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      const double share = (kKnot_s * static_cast<double>(i) - begin_s) / length_s;
-      if (share <= 0.0 || share >= 1.0) continue;
-      const double wave = std::sin(kPi * share);
-      knots[i].yaw_rad += turn_rad * wave * wave * knots[i].liveliness;
-      knots[i].pitch_rad += tilt_rad * wave * wave * knots[i].liveliness;
-    }
-    begin_s += length_s + random.Uniform(1.0, 3.0);
-  }
-}
-
 }  // namespace
 
 Scenario MakeOffice(const ScenarioOptions& options) {
@@ -182,7 +162,7 @@ Scenario MakeOffice(const ScenarioOptions& options) {
       way, *drive, [&](const Vector2&, double along_m) { return floor->HeightAt(along_m); },
       response, kKnot_s, planned_s);
   Random motion(options.seed, Purpose::kMotion, 4);
-  AddGlances(plan.knots, motion);
+  AddGlances(plan.knots, kKnot_s, 1.2, motion);
   plan.oscillations = WalkOscillations(options.seed);
   MountOnPerson(scenario, std::move(plan));
   scenario.lidar_model = "vlp16";

@@ -81,7 +81,7 @@ Scenario MakeParked(const ScenarioOptions& options) {
   AddLane(scenario.world, along.Shifted(-2.2), 11.0, height, random);
   AddLane(scenario.world, along.Shifted(2.2).Reversed(), 9.5, height, random);
   MountOnCar(scenario, std::move(plan));
-  SetBegin(scenario, {options.seed, options.duration_s, false}, 0.0);
+  SetBegin(scenario, {options.seed, options.duration_s, false, {}}, 0.0);
   return scenario;
 }
 

@@ -78,6 +78,50 @@ void MountOnPerson(Scenario& scenario, MotionPlan plan) {
   scenario.ceiling_m = 2.4;
 }
 
+void MountOnRobot(Scenario& scenario, MotionPlan plan) {
+  plan.T_body_imu = {FromDegrees(-1.5, 0.7, 0.4), {0.05, 0.02, 0.36}};
+  scenario.T_imu_lidar = {FromDegrees(90.5, -0.8, 0.6), {0.03, -0.02, 0.14}};
+  scenario.trajectory = std::make_shared<Trajectory>(plan);
+  Mesh robot;
+  AddBox(robot, {Quaternion::Identity(), {0.0, 0.0, 0.1}}, {0.6, 0.45, 0.24},
+         Material::kCarPaintDark);
+  for (const double x : {-0.2, 0.2}) {
+    for (const double side : {-1.0, 1.0}) {
+      AddBar(robot, {x, 0.25 * side, 0.12}, {x, 0.33 * side, 0.12}, 0.12, 0.12, 12,
+             Material::kRubber);
+    }
+  }
+  AddBar(robot, {-0.22, 0.12, 0.3}, {-0.22, 0.12, 0.75}, 0.006, 0.004, 5, Material::kDarkMetal);
+  AddCarrier(scenario, std::move(robot));
+  const Pose T_lidar_body = (plan.T_body_imu * scenario.T_imu_lidar).Inverse();
+  scenario.own_vehicle_box = BoxInLidar(T_lidar_body, {-0.35, -0.36, 0.0}, {0.35, 0.36, 0.42});
+  scenario.min_range_m = 0.4;
+  scenario.shake_accel_mps2 = 0.3;
+  scenario.shake_gyro_radps = 0.005;
+}
+
+void MountOnDrone(Scenario& scenario, MotionPlan plan) {
+  plan.T_body_imu = {FromDegrees(1.0, -1.2, 0.8), {-0.02, 0.01, 0.18}};
+  scenario.T_imu_lidar = {FromDegrees(-2.0, 1.0, 179.0), {0.03, 0.0, 0.12}};
+  scenario.trajectory = std::make_shared<Trajectory>(plan);
+  Mesh drone;
+  AddBox(drone, {Quaternion::Identity(), {0.0, 0.0, 0.1}}, {0.24, 0.16, 0.1}, Material::kCarPaint);
+  for (const double x : {-0.28, 0.28}) {
+    for (const double y : {-0.28, 0.28}) {
+      AddBar(drone, {0.0, 0.0, 0.15}, {x, y, 0.17}, 0.012, 0.01, 6, Material::kDarkMetal);
+      AddBar(drone, {x, y, 0.15}, {x, y, 0.2}, 0.02, 0.02, 8, Material::kDarkMetal);
+      AddBar(drone, {0.4 * x, 0.4 * y, 0.1}, {0.6 * x, 0.6 * y, 0.0}, 0.008, 0.008, 5,
+             Material::kDarkMetal);
+    }
+  }
+  AddCarrier(scenario, std::move(drone));
+  const Pose T_lidar_body = (plan.T_body_imu * scenario.T_imu_lidar).Inverse();
+  scenario.own_vehicle_box = BoxInLidar(T_lidar_body, {-0.4, -0.4, -0.05}, {0.4, 0.4, 0.26});
+  scenario.min_range_m = 0.4;
+  scenario.shake_accel_mps2 = 0.8;
+  scenario.shake_gyro_radps = 0.01;
+}
+
 HeightFunction HeightOf(const Terrain& terrain) {
   return [terrain](const Vector2& p_m, double) { return terrain.Height(p_m); };
 }

@@ -17,6 +17,10 @@ inline constexpr double kCarKnot_s = 0.2;
 void MountOnCar(Scenario& scenario, MotionPlan plan);
 // Mounts the sensors on a hand-held rod; the person who carries it is half a metre behind.
 void MountOnPerson(Scenario& scenario, MotionPlan plan);
+// Mounts the sensors on the lid of a small robot, whose wheels stand on the ground.
+void MountOnRobot(Scenario& scenario, MotionPlan plan);
+// Mounts the sensors on top of a drone, whose feet are the body's origin.
+void MountOnDrone(Scenario& scenario, MotionPlan plan);
 
 // Returns how long the motion must be planned [s]: past the log's end, and including the run-up of
 // a log that begins in motion.
@@ -39,5 +43,7 @@ void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_
 [[nodiscard]] Scenario MakeCampus(const ScenarioOptions& options);
 [[nodiscard]] Scenario MakeHall(const ScenarioOptions& options);
 [[nodiscard]] Scenario MakeOffice(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeMine(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeWarehouse(const ScenarioOptions& options);
 
 }  // namespace lio::sim

@@ -42,6 +42,7 @@ class Reader {
     }
   }
   double Number(const std::string& key) const { return Get<double>("", key); }
+  bool Has(const std::string& section) const { return root_.IsMap() && root_[section]; }
   double NumberOr(const std::string& section, const std::string& key, double absent) const {
     const YAML::Node parent = section.empty() ? root_ : root_[section];
     return parent && parent.IsMap() && parent[key] ? Get<double>(section, key) : absent;
@@ -91,6 +92,13 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
   model.beam_width_horizontal_rad = 1e-3 * file.Number("beam_width_horizontal_mrad");
   model.beam_width_vertical_rad = 1e-3 * file.Number("beam_width_vertical_mrad");
   model.range_at_10_percent_m = file.Number("range_at_10_percent_m");
+  model.view_rad = kRadians * file.NumberOr("", "view_deg", 360.0);
+  if (file.Has("rosette")) {
+    const auto prism_hz = file.Get<std::vector<double>>("rosette", "prism_hz");
+    if (prism_hz.size() != 2) file.Fail("'rosette.prism_hz' must have the rates of two prisms");
+    model.rosette = Rosette{{prism_hz[0], prism_hz[1]},
+                            kRadians * file.Get<double>("rosette", "deflection_deg")};
+  }
   const auto elevation = file.Get<std::vector<double>>("beams", "elevation_deg");
   const auto fire_time = file.Get<std::vector<double>>("beams", "fire_time_us");
   const auto azimuth = file.Get<std::vector<double>>("beams", "azimuth_offset_deg");

@@ -26,7 +26,7 @@ class Caster {
         rays_(static_cast<std::size_t>(columns.num) * num_beams_),
         axes_(static_cast<std::size_t>(columns.num)) {
     sweep_.hits.resize(rays_.size());
-    sweep_.headings_rad.resize(axes_.size());
+    sweep_.R_lidar_column.resize(axes_.size());
   }
 
   SweepHits Cast() {
@@ -64,10 +64,8 @@ void Caster::AimColumn(std::size_t column) {
   const Vector3 w_world = imu.T_world_imu.rotation * imu.w_imu_radps;
   const Vector3 lever = lidar.translation - imu.T_world_imu.translation;
   const Vector3 v_world = imu.v_world_mps + w_world.cross(lever);
-  const Matrix3 R_world_column =
-      R_world_lidar *
-      Eigen::AngleAxisd(setup_.rotor.HeadingAt(t_s), Vector3::UnitZ()).toRotationMatrix();
-  sweep_.headings_rad[column] = setup_.rotor.ReportedHeadingAt(t_s);
+  const Matrix3 R_world_column = R_world_lidar * setup_.rotor.OrientationAt(t_s);
+  sweep_.R_lidar_column[column] = setup_.rotor.ReportedOrientationAt(t_s);
   axes_[column] = R_world_lidar.col(2).cast<float>();
   for (std::size_t b = 0; b < num_beams_; ++b) {
     // Within a column the motion is taken as linear, which is off by less than 1e-8 m and rad.

@@ -20,7 +20,7 @@ struct SweepHits {
   static constexpr std::int32_t kNone = -1;
 
   std::vector<Hit> hits;
-  std::vector<double> headings_rad;     // as the encoder reports them, one per column
+  std::vector<Matrix3> R_lidar_column;  // as the encoder reports them, one per column
   std::vector<std::int32_t> rim_of;     // index into `rims`, or none; empty: no sub-rays
   std::vector<std::int32_t> behind_of;  // index into `behinds`, or none; empty: nothing polished
   std::vector<Rim> rims;

@@ -19,6 +19,7 @@ class Scenarios : public ::testing::TestWithParam<std::string> {
   static bool IsOnFoot(const std::string& name) {
     return name == "campus" || name == "hall" || name == "office";
   }
+  static bool IsOnRobot(const std::string& name) { return name == "mine" || name == "warehouse"; }
 };
 
 TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
@@ -48,6 +49,10 @@ TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
   if (IsOnFoot(scenario.name)) {
     EXPECT_LT(most_mps, 3.0);
     EXPECT_LT(most_mps2, 3.0);
+  } else if (IsOnRobot(scenario.name)) {
+    EXPECT_LT(most_mps, 1.6);
+    EXPECT_LT(most_mps2, 3.0);
+    EXPECT_LT(most_radps, 2.0);
   } else {
     EXPECT_LT(most_mps, 30.0);
     EXPECT_LT(most_mps2, 3.2);  // 2 to 2.2 m/s^2, longitudinal and lateral at once
@@ -68,16 +73,17 @@ TEST_P(Scenarios, DriveThroughNothingAndNobody) {
   if (IsOnFoot(GetParam())) GTEST_SKIP() << "walkers are covered by what the sensor sees near by";
   const Scenario scenario = MakeScenario(GetParam(), {});
   const Scene scene(scenario.world);
-  constexpr float kLength_m = 4.4f;
+  const float length_m = IsOnRobot(GetParam()) ? 0.8f : 4.4f;
+  const double half_width_m = IsOnRobot(GetParam()) ? 0.38 : 0.92;
   for (double t = 0.5; t < scenario.duration_s; t += 0.4) {
     const auto interval = scene.During(t - 0.05, t + 0.05);
     const Pose body = scenario.trajectory->BodyPoseAt(t);
-    for (const double y : {-0.92, 0.92}) {
+    for (const double y : {-half_width_m, half_width_m}) {
       for (const double z : {0.6, 1.0}) {
-        const Vector3 from = body * Vector3(-0.5 * double{kLength_m}, y, z);
+        const Vector3 from = body * Vector3(-0.5 * double{length_m}, y, z);
         const Ray ray{from.cast<float>(), (body.rotation * Vector3::UnitX()).cast<float>(), 0.5f};
         Hit hit;
-        interval.Cast({&ray, 1}, kLength_m, {&hit, 1});
+        interval.Cast({&ray, 1}, length_m, {&hit, 1});
         EXPECT_EQ(hit.object, Hit::kNothing)
             << "at " << t << " s, " << y << " m to the left, " << z
             << " m high: " << TraitsOf(hit.material).name << " at "
@@ -105,7 +111,8 @@ TEST_P(Scenarios, CarryTheSensorThroughFreeSpaceWithEnoughToSee) {
       const bool near = std::hypot(p.x_m, p.y_m) < 1.2f && p.z_m > -0.5f;
       num_fixed_near += near && sweep.objects[i] == Hit::kFixed ? 1 : 0;
     }
-    if (GetParam() == "office") continue;  // walls are near by: scenario_office_test.cpp
+    // Walls and floor are near by: scenario_office_test.cpp, carrier_test.cpp.
+    if (GetParam() == "office" || IsOnRobot(GetParam())) continue;
     EXPECT_LT(num_fixed_near, 30u) << "something stands in the way of sweep " << index;
   }
 }
@@ -177,11 +184,17 @@ std::vector<std::string> Names() {
 INSTANTIATE_TEST_SUITE_P(All, Scenarios, ::testing::ValuesIn(Names()),
                          [](const auto& test) { return test.param; });
 
-TEST(Scenario, AllTenAreThere) {
+TEST(Scenario, AllTwelveAreThere) {
   const std::vector<std::string> names = Names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
             (std::set<std::string>{"street", "loop", "suburb", "tunnel", "motorway", "garage",
-                                   "campus", "hall", "office", "parked"}));
+                                   "campus", "hall", "office", "mine", "warehouse", "parked"}));
+}
+
+TEST(Scenario, PlacesBuiltForOneCarrierRefuseOthers) {
+  ScenarioOptions options;
+  options.carrier = Carrier::kDrone;
+  EXPECT_THROW((void)MakeScenario("street", options), std::invalid_argument);
 }
 
 TEST(Scenario, LoopIsLongEnoughAndEndsWhereItBegan) {

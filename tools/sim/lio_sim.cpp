@@ -41,6 +41,7 @@ struct Arguments {
   std::vector<std::string> faults;
   std::string scans;
   bool starts_moving = false;
+  std::optional<sim::Carrier> carrier;
   bool lists = false;
   int num_threads = 1;
   std::string folder;
@@ -100,6 +101,16 @@ void AddErrors(CLI::App& app, Arguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void AddCarrier(CLI::App& app, Arguments& arguments) {
+  const std::map<std::string, sim::Carrier> carriers = {{"person", sim::Carrier::kPerson},
+                                                        {"robot", sim::Carrier::kRobot},
+                                                        {"drone", sim::Carrier::kDrone}};
+  app.add_option("--carrier", arguments.carrier,
+                 "who carries the sensors through mine and warehouse: person, robot, drone")
+      ->transform(CLI::CheckedTransformer(carriers).description(""))
+      ->type_name("NAME");
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, sim::ImuVariant> variants = {
       {"normal", sim::ImuVariant::kNormal},
@@ -149,6 +160,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->check(CLI::ExistingFile);
   app.add_flag("--moving-start", arguments.starts_moving,
                "begin the log in motion instead of at rest");
+  AddCarrier(app, arguments);
   AddErrors(app, arguments);
   app.add_option("--threads", arguments.num_threads,
                  "number of threads; the files do not depend on it")
@@ -233,8 +245,8 @@ int Run(const Arguments& arguments) {
   std::optional<sim::Scenario> scenario;
   sim::RecordOptions options;
   try {
-    scenario = sim::MakeScenario(arguments.scenario,
-                                 {arguments.seed, arguments.duration_s, arguments.starts_moving});
+    scenario = sim::MakeScenario(arguments.scenario, {arguments.seed, arguments.duration_s,
+                                                      arguments.starts_moving, arguments.carrier});
     options = MakeOptions(arguments, *scenario);
   } catch (const std::invalid_argument& error) {
     return Fail(error.what(), kExitUsage);

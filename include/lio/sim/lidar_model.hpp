@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Holds the model of a spinning lidar as its data file in config/lidars/ describes it: where each
-// beam points, when it fires and how well it measures.
+// Holds the model of a lidar as its data file in config/lidars/ describes it: where each beam
+// points, when it fires and how well it measures.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +19,21 @@ struct Beam {
   double azimuth_offset_rad = 0.0;  // counter-clockwise from the column's heading
 };
 
+// Two prisms behind one another deflect the beams, each by the same angle and turning at a rate of
+// its own (Risley), so that they draw a rosette about the middle of the view, as in Livox's sensors.
+struct Rosette {
+  std::array<double, 2> prism_hz{};
+  double deflection_rad = 0.0;
+};
+
 struct LidarModel {
   std::string name;
   double rotation_hz = 10.0;  // clockwise seen from above
   double column_period_s = 46.08e-6;
   double cut_azimuth_rad = 0.0;  // heading at which one sweep ends and the next begins
+  double view_rad = 2.0 * std::numbers::pi;  // width of what is reported, in azimuth
+  double view_azimuth_rad = 0.0;             // its middle; a narrow view is mounted to face forward
+  std::optional<Rosette> rosette;            // absent: a rotor turns the beams about z
   double min_range_m = 0.9;
   double max_range_m = 100.0;
   double range_std_m = 0.02;  // range noise at normal incidence

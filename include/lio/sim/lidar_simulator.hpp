@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Simulates a spinning lidar that is carried through a scene: each beam is cast from the pose the
+// Simulates a lidar that is carried through a scene: each beam is cast from the pose the
 // sensor has at the instant the beam fires, and its echo gets the errors of a real one.
 //
 // Echoes: a surface of reflectivity rho at incidence angle a and range r returns rho sqrt(cos a) /

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Turns the head of a spinning lidar: which way it points at an instant, which way its encoder says
-// it points, and which columns of firings belong to a turn. Times are of the trajectory.
+// Turns the head of a lidar, or its prisms: which way it points at an instant, which way its encoder
+// says it points, and which columns of firings belong to a turn. Times are of the trajectory.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "lio/base/pose.hpp"
 #include "lio/sim/lidar_model.hpp"
 
 namespace lio::sim {
@@ -35,6 +36,10 @@ class Rotor {
   [[nodiscard]] double ColumnTime(std::int64_t column) const;
   [[nodiscard]] double HeadingAt(double t_s) const;  // clockwise from the cut
   [[nodiscard]] double ReportedHeadingAt(double t_s) const;
+  // Returns R_lidar_column, which turns a beam's direction at heading 0 to where it points, true and
+  // as the sensor reports it.
+  [[nodiscard]] Matrix3 OrientationAt(double t_s) const;
+  [[nodiscard]] Matrix3 ReportedOrientationAt(double t_s) const;
   [[nodiscard]] TurnColumns ColumnsOf(std::int64_t turn) const;
 
  private:
@@ -50,6 +55,8 @@ class Rotor {
   double column_period_s_;
   double cut_azimuth_rad_;
   double begin_s_;
+  double view_azimuth_rad_;
+  std::optional<Rosette> rosette_;
   bool wobbles_;
   std::array<Wave, 2> waves_;
   double encoder_rad_ = 0.0;

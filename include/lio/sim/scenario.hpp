@@ -15,10 +15,17 @@
 
 namespace lio::sim {
 
+enum class Carrier {
+  kPerson,  // by hand, 1.4 m above the floor
+  kRobot,   // on a small wheeled robot, 0.5 m above the floor
+  kDrone,   // on a multicopter that takes off, leans with its acceleration and looks about
+};
+
 struct ScenarioOptions {
   std::uint64_t seed = 1;
   std::optional<double> duration_s;  // absent: the scenario's own
   bool starts_moving = false;        // false: the log begins with 2.5 s at rest
+  std::optional<Carrier> carrier{};  // absent: the scenario's own
 };
 
 struct Scenario {
@@ -27,7 +34,11 @@ struct Scenario {
   std::shared_ptr<const Trajectory> trajectory;
   double begin_s = 0.0;     // trajectory time at which the log begins
   double duration_s = 0.0;  // duration of the log
-  bool is_on_car = false;   // with engine and wheels; else carried by a person
+  bool is_on_car = false;   // with engine and wheels
+  // White noise of the carrier's motors on each sample of the IMU, 1 sigma, in the field.
+  double shake_accel_mps2 = 0.0;
+  double shake_gyro_radps = 0.0;
+  double dust_per_m = 0.0;  // echoes of dust in the air per metre of ray, all the time
   Pose T_imu_lidar;
   std::optional<OwnVehicleBox> own_vehicle_box;  // box in the lidar frame
   double min_range_m = 1.5;                      // written into the rig
@@ -47,8 +58,8 @@ struct ScenarioEntry {
 };
 [[nodiscard]] const std::vector<ScenarioEntry>& AllScenarios();
 
-// Throws std::invalid_argument that lists the scenarios when there is none of that name, or when
-// the duration is not positive.
+// Throws std::invalid_argument that lists the scenarios when there is none of that name, when the
+// duration is not positive, or when a carrier is asked for in a place that is built for another.
 [[nodiscard]] Scenario MakeScenario(const std::string& name, const ScenarioOptions& options);
 
 }  // namespace lio::sim
