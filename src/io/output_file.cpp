@@ -38,6 +38,9 @@ void CutToWholeRows(std::FILE* file, std::string_view written) {
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, Links links) : path_(path) {
+  if (path == "-") {
+    throw UsageError("- is no name for a file: name one, or /dev/stdout for the standard output");
+  }
   const int fd = Opened(path, links);
   if (fd < 0) throw OutputError("cannot write " + path.string() + ": " + std::strerror(errno));
   file_.reset(::fdopen(fd, "wb"));

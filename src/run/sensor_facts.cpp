@@ -73,6 +73,13 @@ LidarGuess GuessLidar(std::span<const double> elevations_rad, std::span<const Be
   return guess;
 }
 
+std::vector<BeamTable> KnownLidars() {
+  std::vector<BeamTable> known;
+  known.reserve(kModels.size());
+  for (const char* model : kModels) known.push_back(LoadBeamTable(model));
+  return known;
+}
+
 SensorFacts LookAtLog(const std::filesystem::path& log) {
   LogInputOptions options;
   options.duration_s = kLook_s;
@@ -93,11 +100,8 @@ SensorFacts LookAtLog(const std::filesystem::path& log) {
     last_scan = chunk.scan_seq;
   }
   const std::vector<double> medians = elevations.Medians();
-  std::vector<BeamTable> known;
-  known.reserve(kModels.size());
-  for (const char* model : kModels) known.push_back(LoadBeamTable(model));
   facts.num_rings = static_cast<int>(medians.size());
-  facts.guess = GuessLidar(medians, known);
+  facts.guess = GuessLidar(medians, KnownLidars());
   return facts;
 }
 

@@ -35,6 +35,9 @@ struct LidarGuess {
 [[nodiscard]] LidarGuess GuessLidar(std::span<const double> elevations_rad,
                                     std::span<const BeamTable> known);
 
+// The tables of all models that are known.
+[[nodiscard]] std::vector<BeamTable> KnownLidars();
+
 struct SensorFacts {
   StreamStats imu;
   StreamStats lidar;  // by sweeps

@@ -34,6 +34,11 @@ TEST(OutputFile, OverwritesWhatWasThere) {
   EXPECT_EQ(test::ReadText(path), "new\n");
 }
 
+TEST(OutputFile, ADashIsNoFilesName) {
+  EXPECT_THROW(OutputFile("-"), UsageError);
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST(OutputFile, RowsAreInTheFileAfterAFlushAndAtTheEnd) {
   const test::TempDir folder;
   const std::filesystem::path path = folder.path() / "rows.csv";

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Looks at the sweeps of a whole run for what the estimator does not notice: a lidar of another
+// model than the rig's, returns of the vehicle itself, and points without times of their own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lio/pipeline/options.hpp"
+#include "lio/sensor/scan_chunk.hpp"
+#include "lio/verdict/verdict.hpp"
+#include "run/sensor_facts.hpp"
+
+namespace lio {
+
+class LidarCheck {
+ public:
+  explicit LidarCheck(const Options& options);
+
+  void Add(const ScanChunk& chunk);
+  // The causes that were found, none of which takes more trust than `leaves` says. The vehicle's
+  // own returns can only be told from the surroundings after a way of some length.
+  [[nodiscard]] std::vector<Cause> Find(double path_m) const;
+
+ private:
+  // Near returns in one direction, as the lidar sees it.
+  struct Cell {
+    std::int32_t last_scan = -1;
+    int num_scans = 0;  // in which it had a return
+    double sum_m = 0.0, sum_sq_m2 = 0.0;
+    int num_points = 0;
+  };
+
+  void BeginScan(const ScanChunk& chunk);
+  void AddNear(const ScanChunk& chunk, const LidarPoint& point);
+  [[nodiscard]] std::optional<Cause> FindModel() const;
+  [[nodiscard]] std::optional<Cause> FindOwnVehicle() const;
+  [[nodiscard]] std::optional<Cause> FindPointTime() const;
+  [[nodiscard]] bool IsFixed(const Cell& cell) const;
+
+  LidarRig rig_;
+  bool uses_imu_;
+  RingElevations elevations_;
+  std::vector<Cell> cells_;
+  std::optional<std::int32_t> scan_;
+  std::optional<Timestamp> scan_begin_;
+  double span_s_ = 0.0;         // of the points of the present sweep
+  std::vector<double> shares_;  // of the time between sweeps that the points of each span
+  int num_scans_ = 0;
+  int num_sampled_ = 0;  // whose near returns were looked at
+};
+
+}  // namespace lio
