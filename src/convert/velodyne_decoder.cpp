@@ -139,7 +139,8 @@ double VelodyneDecoder::RateOf(const Packet& packet) const {
     turned_rad += Forward(packet.azimuth_rad[static_cast<std::size_t>(block - step)],
                           packet.azimuth_rad[static_cast<std::size_t>(block)]);
   }
-  const double rate = turned_rad / (block_s_ * (kNumBlocks / step - 1));
+  const int num_firings = kNumBlocks / step;
+  const double rate = turned_rad / (block_s_ * (num_firings - 1));
   return rate < kMaxRate_radps ? rate : rate_radps_;
 }
 
@@ -173,7 +174,8 @@ void VelodyneDecoder::AddBlock(const Packet& packet, int block) {
   const double begin_s = block_s_ * block / packet.blocks_per_firing;
   for (int index = 0; index < kReturnsPerBlock; ++index) {
     const auto& channel = table_.channels[static_cast<std::size_t>(index % num_channels)];
-    const double since_block_s = index / num_channels * table_.period_s + channel.fire_time_s;
+    const int round = index / num_channels;
+    const double since_block_s = round * table_.period_s + channel.fire_time_s;
     AddReturns(packet, block, index, azimuth_rad + rate_radps_ * since_block_s,
                packet.stamp.ns + Nanoseconds(begin_s + since_block_s));
   }

@@ -33,6 +33,7 @@ fs::path CompareRuns(const std::vector<fs::path>& folders, const std::optional<f
   fs::create_directories(out, error);
   if (error) throw UsageError("--out: cannot create " + out.string() + ": " + error.message());
   std::vector<ComparedRun> runs;
+  runs.reserve(folders.size());
   for (const fs::path& folder : folders) {
     runs.push_back({folder, {folder.string(), truth ? truth : TruthOfRun(folder), {}}});
   }

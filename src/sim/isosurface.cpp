@@ -62,18 +62,16 @@ void AddBlock(Mesh& mesh, const DistanceFunction& distance, const Vector3& low, 
       }
     }
   }
-  const auto at = [&](std::size_t x, std::size_t y, std::size_t z) {
-    return &corners[(z * kCorners + y) * kCorners + x];
+  const auto cell_at = [&](std::size_t x, std::size_t y, std::size_t z) {
+    std::array<const Corner*, 8> cell{};
+    for (std::size_t i = 0; i < 8; ++i) {
+      cell[i] = &corners[((z + (i >> 2)) * kCorners + y + (i >> 1 & 1)) * kCorners + x + (i & 1)];
+    }
+    return cell;
   };
   for (std::size_t z = 0; z < kBlock; ++z) {
     for (std::size_t y = 0; y < kBlock; ++y) {
-      for (std::size_t x = 0; x < kBlock; ++x) {
-        std::array<const Corner*, 8> cell{};
-        for (std::size_t i = 0; i < 8; ++i) {
-          cell[i] = at(x + (i & 1), y + (i >> 1 & 1), z + (i >> 2));
-        }
-        AddCell(mesh, cell, material);
-      }
+      for (std::size_t x = 0; x < kBlock; ++x) AddCell(mesh, cell_at(x, y, z), material);
     }
   }
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "carrier.hpp"
@@ -14,7 +13,6 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRows = 6;    // of double racks
 constexpr int kBays = 14;   // in a row
 constexpr int kLevels = 4;  // of pallets, one above the other
