@@ -217,7 +217,6 @@ TEST_F(LiveRunnerTest, StoppingGivesUpTheScansThatWaitWhenItsTimeIsOver) {
   EXPECT_TRUE(std::filesystem::exists(out_ / "map.pcd"));
   EXPECT_EQ(Stats()["num_shutdowns_cut_short"], 1);
   ExpectAccountCloses();
-  EXPECT_GT(Stats()["account"]["imu"]["given_up"], 0);
 }
 
 TEST_F(LiveRunnerTest, OverloadDropsWholeScansAndCountsThem) {
