@@ -42,10 +42,10 @@ std::size_t CellOf(const LidarPoint& point) {
 }
 
 Vector3 PlaceOf(std::size_t cell, double range_m) {
-  const double azimuth =
-      (2.0 * static_cast<double>(cell % kNumAzimuths) + 1.0 - 180.0) / kDegPerRad;
-  const double elevation =
-      (2.0 * static_cast<double>(cell / kNumAzimuths) + 1.0 - 90.0) / kDegPerRad;
+  const std::size_t column = cell % kNumAzimuths;
+  const std::size_t row = cell / kNumAzimuths;
+  const double azimuth = (2.0 * static_cast<double>(column) + 1.0 - 180.0) / kDegPerRad;
+  const double elevation = (2.0 * static_cast<double>(row) + 1.0 - 90.0) / kDegPerRad;
   const double flat_m = range_m * std::cos(elevation);
   return {flat_m * std::cos(azimuth), flat_m * std::sin(azimuth), range_m * std::sin(elevation)};
 }
