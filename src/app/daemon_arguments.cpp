@@ -44,8 +44,8 @@ void DaemonArguments::AddTo(CLI::App& app) {
                  "folder or, when it holds an earlier run, into the first of DIR-2, DIR-3 and so "
                  "on that holds none")
       ->type_name("DIR");
-  app.add_flag("--overwrite", overwrites, "With --out: replace the files of an earlier run in DIR");
-  app.add_flag("--map", writes_map, "With --out: also write map.pcd at the end");
+  app.add_flag("--overwrite", overwrites, "Replace the files of an earlier run in DIR (--out)");
+  app.add_flag("--map", writes_map, "Write map.pcd into DIR at the end, too");
   AddInitialMapArguments(app, initial_map);
   app.add_flag("--cloud-full", publishes_full_cloud,
                "Publish every point, in the frame map, on LIO_CLOUD_FULL; LIO_CMD may change it");

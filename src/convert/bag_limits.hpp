@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Limits that bags of all kinds have in common. What exceeds them is damage, or an attack.
+// Limits that bags of all kinds have in common. A bag that exceeds them is damaged, or an attack.
 #pragma once
 
 #include <cstddef>

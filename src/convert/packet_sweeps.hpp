@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What decoders of a lidar's packets have in common: points are gathered until a turn is complete.
+// The decoders of a lidar's packets share this: points are gathered until a turn is complete.
 #pragma once
 
 #include <cstdint>

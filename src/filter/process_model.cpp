@@ -9,8 +9,8 @@
 namespace lio {
 namespace {
 
-// The transition of the errors over one step. With e the error before, and D = (dR, d) the step's
-// motion seen from the imu frame at its start:
+// The transition of the errors over one step, where e is the error before, and D = (dR, d) the
+// step's motion seen from the imu frame at its start:
 //   u = -position x e_rot + position_by_gyro e_gyro + position_by_accel e_accel
 //   w = -velocity x e_rot + velocity_by_gyro e_gyro + velocity_by_accel e_accel
 // and after the step

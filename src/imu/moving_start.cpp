@@ -107,9 +107,9 @@ double ResidualRatio(std::vector<double> squares) {
 // Transforms the first state and its covariance from the frame of the poses to world, which is
 // level and in which position and yaw of that state are zero.
 //
-// With u the vertical in imu, u = R_any_imu^T up_any, the levelled rotation's error d obeys
+// Let u = R_any_imu^T up_any be the vertical in imu. The levelled rotation's error d obeys
 // u x d = du and u . d = 0 (no yaw), so d = -u x du, where du = u x theta + R_any_imu^T d(up_any)
-// and theta is the error of R_any_imu. Velocity in world: R_world_imu R_any_imu^T v_any.
+// and theta is the error of R_any_imu. The velocity in world is R_world_imu R_any_imu^T v_any.
 void FillEstimate(const AlignmentResult& aligned, bool has_gravity, double scale_sq,
                   Estimate& estimate) {
   const WindowState& first = aligned.solution.states.front();

@@ -55,8 +55,8 @@ void AddInitialMapArguments(CLI::App& app, InitialMapArguments& arguments) {
                  "it is). Needs pipeline.method: ndt and an IMU")
       ->type_name("MAP");
   app.add_option("--initial-pose", arguments.pose,
-                 "With --initial-map: seek near this pose only, which may be wrong by 10 m, 1.5 m\n"
-                 "in height and 30 deg; for places that look alike, such as storeys")
+                 "Seek near this pose only, which may be wrong by 10 m, 1.5 m in height and\n"
+                 "30 deg; for places that look alike, such as storeys. Needs --initial-map")
       ->type_name("X,Y,Z,YAW_DEG")
       ->needs("--initial-map")
       ->check([](const std::string& text) {

@@ -36,7 +36,7 @@ void OutputAccount::Add(const std::string& channel, ByteView bytes) {
 std::string OutputAccount::Text() const {
   if (!status_) return {};
   const Counters& c = status_->counters;
-  std::string text = "\nBy the last status of liod:\n";
+  std::string text = "\nThe last status of liod says:\n";
   if (at_status_.num_inputs > 0) {
     const std::int64_t num_received = status_->NumReceived();
     text += fmt::format(

@@ -9,9 +9,9 @@
 
 namespace lio {
 
-// The indices of the hull's corners, against the clock from the leftmost one; places on its sides
-// are none. With fewer than three places, all of them. Andrew's monotone chain (Inf. Process. Lett.
-// 9, 1979).
+// Gives the indices of the hull's corners, against the clock from the leftmost one; places on its
+// sides are none. Fewer than three places are all corners. The method is Andrew's monotone chain
+// (Inf. Process. Lett. 9, 1979).
 [[nodiscard]] std::vector<std::size_t> ConvexHull(const std::vector<Eigen::Vector2d>& places);
 
 }  // namespace lio

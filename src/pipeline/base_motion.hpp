@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // The motion of the rig's base frame from that of imu, both being fixed to the same body.
 //
-// With r the origin of base in imu and w the rate of imu (R = R_world_imu):
+// Let r be the origin of base in imu and w the rate of imu (R = R_world_imu). Then
 //   p_base = p + R r,   R_world_base = R R_imu_base,   v_base = v + R (w x r),
 // and the errors, to first order, with dw = -d(gyro bias) plus the noise of the reading:
 //   dp_base     = dp - R [r]x dtheta

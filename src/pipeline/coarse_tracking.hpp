@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What initialization and lidar-only odometry share: sweeps tracked by the constant-velocity model.
+// Initialization and lidar-only odometry share this: sweeps tracked by the constant-velocity model.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What crosses a change of mode, and nothing else does: where the estimate was last sound, in world
+// This crosses a change of mode, and nothing else does: where the estimate was last sound, in world
 // and in map, and what is remembered of the scans so far. A mode keeps its own up to date, and the
 // mode that follows begins with it.
 #pragma once

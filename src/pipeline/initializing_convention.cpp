@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the inertial messages mean, as a start needs to know it: units, axes, gravity; and what
-// follows where that is found to be otherwise.
+// A start needs to know what the inertial messages mean: units, axes, gravity. Here is found out
+// whether that is otherwise than believed, and what follows.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -48,7 +48,7 @@ struct LoamFeatureParameters {
 struct MixedPixelParameters {
   // m, and share of the range. A return must lie so far from both surfaces: five times the range
   // noise of a spinning lidar (2 cm by the data sheets), and, chosen, 5 mm a metre for rough
-  // ground. What is found and lost so: docs/experiments/mixed_pixels.md.
+  // ground. docs/experiments/mixed_pixels.md tells what is found and lost so.
   float tolerance_m = 0.1f;
   float tolerance_per_range = 0.005f;
   // Cosine of the largest angle to the beams beside it, 1 deg. Chosen: three beams of a coarse

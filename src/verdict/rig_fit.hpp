@@ -3,9 +3,9 @@
 // Least squares for what is wrong between lidar and IMU: rotation, lever arm and clock offset, from
 // the steps of a MotionRecord. Biases and gravity's direction are estimated beside them.
 //
-// With E the rotation from the true imu axes to those that the rig makes of the lidar's, d what the
-// lidar's stamps lack to be in the IMU's clock, l the lever arm that the rig lacks (in imu as the
-// rig has it), R and p the matched poses, w and f the samples:
+// Let E be the rotation from the true imu axes to those that the rig makes of the lidar's, d what
+// the lidar's stamps lack to be in the IMU's clock, l the lever arm that the rig lacks (in imu as
+// the rig has it), R and p the matched poses, w and f the samples. Then
 //
 //   turns   Log(R_k-1^T R_k) = E (turn by the gyro + d (w_k - w_k-1) - bias dt),
 //   bends   p'' = R E (f + d f' - bias) + g + (R)'' l,

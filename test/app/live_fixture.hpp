@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What the tests of the running daemon share: its threads over a bus in memory, fed from a log that
+// The tests of the running daemon share this: its threads over a bus in memory, fed from a log that
 // lio-sim made for the tests.
 #pragma once
 

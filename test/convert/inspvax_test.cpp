@@ -83,7 +83,7 @@ TEST(Inspvax, AttitudeMapsNovatelsBodyToEastNorthUp) {
   const Quaternion east = InspvaxAttitude(0.0, 0.0, 90.0 * kDegree);
   EXPECT_TRUE((east * Vector3::UnitY()).isApprox(Vector3::UnitX(), 1e-12));
   EXPECT_TRUE((east * Vector3::UnitX()).isApprox(-Vector3::UnitY(), 1e-12));
-  // With the nose up, forward rises. With the right side down, x sinks.
+  // Forward rises when the nose is up, and x sinks when the right side is down.
   EXPECT_NEAR((InspvaxAttitude(0.0, 0.1, 0.0) * Vector3::UnitY()).z(), std::sin(0.1), 1e-12);
   EXPECT_NEAR((InspvaxAttitude(0.1, 0.0, 0.0) * Vector3::UnitX()).z(), -std::sin(0.1), 1e-12);
 }

@@ -33,7 +33,7 @@ std::vector<Turn> Decode(const SimulatedVelodyne& lidar, double duration_s) {
   return decoder.TakeTurns();
 }
 
-// Where the simulated beam hit, at the time that the decoder gives the point.
+// The place that the simulated beam hit, at the time that the decoder gives the point.
 struct Expected {
   double x_m, y_m, z_m;
 };

@@ -66,7 +66,7 @@ void Trajectory(ByteView bytes) {
 void Config(ByteView bytes) {
   const LoadResult loaded = LoadOptions({ScratchFile("config.yaml", bytes)}, {});
   if (!loaded.faults.empty()) return;
-  // What was accepted is printed and read again without a fault.
+  // Options that were accepted are printed and read again without a fault.
   const std::string text = PrintOptions(loaded.options);
   const ByteView printed(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   if (!LoadOptions({ScratchFile("printed.yaml", printed)}, {}).faults.empty()) std::abort();

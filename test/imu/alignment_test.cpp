@@ -130,7 +130,7 @@ TEST(Alignment, OneWrongPosePullsLittleAndHasALargeResidual) {
   EXPECT_LT(result.pose_residual_sq[10], 20.0);
 }
 
-// With every standard deviation halved, the covariance falls to a quarter.
+// The covariance falls to a quarter when every standard deviation is halved.
 TEST(Alignment, CovarianceFollowsTheNoise) {
   Window window(test::kGravity_mps2);
   const AlignmentResult plain = Align(window.terms, window.truth);

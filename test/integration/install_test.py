@@ -103,7 +103,7 @@ class Install(unittest.TestCase):
         self.assertEqual(self.public_headers(), listed)
         self.assertLessEqual(len(listed), 30, "a handful, not the whole tree")
 
-    # With the flags of an example: of our headers only the installed ones are on its search path.
+    # The flags are an example's: of our headers only the installed ones are on its search path.
     def test_every_header_compiles_alone(self):
         entries = json.loads((self.builds["pcl"].result() / "compile_commands.json").read_text())
         words = shlex.split(entries[0]["command"])

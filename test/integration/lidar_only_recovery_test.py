@@ -5,7 +5,7 @@
 the scene still overlaps the map, the pose is found again; if not, a new map begins there. Long gaps
 and lost sweeps are judged by the median of seven draws of the sensors' errors: one draw in four
 loses the way (2 and 3 of 10 with two builds that differ by rounding), and which one it is changes
-with any effect of the simulator. With three draws the median fails by chance once in six times."""
+with any effect of the simulator. The median of three draws fails by chance once in six times."""
 import statistics
 import unittest
 

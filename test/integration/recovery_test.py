@@ -48,8 +48,8 @@ class Recovery(unittest.TestCase):
         self.assertLess(self.end_error_m, 0.05, "was 2.6 m")
         self.assertLess(ape_m, 0.4)
 
-    # When a host's clock is set forward and back, it takes both sensors along. By the stamps alone
-    # nothing came for a second and a half; the scans show that nothing moved meanwhile.
+    # When a host's clock is set forward and back, it takes both sensors along. The stamps alone say
+    # that nothing came for a second and a half; the scans show that nothing moved meanwhile.
     def test_clocks_that_are_set_forth_are_told_from_a_gap(self):
         for scenario in ("street", "campus"):
             _, stats = self.run_with("stamp_jump:offset=1.5,start=10,duration=0.5",

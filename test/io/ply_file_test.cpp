@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// By the format's public description: header lines up to end_header, then rows of floats.
+// The format's public description has header lines up to end_header, then rows of floats.
 TEST(PlyFile, HoldsEveryPointBitByBit) {
   const test::TempDir dir;
   const std::vector<Eigen::Vector3f> points = {{1.5f, -2.25f, 3e-20f}, {0.1f, 1e9f, -0.0f}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a stdout that takes nothing does is tested with the programs: test/integration.
+// A stdout that takes nothing is tested with the programs: test/integration.
 #include "lio/io/program.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What ImuConventionMonitor makes of forces: their unit, and whether gravity is in them.
+// ImuConventionMonitor finds out of forces which unit they have, and whether gravity is in them.
 #include <gtest/gtest.h>
 
 #include "pipeline/watched_imu.hpp"

@@ -23,7 +23,7 @@ TEST(ClusterScores, TermsOfOnePartAddBeforeTheyAreSquared) {
   EXPECT_EQ(scores.SumOfSquares()(1, 1), 0.0);
 }
 
-// Ten parts and six estimated dimensions give 10 / 4. With six or fewer the factor is the number of
+// Ten parts and six estimated dimensions give 10 / 4. The factor of six or fewer is the number of
 // parts.
 TEST(ClusterScores, CovarianceMakesUpForTheEstimatedDimensions) {
   PoseScores scores;

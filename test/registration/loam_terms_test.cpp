@@ -86,7 +86,7 @@ TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
 TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
   const MatchSums sums = LinearizeAt(kTruth * ExpSe3(0.01 * Vector6::Ones()));
   EXPECT_EQ(sums.num_matched, 240);
-  // With one part, its square is the gradient's.
+  // The square of a single part is the gradient's.
   LoamTerms one(options_);
   for (PlaneTerm term : terms_.planes()) {
     term.part = 0;

@@ -278,7 +278,7 @@ TEST(LoamFeatures, OrderOfThePointsDoesNotMatter) {
 }
 
 TEST(LoamFeatures, TurnsMayBeginAtAnyAzimuth) {
-  // With the seam behind, and just beside the wrap of atan2, the same corner of a house is found.
+  // The same corner of a house is found with the seam behind, and just beside the wrap of atan2.
   for (const double start : {std::numbers::pi, 3.1, -3.1, 0.5}) {
     const CastSweep cast = StreetSweep(start);
     const LoamFeatures features = Extract(cast.sweep);

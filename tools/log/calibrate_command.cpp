@@ -24,12 +24,10 @@ namespace {
 constexpr const char* kAboutCalibrate =
     "Estimates the clock offset and the rotation between lidar and IMU, with standard deviations:\n"
     "those that make the rotations of lidar-only odometry agree with the gyro's. The log needs\n"
-    "motion; half a minute of walking with turns about all axes is enough. What was found is "
-    "always\n"
+    "motion; half a minute of walking with turns about all axes is enough. The result is always\n"
     "printed; it is not written with --rig, and the program ends with 5, when the motion does not\n"
-    "determine the offset to 1 ms and the rotation to 0.2 deg. The\n"
-    "translation is not estimated: it is taken from rig.T_imu_lidar of the configuration, whose\n"
-    "rotation is not used.\n\n"
+    "determine the offset to 1 ms and the rotation to 0.2 deg. The translation is not estimated:\n"
+    "it is taken from rig.T_imu_lidar of the configuration, whose rotation is not used.\n\n"
     "Example:\n"
     "  lio-log calibrate walk.lcm --config my_rig.yaml --rig calibrated.yaml";
 
@@ -163,7 +161,7 @@ void WriteRig(const std::string& file, const RotationCalibration& found, const P
   const Quaternion& q = found.R_imu_lidar;
   const Vector3 std_deg = RotationStdDeg(found);
   WriteText(file,
-            fmt::format("# By lio-log calibrate: rotation to {:.4f} {:.4f} {:.4f} deg (1 sigma, "
+            fmt::format("# lio-log calibrate found: rotation to {:.4f} {:.4f} {:.4f} deg (1 sigma, "
                         "lidar's axes); translation as configured.\n"
                         "# Clock offset to {:.6f} s (1 sigma).\n"
                         "rig:\n"

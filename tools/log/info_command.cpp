@@ -21,8 +21,7 @@ namespace {
 
 constexpr const char* kAboutInfo =
     "Prints the contents of a log: channels with counts, rates and gaps, the time span, damage,\n"
-    "and the same figures of the inertial samples and sweeps by their own stamps. Where the log "
-    "has\n"
+    "and the same figures of the inertial samples and sweeps by their own stamps. If the log has\n"
     "LIO_STATUS, too, its counts are held against what was recorded.\n\n"
     "Example:\n"
     "  lio-log info drive.lcm";
@@ -70,7 +69,7 @@ class LogInfo {
     }
     fmt::print(
         "A gap is a pause of more than three usual periods; the chunks of a sweep count, too.\n");
-    if (samples_.num() + sweeps_.num() > 0) fmt::print("\nBy their own stamps:\n");
+    if (samples_.num() + sweeps_.num() > 0) fmt::print("\nBoth kinds by their own stamps:\n");
     PrintStream("inertial samples", samples_);
     PrintStream("sweeps", sweeps_);
     if (samples_.num() > 0) {

@@ -43,9 +43,8 @@ constexpr const char* kDescription =
     "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
     "registration.csv, states.csv, notices.tsv, stats.json, verdict.json (may the result be\n"
     "trusted, and if not, why), options.yaml, map.pcd with --map, report.html with --report, and\n"
-    "trajectory_base.tum when the rig has T_base_imu. Where the clock goes back, segment_2/ and so "
-    "on have every row from\n"
-    "there on, besides. A summary of the verdict goes to stdout.\n"
+    "trajectory_base.tum when the rig has T_base_imu. If the clock goes back, segment_2/ and\n"
+    "so on have every row from there on, besides. A summary of the verdict goes to stdout.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 
 constexpr const char* kExamples =

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What lio-run does with folders of finished runs.
+// The commands of lio-run that take folders of finished runs.
 #pragma once
 
 #include <optional>

@@ -3,8 +3,8 @@
 // Estimates the offset between the clocks of lidar and IMU while driving, from the turns between
 // neighbouring scans: registration and gyro agree on them only at the right offset.
 //
-// Model. With d the offset (imu clock = lidar clock + d), a_k the correction that scan k's stamp
-// already has, and w_k the rate at the corrected stamp, the turn from scan k-1 to k by registration
+// Model. Let d be the offset (imu clock = lidar clock + d), a_k the correction that scan k's stamp
+// already has, and w_k the rate at the corrected stamp. The turn from scan k-1 to k by registration
 // differs from the gyro's between the corrected stamps by
 //   r = Log(dR_gyro^-1 dR_matched) = w_k (d - a_k) - dR^T w_k-1 (d - a_k-1).
 // The model is linear in d: a Kalman filter of one state. docs/filter.md derives it.

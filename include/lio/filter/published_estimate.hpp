@@ -29,7 +29,7 @@ struct MapVelocity {
   Vector3 v_map_imu = Vector3::Zero();  // m/s
   Matrix3 cov = Matrix3::Zero();
 };
-// The velocity in map and its covariance. With M = T_map_imu, T = T_world_imu (rotations R_M, R_T)
+// The velocity in map and its covariance, where M = T_map_imu, T = T_world_imu (rotations R_M, R_T)
 // and u = R_T^-1 v, the velocity in imu:
 //   v_map = R_M u,   dv_map = R_M (R_T^-1 dv + [u]x (dtheta - mu_rotation)).
 MapVelocity VelocityInMap(const Estimate& estimate);

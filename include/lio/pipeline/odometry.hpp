@@ -12,8 +12,8 @@
 //   }
 //   for (auto& output : odometry.TakeOutputs()) ...
 //
-// What is estimated for a scan depends only on the messages and their order, never on when a job
-// is finished: replay and live agree to the last bit (docs/design.md).
+// The estimate for a scan depends only on the messages and their order, never on when a job is
+// finished: replay and live agree to the last bit (docs/design.md).
 #pragma once
 
 #include <memory>
@@ -72,9 +72,9 @@ class Odometry {
   // Forgets the motion, the map and what was learned of the sensors: what follows depends on the
   // messages that follow alone, as in a new Odometry with a new RegistrationWorker, which the
   // caller makes. Counters go on; outputs that were not taken and scans that wait are lost. The
-  // outcome of a job that is out is still to be given to FinishJob, and has no effect. With a pose
-  // the new world is placed so that the body is there when `stamp` is; with gravity only position
-  // and yaw of it count.
+  // outcome of a job that is out is still to be given to FinishJob, and has no effect. A pose
+  // places the new world so that the body is there when `stamp` is; with gravity only position and
+  // yaw of it count.
   void Reset(const std::optional<GivenPose>& at = std::nullopt, Timestamp stamp = {});
   // The log has ended: closes what is still open.
   void Flush();

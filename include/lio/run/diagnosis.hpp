@@ -32,7 +32,7 @@ struct Diagnosis {
   std::string refusal;    // why that rig contradicts the recording; empty when it does not
   std::string complaint;  // what was wrong with the log; empty when nothing was
   // The causes whose fixes are laid over the rig, in this order: each left at least as much trust
-  // as there was before. With one pass the first fix is taken without a look at what it does.
+  // as there was before. One pass takes the first fix without a look at what it does.
   std::vector<Cause> treated;
   bool is_checked = false;  // a replay had all these fixes
   Verdict with_fixes;       // of that replay; that of the given rig where there is no fix

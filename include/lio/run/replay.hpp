@@ -33,7 +33,7 @@ class Replay {
   ~Replay();
 
   // Replays all of `input`, or up to the notice that the options contradict it, and completes the
-  // files. Where one cannot be written, stderr tells at once; the estimate goes on without rows.
+  // files. If one cannot be written, stderr tells at once; the estimate goes on without rows.
   void Run(LogInput& input);
 
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
