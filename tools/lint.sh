@@ -13,7 +13,7 @@ The checks of form, those that fail fastest first:
   tools/lint/layers.py  includes between folders follow tools/lint/layers.txt, as design.md draws it
   tools/lint/names.py   no two types or inline variables of one name, which the linker would mix up
   tools/lint/sizes.py   20 data members a class, 60 lines a function (exceptions: sizes.txt)
-  tools/lint/prose.py   width of docs, comments that have a subject
+  tools/lint/prose.py   width of docs, sentences that have a subject
   clang-format, and clang-tidy over src/ (the checks and why others are off: .clang-tidy)
 Needs what tools/setup.sh --tests installs and builds.
   --fast  without clang-tidy

@@ -139,7 +139,7 @@ def write_record(rows):
 
 
 def verdict(found, recorded):
-    """What to say of a case, and whether it is as recorded; None where it cannot be compared."""
+    """Gives the line on a case, and whether it is as recorded; None where it cannot be compared."""
     if recorded is None:
         return "NEW: not recorded yet", False
     if found["log"] != recorded["log"]:

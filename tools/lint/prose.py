@@ -4,9 +4,12 @@
 """Counts faults of prose, and fails when there are more than tools/lint/prose.txt says.
 
   wide_lines    lines of README.md and docs/ above 100 columns
-  no_subject    comments of include, src and tools whose first word is a preposition or a pronoun
-                that stands for the subject: "Of the points ..." instead of "The points ..."
+  no_subject    sentences whose first word is a preposition or a pronoun that stands for the subject
+                (of the points ... instead of the points ...): in comments and docstrings of
+                include, src, tools, test and examples, and in what the programs print, which is the
+                literals of include, src and tools
   --list NAME   print each place of one of them"""
+import ast
 import io
 import pathlib
 import re
@@ -16,8 +19,13 @@ import tokenize
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = "tools/lint/prose.txt"
 MAX_COLUMNS = 100
-FIRST_WORD = re.compile(r"\W*(Of|What|Where|That|By|With)\b")
+# At the beginning of the text, or behind the end of a sentence.
+FIRST_WORD = re.compile(r"(?:^|(?<=[.:;?!] )|(?<=[.:;?!]\) ))[^\w\s]*"
+                        r"(?:Of|What|Where|That|By|With)\b[^?]*?(?=[.:;!?]|$)")
+SPDX = re.compile(r"\W*SPDX-")
 CPP_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*')
+CPP_LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
+CPP_SUFFIXES = (".cpp", ".hpp")
 SHELL_COMMENT = re.compile(r"(?:^|(?<=\s))#[^\n]*")
 COMMENT_MARK = re.compile(r"^(//+|#+)\s*")
 
@@ -45,16 +53,65 @@ def comments_of(path):
                 yield number, match.group(), not line[:match.start()].strip()
 
 
+def comment_blocks(path):
+    """Comments on neighbouring lines belong together: each block's lines, with their numbers."""
+    block, last = [], -1
+    for number, text, alone in comments_of(path):
+        if block and (not alone or number != last + 1):
+            yield block
+            block = []
+        last = number if alone else -1
+        if not SPDX.match(text):
+            block.append((number, COMMENT_MARK.sub("", text)))
+    if block:
+        yield block
+
+
+def docstrings(path):
+    """The strings of a script that stand for themselves."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str):
+            yield [(node.lineno + i, line.strip())
+                   for i, line in enumerate(node.value.value.splitlines())]
+
+
+def literals(path):
+    """Each text of a source of C++, of all literals that the compiler makes one."""
+    text = CPP_COMMENT.sub(lambda m: m.group() if m.group().startswith('"') else "",
+                           path.read_text())
+    for match in CPP_LITERALS.finditer(text):
+        number = text.count("\n", 0, match.start()) + 1
+        parts = re.findall(r'"((?:[^"\\\n]|\\.)*)"', match.group())
+        yield [(number, "".join(parts).replace("\\n", " "))]
+
+
+def files_of(*folders):
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*")
+                  if path.suffix in (*CPP_SUFFIXES, ".py", ".sh") or path.name == "CMakeLists.txt")
+
+
+def texts():
+    """Everything that is to be plain English, as lines with their numbers."""
+    for path in files_of("include", "src", "tools", "test", "examples"):
+        for block in comment_blocks(path):
+            yield path, block
+        for block in docstrings(path) if path.suffix == ".py" else ():
+            yield path, block
+    for path in files_of("include", "src", "tools"):
+        for block in literals(path) if path.suffix in CPP_SUFFIXES else ():
+            yield path, block
+
+
 def no_subject():
-    files = [path for folder in ("include", "src", "tools") for path in (ROOT / folder).rglob("*")
-             if path.suffix in (".cpp", ".hpp", ".py", ".sh") or path.name == "CMakeLists.txt"]
-    for path in sorted(files):
-        last = -1  # the line of the comment before: a block's later lines begin anywhere
-        for number, text, alone in comments_of(path):
-            words = COMMENT_MARK.sub("", text)
-            if FIRST_WORD.match(words) and (not alone or last != number - 1):
-                yield path, number, words
-            last = number if alone else -1
+    for path, block in texts():
+        begins, text = [], ""
+        for number, line in block:
+            begins.append((len(text), number))
+            text += line + " "
+        for match in FIRST_WORD.finditer(text):
+            number = [number for begin, number in begins if begin <= match.start()][-1]
+            if not text[match.end():].startswith("?"):
+                yield path, number, match.group()
 
 
 def main():
