@@ -109,6 +109,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool is_sought = outage_.stage() == OutageRecovery::Stage::kSeek ||
                          outage_.stage() == OutageRecovery::Stage::kCheck;
   const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
+  if (starts_map) context_.examiner.record().BeginMap();
   const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
                            keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
@@ -177,7 +178,6 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
 // The match as it is, before the filter.
 void Tracking::Examine(const MatchOutcome& outcome) const {
   MotionRecord& record = context_.examiner.record();
-  if (is_first_scan_) record.BeginMap();
   if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();
   record.SetClockCorrection(outcome.sweep->clock_correction);
   const Timestamp middle = outcome.sweep->middle() - outcome.sweep->clock_correction;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "pipeline/mode_bench.hpp"
 #include "pipeline/tracking.hpp"
@@ -124,6 +125,18 @@ inline double XOf(const MatchJob& job) {
 }
 inline double StdOf(const MatchJob& job) {
   return std::sqrt(job.prior.cov(0, 0));
+}
+
+// The map that the record of the motion counts the next step to, which is added for this.
+inline int MapOfNextStep(MotionRecord& record) {
+  constexpr double kLate_s = 100.0;
+  const std::vector<ImuSample> samples =
+      ExactSamples(Straight(0.0), kLate_s, kLate_s + 0.2, kImuStep_s);
+  record.Interrupt();
+  record.Add({StampAt(kLate_s), {}}, samples);
+  record.Add({StampAt(kLate_s + 0.1), {}}, samples);
+  record.Interrupt();
+  return record.steps().back().map;
 }
 
 }  // namespace lio::test

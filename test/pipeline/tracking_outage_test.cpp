@@ -12,6 +12,7 @@ namespace lio {
 namespace {
 
 using test::AfterOneSecond;
+using test::MapOfNextStep;
 using test::StampAt;
 using test::StdOf;
 using test::Straight;
@@ -92,6 +93,31 @@ TEST(TrackingOutage, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
   EXPECT_GT(std::sqrt(report.nav.pose_cov(0, 0)), 30.0);
   EXPECT_LT(std::sqrt(report.nav.map_pose_cov(0, 0)), 1.0);
   EXPECT_NEAR(report.nav.v_world_imu_mps.x(), kSpeed_mps, 0.5);
+}
+
+// Gravity is fitted for each map, so the record must know that there are two.
+TEST(TrackingOutage, FoundNowhereAfterAnOutageTheRecordOfTheMotionBeginsAMap) {
+  AfterOneSecond b;
+  MotionRecord& record = b.bench.examiner.record();
+  const int before = MapOfNextStep(record);
+  b.StartSegment(6.0, Step::kGap);
+  ASSERT_FALSE(b.Miss(kOutage.max_scans_sought));
+  ASSERT_FALSE(b.Match(3));  // for the velocity, for the map, and for its confirmation
+  ASSERT_EQ(b.mode.status(), TrackingStatus::kOk);
+  EXPECT_NE(MapOfNextStep(record), before);
+}
+
+TEST(TrackingOutage, FoundAfterAnOutageTheRecordOfTheMotionKeepsItsMap) {
+  AfterOneSecond b;
+  MotionRecord& record = b.bench.examiner.record();
+  const int before = MapOfNextStep(record);
+  b.StartSegment(6.0, Step::kGap);
+  MatchOutcome found = b.bench.Matched(b.NextJob(), b.motion);
+  found.is_relocalized = true;
+  ASSERT_FALSE(b.Finish(found));
+  ASSERT_FALSE(b.Match(2));
+  ASSERT_EQ(b.mode.status(), TrackingStatus::kOk);
+  EXPECT_EQ(MapOfNextStep(record), before);
 }
 
 TEST(TrackingOutage, PlaceThatLaterScansContradictIsGivenUpWithItsCertainty) {

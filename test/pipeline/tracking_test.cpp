@@ -12,6 +12,7 @@ namespace lio {
 namespace {
 
 using test::ExactSample;
+using test::MapOfNextStep;
 using test::Motion;
 using test::SecondsOf;
 using test::StampAt;
@@ -55,6 +56,18 @@ TEST(Tracking, OnlyTheFirstJobClearsTheMap) {
   ASSERT_FALSE(b.Finish(b.bench.Matched(first, b.motion)));
   EXPECT_TRUE(b.insert.T_map_imu);
   EXPECT_EQ(b.NextJob().map_action, MapAction::kKeep);
+}
+
+// As after a restart: the drive before was in another map.
+TEST(Tracking, TheFirstScanBeginsAMapOfTheRecordOfTheMotion) {
+  TrackingBench b(Straight(kSpeed_mps));
+  MotionRecord& record = b.bench.examiner.record();
+  const int before = MapOfNextStep(record);
+  ASSERT_FALSE(b.Match());
+  const int first = MapOfNextStep(record);
+  EXPECT_NE(first, before);
+  ASSERT_FALSE(b.Match(2));
+  EXPECT_EQ(MapOfNextStep(record), first);
 }
 
 TEST(Tracking, ScanThatIsMatchedLeavesTheQueue) {
