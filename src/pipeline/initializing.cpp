@@ -148,11 +148,10 @@ std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segmen
     context_.clocks.Interrupt();
   }
   context_.ForgetSweeps(context_.sweeps.size());
-  ++context_.counters.num_restarts;
   context_.outputs.Notify(segment.first.stamp, Notice::Severity::kWarning,
                           "the IMU's stamps jumped: initialization begins again; look for lost "
                           "messages or a clock that was set");
-  return Transition{.trigger = Trigger::kRetry, .handover = std::move(handover)};
+  return Transition{.trigger = Trigger::kSegmentStarts, .handover = std::move(handover)};
 }
 
 std::optional<Transition> Initializing::TakeImuAbsent() const {

@@ -14,7 +14,8 @@
 // Meanwhile ImuConventionMonitor judges units and axes. Without an IMU the motion of step 2 is all
 // that is asked for.
 //
-// Ends with a transition: kStarted, kNoImu, kRetry or kContradicted.
+// Ends with a transition: kStarted, kNoImu, kRetry, kSegmentStarts, kImuAppeared or
+// kContradicted.
 #pragma once
 
 #include <optional>

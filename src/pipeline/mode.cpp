@@ -28,20 +28,31 @@ std::string_view NameOf(ModeKind kind) {
 }
 
 std::string_view NameOf(Trigger trigger) {
-  constexpr std::array<std::string_view, 9> kNames{
-      "started",      "no IMU",     "retry",       "contradicted", "lost", "convention doubted",
-      "IMU appeared", "IMU absent", "IMU returned"};
+  constexpr std::array<std::string_view, 10> kNames{"started",
+                                                    "no IMU",
+                                                    "retry",
+                                                    "segment starts",
+                                                    "contradicted",
+                                                    "lost",
+                                                    "convention doubted",
+                                                    "IMU appeared",
+                                                    "IMU absent",
+                                                    "IMU returned"};
   return kNames.at(static_cast<std::size_t>(trigger));
 }
 
-Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context) {
-  const std::optional<TransitionRule> rule = FindRule(KindOf(mode), transition.trigger);
+TransitionRule TakeRule(ModeKind from, Trigger trigger, Counters& counters) {
+  const std::optional<TransitionRule> rule = FindRule(from, trigger);
   if (!rule) {
-    throw std::logic_error(fmt::format("no transition from {} by '{}'", NameOf(KindOf(mode)),
-                                       NameOf(transition.trigger)));
+    throw std::logic_error(
+        fmt::format("no transition from {} by '{}'", NameOf(from), NameOf(trigger)));
   }
-  if (rule->is_restart) ++context.counters.num_restarts;
-  switch (rule->to) {
+  if (rule->is_restart) ++counters.num_restarts;
+  return *rule;
+}
+
+Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context) {
+  switch (TakeRule(KindOf(mode), transition.trigger, context.counters).to) {
     case ModeKind::kInitializing:
       return Initializing(context, std::move(transition.handover), transition.initializing_since);
     case ModeKind::kTracking:

@@ -25,8 +25,12 @@ TrackingStatus StatusOf(const Mode& mode);
 // Index of the sweep to match next in the queue of those that wait.
 std::size_t NextSweepOf(const Mode& mode);
 
-// Builds the mode that the table names, and counts it where the table calls that a restart; throws
-// std::logic_error where it names none.
+// The rule of the table, which is counted where the table calls it a restart: all restarts are
+// counted here, but for those that Odometry::Reset is asked for. Throws std::logic_error where the
+// table has no rule.
+TransitionRule TakeRule(ModeKind from, Trigger trigger, Counters& counters);
+
+// Builds the mode that the rule names.
 [[nodiscard]] Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& context);
 
 }  // namespace lio

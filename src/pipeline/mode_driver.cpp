@@ -99,6 +99,7 @@ ModeDriver::Next ModeDriver::Take(const SweepReady& event) {
 
 ModeDriver::Next ModeDriver::Take(const SegmentStarts& event) {
   if (auto* tracking = As<Tracking>()) {
+    (void)TakeRule(ModeKind::kTracking, Trigger::kSegmentStarts, context_.counters);
     tracking->StartSegment(event);
     return std::nullopt;
   }

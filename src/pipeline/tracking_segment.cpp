@@ -43,7 +43,6 @@ Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& opti
 // in between, at the new time.
 void Tracking::StartSegment(const SegmentStarts& segment) {
   context_.ForgetSweeps(context_.sweeps.size());
-  ++context_.counters.num_restarts;
   handover_.clock_step.reset();
   handover_.last_published.reset();
   zero_velocity_.Forget();

@@ -20,7 +20,8 @@ enum class ModeKind : std::int8_t { kInitializing, kTracking, kLidarOnly, kRejec
 enum class Trigger : std::int8_t {
   kStarted,            // the first state is known
   kNoImu,              // no inertial samples come, and the motion is known roughly
-  kRetry,              // what was tracked is of no use: other convention, gap, window over
+  kRetry,              // what was tracked is of no use: other convention, window over
+  kSegmentStarts,      // after a gap of the inertial samples, or a step of their clock
   kContradicted,       // the configuration contradicts the data
   kLost,               // scans that see enough match nowhere
   kConventionDoubted,  // matching and IMU contradict each other
@@ -29,6 +30,7 @@ enum class Trigger : std::int8_t {
   kImuReturned,        // they come again, and the way was not lost meanwhile
 };
 
+// A mode that leads to itself is built anew, but for Tracking, which goes on in place.
 struct TransitionRule {
   ModeKind from;
   Trigger trigger;
@@ -40,8 +42,10 @@ inline constexpr std::array kTransitions{
     TransitionRule{ModeKind::kInitializing, Trigger::kStarted, ModeKind::kTracking, false},
     TransitionRule{ModeKind::kInitializing, Trigger::kNoImu, ModeKind::kLidarOnly, false},
     TransitionRule{ModeKind::kInitializing, Trigger::kRetry, ModeKind::kInitializing, false},
+    TransitionRule{ModeKind::kInitializing, Trigger::kSegmentStarts, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kInitializing, Trigger::kContradicted, ModeKind::kRejected, false},
     TransitionRule{ModeKind::kInitializing, Trigger::kImuAppeared, ModeKind::kInitializing, true},
+    TransitionRule{ModeKind::kTracking, Trigger::kSegmentStarts, ModeKind::kTracking, true},
     TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kTracking, Trigger::kImuAbsent, ModeKind::kLidarOnly, true},

@@ -118,6 +118,23 @@ TEST(ModeDriver, AnImuThatAppearsLetsTheStartBeginAnew) {
   EXPECT_EQ(b.bench.counters.num_restarts, 1);
 }
 
+// Before a start and after it, and once each.
+TEST(ModeDriver, ASegmentThatStartsIsCountedAsARestart) {
+  DriverBench b(Straight(0.0));
+  const auto start_segment = [&] {
+    b.driver->Consume(SegmentStarts{test::ExactSample(b.motion, b.sweep_start_s + 0.5),
+                                    ImuPreprocessor::Step::kGap, StampAt(b.sweep_start_s)});
+  };
+  b.FeedSweep();
+  start_segment();
+  EXPECT_EQ(b.driver->kind(), ModeKind::kInitializing);
+  EXPECT_EQ(b.bench.counters.num_restarts, 1);
+  ASSERT_TRUE(b.DriveUntil(ModeKind::kTracking));
+  start_segment();
+  EXPECT_EQ(b.driver->kind(), ModeKind::kTracking);
+  EXPECT_EQ(b.bench.counters.num_restarts, 2);
+}
+
 TEST(ModeDriver, ARejectionDropsAllSweeps) {
   Options options;
   options.rig.imu.units = ImuUnits::kSi;

@@ -20,9 +20,10 @@ using test::TrueStart;
 constexpr std::array kKinds{ModeKind::kInitializing, ModeKind::kTracking, ModeKind::kLidarOnly,
                             ModeKind::kRejected};
 constexpr std::array kTriggers{
-    Trigger::kStarted,      Trigger::kNoImu,     Trigger::kRetry,
-    Trigger::kContradicted, Trigger::kLost,      Trigger::kConventionDoubted,
-    Trigger::kImuAppeared,  Trigger::kImuAbsent, Trigger::kImuReturned};
+    Trigger::kStarted,           Trigger::kNoImu,        Trigger::kRetry,
+    Trigger::kSegmentStarts,     Trigger::kContradicted, Trigger::kLost,
+    Trigger::kConventionDoubted, Trigger::kImuAppeared,  Trigger::kImuAbsent,
+    Trigger::kImuReturned};
 
 // A standstill with its inertial samples, so that every mode can begin.
 struct Rest {
