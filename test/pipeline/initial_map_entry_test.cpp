@@ -6,6 +6,8 @@
 
 #include <stdexcept>
 
+#include "lio/base/voxel_key.hpp"
+#include "lio/base/voxel_set.hpp"
 #include "lio/registration/gicp_matcher.hpp"
 #include "lio/registration/ndt_matcher.hpp"
 #include "lio/relocalization/parameters.hpp"
@@ -23,20 +25,25 @@ Pose At(double x, double yaw_rad = 0.0) {
 std::vector<Eigen::Vector3f> Seen(const Pose& T_world_imu, unsigned seed) {
   std::mt19937_64 random(seed);
   test::Lidar lidar = test::TestLidar();
-  lidar.num_azimuths = 900;
+  lidar.num_azimuths = 600;
   return test::CastStill(test::Street(), lidar, T_world_imu, random);
 }
 
 // The street as scans every metre show it, in axes that are turned and moved against the world.
 const Pose kInitialFromWorld{ExpSo3(Vector3(0, 0, 0.7)), Vector3(-20, 35, 4)};
 
-InitialMap StreetMap() {
+// Like map.pcd, it has one point per voxel of 0.2 m. Up to `to_m` along the street.
+InitialMap StreetMap(int to_m = 140) {
+  constexpr double kVoxel_m = 0.2;
   InitialMap map;
-  for (int x = 0; x < 140; ++x) {
-    const Pose T_world_imu = At(x);
-    for (const Eigen::Vector3f& point : Seen(T_world_imu, 100 + static_cast<unsigned>(x))) {
-      map.points.emplace_back(
-          (kInitialFromWorld * (T_world_imu * point.cast<double>())).cast<float>());
+  VoxelSet taken;
+  for (int i = 0; i < to_m; ++i) {
+    const Pose T_world_imu = At(i);
+    for (const Eigen::Vector3f& point : Seen(T_world_imu, 100 + static_cast<unsigned>(i))) {
+      const Vector3 point_world = T_world_imu * point.cast<double>();
+      const auto [x, y, z] = VoxelOf(point_world / kVoxel_m);
+      if (!taken.Insert(PackVoxel(x, y, z))) continue;
+      map.points.emplace_back((kInitialFromWorld * point_world).cast<float>());
     }
   }
   return map;
@@ -83,7 +90,7 @@ TEST(InitialMapEntry, GuessOfAnotherPlaceFindsNothing) {
 }
 
 TEST(InitialMapEntry, MatchersChangePlacesAndBack) {
-  InitialMapEntry entry(StreetMap(), std::make_unique<NdtMatcher>(NdtOptions{}));
+  InitialMapEntry entry(StreetMap(5), std::make_unique<NdtMatcher>(NdtOptions{}));
   std::unique_ptr<ScanMatcher> matcher = std::make_unique<NdtMatcher>(NdtOptions{});
   const ScanMatcher* own = matcher.get();
   EXPECT_FALSE(entry.is_inside());
@@ -97,7 +104,7 @@ TEST(InitialMapEntry, MatchersChangePlacesAndBack) {
 }
 
 TEST(InitialMapEntry, RefusesAMethodThatHasNoUseForPoints) {
-  EXPECT_THROW(InitialMapEntry(StreetMap(), std::make_unique<GicpMatcher>(GicpOptions{})),
+  EXPECT_THROW(InitialMapEntry(StreetMap(5), std::make_unique<GicpMatcher>(GicpOptions{})),
                std::invalid_argument);
 }
 
