@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "lio/scan/sweep.hpp"
+
 namespace lio {
 namespace {
 
@@ -105,8 +107,7 @@ void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
 }
 
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
-  if (stamp - history_.head().stamp > kConstantVelocity.max_unseen)
-    SetClock(stamp - kConstantVelocity.max_sweep);
+  if (stamp - history_.head().stamp > kConstantVelocity.max_unseen) SetClock(stamp - kMaxSweepSpan);
   Timestamp at = history_.head().stamp;
   while (at < stamp) {
     at = std::min(at + kConstantVelocity.step, stamp);

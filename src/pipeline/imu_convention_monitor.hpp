@@ -18,9 +18,8 @@ namespace lio {
 // These tell a wrong convention from a bad second; docs/experiments/imu_convention.md has what they
 // lead to.
 struct ConventionMonitorParameters {
-  // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker. Chosen:
-  // as ImuClassifierParameters::min_steps.
-  std::size_t min_scans = 8;
+  // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
+  std::size_t min_scans = ImuClassifierParameters{}.min_steps;
   // Poses from one verdict to the next while tracking. Chosen: half a second at 10 Hz, for the time
   // of a verdict.
   int poses_per_verdict = 5;

@@ -13,7 +13,9 @@
 
 #include <cstdint>
 
+#include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/nav_state.hpp"
+#include "lio/pipeline/constant_velocity_tracker.hpp"
 #include "lio/pipeline/match_job.hpp"
 
 namespace lio {
@@ -25,12 +27,12 @@ struct OutageParameters {
   double slope = 0.2;
   // Change of roll and pitch, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
-  // The turn rate while unseen, 1 sigma: as ImuOutageParameters has it in a gap, ...
-  double turn_rate_std_radps = 0.5;
+  // The turn rate while unseen, 1 sigma: that in a gap, ...
+  double turn_rate_std_radps = kFilterParameters.imu_outage.gap_gyro_std_radps;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;
-  // Nothing is known of the velocity: a vehicle in a city (as ConstantVelocityParameters).
-  double velocity_std_mps = 15.0;
+  // Nothing is known of the velocity.
+  double velocity_std_mps = kConstantVelocity.start_velocity_std_mps;
   // Beyond this standard deviation, numbers in double precision would leave too few digits for the
   // millimetres of the next match. Arithmetic: 1e8 m^2 beside 1e-6 m^2.
   double max_std_m = 1e4;
@@ -46,8 +48,10 @@ struct OutageParameters {
   int max_scans_checked = 4;  // among so many; chosen: half may be hidden by traffic
   // Found nearer to the old place than this, it stayed there. Chosen: less than any drive of 3 s.
   double stayed_m = 2.0;
-  int max_scans_for_velocity = 8;  // then the new map begins without; as InitializingParameters
-  double found_velocity_std_mps = 1.5;  // by bird's-eye views; as ConstantVelocityParameters
+  // Then the new map begins without a velocity. Chosen: as many as a start has
+  // (InitializingParameters::max_scans_for_velocity).
+  int max_scans_for_velocity = 8;
+  double found_velocity_std_mps = kConstantVelocity.velocity_seed_std_mps;  // by bird's-eye views
 };
 
 inline constexpr OutageParameters kOutage;

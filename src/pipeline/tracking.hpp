@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lio/pipeline/keyframe_policy.hpp"
+#include "lio/sensor/gap.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/health.hpp"
 #include "pipeline/mode_context.hpp"
@@ -22,8 +23,8 @@ namespace lio {
 
 struct TrackingParameters {
   // s. Samples of at most this time may be missing at a moment when a clock was set. Chosen: a
-  // sweep at 10 Hz, as kImuGap.unmeasured.
-  double clock_set_s = 0.1;
+  // sweep at 10 Hz.
+  double clock_set_s = kImuGap.unmeasured.Seconds();
 };
 
 inline constexpr TrackingParameters kTracking;

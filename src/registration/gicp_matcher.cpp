@@ -24,8 +24,10 @@ constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
 
 KeyframeMapOptions MapOptions(const GicpOptions& options) {
-  return {Parameters::kMapVoxel_m, options.max_points, options.max_distance_m,
-          options.num_near_keyframes, options.num_hull_keyframes};
+  return {.max_points = options.max_points,
+          .max_distance_m = options.max_distance_m,
+          .num_near = options.num_near_keyframes,
+          .num_hull = options.num_hull_keyframes};
 }
 
 }  // namespace

@@ -100,11 +100,9 @@ inline constexpr ClockStepParameters kClockStep;
 
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
-  // Longer sweeps are wrong stamps. Chosen: no lidar turns slower than twice a second; data sheets
-  // end at five.
-  Duration max_sweep_span{500'000'000};
-  Duration jitter{20'000'000};      // of a sweep's length; chosen: a fifth of one at 10 Hz
-  Duration apart{1'000'000'000};    // sweeps that follow each other are nearer; chosen: two spans
+  Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz
+  // Sweeps that follow each other are nearer. Chosen: two of kMaxSweepSpan.
+  Duration apart{1'000'000'000};
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;

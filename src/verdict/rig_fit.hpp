@@ -26,13 +26,15 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
+#include "lio/imu/imu_convention_parameters.hpp"
 #include "lio/verdict/motion_record.hpp"
 
 namespace lio {
 
 struct RigFitParameters {
-  double short_span_s = 0.2;   // of a second difference to each side: two scans at 10 Hz. Chosen
-  double long_span_s = 0.5;    // as MotionEvidenceParameters::second_difference_span_s
+  double short_span_s = 0.2;  // of a second difference to each side: two scans at 10 Hz. Chosen
+  // The same of a second one, for which noise is smaller.
+  double long_span_s = MotionEvidenceParameters{}.second_difference_span_s;
   double cluster_s = 2.0;      // longer than a step of a walker and the lag of the map. Chosen
   std::size_t min_steps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
   int num_iterations = 4;      // Gauss-Newton; linear but for the rotation. Chosen
@@ -40,10 +42,10 @@ struct RigFitParameters {
   // TurnFitParameters.
   double huber = 3.0;
   // Standard deviations before anything is known. The rotation has none.
-  double offset_prior_s = 0.2;          // rates are linear in the offset for less. Chosen
-  double lever_prior_m = 3.0;           // longer than most vehicles' sensor mounts. Chosen
-  double gyro_bias_prior_radps = 0.05;  // as MotionEvidenceParameters::gyro_bias_std_radps
-  double gravity_prior_mps2 = 1.0;      // about 6 deg of tilt of the map. Chosen
+  double offset_prior_s = 0.2;  // rates are linear in the offset for less. Chosen
+  double lever_prior_m = 3.0;   // longer than most vehicles' sensor mounts. Chosen
+  double gyro_bias_prior_radps = MotionEvidenceParameters{}.gyro_bias_std_radps;
+  double gravity_prior_mps2 = 1.0;  // about 6 deg of tilt of the map. Chosen
 };
 
 inline constexpr RigFitParameters kRigFit;

@@ -19,7 +19,8 @@
 namespace lio {
 
 struct KeyframeMapOptions {
-  double voxel_m = 0.5;      // edge; as GicpParameters::kMapVoxel_m
+  // Edge. Chosen: about the distance of nearest points; it sets the time of a search alone.
+  double voxel_m = 0.5;
   int max_points = 1000000;  // memory bound; as GicpOptions
   // Keyframes farther from the newest one are dropped; as GicpOptions.
   double max_distance_m = 150.0;

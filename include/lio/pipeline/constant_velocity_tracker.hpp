@@ -17,8 +17,7 @@ namespace lio {
 struct ConstantVelocityParameters {
   // After a longer time the clock was set, or all is new. Chosen: no guess holds so long.
   Duration max_unseen{10'000'000'000};
-  Duration max_sweep{500'000'000};  // as ScanAssemblerParameters::max_sweep_span
-  Duration step{10'000'000};        // of the propagation; chosen: a tenth of a sweep at 10 Hz
+  Duration step{10'000'000};  // of the propagation; chosen: a tenth of a sweep at 10 Hz
   // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, its turn
   // rate by 0.3 rad/s, 1 sigma; a walker's does. Less loses turns, more lets the guess scatter.
   double accel_density = 1.5;       // m/s^2/sqrt(Hz)
@@ -55,8 +54,8 @@ struct MotionSeed {
 };
 
 struct TrackerOptions {
-  double span_s = 3.0;      // of its history; as HistoryOptions
-  double nis_limit = 22.5;  // gate of poses; as HistoryOptions
+  double span_s = HistoryOptions{}.span_s;        // of its history
+  double nis_limit = HistoryOptions{}.nis_limit;  // gate of poses
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
   MotionSeed seed;

@@ -113,9 +113,6 @@ struct GicpParameters {
   // HDL-32E at long range.
   static constexpr double kMinSearch_m = 0.7;
   static constexpr double kSearchPerRange = 0.05;
-  // Edge of the voxels of the keyframe map [m]. Chosen: about the distance of nearest points; it
-  // sets the time of a search alone.
-  static constexpr double kMapVoxel_m = 0.5;
   // Points of one voxel of this edge share the errors of the normals [m]. Chosen: the voxel over
   // which normals are fitted is 0.7 m.
   static constexpr double kClusterVoxel_m = 1.0;

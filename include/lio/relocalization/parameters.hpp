@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lio/registration/registration_parameters.hpp"
+
 namespace lio {
 
 struct BirdsEyeViewParameters {
@@ -83,9 +85,9 @@ struct PlaceCandidateParameters {
 
 struct PlaceVerificationParameters {
   // A prior with a smaller standard deviation, felt by points at the lever, is within reach of
-  // matching. Chosen: as CorrespondenceParameters::kMaxStd_m and kLever_m.
-  double max_prior_std_m = 2.0;
-  double lever_m = 20.0;
+  // matching.
+  double max_prior_std_m = CorrespondenceParameters::kMaxStd_m;
+  double lever_m = CorrespondenceParameters::kLever_m;
   // Share of the points on a surface of the map, of those that come to one, over the last scan's.
   // Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
   // (docs/experiments/relocalization.md).
@@ -108,7 +110,7 @@ struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
   int min_points = 5;      // of a voxel that shows their spread; chosen: fewer spread by chance
   float min_std_m = 0.2f;  // of their height; chosen: a wall through the whole voxel has 0.29
-  float column_m = 0.5f;   // edge of a column, which gives one structure; as BirdsEyeView's
+  float column_m = BirdsEyeViewParameters{}.column_m;  // edge; a column gives one structure
 };
 
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
@@ -126,7 +128,7 @@ struct MapSearchParameters {
   std::size_t max_structures = 120;  // chosen: bounds the cost
   float max_range_m = 40.f;          // of structures; chosen: a step of the turn is 0.7 m there
   double min_share = 0.4;  // of the structures, in the map; chosen: scans see new things, too
-  double min_score_ratio = 0.88;      // of the best score; chosen: as for velocities (flat_top)
+  double min_score_ratio = VelocitySearchParameters{}.flat_top;  // of the best score
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
   std::size_t max_nodes = 4'000'000;  // that wait; chosen by memory: 48 MB
   // Look-ups in a grid for one scan. Chosen by time: about 20 ms; a search of a street of 440 m
@@ -135,7 +137,7 @@ struct MapSearchParameters {
 };
 
 struct HeightVotesParameters {
-  float column_m = 0.5f;         // edge of a column of the map; chosen: MapSearchParameters::cell_m
+  float column_m = MapSearchParameters{}.cell_m;  // edge of a column of the map
   float bin_m = 0.25f;           // of heights; chosen: matching converges from half a metre
   std::size_t max_points = 400;  // that vote; chosen: bounds the cost
   double min_vote_ratio = 0.6;   // of those for the best height; chosen: storeys look nearly alike
@@ -144,8 +146,8 @@ struct HeightVotesParameters {
 };
 
 struct GatheredCloudParameters {
-  float thin_m = 0.25f;              // the cloud has a point in each such voxel; as map.pcd, nearly
-  float max_range_m = 40.f;          // from the body, of what is sought; as MapSearchParameters
+  float thin_m = 0.25f;  // the cloud has a point in each such voxel; as map.pcd, nearly
+  float max_range_m = MapSearchParameters{}.max_range_m;  // from the body, of what is sought
   std::size_t max_points = 400'000;  // then it begins anew; chosen: some hundred metres of a street
   std::size_t max_sample = 2000;     // points that stand for the cloud: as many as of a scan
 };
@@ -182,8 +184,8 @@ struct PlaceContestParameters {
 };
 
 struct PlaceSeekerParameters {
-  std::size_t min_structures = 20;  // as BirdsEyeViewParameters
-  int min_scans = 5;                // before the first search; chosen: half a second
+  std::size_t min_structures = BirdsEyeViewParameters{}.min_structures;
+  int min_scans = 5;  // before the first search; chosen: half a second
   // Moved by so much, or after so many scans, another search is worth it. Chosen: other things are
   // in view, or two seconds have brought more of them.
   double again_after_m = 2.0;

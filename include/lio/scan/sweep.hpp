@@ -12,6 +12,10 @@
 
 namespace lio {
 
+// Longer sweeps are wrong stamps. Chosen: no lidar turns slower than twice a second; data sheets
+// end at five.
+inline constexpr Duration kMaxSweepSpan{500'000'000};
+
 struct Sweep {
   Timestamp start;            // instant of t_offset_ns = 0: the first point's stamp
   Timestamp end;              // the last point's stamp
