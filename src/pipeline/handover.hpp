@@ -9,16 +9,10 @@
 #include <optional>
 
 #include "lio/imu/start_state.hpp"
-#include "lio/stream/clock_step_arbiter.hpp"
+#include "pipeline/clock_step_doubt.hpp"
 #include "pipeline/yaw_doubt.hpp"
 
 namespace lio {
-
-// Stamps went forth, and it is open whether time passed or the clocks were set.
-struct ClockStepInDoubt {
-  ClockStep stamps;
-  std::optional<Pose> T_map_imu_before;  // absent: the filter's history still has it
-};
 
 struct Handover {
   enum class Origin : std::int8_t {
@@ -40,7 +34,7 @@ struct Handover {
   std::optional<Timestamp> last_fused;      // end of the last sweep that was fused
   std::optional<Timestamp> last_located;    // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published;  // at the IMU's rate
-  std::optional<ClockStepInDoubt> clock_step;
+  ClockStepDoubt clock_step;
 
   // The clock was set: all that is remembered is as long ago by the new one.
   void ShiftTimesBy(Duration by) {

@@ -176,7 +176,7 @@ std::optional<Transition> Initializing::EndStream() {
 }
 
 void Initializing::TakeClockStep(const AmbiguousClockStep& step) {
-  handover_.clock_step = {step.stamps, std::nullopt};
+  handover_.clock_step.Begin(step.stamps);
 }
 
 Transition Initializing::Retry() const {

@@ -86,7 +86,7 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
                      (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
   if (outage_.is_running()) {
     SetTaskAfterOutage(job);
-  } else if (handover_.last_located && IsAfterClockStep(*sweep)) {
+  } else if (handover_.last_located && handover_.clock_step.IsAbout(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};
   } else if (handover_.last_located && !is_map_rebased_) {

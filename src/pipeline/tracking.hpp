@@ -71,7 +71,6 @@ class Tracking {
   void LeaveMap(Timestamp stamp);
   void BeginHistoryAt(const Estimate& estimate);
   void ForgetPoses(Timestamp stamp);
-  bool IsAfterClockStep(const Sweep& sweep) const;
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);

@@ -14,7 +14,7 @@ using OutageStage = OutageRecovery::Stage;
 void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                                const std::string& why) {
   const Timestamp first = segment.first.stamp;
-  handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  handover_.clock_step.Begin({before.stamp, first}, before.state.T_map_imu);
   history_ = FilterHistory(HistoryOptionsAt(first), AcrossOutage(before, first), segment.first);
   outage_.Begin(before);
   (void)health_.AddGap(first);
@@ -90,7 +90,7 @@ void Tracking::BeginHistoryAt(const Estimate& estimate) {
 
 // The map is of no use any more: a new one begins with the next scans.
 void Tracking::LeaveMap(Timestamp stamp) {
-  handover_.clock_step.reset();
+  handover_.clock_step.End();
   handover_.last_located.reset();
   keyframes_.Reset();
   context_.convention.BeginMap(stamp);

@@ -16,7 +16,7 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
   BeginHistoryAt(estimate);
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
-  handover_.clock_step.reset();
+  handover_.clock_step.End();
   handover_.yaw_doubt = {};
   handover_.T_world_start = estimate.state.T_world_imu;
   handover_.T_map_start = estimate.state.T_map_imu;

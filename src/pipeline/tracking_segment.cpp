@@ -43,7 +43,7 @@ Estimate Coasted(Estimate estimate, double unknown_s, const HistoryOptions& opti
 // in between, at the new time.
 void Tracking::StartSegment(const SegmentStarts& segment) {
   context_.ForgetSweeps(context_.sweeps.size());
-  handover_.clock_step.reset();
+  handover_.clock_step.End();
   handover_.last_published.reset();
   zero_velocity_.Forget();
   const Timestamp first = segment.first.stamp;
@@ -61,7 +61,7 @@ void Tracking::StartSegment(const SegmentStarts& segment) {
                                 jump_s));
     return;
   }
-  if (is_gap) handover_.clock_step = {{before.stamp, first}, before.state.T_map_imu};
+  if (is_gap) handover_.clock_step.Begin({before.stamp, first}, before.state.T_map_imu);
   const HistoryOptions options = HistoryOptionsAt(first);
   const double unknown_s = is_gap ? jump_s : UnknownAtSetClock_s(segment.step, jump_s);
   Estimate estimate = Coasted(before, unknown_s, options);
@@ -97,37 +97,24 @@ void Tracking::SeekAfterSetBack(Estimate before, const SegmentStarts& segment) {
 }
 
 void Tracking::TakeClockStep(const AmbiguousClockStep& step) {
-  handover_.clock_step = {step.stamps, std::nullopt};
+  handover_.clock_step.Begin(step.stamps);
 }
 
-bool Tracking::IsAfterClockStep(const Sweep& sweep) const {
-  return handover_.clock_step && sweep.middle() > handover_.clock_step->stamps.before;
-}
-
-// Gives the pose that a sweep after the step has if no time passed there: the motion since the step
-// is added to the pose before it.
 std::optional<Pose> Tracking::PoseIfClockSet(const Sweep& sweep,
                                              const Pose& T_map_imu_predicted) const {
-  if (!IsAfterClockStep(sweep)) return std::nullopt;
-  const auto& [stamps, T_map_before] = *handover_.clock_step;
-  const auto& last_located = handover_.last_located;
-  if (last_located && *last_located > stamps.before) return std::nullopt;  // located meanwhile
-  const Pose before = T_map_before ? *T_map_before : history_.At(stamps.before).state.T_map_imu;
-  return before * (history_.At(stamps.after).state.T_map_imu.Inverse() * T_map_imu_predicted);
+  return handover_.clock_step.PoseIfSet(sweep, T_map_imu_predicted, handover_.last_located,
+                                        history_);
 }
 
 void Tracking::SettleClockStep(const MatchOutcome& outcome) {
-  if (!IsAfterClockStep(*outcome.sweep)) return;
-  if (outcome.is_clock_set && !outage_.is_running()) {
-    const ClockStep& stamps = handover_.clock_step->stamps;
-    ++context_.counters.num_clock_jumps;
-    context_.outputs.Notify(
-        outcome.sweep->end, Notice::Severity::kWarning,
-        fmt::format("stamps of all sensors went forth by {:.3f} s but nothing moved meanwhile: the "
-                    "clock was set, and the state is carried over",
-                    SecondsBetween(stamps.before, stamps.after)));
-  }
-  handover_.clock_step.reset();
+  const std::optional<ClockStep> step = handover_.clock_step.Settle(outcome);
+  if (!step || outage_.is_running()) return;
+  ++context_.counters.num_clock_jumps;
+  context_.outputs.Notify(
+      outcome.sweep->end, Notice::Severity::kWarning,
+      fmt::format("stamps of all sensors went forth by {:.3f} s but nothing moved meanwhile: the "
+                  "clock was set, and the state is carried over",
+                  SecondsBetween(step->before, step->after)));
 }
 
 }  // namespace lio

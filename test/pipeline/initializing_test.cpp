@@ -226,8 +226,9 @@ TEST(Initializing, ClockStepInDoubtIsHandedOver) {
   ImuSample first;
   first.stamp = StampAt(5.0);
   const auto transition = b.mode->StartSegment({first, Step::kGap, StampAt(0.9)});
-  ASSERT_TRUE(transition->handover.clock_step);
-  EXPECT_EQ(transition->handover.clock_step->stamps.after, StampAt(0.9));
+  const std::optional<ClockStep> step = transition->handover.clock_step.stamps();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->after, StampAt(0.9));
 }
 
 }  // namespace
