@@ -65,28 +65,52 @@ bool OutageRecovery::MatchesAsBefore(const MatchResult& match) const {
          is_enough(match.num_matched_at[0], last_match_.num_matched_at[0]);
 }
 
-void OutageRecovery::AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough) {
+void OutageRecovery::SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const {
+  if (stage_ == Stage::kSeek) {
+    job.task = Relocalize{Track{}, {SearchRegion::kObservable, T_map_imu_if_set}};
+  } else if (stage_ == Stage::kFindVelocity) {
+    job.task = FindVelocity{};
+    if (num_scans_ == 0) job.map_action = MapAction::kClear;
+  } else if (stage_ == Stage::kBeginMap) {
+    job.task = Track{};
+    job.map_action = MapAction::kClear;
+  }
+}
+
+OutageRecovery::Event OutageRecovery::AddSought(const MatchOutcome& outcome, bool is_fused) {
+  if (is_fused) {
+    moved_m_ = (outcome.match.T_map_imu.translation - before_.state.T_map_imu.translation).norm();
+    Enter(Stage::kCheck);
+  } else if (num_scans_ >= kOutage.max_scans_sought) {
+    Enter(Stage::kFindVelocity);
+    return Event::kFoundNowhere;
+  }
+  return Event::kNone;
+}
+
+OutageRecovery::Event OutageRecovery::AddChecked(const MatchOutcome& outcome, bool is_fused) {
+  if (is_fused && MatchesAsBefore(outcome.match)) ++num_checked_;
+  if (num_checked_ >= kOutage.num_checks) {
+    Enter(Stage::kNone);
+    return Event::kConfirmed;
+  }
+  if (num_scans_ >= kOutage.max_scans_checked) {
+    Enter(Stage::kFindVelocity);
+    return Event::kContradicted;
+  }
+  return Event::kNone;
+}
+
+OutageRecovery::Event OutageRecovery::AddScan(const MatchOutcome& outcome, bool is_fused,
+                                              bool sees_enough) {
   if (sees_enough) ++num_scans_;
   switch (stage_) {
     case Stage::kNone:
       break;
     case Stage::kSeek:
-      if (is_fused) {
-        moved_m_ =
-            (outcome.match.T_map_imu.translation - before_.state.T_map_imu.translation).norm();
-        Enter(Stage::kCheck);
-      } else if (num_scans_ >= kOutage.max_scans_sought) {
-        Enter(Stage::kFindVelocity);
-      }
-      break;
+      return AddSought(outcome, is_fused);
     case Stage::kCheck:
-      if (is_fused && MatchesAsBefore(outcome.match)) ++num_checked_;
-      if (num_checked_ >= kOutage.num_checks) {
-        Enter(Stage::kNone);
-      } else if (num_scans_ >= kOutage.max_scans_checked) {
-        Enter(Stage::kFindVelocity);
-      }
-      break;
+      return AddChecked(outcome, is_fused);
     case Stage::kFindVelocity:
       if (outcome.v_map_imu_mps || num_scans_ >= kOutage.max_scans_for_velocity) {
         Enter(Stage::kBeginMap);
@@ -99,6 +123,7 @@ void OutageRecovery::AddScan(const MatchOutcome& outcome, bool is_fused, bool se
       if (is_fused) Enter(Stage::kNone);
       break;
   }
+  return Event::kNone;
 }
 
 }  // namespace lio

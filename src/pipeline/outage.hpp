@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/nav_state.hpp"
@@ -70,10 +71,17 @@ class OutageRecovery {
   void Begin(const Estimate& before);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
-  // The next scan is the first one of the stage.
-  bool is_first() const { return num_scans_ == 0; }
+  // What is asked of matching in the present stage. `T_map_imu_if_set`: the pose if no time passed.
+  void SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const;
+
+  enum class Event : std::int8_t {
+    kNone,
+    kConfirmed,     // the place that was found, by the scans after it
+    kContradicted,  // by them: the place is given up, and the map with it
+    kFoundNowhere,  // the map is given up
+  };
   // A scan of the present stage was dealt with. `sees_enough`: it has points to be found by.
-  void AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
+  Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
   // The distance of the scan that was found from where the body was before.
@@ -81,6 +89,8 @@ class OutageRecovery {
 
  private:
   void Enter(Stage stage);
+  Event AddSought(const MatchOutcome& outcome, bool is_fused);
+  Event AddChecked(const MatchOutcome& outcome, bool is_fused);
   bool MatchesAsBefore(const MatchResult& match) const;
 
   Stage stage_ = Stage::kNone;

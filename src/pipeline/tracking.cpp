@@ -32,10 +32,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
       zero_velocity_(context.options.rig.imu, is_at_rest),
       is_first_scan_(!std::exchange(handover_.keeps_map, false)) {
   history_.KeepFrom(start.estimate.stamp);
-  for (const ImuSample& sample : context_.stream.imu().samples()) {
-    // The history cannot refuse it: the stream's samples rise, and it begins before them.
-    if (sample.stamp > start.estimate.stamp) (void)history_.AddImu(sample);
-  }
+  AddSamplesAfter(start.estimate.stamp);
 }
 
 HistoryOptions Tracking::HistoryOptionsAt(Timestamp stamp) const {
@@ -85,7 +82,7 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   job.prior.up_map = predicted.T_map_imu.rotation *
                      (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
   if (outage_.is_running()) {
-    SetTaskAfterOutage(job);
+    outage_.SetTask(PoseIfClockSet(*sweep, predicted.T_map_imu), job);
   } else if (handover_.last_located && handover_.clock_step.IsAbout(*sweep)) {
     job.task = Relocalize{std::get<Track>(job.task),
                           {SearchRegion::kObservable, PoseIfClockSet(*sweep, predicted.T_map_imu)}};

@@ -63,13 +63,12 @@ class Tracking {
   void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                        const std::string& why);
-  void SetTaskAfterOutage(MatchJob& job) const;
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
   void NotifyFound(Timestamp end);
-  void ForgetPlace(Timestamp end);
   void LeaveMap(Timestamp stamp);
   void BeginHistoryAt(const Estimate& estimate);
+  void AddSamplesAfter(Timestamp stamp);
   void ForgetPoses(Timestamp stamp);
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);

@@ -24,35 +24,18 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
 }
 
-void Tracking::SetTaskAfterOutage(MatchJob& job) const {
-  if (outage_.stage() == OutageStage::kSeek) {
-    job.task = Relocalize{
-        Track{}, {SearchRegion::kObservable, PoseIfClockSet(*job.sweep, job.prior.T_map_imu)}};
-  } else if (outage_.stage() == OutageStage::kFindVelocity) {
-    job.task = FindVelocity{};
-    if (outage_.is_first()) job.map_action = MapAction::kClear;
-  } else if (outage_.stage() == OutageStage::kBeginMap) {
-    job.task = Track{};
-    job.map_action = MapAction::kClear;
-  }
-}
-
 void Tracking::AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused) {
+  using Event = OutageRecovery::Event;
   if (!outage_.is_running()) {
     if (is_fused) outage_.NoteMatch(outcome.match);
     return;
   }
-  const OutageStage before = outage_.stage();
-  outage_.AddScan(outcome, is_fused, outcome.num_used >= kHealth.min_points);
-  if (before == OutageStage::kFindVelocity && outcome.v_map_imu_mps) TakeVelocity(outcome);
-  if (outage_.stage() == before) return;
+  if (outage_.stage() == OutageStage::kFindVelocity && outcome.v_map_imu_mps) TakeVelocity(outcome);
   const Timestamp end = outcome.sweep->end;
-  if (before == OutageStage::kCheck && outage_.stage() == OutageStage::kNone) {
-    NotifyFound(end);
-  } else if (outage_.stage() == OutageStage::kFindVelocity) {
-    if (before == OutageStage::kCheck) ForgetPlace(end);
-    LeaveMap(end);
-  }
+  const Event event = outage_.AddScan(outcome, is_fused, outcome.num_used >= kHealth.min_points);
+  if (event == Event::kConfirmed) NotifyFound(end);
+  if (event == Event::kContradicted) BeginHistoryAt(AcrossOutage(outage_.before(), end));
+  if (event == Event::kContradicted || event == Event::kFoundNowhere) LeaveMap(end);
 }
 
 // The velocity is given in the axes of the prior.
@@ -73,18 +56,18 @@ void Tracking::NotifyFound(Timestamp end) {
                   moved_m, why));
 }
 
-// The scans after the one that was found contradict it.
-void Tracking::ForgetPlace(Timestamp end) {
-  BeginHistoryAt(AcrossOutage(outage_.before(), end));
-}
-
 void Tracking::BeginHistoryAt(const Estimate& estimate) {
   const auto& samples = context_.stream.imu().samples();
   history_ =
       FilterHistory(HistoryOptionsAt(estimate.stamp), estimate, SampleAt(samples, estimate.stamp));
-  for (const ImuSample& sample : samples) {
-    // The history cannot refuse it: the stream's samples rise, and it begins before them.
-    if (sample.stamp > estimate.stamp) (void)history_.AddImu(sample);
+  AddSamplesAfter(estimate.stamp);
+}
+
+// The samples that the stream has already. The history cannot refuse them: they rise, and it begins
+// before them.
+void Tracking::AddSamplesAfter(Timestamp stamp) {
+  for (const ImuSample& sample : context_.stream.imu().samples()) {
+    if (sample.stamp > stamp) (void)history_.AddImu(sample);
   }
 }
 

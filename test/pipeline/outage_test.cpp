@@ -12,6 +12,7 @@ namespace lio {
 namespace {
 
 using test::StampAt;
+using Event = OutageRecovery::Event;
 using Stage = OutageRecovery::Stage;
 
 // Ten metres a second along y, heading there, and sure of all of it.
@@ -90,31 +91,35 @@ TEST(OutageRecovery, NothingIsLostBeforeAnOutage) {
 TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
   OutageRecovery recovery = Begun();
   EXPECT_EQ(recovery.stage(), Stage::kSeek);
-  recovery.AddScan(Scan(1000, 0), true, true);
+  EXPECT_EQ(recovery.AddScan(Scan(1000, 0), true, true), Event::kNone);
   EXPECT_EQ(recovery.stage(), Stage::kCheck);
-  recovery.AddScan(Scan(700, 400), true, true);
+  EXPECT_EQ(recovery.AddScan(Scan(700, 400), true, true), Event::kNone);
   EXPECT_TRUE(recovery.is_running());
-  recovery.AddScan(Scan(700, 400), true, true);
+  EXPECT_EQ(recovery.AddScan(Scan(700, 400), true, true), Event::kConfirmed);
   EXPECT_FALSE(recovery.is_running());
 }
 
 TEST(OutageRecovery, PlaceThatFitsLargeCellsAloneIsGivenUp) {
   OutageRecovery recovery = Begun();
   recovery.AddScan(Scan(1000, 0), true, true);
+  Event event = Event::kNone;
   for (int i = 0; i < kOutage.max_scans_checked; ++i) {
     EXPECT_EQ(recovery.stage(), Stage::kCheck);
-    recovery.AddScan(Scan(900, 20), true, true);
+    EXPECT_EQ(event, Event::kNone);
+    event = recovery.AddScan(Scan(900, 20), true, true);
   }
+  EXPECT_EQ(event, Event::kContradicted);
   EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
 }
 
 TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
   OutageRecovery recovery = Begun();
-  for (int i = 0; i < kOutage.max_scans_sought; ++i) recovery.AddScan(Scan(0, 0), false, true);
+  for (int i = 0; i + 1 < kOutage.max_scans_sought; ++i) {
+    EXPECT_EQ(recovery.AddScan(Scan(0, 0), false, true), Event::kNone);
+  }
+  EXPECT_EQ(recovery.AddScan(Scan(0, 0), false, true), Event::kFoundNowhere);
   EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
-  EXPECT_TRUE(recovery.is_first());
   recovery.AddScan({}, false, true);
-  EXPECT_FALSE(recovery.is_first());
   MatchOutcome with_velocity;
   with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
   recovery.AddScan(with_velocity, false, true);
@@ -125,6 +130,34 @@ TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
   EXPECT_EQ(recovery.stage(), Stage::kConfirm);
   recovery.AddScan(Scan(300, 100), true, true);
   EXPECT_FALSE(recovery.is_running());
+}
+
+MatchJob JobOf(const OutageRecovery& recovery) {
+  MatchJob job;
+  recovery.SetTask(Pose{Quaternion::Identity(), Vector3(7, 0, 0)}, job);
+  return job;
+}
+
+TEST(OutageRecovery, SeeksWithThePoseIfTheClocksWereSet) {
+  const MatchJob job = JobOf(Begun());
+  const auto& search = std::get<Relocalize>(job.task).search;
+  EXPECT_EQ(search.region, SearchRegion::kObservable);
+  EXPECT_EQ(search.T_map_imu_alternative->translation.x(), 7.0);
+  EXPECT_EQ(job.map_action, MapAction::kKeep);
+}
+
+TEST(OutageRecovery, ClearsTheMapForTheFirstViewAndOnceMoreForTheNewMap) {
+  OutageRecovery recovery = Begun(1U);
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(JobOf(recovery).task));
+  EXPECT_EQ(JobOf(recovery).map_action, MapAction::kClear);
+  recovery.AddScan({}, false, true);
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(JobOf(recovery).task));
+  EXPECT_EQ(JobOf(recovery).map_action, MapAction::kKeep);
+  MatchOutcome with_velocity;
+  with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
+  recovery.AddScan(with_velocity, false, true);
+  EXPECT_TRUE(std::holds_alternative<Track>(JobOf(recovery).task));
+  EXPECT_EQ(JobOf(recovery).map_action, MapAction::kClear);
 }
 
 TEST(OutageRecovery, MapBeginsWithoutAVelocityWhereNoneIsClear) {
