@@ -71,7 +71,7 @@ class OutageRecovery {
   void Begin(const Estimate& before);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
-  // What is asked of matching in the present stage. `T_map_imu_if_set`: the pose if no time passed.
+  // The present stage asks this of matching. `T_map_imu_if_set`: the pose if no time passed.
   void SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const;
 
   enum class Event : std::int8_t {
