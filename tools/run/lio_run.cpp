@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
@@ -18,6 +17,7 @@
 #include "lio/run/recording.hpp"
 #include "lio/run/replay.hpp"
 #include "page_commands.hpp"
+#include "run_arguments.hpp"
 
 namespace lio {
 namespace {
@@ -26,92 +26,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lio-run";
 
-struct Arguments {
-  std::vector<std::string> inputs;
-  std::string input;  // the first of them
-  std::string out;
-  std::string rig;
-  std::string truth;
-  std::string lidar_topic, imu_topic, truth_topic, imu_file;
-  OptionsArguments options;
-  std::optional<int> num_threads;
-  double start_s = 0.0;
-  double duration_s = std::numeric_limits<double>::infinity();
-  bool overwrites = false;
-};
-
-constexpr const char* kAbout =
-    "Runs odometry over a recording of any kind and leaves a folder with the result.\n\n"
-    "INPUT is recognised by its content: a ROS 1 bag (or the folder of its parts), a ROS 2 bag "
-    "(its\n"
-    "folder, one .db3 or one .mcap), a pcap of Velodyne or Ouster packets, a KITTI raw drive, a "
-    "KITTI odometry sequence, an LCM log, or "
-    "a folder\n"
-    "that lio-sim wrote. It is converted, replayed, and scored where there is a truth. DIR then "
-    "has\n"
-    "all that 'lio-replay --map' writes, report.html (plots of all that matters, for any browser,\n"
-    "no network needed), the log and conversion.txt of what was no log, and with a truth eval.txt\n"
-    "and eval.json.\n\n"
-    "Without --rig a rig is drafted from what the recording shows, as DIR/rig_draft.yaml: the "
-    "lidar\n"
-    "by its beams, the extrinsic from /tf_static, else none; what is assumed is told. The rig of\n"
-    "another vehicle is never taken. Correct the draft and run again with --rig; where the "
-    "verdict\n"
-    "knows the right lines, DIR/rig_corrected.yaml has them already.\n\n"
-    "A run's folder as INPUT gets its report.html anew. Several such folders make one page that\n"
-    "compares them, DIR/report.html.";
-
-constexpr const char* kExamples =
-    "Examples:\n"
-    "  lio-run drive.bag --out out/drive\n"
-    "  lio-run drive.bag --rig out/drive/rig_draft.yaml --out out/drive --overwrite\n"
-    "  lio-run ros2_folder --lidar-topic /velodyne_points --truth truth.tum --out out/ros2\n"
-    "  lio-run 2011_09_26/2011_09_26_drive_0005_sync --out out/kitti\n"
-    "  lio-run out/live --truth truth.tum\n"
-    "  lio-run out/loam out/gicp --out out/compared\n\n"
-    "Exit codes: 0 done, 2 usage (also an ambiguous topic), 3 configuration (also one that the "
-    "data\n"
-    "contradict), 5 damaged, missing or unusable input (its sound parts were run), 6 done, but "
-    "the\n"
-    "result cannot be trusted: verdict.json, the summary and the page say why and what to change,\n"
-    "74 a file or stdout could not be written in full.";
-
-void AddArguments(CLI::App& app, Arguments& arguments) {
-  app.footer(kExamples);
-  app.add_option("INPUT", arguments.inputs,
-                 "Recording, or the folder of a finished run; several such folders make one page")
-      ->required();
-  app.add_option("--out", arguments.out, "Folder for the results; it must be empty or new")
-      ->type_name("DIR");
-  app.add_flag("--overwrite", arguments.overwrites, "Replace the files of an earlier run in DIR");
-  app.add_option("--rig", arguments.rig,
-                 "The vehicle's configuration, which --config overrides (default: a draft is made)")
-      ->type_name("FILE");
-  app.add_option("--truth", arguments.truth,
-                 "True trajectory as TUM file (default: beside INPUT, else from it)")
-      ->type_name("FILE")
-      ->check(CLI::ExistingFile.description(""));
-  app.add_option("--lidar-topic", arguments.lidar_topic,
-                 "Topic of a bag's PointCloud2 or CustomMsg, or a capture's sensor, ADDRESS:PORT")
-      ->type_name("NAME");
-  app.add_option("--imu-topic", arguments.imu_topic, "Topic of a bag's Imu")->type_name("NAME");
-  app.add_option("--imu", arguments.imu_file,
-                 "Log, bag or table of the IMU beside a network capture (default: DRIVE.imu.*)")
-      ->type_name("FILE");
-  app.add_option("--truth-topic", arguments.truth_topic, "Topic of a bag's truth")
-      ->type_name("NAME");
-  app.add_option("--threads", arguments.num_threads, "Instead of pipeline.num_threads")
-      ->type_name("N")
-      ->check(CLI::Range(1, 64));
-  AddSpanArguments(app, arguments.start_s, arguments.duration_s);
-  AddOptionsArguments(app, arguments.options);
-}
-
 std::optional<std::string> IfGiven(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
-std::optional<fs::path> TruthArgument(const Arguments& arguments) {
+std::optional<fs::path> TruthArgument(const RunArguments& arguments) {
   if (arguments.truth.empty()) return std::nullopt;
   return fs::path(arguments.truth);
 }
@@ -124,7 +43,7 @@ bool HoldsInput(const fs::path& out, const fs::path& input) {
 }
 
 // Makes the folder, or refuses one that holds something.
-void PrepareFolder(const Arguments& arguments) {
+void PrepareFolder(const RunArguments& arguments) {
   if (arguments.out.empty()) {
     throw UsageError("--out is required: name a folder for the results (see --help)");
   }
@@ -150,7 +69,7 @@ void PrepareFolder(const Arguments& arguments) {
   if (error) throw UsageError("--out: cannot create " + out.string() + ": " + error.message());
 }
 
-PreparedRecording Prepare(const Arguments& arguments) {
+PreparedRecording Prepare(const RunArguments& arguments) {
   RecordingRequest request;
   request.input = arguments.input;
   request.out = arguments.out;
@@ -168,7 +87,7 @@ PreparedRecording Prepare(const Arguments& arguments) {
   return PrepareRecording(request);
 }
 
-std::vector<fs::path> ConfigurationFiles(const Arguments& arguments,
+std::vector<fs::path> ConfigurationFiles(const RunArguments& arguments,
                                          const PreparedRecording& recording) {
   std::vector<fs::path> files = recording.rig_files;
   if (!arguments.rig.empty()) files.emplace_back(arguments.rig);
@@ -180,7 +99,7 @@ bool IsDrafted(const PreparedRecording& recording) {
   return !recording.rig_files.empty() && recording.rig_files[0].filename() == "rig_draft.yaml";
 }
 
-void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
+void TellInput(const RunArguments& arguments, const PreparedRecording& recording) {
   fmt::print("input       {} ({})\n", arguments.input, recording.kind);
   if (!recording.report.empty()) {
     const fs::path file = fs::path(arguments.out) / "conversion.txt";
@@ -198,7 +117,7 @@ void TellInput(const Arguments& arguments, const PreparedRecording& recording) {
   std::fflush(stdout);
 }
 
-std::string NextCommand(const Arguments& arguments, const fs::path& rig) {
+std::string NextCommand(const RunArguments& arguments, const fs::path& rig) {
   std::string command = fmt::format("{} {} --rig {} --out {} --overwrite", kProgram,
                                     arguments.input, rig.string(), arguments.out);
   const std::vector<std::pair<const char*, const std::string*>> options = {
@@ -213,7 +132,7 @@ std::string NextCommand(const Arguments& arguments, const fs::path& rig) {
   return command;
 }
 
-void TellResult(const Arguments& arguments, const PreparedRecording& recording,
+void TellResult(const RunArguments& arguments, const PreparedRecording& recording,
                 const Verdict& verdict) {
   const fs::path out = arguments.out;
   if (recording.truth) {
@@ -238,7 +157,7 @@ void TellResult(const Arguments& arguments, const PreparedRecording& recording,
   }
 }
 
-ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Options options) {
+ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, Options options) {
   if (arguments.num_threads) options.pipeline.num_threads = *arguments.num_threads;
   LogInputOptions input_options;
   input_options.start_s = arguments.start_s;
@@ -275,7 +194,7 @@ ExitCode Run(const Arguments& arguments, const PreparedRecording& recording, Opt
 
 int Main(int argc, char** argv) {
   CLI::App app(kAbout, kProgram);
-  Arguments arguments;
+  RunArguments arguments;
   AddArguments(app, arguments);
   if (const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *code;
   arguments.input = arguments.inputs.front();
