@@ -206,17 +206,14 @@ double GicpMatcher::FixedCorrespondenceCost(const MatchInput& /*input*/,
   return cost;
 }
 
-// Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
 double GicpMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
-  if (pairs_.empty()) return 1.0;
-  if (!IsKeyframe(T_map_imu)) return 0.0;
-  const double here = InsertedPerMatched(input);
-  double sum = 0.0;
+  if (!pairs_.empty() && !IsKeyframe(T_map_imu)) return 0.0;
+  NewContentMean mean(input);
   for (const Pair& pair : pairs_) {
     const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
-    sum += here / (map_.CountAt(T_map_imu * point) + here);
+    mean.Add(map_.CountAt(T_map_imu * point));
   }
-  return sum / static_cast<double>(pairs_.size());
+  return mean.share();
 }
 
 void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
@@ -225,14 +222,8 @@ void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
   Associate(T_map_imu, none);
   const MatchSums sums = Linearize(T_map_imu, none, &scores_);
   result.T_map_imu = T_map_imu;
-  result.num_matched = sums.num_matched;
   result.new_content_share = NewContentShare(input, T_map_imu);
-  if (sums.num_matched < kMinMatched) {
-    result.status = MatchStatus::kTooFewPoints;
-    return;
-  }
-  TakeLastStep(Summarise(sums, scores_.by_part.Covariance(), result), result);
-  result.beam_scores = scores_.by_beam.ByDirection();
+  FinishMatch(sums, scores_, sums.num_matched >= kMinMatched, result);
 }
 
 MatchResult GicpMatcher::Match(const MatchInput& input) {

@@ -91,33 +91,24 @@ double LoamMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose&
   return terms_->FixedCorrespondenceCost(input.points_imu, T_map_imu);
 }
 
-// Mean over the matched points of (points this scan adds to the voxel) / (points in it after).
 double LoamMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
-  if (terms_->size() == 0) return 1.0;
-  const double here = InsertedPerMatched(input);
-  double sum = 0.0;
+  NewContentMean mean(input);
   const auto add = [&](const PointMap& map, std::int32_t point) {
     const Vector3 point_imu = input.points_imu[static_cast<std::size_t>(point)].cast<double>();
     const PointMap::Content content = map.ContentAt(T_map_imu * point_imu);
-    if (!content.is_frozen) sum += here / (content.num_points + here);
+    content.is_frozen ? mean.AddFrozen() : mean.Add(content.num_points);
   };
   for (const EdgeTerm& term : terms_->edges()) add(edge_map_, term.point);
   for (const PlaneTerm& term : terms_->planes()) add(surface_map_, term.point);
-  return sum / static_cast<double>(terms_->size());
+  return mean.share();
 }
 
 void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
   Associate(input, T_map_imu, SearchRadius(Matrix6::Zero()));
   const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
   result.T_map_imu = T_map_imu;
-  result.num_matched = sums.num_matched;
   result.new_content_share = NewContentShare(input, T_map_imu);
-  if (terms_->size() < kMinMatched) {
-    result.status = MatchStatus::kTooFewPoints;
-    return;
-  }
-  TakeLastStep(Summarise(sums, scores_.by_part.Covariance(), result), result);
-  result.beam_scores = scores_.by_beam.ByDirection();
+  FinishMatch(sums, scores_, terms_->size() >= kMinMatched, result);
 }
 
 MatchResult LoamMatcher::Match(const MatchInput& input) {

@@ -7,15 +7,16 @@
 #include <deque>
 #include <vector>
 
+#include "lio/registration/loam_options.hpp"
 #include "registration/loam_factors.hpp"
 
 namespace lio {
 
 struct LoamSolverOptions {
-  double huber_m = 0.1;      // as LoamOptions::huber_m
+  double huber_m = LoamOptions{}.huber_m;
   double edge_weight = 1.0;  // of a squared edge residual against a plane's; A-LOAM's
-  int max_iterations = 4;    // as LoamOptions::max_iterations
-  bool uses_qr = false;      // else normal equations, measured faster
+  int max_iterations = LoamOptions{}.max_iterations;
+  bool uses_qr = false;  // else normal equations, measured faster
 };
 
 class LoamSolver {

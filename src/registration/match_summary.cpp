@@ -62,4 +62,15 @@ void TakeLastStep(const Vector6& step, MatchResult& result) {
     result.T_map_imu = result.T_map_imu * ExpSe3(step);
 }
 
+void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
+                 MatchResult& result) {
+  result.num_matched = sums.num_matched;
+  if (!has_enough) {
+    result.status = MatchStatus::kTooFewPoints;
+    return;
+  }
+  TakeLastStep(Summarise(sums, scores.by_part.Covariance(), result), result);
+  result.beam_scores = scores.by_beam.ByDirection();
+}
+
 }  // namespace lio

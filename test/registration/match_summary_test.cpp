@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
@@ -151,6 +153,65 @@ TEST(Summarise, OtherStatesThanConvergedAreKept) {
   (void)Summarise(sums, sums.information.Full(), result);
   EXPECT_EQ(result.status, MatchStatus::kMaxIterations);
   EXPECT_NE(result.degenerate_mask, 0u);
+}
+
+TEST(FinishMatch, FewTermsAreToldWithTheirNumberAlone) {
+  MatchResult result;
+  result.status = MatchStatus::kConverged;
+  FinishMatch(HeldSums(3, 0.02f), {}, false, result);
+  EXPECT_EQ(result.status, MatchStatus::kTooFewPoints);
+  EXPECT_EQ(result.num_matched, 150);
+  EXPECT_EQ(result.information, Matrix6::Zero());
+}
+
+TEST(FinishMatch, EnoughTermsGiveTheSummaryAndTheLastStep) {
+  const MatchSums sums = HeldSums(3, 1e-5f);
+  MatchScores scores;
+  scores.Reset(20, Pose::Identity());
+  for (int part = 0; part < 20; ++part) {
+    scores.Add(part, {5.f, 0.f, 0.f}, Vector6f::Unit(part % 6));
+  }
+  MatchResult result;
+  result.status = MatchStatus::kConverged;
+  FinishMatch(sums, scores, true, result);
+  MatchResult expected;
+  expected.status = MatchStatus::kConverged;
+  TakeLastStep(Summarise(sums, scores.by_part.Covariance(), expected), expected);
+  EXPECT_EQ(result.status, MatchStatus::kConverged);
+  EXPECT_EQ(result.cov, expected.cov);
+  EXPECT_GT(result.T_map_imu.translation.norm(), 0.0);
+  EXPECT_EQ(result.T_map_imu.translation, expected.T_map_imu.translation);
+  EXPECT_FALSE(result.beam_scores.empty());
+}
+
+// --- new content
+
+// Ten points are inserted for each of the two that are matched.
+NewContentMean TenForEach() {
+  static const std::vector<Eigen::Vector3f> points(20, Eigen::Vector3f::Zero());
+  MatchInput input;
+  input.points_imu = std::span(points).first(2);
+  input.scan_points_imu = points;
+  return NewContentMean(input);
+}
+
+TEST(NewContentMean, IsTheMeanShareOfWhatVoxelsHoldAfter) {
+  NewContentMean mean = TenForEach();
+  mean.Add(0.0);
+  EXPECT_EQ(mean.share(), 1.0);
+  mean.Add(30.0);
+  EXPECT_DOUBLE_EQ(mean.share(), 0.5 * (1.0 + 0.25));
+}
+
+TEST(NewContentMean, VoxelsThatTakeNoMoreHaveNothingNew) {
+  NewContentMean mean = TenForEach();
+  mean.Add(10.0);
+  mean.AddFrozen();
+  EXPECT_DOUBLE_EQ(mean.share(), 0.25);
+}
+
+TEST(NewContentMean, WhereNothingIsMatchedAllIsNew) {
+  EXPECT_EQ(TenForEach().share(), 1.0);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 // unit direction of the map and w a robust weight that the derivative takes as constant.
 #pragma once
 
+#include <cstddef>
+
 #include "lio/registration/beam_scores.hpp"
 #include "lio/registration/cluster_scores.hpp"
 #include "lio/registration/degenerate_directions.hpp"
@@ -113,5 +115,33 @@ struct MatchScores {
 // Moves the result's pose by the step that Summarise() returned, unless it is longer than 5 mm or
 // mrad: iterations stop at a step of finite length, and this one costs nothing.
 void TakeLastStep(const Vector6& step, MatchResult& result);
+
+// The end of a match whose parts are told by `scores`: the result, at whose pose the sums were
+// taken, gets the number of terms and, unless those are too few, all that Summarise() gives and the
+// last step.
+void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
+                 MatchResult& result);
+
+// The mean over matched points of (points that this scan adds to a voxel) / (points in it after),
+// which is MatchResult::new_content_share.
+class NewContentMean {
+ public:
+  explicit NewContentMean(const MatchInput& input) : added_(InsertedPerMatched(input)) {}
+
+  // A matched point in a voxel of so many points ...
+  void Add(double num_in_voxel) {
+    sum_ += added_ / (num_in_voxel + added_);
+    ++num_;
+  }
+  // ... or in one that takes no more.
+  void AddFrozen() { ++num_; }
+  // One where no point was matched: all is new.
+  [[nodiscard]] double share() const { return num_ == 0 ? 1.0 : sum_ / static_cast<double>(num_); }
+
+ private:
+  double added_;
+  double sum_ = 0.0;
+  std::size_t num_ = 0;
+};
 
 }  // namespace lio
