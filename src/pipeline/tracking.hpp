@@ -11,23 +11,15 @@
 #include <string>
 
 #include "lio/pipeline/keyframe_policy.hpp"
-#include "lio/sensor/gap.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/health.hpp"
 #include "pipeline/mode_context.hpp"
 #include "pipeline/outage.hpp"
+#include "pipeline/segment_jump.hpp"
 #include "pipeline/transition.hpp"
 #include "pipeline/zero_velocity_updater.hpp"
 
 namespace lio {
-
-struct TrackingParameters {
-  // s. Samples of at most this time may be missing at a moment when a clock was set. Chosen: a
-  // sweep at 10 Hz.
-  double clock_set_s = kImuGap.unmeasured.Seconds();
-};
-
-inline constexpr TrackingParameters kTracking;
 
 class Tracking {
  public:
@@ -60,6 +52,7 @@ class Tracking {
   // Matching from the prediction finds the scan, if it is there.
   bool IsPriorSure(Timestamp middle) const;
   HistoryOptions HistoryOptionsAt(Timestamp stamp) const;
+  void CarryOver(const Estimate& before, const SegmentJump& jump, const ImuSample& sample);
   void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                        const std::string& why);

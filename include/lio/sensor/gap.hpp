@@ -12,8 +12,8 @@
 //     150 ms   bridged     the mean of the time before stands in    stream/imu_buffer
 //     200 ms   confirmed   it is counted as num_imu_gaps, once the  stream/imu_preprocessor
 //                          samples after it bear the stamps out
-//     1 s      segment     the state is carried over by itself      pipeline/tracking_segment
-//     3 s      unknown     an outage: the place is sought again     pipeline/tracking_segment
+//     1 s      segment     the state is carried over by itself      stream/imu_preprocessor
+//     3 s      unknown     an outage: the place is sought again     pipeline/segment_jump
 //
 //   scans apart by
 //     250 ms   missing     it is counted as num_scan_gaps           stream/scan_gate
