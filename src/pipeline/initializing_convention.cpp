@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A start needs to know what the inertial messages mean: units, axes, gravity. Here is found out
-// whether that is otherwise than believed, and what follows.
+// A start needs to know what the inertial messages mean: units, axes, gravity. These functions
+// judge whether they mean something else than was believed, and begin anew if so.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -208,10 +208,11 @@ double GicpMatcher::FixedCorrespondenceCost(const MatchInput& /*input*/,
 
 double GicpMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
   if (!pairs_.empty() && !IsKeyframe(T_map_imu)) return 0.0;
-  NewContentMean mean(input);
+  const double added = InsertedPerMatched(input);
+  NewContentMean mean;
   for (const Pair& pair : pairs_) {
     const Vector3 point = source_[static_cast<std::size_t>(pair.point)].position.cast<double>();
-    mean.Add(map_.CountAt(T_map_imu * point));
+    mean.Add(map_.CountAt(T_map_imu * point), added);
   }
   return mean.share();
 }

@@ -92,11 +92,12 @@ double LoamMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose&
 }
 
 double LoamMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_imu) const {
-  NewContentMean mean(input);
+  const double added = InsertedPerMatched(input);
+  NewContentMean mean;
   const auto add = [&](const PointMap& map, std::int32_t point) {
     const Vector3 point_imu = input.points_imu[static_cast<std::size_t>(point)].cast<double>();
     const PointMap::Content content = map.ContentAt(T_map_imu * point_imu);
-    content.is_frozen ? mean.AddFrozen() : mean.Add(content.num_points);
+    content.is_frozen ? mean.AddFrozen() : mean.Add(content.num_points, added);
   };
   for (const EdgeTerm& term : terms_->edges()) add(edge_map_, term.point);
   for (const PlaneTerm& term : terms_->planes()) add(surface_map_, term.point);

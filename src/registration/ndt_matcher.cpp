@@ -186,29 +186,21 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
   }
 }
 
-// Mean over the matched points of (points this scan adds to the cell) / (points in it after).
 double NdtMatcher::NewContentShare() const {
-  struct Share {
-    double sum = 0.0;
-    std::size_t count = 0;
-    void operator+=(const Share& other) {
-      sum += other.sum;
-      count += other.count;
-    }
-  };
-  const auto share = workers_.SumOverBlocks<Share>(pairs_.size(), [&](const Block& block) {
-    Share sums;
+  const auto mean = workers_.SumOverBlocks<NewContentMean>(pairs_.size(), [&](const Block& block) {
+    NewContentMean of_block;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const std::int32_t cell = pairs_[i].cell;
       if (cell == GaussianMap::kNoCell) continue;
-      ++sums.count;
-      if (map_.IsFrozen(cell)) continue;
-      const double here = CountOf(cell);
-      sums.sum += here / (static_cast<double>(map_.patch(cell).num_points) + here);
+      if (map_.IsFrozen(cell)) {
+        of_block.AddFrozen();
+      } else {
+        of_block.Add(static_cast<double>(map_.patch(cell).num_points), CountOf(cell));
+      }
     }
-    return sums;
+    return of_block;
   });
-  return share.count == 0 ? 1.0 : share.sum / static_cast<double>(share.count);
+  return mean.share();
 }
 
 Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {

@@ -187,31 +187,31 @@ TEST(FinishMatch, EnoughTermsGiveTheSummaryAndTheLastStep) {
 // --- new content
 
 // Ten points are inserted for each of the two that are matched.
-NewContentMean TenForEach() {
+double TenForEach() {
   static const std::vector<Eigen::Vector3f> points(20, Eigen::Vector3f::Zero());
   MatchInput input;
   input.points_imu = std::span(points).first(2);
   input.scan_points_imu = points;
-  return NewContentMean(input);
+  return InsertedPerMatched(input);
 }
 
 TEST(NewContentMean, IsTheMeanShareOfWhatVoxelsHoldAfter) {
-  NewContentMean mean = TenForEach();
-  mean.Add(0.0);
+  NewContentMean mean;
+  mean.Add(0.0, TenForEach());
   EXPECT_EQ(mean.share(), 1.0);
-  mean.Add(30.0);
+  mean.Add(30.0, TenForEach());
   EXPECT_DOUBLE_EQ(mean.share(), 0.5 * (1.0 + 0.25));
 }
 
 TEST(NewContentMean, VoxelsThatTakeNoMoreHaveNothingNew) {
-  NewContentMean mean = TenForEach();
-  mean.Add(10.0);
+  NewContentMean mean;
+  mean.Add(10.0, TenForEach());
   mean.AddFrozen();
   EXPECT_DOUBLE_EQ(mean.share(), 0.25);
 }
 
 TEST(NewContentMean, WhereNothingIsMatchedAllIsNew) {
-  EXPECT_EQ(TenForEach().share(), 1.0);
+  EXPECT_EQ(NewContentMean().share(), 1.0);
 }
 
 }  // namespace

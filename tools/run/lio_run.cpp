@@ -50,7 +50,7 @@ void PrepareFolder(const RunArguments& arguments) {
   const fs::path out = arguments.out;
   std::error_code error;
   if (fs::is_directory(out, error)) {
-    if (HoldsInput(out, arguments.input)) {
+    if (HoldsInput(out, arguments.input())) {
       throw UsageError(out.string() + ": holds the input; name another folder");
     }
     if (!fs::is_empty(out, error) && !arguments.overwrites) {
@@ -58,8 +58,8 @@ void PrepareFolder(const RunArguments& arguments) {
                        ": exists and is not empty; name another folder or add --overwrite");
     }
     for (const char* name : {"log.lcm", "truth.tum"}) {
-      if (KindOf(arguments.input) == FileKind::kLcmLog) break;  // it is only read
-      RefuseToOverwrite(arguments.input, out / name);
+      if (KindOf(arguments.input()) == FileKind::kLcmLog) break;  // it is only read
+      RefuseToOverwrite(arguments.input(), out / name);
       if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
     }
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
@@ -71,7 +71,7 @@ void PrepareFolder(const RunArguments& arguments) {
 
 PreparedRecording Prepare(const RunArguments& arguments) {
   RecordingRequest request;
-  request.input = arguments.input;
+  request.input = arguments.input();
   request.out = arguments.out;
   request.truth = TruthArgument(arguments);
   request.lidar_topic = IfGiven(arguments.lidar_topic);
@@ -100,7 +100,7 @@ bool IsDrafted(const PreparedRecording& recording) {
 }
 
 void TellInput(const RunArguments& arguments, const PreparedRecording& recording) {
-  fmt::print("input       {} ({})\n", arguments.input, recording.kind);
+  fmt::print("input       {} ({})\n", arguments.input(), recording.kind);
   if (!recording.report.empty()) {
     const fs::path file = fs::path(arguments.out) / "conversion.txt";
     WriteText(file, recording.report);
@@ -119,7 +119,7 @@ void TellInput(const RunArguments& arguments, const PreparedRecording& recording
 
 std::string NextCommand(const RunArguments& arguments, const fs::path& rig) {
   std::string command = fmt::format("{} {} --rig {} --out {} --overwrite", kProgram,
-                                    arguments.input, rig.string(), arguments.out);
+                                    arguments.input(), rig.string(), arguments.out);
   const std::vector<std::pair<const char*, const std::string*>> options = {
       {"--truth", &arguments.truth},
       {"--lidar-topic", &arguments.lidar_topic},
@@ -143,7 +143,7 @@ void TellResult(const RunArguments& arguments, const PreparedRecording& recordin
   }
   fmt::print("path        {}\n", PathOfRun(out).string());
   try {
-    WriteReport(out, {arguments.input, recording.truth, recording.assumptions});
+    WriteReport(out, {arguments.input(), recording.truth, recording.assumptions});
     fmt::print("report      {}\n", (out / kReportFile).string());
   } catch (const WriteError&) {
     throw;
@@ -186,7 +186,7 @@ ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, 
   if (!complaint.empty()) fmt::print(stderr, "{}: {}\n", kProgram, complaint);
   if (recording.is_damaged) {
     fmt::print(stderr, "{}: {} is damaged: its sound parts were run, see {}\n", kProgram,
-               arguments.input, (fs::path(arguments.out) / "conversion.txt").string());
+               arguments.input(), (fs::path(arguments.out) / "conversion.txt").string());
   }
   if (!complaint.empty() || recording.is_damaged) return kExitUnusableInput;
   return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
@@ -197,7 +197,6 @@ int Main(int argc, char** argv) {
   RunArguments arguments;
   AddArguments(app, arguments);
   if (const auto code = ParseCommandLine(app, argc, argv, LIO_VERSION)) return *code;
-  arguments.input = arguments.inputs.front();
   if (!arguments.options.print) {
     const PageArguments pages = {arguments.inputs, arguments.out, TruthArgument(arguments),
                                  arguments.overwrites};

@@ -21,7 +21,7 @@ extern const char* const kAbout;
 
 struct RunArguments {
   std::vector<std::string> inputs;
-  std::string input;  // the first of them; not filled by AddArguments
+  [[nodiscard]] const std::string& input() const { return inputs.front(); }  // the first of them
   std::string out;
   std::string rig;
   std::string truth;

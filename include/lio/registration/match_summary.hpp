@@ -126,20 +126,21 @@ void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enou
 // which is MatchResult::new_content_share.
 class NewContentMean {
  public:
-  explicit NewContentMean(const MatchInput& input) : added_(InsertedPerMatched(input)) {}
-
-  // A matched point in a voxel of so many points ...
-  void Add(double num_in_voxel) {
-    sum_ += added_ / (num_in_voxel + added_);
+  // A matched point in a voxel of so many points, to which the scan adds so many ...
+  void Add(double num_in_voxel, double num_added) {
+    sum_ += num_added / (num_in_voxel + num_added);
     ++num_;
   }
   // ... or in one that takes no more.
   void AddFrozen() { ++num_; }
+  void operator+=(const NewContentMean& other) {
+    sum_ += other.sum_;
+    num_ += other.num_;
+  }
   // One where no point was matched: all is new.
   [[nodiscard]] double share() const { return num_ == 0 ? 1.0 : sum_ / static_cast<double>(num_); }
 
  private:
-  double added_;
   double sum_ = 0.0;
   std::size_t num_ = 0;
 };
