@@ -60,7 +60,9 @@ Pose LoamSolver::Solve(const Pose& start, const LoamSolverOptions& options) {
   for (const CostPtr& edge : partial_edges_) add(edge.get(), &edge_loss);
   for (const CostPtr& plane : partial_planes_) add(plane.get(), &plane_loss);
   ceres::Solver::Options solver;
-  solver.linear_solver_type = options.uses_qr ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
+  // The dense solvers split their sums by the size of the processor's cache: other bits elsewhere.
+  solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;  // sums in one order: the same bits always

@@ -16,7 +16,6 @@ struct LoamSolverOptions {
   double huber_m = LoamOptions{}.huber_m;
   double edge_weight = 1.0;  // of a squared edge residual against a plane's; A-LOAM's
   int max_iterations = LoamOptions{}.max_iterations;
-  bool uses_qr = false;  // else normal equations, measured faster
 };
 
 class LoamSolver {
