@@ -34,12 +34,12 @@ Matrix6 Inflated(const Matrix6& cov, const CovarianceInflation& inflation) {
   return scale.asDiagonal() * cov * scale.asDiagonal();
 }
 
-// True when a residual beyond the gate can be an error of registration, whose covariance was then
-// too small. A larger residual means that the body moved without the samples showing it.
-bool IsRegistrationError(const Vector6& residual) {
+// True when a residual beyond the gate can be so much unseen motion and an error of registration,
+// whose covariance was then too small.
+bool CanBe(const Vector6& residual, const UnseenMotion& unseen) {
   constexpr ForcedUpdateParameters kParameters = kFilterParameters.forced_update;
-  return residual.head<3>().norm() < kParameters.max_registration_error_m &&
-         residual.tail<3>().norm() < kParameters.max_registration_error_rad;
+  return residual.head<3>().norm() < kParameters.max_registration_error_m + unseen.translation_m &&
+         residual.tail<3>().norm() < kParameters.max_registration_error_rad + unseen.rotation_rad;
 }
 
 Vector6 ResidualOf(const PoseMeasurement& measurement, const Estimate& estimate) {
@@ -60,10 +60,13 @@ void AllowMotionBy(const Vector6& residual, Estimate& estimate) {
   AllowUnseenMotion(estimate, motion_var, motion_var.head<3>() / (kDuration_s * kDuration_s));
 }
 
-// Fuses a pose beyond the gate; `nis` is the value that the gate refused.
-bool FuseByForce(Estimate& estimate, PoseMeasurement measurement, double nis, double nis_limit) {
+// Fuses a pose beyond the gate, unless it must be wrong; `nis` is the value that the gate refused.
+bool FuseByForce(PoseMeasurement measurement, const UnseenMotion& max_unseen, double nis,
+                 double nis_limit, Estimate& estimate) {
+  constexpr UnseenMotion kNone{0.0, 0.0};
   const Vector6 residual = ResidualOf(measurement, estimate);
-  if (IsRegistrationError(residual)) {
+  if (!CanBe(residual, max_unseen)) return false;
+  if (CanBe(residual, kNone)) {
     measurement.cov *= nis / nis_limit;
   } else {
     AllowMotionBy(residual, estimate);
@@ -86,7 +89,7 @@ UpdateResult FusePoseEvent(const PoseEvent& event, double nis_limit,
   UpdateResult update = FusePose(estimate, measurement, nis_limit);
   inflation = NextInflation(inflation, update, max_inflation);
   if (!update.fused && event.force) {
-    update.fused = FuseByForce(estimate, measurement, update.nis, nis_limit);
+    update.fused = FuseByForce(measurement, event.max_unseen, update.nis, nis_limit, estimate);
   }
   if (update.fused) BlendMapPose(estimate, event.measurement);
   return update;

@@ -2,7 +2,29 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/scan_fusion.hpp"
 
+#include "pipeline/unseen_motion.hpp"
+
 namespace lio {
+namespace {
+
+// An error that the rig made in the motion is left in the estimate, above all in its velocity, for
+// as long as a missed motion is: for the filter's window.
+UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& settings,
+                             const ModeContext& context, const FilterHistory& history) {
+  if (outcome.is_relocalized || outcome.is_clock_set || settings.replaces_motion) return {};
+  const Timestamp until = outcome.sweep->end;
+  const Duration window = Duration::FromSeconds(context.options.filter.history_s);
+  const std::vector<ImuSample> samples = context.stream.imu().Between(until - window, until);
+  if (IsMotionHidden(samples)) return {};
+  const std::optional<RigBounds>& bounds = context.examiner.bounds();
+  if (bounds) {
+    return MotionByRigErrors(*bounds, samples, history.At(until).state.v_world_imu.norm());
+  }
+  // Nothing is known of the rig yet: a match that sees all directions is believed.
+  return outcome.match.degenerate_mask == 0 ? UnseenMotion{} : UnseenMotion{0.0, 0.0};
+}
+
+}  // namespace
 
 void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeContext& context,
               FilterHistory& history, Health& health, ScanReport& report) {
@@ -10,6 +32,7 @@ void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeCo
   if (settings.grows_map) context.sensor_errors.Add(outcome.match);
   settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
   settings.force = outcome.is_relocalized || health.MustForce(filter.max_gated_in_a_row);
+  if (settings.force) settings.max_unseen = MaxUnseenMotion(outcome, settings, context, history);
   const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
   health.AddFusion(fused);
   report.fused = fused == EventOutcome::kApplied;

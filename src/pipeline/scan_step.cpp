@@ -68,6 +68,7 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
   }
   event.is_clock_set = outcome.is_clock_set;
   event.force = settings.force;
+  event.max_unseen = settings.max_unseen;
   event.replaces_motion = settings.replaces_motion;
   UpdateResult update;
   const EventOutcome fused = history.AddPose(outcome.sweep->middle(), event, &update);

@@ -38,6 +38,7 @@ struct FusionSettings {
   double alike_factor = 1.0;
   // SensorFixedErrors::CovPerReplacement()
   Matrix6 sensor_error_cov = Matrix6::Zero();
+  UnseenMotion max_unseen;       // as PoseEvent's
   bool grows_map = false;        // the scan will be inserted
   bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
   bool force = false;            // fuse even beyond the gate

@@ -38,6 +38,7 @@ RigExaminer::RigExaminer(const Rig& rig, bool uses_imu)
 void RigExaminer::SetConvention(const ImuConvention& convention) {
   convention_ = convention;
   record_.Clear();
+  bounds_.reset();
 }
 
 std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
@@ -46,6 +47,7 @@ std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
   next_look_s_ *= kRigExaminer.next_look_factor;
   RigFindings findings = FindRigErrors(record_, rig_, convention_);
   trust_ = LeastOf(findings.causes, LeastOf(corrected_, Trust::kYes));
+  bounds_ = findings.bounds;
   return findings;
 }
 
@@ -59,6 +61,7 @@ std::optional<std::string> RigExaminer::News(const RigFindings& findings) {
 void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar,
                                const Pose& T_old_new) {
   rig_.T_imu_lidar = T_imu_lidar;
+  bounds_.reset();
   if (findings.T_imu_lidar) {
     std::ranges::copy_if(findings.causes, std::back_inserter(corrected_), IsOfExtrinsic);
     record_.Clear();  // sweeps were deskewed wrongly

@@ -48,6 +48,7 @@ class Naming {
   RigFindings Name() const {
     RigFindings findings;
     findings.is_checked = true;
+    findings.bounds = Bounds();
     NameInverted(findings.causes);
     for (const CauseKind kind : selection_.selected()) findings.causes.push_back(MakeCause(kind));
     NameAxes(findings.causes);
@@ -93,6 +94,15 @@ class Naming {
     };
     return WithoutErrors(all_, is_off(LogSo3(all_.errors.rotation), kRigRotation),
                          is_off(all_.errors.lever_m, kRigLever));
+  }
+
+  RigBounds Bounds() const {
+    const double sigmas = SureSigmas(all_.num_clusters, kParameters.better_probability);
+    const RigVector margin = sigmas * all_.cov.diagonal().cwiseSqrt();
+    const RigErrors& errors = all_.errors;
+    return {LogSo3(errors.rotation).cwiseAbs() + margin.segment<3>(kRigRotation),
+            errors.lever_m.cwiseAbs() + margin.segment<3>(kRigLever),
+            std::abs(errors.offset_s) + margin[kRigOffset]};
   }
 
   // If the inverse of the rig's R_a, t_a is the truth, the rotation is R_a R_a and the lever arm

@@ -81,6 +81,32 @@ TEST(PoseEvent, AForcedPoseFarOffIsAMotionThatNobodySaw) {
   EXPECT_GT(estimate.cov(kVel, kVel), 100.0);
 }
 
+TEST(PoseEvent, AForcedPoseIsWrongWhereSoMuchMotionCannotHaveBeenUnseen) {
+  Estimate estimate = Sure();
+  const Estimate before = estimate;
+  CovarianceInflation inflation;
+  PoseEvent event = PoseAt(20.0);
+  event.force = true;
+  event.max_unseen = {19.0, 0.1};
+  EXPECT_FALSE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
+  EXPECT_EQ(estimate.cov, before.cov);
+  EXPECT_EQ(estimate.state.T_map_imu.translation, Vector3::Zero());
+  event.max_unseen.translation_m = 19.9;  // and some centimetres of registration's error
+  EXPECT_TRUE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
+}
+
+TEST(PoseEvent, AForcedTurnIsWrongWhereSoMuchTurnCannotHaveBeenUnseen) {
+  Estimate estimate = Sure();
+  CovarianceInflation inflation;
+  PoseEvent event = PoseAt(0.0);
+  event.measurement.T_map_imu.rotation = ExpSo3(Vector3(0.0, 0.0, 1.5));
+  event.force = true;
+  event.max_unseen = {1.0, 1.4};
+  EXPECT_FALSE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
+  event.max_unseen.rotation_rad = 1.5;
+  EXPECT_TRUE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
+}
+
 TEST(PoseEvent, APoseThatReplacesTheMotionIsWhereTheBodyIs) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;

@@ -8,6 +8,7 @@
 
 #include "lio/base/chi_square.hpp"
 #include "pipeline/mode_bench.hpp"
+#include "verdict/rig_drive.hpp"
 
 namespace lio {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 using test::kSweepSpan_s;
 using test::ModeBench;
 using test::StampAt;
+
+constexpr int kMaxGated = FilterOptions{}.max_gated_in_a_row;
 
 // A body at rest that is sure of its pose, and whose filter has the usual gate.
 class ScanFusionTest : public testing::Test {
@@ -33,6 +36,19 @@ class ScanFusionTest : public testing::Test {
     }
   }
 
+  // Samples of the body at rest, as the stream has kept them.
+  void FeedImu(double from_s, double to_s) {
+    (void)bench_.FeedImu(test::Straight(0.0), from_s, to_s);
+  }
+  // A drive before has shown that the rig is right within centimetres.
+  void KnowTheRig() {
+    using test::ExamplePose;
+    bench_.examiner.record() =
+        test::RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()});
+    (void)bench_.examiner.Look(StampAt(0.0));
+    (void)bench_.examiner.Look(StampAt(40.0));
+    ASSERT_TRUE(bench_.examiner.bounds());
+  }
   // The next scan, matched so far away from the truth.
   MatchOutcome MatchedAt(double x_m) {
     auto sweep = std::make_shared<Sweep>();
@@ -65,15 +81,48 @@ TEST_F(ScanFusionTest, AMatchNearThePredictionIsFusedAndReported) {
   EXPECT_EQ(bench_.counters.num_gated, 0);
 }
 
-TEST_F(ScanFusionTest, AMatchBeyondTheGateIsRefusedUntilTooManyWere) {
-  const int max_gated = FilterOptions{}.max_gated_in_a_row;
-  for (int i = 0; i < max_gated; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
-  EXPECT_EQ(bench_.counters.num_gated, max_gated);
+TEST_F(ScanFusionTest, AMatchFarOffThatSeesAllIsFusedAtLastWhereNothingIsKnownOfTheRig) {
+  FeedImu(-4.0, 2.0);
+  for (int i = 0; i < kMaxGated; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
+  EXPECT_TRUE(Fuse(MatchedAt(5.0)).fused);
+}
+
+TEST_F(ScanFusionTest, AMatchFarOffThatDoesNotSeeAllIsRefusedForGood) {
+  FeedImu(-4.0, 2.0);
+  for (int i = 0; i < 2 * kMaxGated + 2; ++i) {
+    MatchOutcome outcome = MatchedAt(5.0);
+    outcome.match.degenerate_mask = 4;
+    EXPECT_FALSE(Fuse(outcome).fused) << i;
+  }
+}
+
+// A hole of the samples, in the third scan's sweep.
+TEST_F(ScanFusionTest, AMatchFarOffIsFusedAtLastWhereTheSamplesHaveAHole) {
+  FeedImu(-4.0, 0.3);
+  FeedImu(0.45, 2.0);
+  KnowTheRig();
+  for (int i = 0; i < kMaxGated; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
+  EXPECT_EQ(bench_.counters.num_gated, kMaxGated);
   EXPECT_TRUE(Fuse(MatchedAt(5.0)).fused);
   EXPECT_NEAR(history_->At(StampAt(2.0)).state.T_map_imu.translation.x(), 5.0, 0.5);
 }
 
+TEST_F(ScanFusionTest, AMatchFarOffIsRefusedForGoodWhereTheSamplesShowTheMotion) {
+  FeedImu(-4.0, 2.0);
+  KnowTheRig();
+  for (int i = 0; i < 2 * kMaxGated + 2; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
+  EXPECT_NEAR(history_->At(StampAt(2.0)).state.T_map_imu.translation.x(), 0.0, 1e-9);
+}
+
+TEST_F(ScanFusionTest, AnErrorOfRegistrationIsFusedAtLastAlthoughTheSamplesShowTheMotion) {
+  FeedImu(-4.0, 2.0);
+  KnowTheRig();
+  for (int i = 0; i < kMaxGated; ++i) EXPECT_FALSE(Fuse(MatchedAt(0.1)).fused) << i;
+  EXPECT_TRUE(Fuse(MatchedAt(0.1)).fused);
+}
+
 TEST_F(ScanFusionTest, AScanThatASearchFoundIsFusedWhereverItIs) {
+  FeedImu(-4.0, 2.0);
   MatchOutcome outcome = MatchedAt(50.0);
   outcome.is_relocalized = true;
   EXPECT_TRUE(Fuse(outcome).fused);

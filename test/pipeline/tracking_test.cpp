@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "pipeline/tracking_bench.hpp"
 
@@ -140,18 +142,30 @@ TEST(Tracking, ScansCorrectAWrongVelocity) {
   EXPECT_EQ(scan.filter->nav.scan_seq, 14);
 }
 
-TEST(Tracking, ScanFarFromThePredictionIsRefusedTwiceThenFused) {
+// Three scans matched so far aside of the winding road, by matches that see these directions: which
+// of them are fused?
+std::vector<bool> FusedAside(double aside_m, unsigned degenerate_mask) {
   TrackingBench b(Winding());
-  ASSERT_FALSE(b.Match(25));  // the IMU convention is beyond doubt by then
+  EXPECT_FALSE(b.Match(25));  // the IMU convention is beyond doubt by then
   std::vector<bool> fused;
   for (int i = 0; i < 3; ++i) {
     MatchOutcome aside = b.bench.Matched(b.NextJob(), b.motion);
-    aside.match.T_map_imu.translation.y() += 5.0;
-    ASSERT_FALSE(b.Finish(aside));
+    aside.match.T_map_imu.translation.y() += aside_m;
+    aside.match.degenerate_mask = degenerate_mask;
+    EXPECT_FALSE(b.Finish(aside));
     fused.push_back(LastScan(b).scan.fused);
   }
-  EXPECT_EQ(fused, std::vector<bool>({false, false, true}));
-  EXPECT_EQ(b.bench.counters.num_gated, 2);
+  EXPECT_EQ(b.bench.counters.num_gated, std::ranges::count(fused, false));
+  return fused;
+}
+
+TEST(Tracking, ScanAsideOfThePredictionIsRefusedTwiceThenFused) {
+  EXPECT_EQ(FusedAside(5.0, 0), std::vector<bool>({false, false, true}));
+  EXPECT_EQ(FusedAside(0.14, 4), std::vector<bool>({false, false, true}));
+}
+
+TEST(Tracking, ScanFarAsideThatDoesNotSeeAllDirectionsIsRefused) {
+  EXPECT_EQ(FusedAside(5.0, 4), std::vector<bool>({false, false, false}));
 }
 
 TEST(Tracking, RelocalizedScanIsFusedHoweverFarItIs) {

@@ -73,6 +73,18 @@ TEST(RigExaminer, ContradictionIsTheFirstCause) {
   EXPECT_EQ(verdict.causes[0].kind, CauseKind::kImuUnits);
 }
 
+TEST(RigExaminer, BoundsOfTheRigAreThoseOfTheLastLook) {
+  RigExaminer examiner(ExampleRig(), true);
+  examiner.record() = RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()});
+  EXPECT_FALSE(examiner.Look(StampAt(0.0)));
+  EXPECT_FALSE(examiner.bounds());
+  EXPECT_TRUE(examiner.Look(StampAt(40.0)));
+  ASSERT_TRUE(examiner.bounds());
+  EXPECT_LT(examiner.bounds()->lever_m.norm(), 0.05);
+  examiner.SetConvention(ConventionOf(ImuUnits::kSi));
+  EXPECT_FALSE(examiner.bounds());
+}
+
 Rig WrongRig() {
   Rig rig = ExampleRig();
   rig.T_imu_lidar->translation.x() += 1.0;

@@ -26,8 +26,26 @@ TEST(RigFindings, RightRigIsCheckedAndNamesNothing) {
   EXPECT_TRUE(findings.causes.empty());
 }
 
+TEST(RigFindings, BoundsHoldTheErrorsThatAreThere) {
+  RigDrive drive = RightDrive();
+  drive.T_configured.rotation = ExpSo3(Vector3(0.0, 0.0, 0.05)) * drive.T_configured.rotation;
+  drive.T_configured.translation.x() += 0.2;
+  for (const RigDrive& rig : {RightDrive(), drive}) {
+    const bool is_right = rig.T_configured.translation.x() < 0.4;
+    const auto bounds = FindingsOf(rig).bounds;
+    ASSERT_TRUE(bounds);
+    EXPECT_GT(bounds->rotation_rad.z(), is_right ? 0.0 : 0.05);
+    EXPECT_LT(bounds->rotation_rad.z(), is_right ? 0.01 : 0.06);
+    EXPECT_GT(bounds->lever_m.x(), is_right ? 0.0 : 0.2);
+    EXPECT_LT(bounds->lever_m.x(), is_right ? 0.05 : 0.25);
+    EXPECT_LT(bounds->lever_m.y(), 0.05);
+    EXPECT_LT(bounds->offset_s, 0.002);
+  }
+}
+
 TEST(RigFindings, RestIsNotChecked) {
   const RigFindings findings = FindingsOf(RightDrive(), WindingDrive(100.0));
+  EXPECT_FALSE(findings.bounds);
   EXPECT_FALSE(findings.is_checked);
   EXPECT_TRUE(findings.causes.empty());
 }

@@ -4,6 +4,8 @@
 // shown, and beyond the gate where that is asked for. The update itself is in pose_update.hpp.
 #pragma once
 
+#include <limits>
+
 #include "lio/filter/pose_update.hpp"
 
 namespace lio {
@@ -17,10 +19,19 @@ struct CovarianceInflation {
   double rotation = 1.0;
 };
 
+// A body is at most so far from where the inertial samples have it, because they miss a part of the
+// motion or are put together with the scans by a rig that is wrong.
+struct UnseenMotion {
+  double translation_m = std::numeric_limits<double>::infinity();
+  double rotation_rad = std::numeric_limits<double>::infinity();
+};
+
 struct PoseEvent {
   PoseMeasurement measurement;
   // Fuses the pose even beyond the gate, with the covariance or the unseen motion that explains it.
   bool force = false;
+  // A pose that is farther off, beyond errors of registration, is wrong: force does not fuse it.
+  UnseenMotion max_unseen;
   // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
   bool is_clock_set = false;
   // Nothing is known of the motion before the pose: the estimate is moved to it first (MoveTo).

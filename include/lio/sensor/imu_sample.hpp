@@ -21,6 +21,8 @@ struct ImuSample {
   float made_up_w_std_radps = 0.f;
   float made_up_f_std_mps2 = 0.f;
   bool is_made_up() const { return made_up_w_std_radps > 0.f; }
+  // It shows the motion as it was: no axis is at the end of its range, and it was sent.
+  bool IsMeasured() const { return !is_made_up() && !is_rate_saturated && !is_force_saturated; }
   std::int32_t seq = 0;  // the sender's number: one more for each sample, where it counts
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Watches a run and judges it: gathers the motion as lidar and IMU show it (rig_findings.hpp) and
-// how much of the run has poses (run_tally.hpp). It only looks on: no estimate depends on it.
+// how much of the run has poses (run_tally.hpp).
 #pragma once
 
 #include <optional>
@@ -54,6 +54,8 @@ class RigExaminer {
   [[nodiscard]] Verdict Judge(const Counters& counters) const;
   // The trust that was left at the last look.
   [[nodiscard]] Trust trust() const { return trust_; }
+  // Those of the last look; nothing before the first, and after the rig was changed.
+  [[nodiscard]] const std::optional<RigBounds>& bounds() const { return bounds_; }
 
  private:
   Rig rig_;  // as it is in use
@@ -67,6 +69,7 @@ class RigExaminer {
   double next_look_s_ = kRigExaminer.first_look_s;
   bool has_told_ = false;
   Trust trust_ = Trust::kYes;
+  std::optional<RigBounds> bounds_;
 };
 
 }  // namespace lio

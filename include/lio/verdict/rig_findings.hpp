@@ -30,8 +30,9 @@ struct RigFindingParameters {
   // quantile with one degree of freedom less than the fit has clusters of time (as is usual for
   // clustered sandwiches): 5 standard deviations in four minutes, 9 in 25 s, 40 in 8 s. Chosen.
   double false_alarm_probability = 1e-6;
-  // The same for an extrinsic that is bettered: that of three standard deviations. Customary;
-  // without it a lever arm stayed 3 cm off (docs/experiments/extrinsic.md).
+  // The same for an extrinsic that is bettered, and for a bound of an error: that of three
+  // standard deviations. Customary; without it a lever arm stayed 3 cm off
+  // (docs/experiments/extrinsic.md).
   double better_probability = 2.7e-3;
   // Below this correlation of turns, gyro and lidar do not tell of one motion: the drive is still,
   // or nothing can be said. As in calib (docs/calibration.md).
@@ -54,9 +55,17 @@ struct RigFindingParameters {
 
 inline constexpr RigFindingParameters kRigFindings;
 
+// The errors of the rig are at most this, axis by axis of imu, but for better_probability.
+struct RigBounds {
+  Vector3 rotation_rad = Vector3::Zero();
+  Vector3 lever_m = Vector3::Zero();
+  double offset_s = 0.0;
+};
+
 struct RigFindings {
-  bool is_checked = false;    // the motion was enough to tell
-  std::vector<Cause> causes;  // likeliest first
+  bool is_checked = false;          // the motion was enough to tell
+  std::optional<RigBounds> bounds;  // by the motion, where it was enough to tell
+  std::vector<Cause> causes;        // likeliest first
   // rig.T_imu_lidar as the motion shows it, in the axes that the samples are read in: present where
   // it is surely wrong. Entries that are not surely wrong are the rig's.
   std::optional<Pose> T_imu_lidar;
