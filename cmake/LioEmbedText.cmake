@@ -6,14 +6,19 @@
 set(LIO_EMBED_TEXT_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
 
 if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
+  # The suffix sv knows the length; counting a large text at compile time is above g++'s limit.
   set(text "#pragma once\n#include <string_view>\nnamespace lio {\n")
+  string(APPEND text "using std::string_view_literals::operator\"\"sv;\n")
+  # clang tells of texts that are longer than every compiler must take; ours take them.
+  string(APPEND text "#pragma GCC diagnostic push\n"
+    "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n")
   while(ENTRIES)
     list(POP_FRONT ENTRIES name file)
     file(READ ${file} content)
     string(APPEND text
-      "inline constexpr std::string_view ${name} = R\"lio_text(${content})lio_text\";\n")
+      "inline constexpr std::string_view ${name} = R\"lio_text(${content})lio_text\"sv;\n")
   endwhile()
-  file(WRITE ${OUTPUT} "${text}}\n")
+  file(WRITE ${OUTPUT} "${text}#pragma GCC diagnostic pop\n}\n")
   return()
 endif()
 

@@ -10,7 +10,7 @@ install(FILES packaging/60-liod.conf DESTINATION ${CMAKE_INSTALL_DATADIR}/liod/s
 find_program(LIO_HELP2MAN help2man)
 set(man_pages "")
 if(LIO_HELP2MAN AND NOT LIO_SANITIZE)
-  foreach(program liod lio-replay lio-run lio-sim lio-eval lio-log lio-convert)
+  foreach(program liod lio-replay lio-run lio-sim lio-eval lio-log lio-convert lio-view)
     set(page ${CMAKE_BINARY_DIR}/man/${program}.1)
     add_custom_command(OUTPUT ${page}
       COMMAND ${LIO_HELP2MAN} --no-info --version-string=${PROJECT_VERSION}
@@ -29,7 +29,7 @@ endif()
 find_package(Python3 COMPONENTS Interpreter QUIET)
 set(completions "")
 if(Python3_FOUND AND NOT LIO_SANITIZE)
-  foreach(program liod lio-replay lio-run lio-sim lio-eval lio-log lio-convert)
+  foreach(program liod lio-replay lio-run lio-sim lio-eval lio-log lio-convert lio-view)
     set(completion ${CMAKE_BINARY_DIR}/completions/${program})
     add_custom_command(OUTPUT ${completion}
       COMMAND Python3::Interpreter ${CMAKE_SOURCE_DIR}/packaging/completion.py
@@ -79,12 +79,14 @@ file(WRITE ${CMAKE_BINARY_DIR}/packaging/changelog
   "liod (${PROJECT_VERSION}) unstable; urgency=medium\n\n"
   "  * CHANGELOG.md of liod-doc has the changes.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${now}\n")
 execute_process(COMMAND gzip -9nkf ${CMAKE_BINARY_DIR}/packaging/changelog)
-# report.html contains uPlot, whose licence asks for its text.
+# report.html contains uPlot, lio-view contains it and three.js; their licences ask for their text.
 file(READ ${CMAKE_SOURCE_DIR}/LICENSE licence)
 file(READ ${CMAKE_SOURCE_DIR}/third_party/uplot/LICENSE uplot_licence)
+file(READ ${CMAKE_SOURCE_DIR}/third_party/three/LICENSE three_licence)
 file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${licence}\n"
-  "The pages report.html contain uPlot, https://github.com/leeoniya/uPlot, by this licence:\n\n"
-  "${uplot_licence}")
+  "The pages report.html and lio-view contain uPlot, https://github.com/leeoniya/uPlot, by this\n"
+  "licence:\n\n${uplot_licence}\n"
+  "lio-view contains three.js, https://threejs.org, by this licence:\n\n${three_licence}")
 foreach(package liod liod-dev liod-doc)
   install(FILES ${CMAKE_BINARY_DIR}/packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
     COMPONENT ${package})

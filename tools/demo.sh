@@ -17,7 +17,9 @@ to liod; path.png, error.png and map.png are drawn, too.
   --config FILE    configuration; may be given again (default: by the kind of input)
   --set KEY=VALUE  override one key; may be given again
   --truth FILE     true trajectory (default: from the input, or beside it)
-  --speed S        without INPUT: speed of playing, in multiples of real time (3)
+  --speed S        without INPUT: speed of playing, in multiples of real time (3; with --view 1)
+  --view           without INPUT: shows the drive on the page of lio-view while it is played, and
+                   after it until Enter is pressed; needs a multicast route (any network gives one)
   --out DIR        folder of the results (out/demo)
 USAGE
 }
@@ -27,7 +29,7 @@ fail_usage() {
   exit 2
 }
 
-settings=() input="" truth="" speed="" out="" configs=() code=0
+settings=() input="" truth="" speed="" out="" configs=() code=0 view=""
 while (($#)); do
   case $1 in
     -h | --help) usage && exit 0 ;;
@@ -42,6 +44,7 @@ while (($#)); do
       esac
       shift
       ;;
+    --view) view=yes ;;
     -*) fail_usage "unknown option $1" ;;
     *)
       [[ -z $input ]] || fail_usage "only one INPUT is possible"
@@ -55,6 +58,7 @@ if [[ -n $input && ! -e $input ]]; then
   exit 5
 fi
 [[ -z $input || -z $speed ]] || fail_usage "--speed is for the simulated drive alone"
+[[ -z $input || -z $view ]] || fail_usage "--view is for the simulated drive alone"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 out=${out:-out/demo}
@@ -78,6 +82,33 @@ make_drive() {
   echo "demo: making the input, a drive around a simulated block (kept in $folder)"
   build/bin/lio-sim --scenario loop --lidar vlp16 --threads "$(nproc)" --out "$folder"
   echo "$id" >"$folder/source"
+}
+
+# The page is served outside of a network namespace, so that a browser finds it. Others' LCM programs
+# hear nothing all the same: the drive has a port of its own.
+start_view() {
+  export LIO_IN_NAMESPACE=no LCM_DEFAULT_URL=udpm://239.255.76.67:7676?ttl=0
+  speed=${speed:-1}
+  mkdir -p "$out"
+  build/bin/lio-view 2>"$out/view.log" &
+  viewer=$!
+  trap 'kill "$viewer" 2>/dev/null || true' EXIT
+  until grep -qs "open " "$out/view.log"; do
+    kill -0 "$viewer" 2>/dev/null || { cat "$out/view.log" >&2 && exit 4; }
+    sleep 0.05
+  done
+  local address
+  address=$(sed -n 's/.*open //p' "$out/view.log")
+  echo "demo: the drive is shown at $address"
+  if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null; then
+    xdg-open "$address" >/dev/null 2>&1 || true
+  fi
+}
+
+end_view() {
+  [[ ! -t 0 ]] || read -rp "demo: the page stays until you press Enter "
+  kill -TERM "$viewer" && wait "$viewer"
+  trap - EXIT
 }
 
 play_drive() {
@@ -115,7 +146,9 @@ score_drive() {
   sed -n '/trust: /,$p' "$out/liod.log"
 }
 
+if [[ -n $view ]]; then start_view; fi
 if [[ -n $input ]]; then run_input; else play_drive; fi
+if [[ -n $view ]]; then end_view; fi
 ((code == 0 || code == 6)) || exit "$code"
 echo "demo: results are in $out/: open report.html in a browser"
 exit "$code"

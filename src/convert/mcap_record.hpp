@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Reads the records of an MCAP file: an opcode of one byte, the length of the content in eight,
-// then the content. The format is described at mcap.dev/spec. Numbers are little-endian and packed
-// and texts have a length of four bytes before them, as in messages of ROS 1.
+// Reads the records of an MCAP file (lio/io/mcap_format.hpp). Texts have a length of four bytes
+// before them, as in messages of ROS 1.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +11,9 @@
 
 #include "byte_source.hpp"
 #include "lio/io/lcm_codec.hpp"
+#include "lio/io/mcap_format.hpp"
 
 namespace lio {
-
-inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";  // at the file's begin and end
-
-// Other opcodes are passed over: attachments, metadata, indices, and extensions (from 0x80 on).
-enum class McapOp : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kStatistics = 0x0B,
-  kDataEnd = 0x0F,
-};
-
-inline constexpr std::uint64_t kMcapRecordHeaderBytes = 9;
-inline constexpr std::uint64_t kMcapFooterBytes = 20;
-inline constexpr std::uint64_t kMcapMessageHeaderBytes = 22;
 
 struct McapRecord {
   McapOp op = McapOp::kHeader;

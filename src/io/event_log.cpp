@@ -284,4 +284,9 @@ std::int64_t EventLogReader::size_bytes() const {
   return impl_->size;
 }
 
+void EventLogReader::SeekTo(std::int64_t position_bytes) {
+  impl_->position = std::clamp<std::int64_t>(position_bytes, 0, impl_->size);
+  impl_->known_good = -1;
+}
+
 }  // namespace lio

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Helpers of lcm_codec.cpp and status_codec.cpp.
+// Helpers of the codecs: lcm_codec.cpp, status_codec.cpp and output_decoder.cpp.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 
 #include "lio/io/lcm_codec.hpp"
 
@@ -22,6 +23,8 @@ class FieldReader {
     for (std::size_t i = 0; i < sizeof(T); ++i) bits = bits << 8 | *next_++;
     if constexpr (sizeof(T) == 8) {
       return std::bit_cast<T>(bits);
+    } else if constexpr (std::is_same_v<T, float>) {
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
     } else {
       return static_cast<T>(bits);
     }

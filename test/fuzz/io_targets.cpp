@@ -10,6 +10,7 @@
 #include "lio/io/initial_map_file.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_account.hpp"
+#include "lio/io/output_decoder.hpp"
 #include "lio/io/trajectory_file.hpp"
 
 namespace lio::fuzz {
@@ -37,6 +38,14 @@ void Messages(ByteView bytes) {
   Command command;
   (void)DecodeCommand(bytes, command);
   (void)DecodeStatusCounts(bytes);
+  NavOutput nav;
+  (void)DecodeOdometry(bytes, nav);
+  FilterReport filter;
+  (void)DecodeFilterState(bytes, filter);
+  ScanReport scan;
+  (void)DecodeRegistration(bytes, scan);
+  StatusReport status;
+  (void)DecodeStatusReport(bytes, status);
 }
 
 void EventLog(ByteView bytes) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "support/temp_dir.hpp"
@@ -194,6 +195,27 @@ TEST_F(EventLogTest, ManyFalseHeadersAreReadInReasonableTime) {
   Store(bytes);
   EXPECT_THAT(ReadNumbers(), ElementsAre(0));
   EXPECT_EQ(skipped_bytes_, static_cast<std::int64_t>(kSoundAt));
+}
+
+TEST_F(EventLogTest, ReadingGoesOnFromAPlaceOfBefore) {
+  auto bytes = WriteEvents(6);
+  bytes[static_cast<std::size_t>(EventAt(2))] ^= 0xff;  // damage on the way
+  Store(bytes);
+  EventLogReader reader(path_);
+  LogEvent event;
+  ASSERT_TRUE(reader.Next(event));
+  const std::int64_t position = reader.position_bytes();
+  std::vector<std::int64_t> numbers;
+  while (reader.Next(event)) numbers.push_back(event.number);
+  EXPECT_THAT(numbers, ElementsAre(1, 3, 4, 5));
+  reader.SeekTo(position);
+  numbers.clear();
+  while (reader.Next(event)) numbers.push_back(event.number);
+  EXPECT_THAT(numbers, ElementsAre(1, 3, 4, 5));
+  reader.SeekTo(-1);
+  EXPECT_EQ(reader.position_bytes(), 0);
+  reader.SeekTo(std::numeric_limits<std::int64_t>::max());
+  EXPECT_FALSE(reader.Next(event));
 }
 
 TEST_F(EventLogTest, MissingFilesAndFoldersAreNamed) {

@@ -26,14 +26,16 @@ offers() {
   done
 }
 
-for program in liod lio-log lio-eval; do
+for program in liod lio-log lio-eval lio-view; do
   "$(dirname "$0")/../../packaging/completion.py" "$1/bin/$program" "$folder/$program"
   # shellcheck source=/dev/null
   source "$folder/$program"
 done
 offers "liod --ch" --check --channel-prefix
 offers "liod --config " files
-offers "lio-log " info calibrate doctor
+offers "lio-log " info calibrate doctor export
+offers "lio-view --log " files
+offers "lio-view --b" --bind
 offers "lio-log info --" --channel-prefix
 offers "lio-log calibrate --c" --config
 offers "lio-eval --align " none yaw se3

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 # Plays an LCM log with lcm-logplayer over real UDP multicast to liod. It uses an own network
 # namespace when that is allowed, so that other LCM programs of this machine receive nothing, and
-# otherwise the machine's multicast route.
+# otherwise, or with LIO_IN_NAMESPACE=no, the machine's multicast route.
 #   tools/demo/play.sh LOG.lcm OUT_DIR SPEED LIOD_ARGUMENT...
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -11,12 +11,12 @@ export LCM_DEFAULT_URL=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
 
 if [[ ${LIO_IN_NAMESPACE:-} != yes ]]; then
   for flags in $( ((EUID == 0)) && echo -n) -rn; do
-    if unshare "$flags" true 2>/dev/null; then
+    if [[ ${LIO_IN_NAMESPACE:-} != no ]] && unshare "$flags" true 2>/dev/null; then
       LIO_IN_NAMESPACE=yes exec unshare "$flags" "${BASH_SOURCE[0]}" "$@"
     fi
   done
   if ! ip route get 239.255.76.67 >/dev/null 2>&1; then
-    echo "play: there is no multicast route, and a network namespace is not allowed; as root run:" \
+    echo "play: there is no multicast route, and no network namespace was made; as root run:" \
       "ip route add 224.0.0.0/4 dev lo" >&2
     exit 4
   fi

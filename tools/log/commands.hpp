@@ -46,4 +46,17 @@ struct DoctorArguments {
 CLI::App* AddDoctorCommand(CLI::App& app, DoctorArguments& arguments);
 int RunDoctor(const DoctorArguments& arguments);
 
+struct ExportArguments {
+  std::string log;
+  std::string channel_prefix;
+  std::string mcap_file;
+  std::string csv_folder;
+  std::string ply_file;
+  std::string tum_file;
+  std::string compression = "zstd";
+  bool with_inputs = false;
+};
+CLI::App* AddExportCommand(CLI::App& app, ExportArguments& arguments);
+int RunExport(const ExportArguments& arguments);
+
 }  // namespace lio

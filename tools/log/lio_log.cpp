@@ -11,13 +11,14 @@
 namespace {
 
 constexpr const char* kAbout =
-    "Shows the contents of LCM logs, calibrates a sensor set-up from them, and says what is wrong\n"
-    "with one.\n\n"
+    "Shows the contents of LCM logs, exports them, calibrates a sensor set-up from them, and says\n"
+    "what is wrong with one.\n\n"
     "Examples:\n"
     "  lio-log info drive.lcm\n"
     "  lio-log calibrate drive.lcm --config config/ulhk.yaml\n"
     "  lio-log calibrate walk.lcm --config my_rig.yaml --json out.json --rig calibrated.yaml\n"
-    "  lio-log doctor drive.bag --write-rig rig.yaml\n\n"
+    "  lio-log doctor drive.bag --write-rig rig.yaml\n"
+    "  lio-log export recorded.lcm --mcap recorded.mcap\n\n"
     "Exit codes: 0 done, 2 usage, 3 configuration, 5 damaged, missing or unusable log, 6 doctor\n"
     "leaves no trust in the result,\n"
     "74 a file or stdout could not be written in full.";
@@ -31,10 +32,13 @@ int Main(int argc, char** argv) {
   lio::DoctorArguments doctor;
   AddCalibrateCommand(app, calibrate);
   const CLI::App* doctor_command = AddDoctorCommand(app, doctor);
+  lio::ExportArguments export_arguments;
+  const CLI::App* export_command = AddExportCommand(app, export_arguments);
   if (const auto exit_code = lio::ParseCommandLine(app, argc, argv, LIO_VERSION)) {
     return *exit_code;
   }
   if (doctor_command->parsed()) return RunDoctor(doctor);
+  if (export_command->parsed()) return RunExport(export_arguments);
   return info_command->parsed() ? RunInfo(info) : RunCalibrate(calibrate);
 }
 

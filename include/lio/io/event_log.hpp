@@ -58,6 +58,8 @@ class EventLogReader {
   [[nodiscard]] std::int64_t skipped_bytes() const;
   [[nodiscard]] std::int64_t position_bytes() const;  // for progress bars
   [[nodiscard]] std::int64_t size_bytes() const;
+  // Next goes on from there: a position_bytes() from before an earlier Next.
+  void SeekTo(std::int64_t position_bytes);
 
  private:
   struct Impl;

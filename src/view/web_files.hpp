@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// The files of the page, which are compiled in.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace lio {
+
+struct WebFile {
+  std::string_view type;  // of its content
+  std::string_view content;
+};
+
+// The file at a path such as "/" or "/main.js"; nothing for any other path.
+[[nodiscard]] std::optional<WebFile> FindWebFile(std::string_view path);
+
+}  // namespace lio

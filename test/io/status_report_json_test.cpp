@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/io/status_report_json.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lio {
+namespace {
+
+TEST(StatusReportJson, NamesStateTrustLatenciesAndLoad) {
+  StatusReport report;
+  report.state = TrackingStatus::kCoasting;
+  report.trust = Trust::kDoubtful;
+  report.latency = {1.0F, 2.0F, 3.0F};
+  report.queue = {0.5F, 1.0F, 1.5F};
+  report.cpu_load_cores = 0.25F;
+  const nlohmann::ordered_json json = StatusReportJson(report);
+  EXPECT_EQ(json["state"], static_cast<int>(TrackingStatus::kCoasting));
+  EXPECT_EQ(json["trust"], static_cast<int>(Trust::kDoubtful));
+  EXPECT_EQ(json["latency_ms"]["p99"], 2.0);
+  EXPECT_EQ(json["queue_ms"]["max"], 1.5);
+  EXPECT_EQ(json["cpu_cores"], 0.25);
+}
+
+TEST(StatusReportJson, ReplacesBytesThatAreNoUtf8) {
+  StatusReport report;
+  report.note = "a \xff note";
+  const auto json = nlohmann::ordered_json::parse(TextOf(StatusReportJson(report)));
+  EXPECT_EQ(json["note"], "a \xEF\xBF\xBD note");
+}
+
+}  // namespace
+}  // namespace lio
