@@ -81,7 +81,7 @@ class OutageRecovery {
     kFoundNowhere,  // the map is given up
   };
   // A scan of the present stage was dealt with. `sees_enough`: it has points to be found by.
-  Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
+  [[nodiscard]] Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
   // The distance of the scan that was found from where the body was before.

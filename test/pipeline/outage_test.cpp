@@ -101,7 +101,7 @@ TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
 
 TEST(OutageRecovery, PlaceThatFitsLargeCellsAloneIsGivenUp) {
   OutageRecovery recovery = Begun();
-  recovery.AddScan(Scan(1000, 0), true, true);
+  (void)recovery.AddScan(Scan(1000, 0), true, true);
   Event event = Event::kNone;
   for (int i = 0; i < kOutage.max_scans_checked; ++i) {
     EXPECT_EQ(recovery.stage(), Stage::kCheck);
@@ -119,16 +119,16 @@ TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
   }
   EXPECT_EQ(recovery.AddScan(Scan(0, 0), false, true), Event::kFoundNowhere);
   EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
-  recovery.AddScan({}, false, true);
+  (void)recovery.AddScan({}, false, true);
   MatchOutcome with_velocity;
   with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
-  recovery.AddScan(with_velocity, false, true);
+  (void)recovery.AddScan(with_velocity, false, true);
   EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
   MatchOutcome first_of_map;
   first_of_map.match.status = MatchStatus::kEmptyMap;
-  recovery.AddScan(first_of_map, false, true);
+  (void)recovery.AddScan(first_of_map, false, true);
   EXPECT_EQ(recovery.stage(), Stage::kConfirm);
-  recovery.AddScan(Scan(300, 100), true, true);
+  (void)recovery.AddScan(Scan(300, 100), true, true);
   EXPECT_FALSE(recovery.is_running());
 }
 
@@ -150,12 +150,12 @@ TEST(OutageRecovery, ClearsTheMapForTheFirstViewAndOnceMoreForTheNewMap) {
   OutageRecovery recovery = Begun(1U);
   EXPECT_TRUE(std::holds_alternative<FindVelocity>(JobOf(recovery).task));
   EXPECT_EQ(JobOf(recovery).map_action, MapAction::kClear);
-  recovery.AddScan({}, false, true);
+  (void)recovery.AddScan({}, false, true);
   EXPECT_TRUE(std::holds_alternative<FindVelocity>(JobOf(recovery).task));
   EXPECT_EQ(JobOf(recovery).map_action, MapAction::kKeep);
   MatchOutcome with_velocity;
   with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
-  recovery.AddScan(with_velocity, false, true);
+  (void)recovery.AddScan(with_velocity, false, true);
   EXPECT_TRUE(std::holds_alternative<Track>(JobOf(recovery).task));
   EXPECT_EQ(JobOf(recovery).map_action, MapAction::kClear);
 }
@@ -163,14 +163,14 @@ TEST(OutageRecovery, ClearsTheMapForTheFirstViewAndOnceMoreForTheNewMap) {
 TEST(OutageRecovery, MapBeginsWithoutAVelocityWhereNoneIsClear) {
   OutageRecovery recovery = Begun();
   for (int i = 0; i < kOutage.max_scans_sought + kOutage.max_scans_for_velocity; ++i) {
-    recovery.AddScan({}, false, true);
+    (void)recovery.AddScan({}, false, true);
   }
   EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
 }
 
 TEST(OutageRecovery, ScansThatSeeNothingEndNoSearch) {
   OutageRecovery recovery = Begun();
-  for (int i = 0; i < 100; ++i) recovery.AddScan(Scan(0, 0), false, false);
+  for (int i = 0; i < 100; ++i) (void)recovery.AddScan(Scan(0, 0), false, false);
   EXPECT_EQ(recovery.stage(), Stage::kSeek);
 }
 
