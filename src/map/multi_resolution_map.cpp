@@ -23,16 +23,17 @@ int ShareOfCells(int level, const NdtOptions& options) {
 
 }  // namespace
 
-MultiResolutionMap::MultiResolutionMap(const NdtOptions& options) {
+MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer) {
   if (options.num_levels < 1 || options.num_levels > static_cast<int>(kMaxMapLevels)) {
     throw std::invalid_argument("MultiResolutionMap: num_levels out of range");
   }
-  for (int level = 0; level < options.num_levels; ++level) {
+  const int num_levels = options.num_levels + num_finer;
+  for (int level = 0; level < num_levels; ++level) {
     NdtOptions at_level = options;
-    at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - options.num_levels);
+    at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - num_levels);
     // A small cell's corner that a wall cuts off is as narrow and tall as a post.
-    const bool is_coarsest = level + 1 == options.num_levels;
-    at_level.max_cells = ShareOfCells(level, options);
+    const bool is_coarsest = level + 1 == num_levels;
+    at_level.max_cells = ShareOfCells(std::max(0, level - num_finer), options);
     if (!is_coarsest) {
       at_level.max_distance_m =
           std::min(options.max_distance_m, Parameters::kMaxDistance_edges * at_level.voxel_m);
@@ -56,7 +57,7 @@ struct MultiResolutionMap::Search {
   std::size_t num = 0;
 };
 
-void MultiResolutionMap::FindAll(std::span<const Vector3> points_map, std::size_t finest,
+void MultiResolutionMap::FindAll(std::span<const Vector3> points_map, const Levels& levels,
                                  std::span<GaussianMap::Hit> hits) const {
   Search search;
   for (std::size_t begin = 0; begin < points_map.size(); begin += Workers::kBlockSize) {
@@ -65,7 +66,9 @@ void MultiResolutionMap::FindAll(std::span<const Vector3> points_map, std::size_
       search.points[i] = points_map[begin + i];
       search.index[i] = begin + i;
     }
-    for (std::size_t level = finest; level < levels_.size(); ++level) FindIn(level, search, hits);
+    for (std::size_t level = levels.finest; level <= levels.coarsest; ++level) {
+      FindIn(level, search, hits);
+    }
   }
 }
 
@@ -92,8 +95,10 @@ void MultiResolutionMap::SetUp(const Vector3& up_map) {
 }
 
 void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-                                const Workers& workers) {
-  for (GaussianMap& level : levels_) level.Insert(points_map, sensor_map, workers);
+                                const Workers& workers, std::size_t finest) {
+  for (std::size_t i = finest; i < levels_.size(); ++i) {
+    levels_[i].Insert(points_map, sensor_map, workers);
+  }
 }
 
 void MultiResolutionMap::InsertKept(std::span<const Vector3> points_map,

@@ -38,10 +38,11 @@ bool HasMoved(const Pose& from, const Pose& to) {
 }  // namespace
 
 NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
-    : options_(options), workers_(num_threads), map_(options) {}
+    : options_(options), workers_(num_threads), map_(options, kNumFiner) {}
 
 void NdtMatcher::Clear() {
-  map_ = MultiResolutionMap(options_);
+  map_ = MultiResolutionMap(options_, kNumFiner);
+  width_ = {};
 }
 
 void NdtMatcher::SetUp(const Vector3& up_map) {
@@ -62,8 +63,10 @@ std::vector<Vector3> NdtMatcher::InGrid(std::span<const Eigen::Vector3f> points,
 
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   sensor_imu_ = scan.sensor_imu;
+  if (width_.is_unknown()) width_.Add(scan.points_imu, options_.voxel_m);
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
-  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.sensor_imu, workers_);
+  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.sensor_imu, workers_,
+              LevelsInUse().finest);
 }
 
 bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
@@ -77,7 +80,7 @@ bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
 void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m) {
   const std::span<const Eigen::Vector3f> points = input.points_imu;
   const bool with_vertical = !IsTranslationWellConstrained(input);
-  const std::size_t finest = FinestLevel(input, radius_m);
+  const MultiResolutionMap::Levels levels = LevelsFor(input, radius_m);
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
   const Vector3 sensor_grid = T_grid_imu * sensor_imu_;
@@ -89,13 +92,25 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
     for (std::size_t i = 0; i < count; ++i) {
       points_grid[i] = rotation * points[block.begin + i].cast<double>() + T_grid_imu.translation;
     }
-    map_.FindAll({points_grid.data(), count}, finest, hits);
+    map_.FindAll({points_grid.data(), count}, levels, hits);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f view = (points_grid[i] - sensor_grid).cast<float>();
       pairs_[block.begin + i] = PairOf(hits[i], view, with_vertical);
     }
   });
   if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
+}
+
+MultiResolutionMap::Levels NdtMatcher::LevelsInUse() const {
+  const std::size_t coarsest = map_.num_levels() - 1;
+  return width_.is_narrow() ? MultiResolutionMap::Levels{0, coarsest - kNumFiner}
+                            : MultiResolutionMap::Levels{kNumFiner, coarsest};
+}
+
+MultiResolutionMap::Levels NdtMatcher::LevelsFor(const MatchInput& input, double radius_m) const {
+  const auto [finest, coarsest] = LevelsInUse();
+  if (input.is_far_off) return {coarsest, coarsest};
+  return {std::clamp(map_.LevelFor(radius_m), finest, coarsest), coarsest};
 }
 
 void NdtMatcher::CountByCell() {
@@ -238,8 +253,11 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
+  const std::size_t finest = LevelsInUse().finest;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (scores_[i].num_rows > 0) ++result.num_matched_at[map_.LevelOf(pairs_[i].cell)];
+    if (scores_[i].num_rows > 0) {
+      ++result.num_matched_at[map_.LevelOf(pairs_[i].cell) - finest];
+    }
   }
   result.num_in_map =
       static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
@@ -262,6 +280,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
   counted_at_.reset();
+  width_.Add(input.points_imu, options_.voxel_m);
   Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
     Associate(input, pose, radius.std_m());

@@ -15,7 +15,7 @@ import unittest
 import support
 
 PROGRAMS = {"liod", "lio-run", "lio-replay", "lio-convert", "lio-eval", "lio-log", "lio-sim",
-            "lio-spy"}
+            "lio-spy", "lio-view"}
 READ_BAGS = ("lio-convert", "lio-run", "lio-log")
 BAG_LIBRARIES = ("libsqlite3", "libbz2", "liblz4", "libzstd")
 MAX_ERROR_M = 0.05

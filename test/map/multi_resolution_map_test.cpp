@@ -35,7 +35,7 @@ std::vector<Vector3> Wall(double at_m, double half_m, int num) {
 
 GaussianMap::Hit FindOne(const MultiResolutionMap& map, const Vector3& point, std::size_t finest) {
   GaussianMap::Hit hit;
-  map.FindAll({&point, 1}, finest, {&hit, 1});
+  map.FindAll({&point, 1}, {finest, map.num_levels() - 1}, {&hit, 1});
   return hit;
 }
 
@@ -75,6 +75,30 @@ TEST(MultiResolutionMap, FewPointsShowASurfaceAtTheCoarseLevelAlone) {
   EXPECT_LT(num_fine, 10);
 }
 
+TEST(MultiResolutionMap, NoCellIsFoundBeyondTheCoarsestLevelInUse) {
+  MultiResolutionMap map(TwoLevels());
+  map.Insert(Wall(5.3, 2.0, 160), kSensor);
+  const Vector3 point(5.3, 0.2, 0.2);
+  GaussianMap::Hit hit;
+  map.FindAll({&point, 1}, {1, 1}, {&hit, 1});
+  EXPECT_NE(hit.cell, MultiResolutionMap::kNoCell);
+  map.FindAll({&point, 1}, {0, 0}, {&hit, 1});
+  EXPECT_EQ(hit.cell, MultiResolutionMap::kNoCell);
+}
+
+TEST(MultiResolutionMap, AFinerLevelIsFilledOnlyWhereItIsInUse) {
+  MultiResolutionMap map(TwoLevels(), 1);
+  ASSERT_EQ(map.num_levels(), 3u);
+  const Vector3 point(5.38, 0.12, 0.12);
+  GaussianMap::Hit hit;
+  map.Insert(Wall(5.38, 2.0, 40000), kSensor, Workers(1), 1);
+  map.FindAll({&point, 1}, {0, 2}, {&hit, 1});
+  EXPECT_EQ(map.LevelOf(hit.cell), 1u);
+  map.Insert(Wall(5.38, 2.0, 40000), kSensor, Workers(1), 0);
+  map.FindAll({&point, 1}, {0, 2}, {&hit, 1});
+  EXPECT_EQ(map.LevelOf(hit.cell), 0u);
+}
+
 TEST(MultiResolutionMap, WhereNothingIsThereIsNoCell) {
   MultiResolutionMap map(TwoLevels());
   EXPECT_EQ(FindOne(map, {1, 2, 3}, 0).cell, MultiResolutionMap::kNoCell);
@@ -87,7 +111,7 @@ TEST(MultiResolutionMap, FindingAllIsFindingEach) {
   map.Insert(Wall(5.3, 4.0, 1500), kSensor);
   const std::vector<Vector3> points = Wall(5.3, 5.0, 700);
   std::vector<GaussianMap::Hit> hits(points.size());
-  map.FindAll(points, 0, hits);
+  map.FindAll(points, {0, map.num_levels() - 1}, hits);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const GaussianMap::Hit one = FindOne(map, points[i], 0);
     EXPECT_EQ(hits[i].cell, one.cell);

@@ -22,12 +22,19 @@ class MultiResolutionMap {
  public:
   static constexpr std::int32_t kNoCell = GaussianMap::kNoCell;
 
-  // Throws std::invalid_argument when an option is out of its range.
-  explicit MultiResolutionMap(const NdtOptions& options);
+  // From the one to the other, both included; the finest level is 0.
+  struct Levels {
+    std::size_t finest = 0;
+    std::size_t coarsest = 0;
+  };
 
-  // hits[i] is that of points_map[i] in the finest cell that shows a surface, from level `finest`
-  // on; kNoCell where none does. Cells are numbered across all levels.
-  void FindAll(std::span<const Vector3> points_map, std::size_t finest,
+  // Has the options' levels and so many finer ones. Throws std::invalid_argument when an option is
+  // out of its range.
+  explicit MultiResolutionMap(const NdtOptions& options, int num_finer = 0);
+
+  // hits[i] is that of points_map[i] in the finest cell that shows a surface, among the levels;
+  // kNoCell where none does. Cells are numbered across all levels.
+  void FindAll(std::span<const Vector3> points_map, const Levels& levels,
                std::span<GaussianMap::Hit> hits) const;
   const SurfacePatch& patch(std::int32_t cell) const {
     return levels_[LevelOf(cell)].patch(InLevel(cell));
@@ -42,9 +49,9 @@ class MultiResolutionMap {
   }
 
   void SetUp(const Vector3& up_map);
-  // Adds a scan taken from `sensor_map`, to all levels.
+  // Adds a scan taken from `sensor_map`, to all levels from `finest` on.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-              const Workers& workers = Workers(1));
+              const Workers& workers = Workers(1), std::size_t finest = 0);
   // As GaussianMap::InsertKept(), in all levels.
   void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
                   const Workers& workers = Workers(1));

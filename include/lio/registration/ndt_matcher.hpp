@@ -31,6 +31,7 @@
 #include "lio/registration/intra_sweep_rate_estimator.hpp"
 #include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
+#include "lio/registration/place_width.hpp"
 #include "lio/registration/scan_matcher.hpp"
 
 namespace lio {
@@ -73,12 +74,15 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     std::int32_t count_number = 0;
   };
 
-  // The finest level for a correspondence radius. A guess that may be far off is followed by large
-  // cells to the end: small ones hold points that are half a cell off elsewhere, and a place is
-  // then not found again.
-  [[nodiscard]] std::size_t FinestLevel(const MatchInput& input, double radius_m) const {
-    return input.is_far_off ? map_.num_levels() - 1 : map_.LevelFor(radius_m);
-  }
+  // The map has one level more than the options say. All but the finest are in use where the place
+  // is wide, all but the coarsest where it is narrow.
+  static constexpr int kNumFiner = 1;
+  [[nodiscard]] MultiResolutionMap::Levels LevelsInUse() const;
+  // Those for a correspondence radius. A guess that may be far off is followed by large cells to
+  // the end: small ones hold points that are half a cell off elsewhere, and a place is then not
+  // found again.
+  [[nodiscard]] MultiResolutionMap::Levels LevelsFor(const MatchInput& input,
+                                                     double radius_m) const;
   std::vector<Vector3> InGrid(std::span<const Eigen::Vector3f> points,
                               const Pose& T_grid_points) const;
   void Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m);
@@ -105,6 +109,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   NdtOptions options_;
   Workers workers_;
   MultiResolutionMap map_;
+  PlaceWidth width_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
   std::vector<Pair> pairs_;               // of the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
