@@ -13,12 +13,9 @@ import collect
 import fleet_file
 import plan
 import steps
+from say import say
 
 DONE, UNFINISHED, USAGE, CONFIGURATION, MISSING = 0, 1, 2, 3, 4
-
-
-def say(text):
-    print(f"fleet: {text}", file=sys.stderr, flush=True)
 
 
 def arguments():
@@ -60,21 +57,29 @@ def lock(out):
 
 
 def snakemake_words(given, out):
+    # A result is put in place whole by one rename, so none is ever incomplete, as Snakemake would
+    # suspect of those that it had no time to note.
     words = ["snakemake", "--snakefile", plan.HERE / "Snakefile", "--directory", out,
-             "--rerun-triggers", "mtime", "--rerun-incomplete", "--keep-going", "--nolock",
-             "--scheduler", "greedy", "--quiet", "rules"]
+             "--rerun-triggers", "mtime", "--ignore-incomplete", "--keep-going", "--nolock",
+             "--scheduler", "greedy", "--log-handler-script", plan.HERE / "say.py"]
     if given.profile:
         words += ["--profile", pathlib.Path(given.profile).resolve(), "--jobs", given.jobs]
     else:
         words += ["--cores", given.jobs]
-    return [str(word) for word in words + (["--dry-run"] if given.dry_run else [])]
+    return [str(word) for word in words + (["--dry-run", "--quiet", "rules"] if given.dry_run else [])]
 
 
 def run_snakemake(given, out, held):
-    environment = dict(os.environ, XDG_CACHE_HOME=str(out / ".snakemake/cache"))
-    return subprocess.run(snakemake_words(given, out), stdin=subprocess.DEVNULL, check=False,
-                          env=environment, pass_fds=[held.fileno()],
-                          preexec_fn=steps.die_with_parent).returncode
+    """Its jobs die with it, and it with this process; a dry run speaks on stderr."""
+    number = os.dup(sys.stderr.fileno())
+    environment = dict(os.environ, XDG_CACHE_HOME=str(out / ".snakemake/cache"),
+                       FLEET_STDERR=str(number))
+    with open(out / "snakemake.txt", "w", encoding="utf-8") as words:
+        stream = None if given.dry_run else words
+        return subprocess.run(snakemake_words(given, out), stdin=subprocess.DEVNULL, check=False,
+                              stdout=stream, stderr=stream, env=environment,
+                              pass_fds=[held.fileno(), number],
+                              preexec_fn=steps.die_with_parent).returncode
 
 
 def sweep(out, keeps_logs):

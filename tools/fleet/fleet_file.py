@@ -117,8 +117,8 @@ class Reader:
         return name
 
     def seeds(self, entry):
-        value = entry.values.get("seeds", "1")
-        text = ",".join(value) if isinstance(value, list) else self.text(entry, "seeds")
+        value = entry.values.get("seeds", "")
+        text = ",".join(value) if isinstance(value, list) else self.text(entry, "seeds") or "1"
         if not SEEDS.fullmatch(text):
             self.faults.add(entry.place("seeds"), f"seeds: {text}; give them as 1..20 or 1,2,7")
             return []

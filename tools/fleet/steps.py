@@ -25,6 +25,8 @@ MAX_SAID = 300
 def die_with_parent():
     """Makes the kernel kill this process when its parent dies, even by kill -9."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() == 1:  # the parent has died already
+        os._exit(1)
 
 
 def read_json(path):
