@@ -182,7 +182,8 @@ function compareBy(index, sign) {
 }
 
 const listed = columns.filter((name) => !["group", "kind", "seed"].includes(name));
-const state = { sorted: null, sign: 1, words: [] };
+const state = { sorted: null, sign: 1, words: [], kept: [] };
+const rowsAtOnce = 100;
 
 function runCell(row, name) {
   const value = row[at[name]];
@@ -206,19 +207,34 @@ function matches(row) {
   return state.words.every((word) => text.includes(word));
 }
 
-function showRuns() {
-  const body = document.createElement("tbody");
-  const kept = rows.filter(matches);
-  if (state.sorted) kept.sort(compareBy(at[state.sorted], state.sign));
-  for (const row of kept) {
+// Laying out a thousand rows takes half a second, so only as many are made as were scrolled to.
+function addRuns(until) {
+  const body = document.getElementById("runs").tBodies[0];
+  for (const row of state.kept.slice(body.rows.length, until)) {
     const line = element("tr");
     for (const name of listed) line.append(runCell(row, name));
     body.append(line);
   }
+}
+
+function showRuns() {
+  state.kept = rows.filter(matches);
+  if (state.sorted) state.kept.sort(compareBy(at[state.sorted], state.sign));
   const table = document.getElementById("runs");
   table.tBodies[0]?.remove();
-  table.append(body);
-  document.getElementById("shown").textContent = `${kept.length} of ${rows.length} runs`;
+  table.append(document.createElement("tbody"));
+  table.parentNode.scrollTop = 0;
+  addRuns(rowsAtOnce);
+  document.getElementById("shown").textContent = `${state.kept.length} of ${rows.length} runs`;
+}
+
+function followScrolling() {
+  const box = document.getElementById("runs").parentNode;
+  box.onscroll = () => {
+    if (box.scrollTop + 2 * box.clientHeight > box.scrollHeight) {
+      addRuns(document.getElementById("runs").tBodies[0].rows.length + rowsAtOnce);
+    }
+  };
 }
 
 function sortBy(name, cell) {
@@ -262,6 +278,7 @@ function start() {
   showFigure("ape_m");
   showHead();
   showRuns();
+  followScrolling();
   const filter = document.getElementById("filter");
   filter.oninput = () => {
     state.words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
