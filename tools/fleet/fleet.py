@@ -66,7 +66,8 @@ def snakemake_words(given, out):
         words += ["--profile", pathlib.Path(given.profile).resolve(), "--jobs", given.jobs]
     else:
         words += ["--cores", given.jobs]
-    return [str(word) for word in words + (["--dry-run", "--quiet", "rules"] if given.dry_run else [])]
+    words += ["--dry-run", "--quiet", "rules"] if given.dry_run else []
+    return [str(word) for word in words]
 
 
 def run_snakemake(given, out, held):

@@ -200,7 +200,7 @@ class Reader:
             return read_tsv(file, self.faults) if file.is_file() else []
         if isinstance(value, list) and all(isinstance(item, Entry) for item in value):
             return value
-        self.faults.add(top.place(key), f"{key}: needs a list of entries, or the name of a TSV file")
+        self.faults.add(top.place(key), f"{key}: needs a list of entries, or a TSV file's name")
         return []
 
     def top(self):

@@ -21,7 +21,7 @@ class Entry:
 
 
 class Faults(list):
-    """What is wrong, each with file and line."""
+    """All that is wrong, each with file and line."""
 
     def add(self, place, text):
         self.append(f"{place}: {text}")

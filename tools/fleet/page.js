@@ -157,7 +157,8 @@ function showDrives(figure) {
   table.replaceChildren();
   const systems = systemsInOrder();
   const [word, unit] = names[figure];
-  addRow(table, [[`${word} [${unit}]`, "text"], ["drives"], ...systems.map((name) => [name])], "th");
+  const heads = systems.map((name) => [name]);
+  addRow(table, [[`${word} [${unit}]`, "text"], ["drives"], ...heads], "th");
   const groups = new Map();
   for (const row of rows) {
     const group = groups.get(row[at.group]) || new Map();
@@ -188,7 +189,8 @@ const rowsAtOnce = 100;
 function runCell(row, name) {
   const value = row[at[name]];
   const isText = textColumns.has(name);
-  const className = isText ? `text ${verdictClass[value] || ""} ${name === "said" ? "said" : ""}` : "";
+  const look = name === "said" ? "said" : verdictClass[value] || "";
+  const className = isText ? `text ${look}` : "";
   if (name !== "drive" || row[at.kind] !== "liod" || row[at.trust] === null) {
     const cell = element("td", shown(value), className.trim());
     if (name === "said" && value) cell.title = value;

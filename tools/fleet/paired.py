@@ -13,7 +13,7 @@ import warnings
 
 from scipy import stats
 
-# The figures that are compared; less is better. NEES is compared by its distance from 1 as a factor.
+# The figures that are compared; less is better. NEES counts by its distance from 1 as a factor.
 COMPARED = ("ape_m", "drift_percent", "end_percent", "nees_pose", "scan_median_ms")
 MIN_PAIRS = 2
 
@@ -104,7 +104,7 @@ def count(rows, name):
 
 
 def summarize(table, systems, baseline):
-    """One entry per system: counts, spreads of the figures, and its comparison with the baseline."""
+    """One entry per system: counts, spreads of the figures, its comparison with the baseline."""
     comparisons = {system: {figure: compare(table, system, baseline, figure) for figure in COMPARED}
                    for system in systems if system != baseline}
     for figure in COMPARED:

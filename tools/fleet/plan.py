@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""Writes what the workflow reads: plan.json, and a key file for each drive and each run. A key holds
-all that its result depends on, and is written only when it changes, so that its time tells
+"""Writes what the workflow reads: plan.json, and a key file for each drive and each run. A key
+holds all that its result depends on, and is written only when it changes, so that its time tells
 Snakemake what to make anew."""
 import dataclasses
 import functools
@@ -21,7 +21,7 @@ def default_build():
 
 @functools.lru_cache(maxsize=None)
 def digest(path):
-    """Of a file's content; of a folder or a large file, names, sizes and times."""
+    """The sum of a file's content; of a folder or a large file that of names, sizes, times."""
     path = pathlib.Path(path)
     summed = hashlib.sha256()
     if path.is_file() and path.stat().st_size < 64 << 20:
@@ -78,7 +78,8 @@ def run_key(drive, configuration, keep):
 
 def peer_key(drive, peer):
     file = peer.files.get(drive.name, "")
-    return {"version": ROW_VERSION, "drive": drive_key(drive), "peer": peer.name, "file": file, "words": peer.words,
+    return {"version": ROW_VERSION, "drive": drive_key(drive), "peer": peer.name,
+            "file": file, "words": peer.words,
             "programs": {"lio-eval": program("", "lio-eval")},
             "digests": programs("", "lio-eval") | ({"file": digest(file)} if file else {})}
 
@@ -104,12 +105,12 @@ def check_programs(fleet):
     for build in sorted(builds):
         for name in needed:
             if not os.access(program(build, name), os.X_OK):
-                yield (f"{program(build, name)}: is not there; run tools/setup.sh, or set LIO_BUILD "
-                       "to the folder of a build")
+                yield (f"{program(build, name)}: is not there; run tools/setup.sh, or set "
+                       "LIO_BUILD to the folder of a build")
 
 
 def check_options(fleet):
-    """What lio-replay says against a configuration, without what only a rig can give."""
+    """The words of lio-replay against a configuration, but for what only a rig can give."""
     for configuration in fleet.configurations:
         words = [word for file in configuration.config for word in ("--config", file)]
         words += [word for setting in configuration.set for word in ("--set", setting)]

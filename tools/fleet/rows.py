@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""The figures of one run: a row of the table. Columns whose names end in _wall_s, _cpu_s, _ms or _mb
-are measured anew by each run; all others are the same whenever a run is made again."""
+"""The figures of one run: a row of the table. Columns whose names end in _wall_s, _cpu_s, _ms or
+_mb are measured anew by each run; all others are the same whenever a run is made again."""
 import steps
 
 # Column, and the place of its value in eval.json.
@@ -30,8 +30,8 @@ STATS = {
     "rss_peak_mb": ("rss_peak_mb",),
 }
 FIGURES = (*SCORES, *NEES, *STATS, "run_cpu_s", "run_wall_s")
-MEASURED_ENDINGS = ("_wall_s", "_cpu_s", "_ms", "_mb")
-COLUMNS = ("drive", "group", "seed", "system", "kind", "status", "trust", *FIGURES, "causes", "said")
+COLUMNS = ("drive", "group", "seed", "system", "kind", "status", "trust", *FIGURES, "causes",
+           "said")
 
 
 def value_at(tree, path):
@@ -74,4 +74,5 @@ def row_of_run(folder, done, has_truth):
 
 def row_of_peer(folder, done):
     scored = (folder / "eval.json").exists()
-    return empty_row("done" if scored else "failed", "" if scored else done["said"]) | figures(folder)
+    row = empty_row("done", "") if scored else empty_row("failed", done["said"])
+    return row | figures(folder)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Snakemake's messages as lines of the fleet: progress and troubles. All its words go into
-OUT/snakemake.txt, so these take the stderr that tools/fleet.sh has, whose number FLEET_STDERR is."""
+OUT/snakemake.txt, so these take the stderr that tools/fleet.sh has, whose number is FLEET_STDERR.
+"""
 import os
 import sys
 import time
