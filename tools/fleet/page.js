@@ -146,7 +146,7 @@ function showPlot(figure) {
     scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: [0, 1.02] } },
     axes: [{ ...axis, label: `${word} [${unit}]` }, { ...axis, label: "share of runs" }],
     series: [{ label: word, value: (_, value) => shown(value) },
-      ...systems.map((system, index) => ({ label: system, width: 2,
+      ...systems.map((system, index) => ({ label: system, width: 2, points: { show: false },
         stroke: colours[index % colours.length], paths: uPlot.paths.stepped({ align: 1 }),
         value: (_, value) => shown(value) }))],
   }, [x, ...shares], document.getElementById("plot"));

@@ -41,13 +41,15 @@ tree_of() { # PID
   echo "$1"
 }
 
-# A step's keeper, slurmstepd, leaves slurmd's tree, so it is known by the spool folder it works in.
+# A step's keeper, slurmstepd, leaves slurmd's tree, so it is known by its environment.
+keeps_a_step_of_ours() { # PID
+  tr '\0' '\n' <"/proc/$1/environ" | grep -qx "SLURM_CONF=$base/slurm.conf"
+}
+
 node_processes() {
   local process
   for process in $(ps -C slurmstepd -o pid=); do
-    if tr '\0' '\n' <"/proc/$process/environ" 2>/dev/null | grep -qx "SLURM_CONF=$base/slurm.conf"; then
-      tree_of "$process"
-    fi
+    if keeps_a_step_of_ours "$process" 2>/dev/null; then tree_of "$process"; fi
   done
   cat "$base/slurmd.pid" 2>/dev/null || true
 }
@@ -59,7 +61,7 @@ kill_all() { # PID...
 
 finish() {
   local code=$?
-  if ((code != 0)); then tail -n 20 "$base"/*.log "$base/fleet.txt" 2>/dev/null >&2 || true; fi
+  if ((code != 0)); then tail -n 20 "$base"/*.log "$base/fleet.txt" >&2 2>/dev/null || true; fi
   # shellcheck disable=SC2046 # the numbers are words
   kill_all $fleet_pid $(node_processes) "${pids[@]}"
   rm -rf "$base"
@@ -78,11 +80,13 @@ start_munge() {
     --pid-file "$base/munge/pid" --seed-file "$base/munge/seed" --num-threads 2 \
     >"$base/munged.log" 2>&1 &
   pids+=($!)
+  disown # so that bash does not tell that it was killed
 }
 
 write_configuration() {
-  local user
+  local user memory_mb
   user=$(id -un)
+  memory_mb=$(awk '/^MemTotal:/ { print int($2 / 1024 * 0.9) }' /proc/meminfo)
   cat >"$base/slurm.conf" <<CONF
 ClusterName=fleet
 SlurmctldHost=node(127.0.0.1)
@@ -111,7 +115,7 @@ SlurmdTimeout=10
 KillWait=2
 UnkillableStepTimeout=5
 MpiDefault=none
-NodeName=node NodeAddr=127.0.0.1 NodeHostname=$(hostname -s) CPUs=2 State=UNKNOWN
+NodeName=node NodeAddr=127.0.0.1 NodeHostname=$(hostname -s) CPUs=2 RealMemory=$memory_mb State=UNKNOWN
 PartitionName=all Nodes=node Default=YES MaxTime=INFINITE State=UP
 CONF
   sed -i "s/^SlurmctldHost=node/SlurmctldHost=$(hostname -s)/" "$base/slurm.conf"
@@ -122,17 +126,22 @@ start_controller() {
   mkdir -p "$base/state" "$base/spool"
   slurmctld -D >"$base/slurmctld.out.log" 2>&1 &
   pids+=($!)
+  disown # so that bash does not tell that it was killed
 }
 
 start_node() {
   slurmd -D -N node >"$base/slurmd.out.log" 2>&1 &
   pids+=($!)
+  disown # so that bash does not tell that it was killed
 }
 
 wait_until() { # SECONDS WORDS COMMAND...
   local end=$((SECONDS + $1)) words=$2
   shift 2
   until "$@"; do
+    if [[ -n $fleet_pid ]] && ! kill -0 "$fleet_pid" 2>/dev/null; then
+      say "the fleet ended before: $words" && exit 1
+    fi
     ((SECONDS < end)) || { say "in time it did not come: $words" && exit 1; }
     sleep 0.2
   done
