@@ -70,7 +70,7 @@ def call(words, log):
 
 
 def stop_unless_final(done, log):
-    """Ends the step where a later attempt may go better: a signal, a full disk, a lack of memory."""
+    """Ends the step where a later attempt may go better: a signal, a full disk, no memory."""
     if done["exit"] not in FINAL:
         print(f"{done['program']} ended with {done['exit']}: {done['said']}\n{log} has its words; "
               "mend the cause and run the fleet again", file=sys.stderr)
