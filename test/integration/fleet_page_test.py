@@ -71,6 +71,8 @@ class Paired(unittest.TestCase):
         self.assertAlmostEqual(found["wilcoxon_p"], MAIZE_WILCOXON_P, 9)
         self.assertAlmostEqual(found["sign_p"], MAIZE_SIGN_P, 12)
         self.assertEqual(found["median_difference"], 24)
+        # The ranks of -67 and -48 are 14 and 10, and all ranks add up to 120.
+        self.assertEqual(found["signed_rank_sum"], 120 - 2 * (14 + 10))
         self.assertAlmostEqual(found["median_ratio"], 1.24)
 
     def test_all_pairs_one_way_give_the_smallest_p(self):

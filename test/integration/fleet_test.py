@@ -163,7 +163,8 @@ class Fleet(unittest.TestCase):
         out = self.folder / "grown"
         shutil.copytree(self.whole, out)
         file = self.folder / "grown.yaml"
-        file.write_text(FLEET_FILE.replace("peers:", "  - {name: fine, set: ndt.voxel_m=0.8}\npeers:"))
+        fine = "  - {name: fine, set: ndt.voxel_m=0.8}\n"
+        file.write_text(FLEET_FILE.replace("peers:", fine + "peers:"))
         before = times_of_rows(out)
         done = fleet(file, out)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -171,6 +172,16 @@ class Fleet(unittest.TestCase):
         self.assertEqual({name: after[name] for name in before}, before)
         self.assertEqual(len(after), len(before) + 2)
         self.assertEqual(len(table(out)), 8)
+
+    def test_4_logs_can_be_asked_for_later(self):
+        out, file = self.folder / "kept", self.folder / "kept.yaml"
+        shutil.copytree(self.whole, out)
+        file.write_text(FLEET_FILE.replace("baseline", "keep: logs\nbaseline"))
+        before = times_of_rows(out)
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(list(out.glob("drives/*/log.lcm"))), 2)
+        self.assertEqual(times_of_rows(out), before)
 
     def test_5_runs_that_fail_are_rows(self):
         file = self.folder / "failing.yaml"
@@ -214,6 +225,10 @@ class Fleet(unittest.TestCase):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("unknown.yaml:5: configuration loam", done.stderr)
         self.assertIn("did you mean pipeline.method?", done.stderr)
+        file.write_text(FLEET_FILE.replace("--scenario street", "--scenario strete"))
+        done = fleet(file, self.folder / "never")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("unknown.yaml:2: drive street: lio-sim knows no scenario", done.stderr)
 
     def test_9_the_table_as_json_holds_the_summary(self):
         content = json.loads((self.whole / "table.json").read_text())

@@ -38,8 +38,7 @@ def read_fleet(file):
     if not faults:
         faults = list(plan.check_programs(fleet))
     if not faults:
-        faults = [*plan.check_options(fleet),
-                  *(f"{file}: {text}" for text in plan.check_scenarios(fleet))]
+        faults = [*plan.check_options(fleet), *plan.check_scenarios(fleet)]
     for fault in faults:
         say(fault)
     return None if faults else fleet

@@ -30,6 +30,7 @@ class Drive:
     truth: str = ""
     rig: str = ""
     words: tuple = ()
+    place: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -144,7 +145,7 @@ class Reader:
             if "seeds" in entry.values:
                 self.faults.add(entry.place("seeds"), "seeds: only a drive with sim has seeds")
             return [Drive(name, group, input=self.path(entry, "input"), truth=truth, rig=rig,
-                          words=words)]
+                          words=words, place=entry.place())]
         sim = self.words(entry, "sim")
         for word in ("--seed", "--out", "--picture", "--list"):
             if any(given.split("=")[0] == word for given in sim):
@@ -153,8 +154,8 @@ class Reader:
         if not any(given.split("=")[0] == "--scenario" for given in sim):
             self.faults.add(entry.place("sim"), "sim: needs --scenario NAME; see lio-sim --help")
         seeds = self.seeds(entry)
-        return [Drive(f"{name}-{seed}", group, sim=sim, seed=seed, rig=rig, words=words)
-                for seed in seeds]
+        return [Drive(f"{name}-{seed}", group, sim=sim, seed=seed, truth=truth, rig=rig,
+                      words=words, place=entry.place("sim")) for seed in seeds]
 
     def configuration(self, entry, names):
         self.check_keys(entry, CONFIGURATION)

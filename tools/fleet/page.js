@@ -93,7 +93,7 @@ function showSystems() {
 function judged(found) {
   if (found.holm_p === undefined) return ["too few pairs", "text dim"];
   if (found.holm_p >= significance) return ["no difference shown", "text dim"];
-  return found.num_better > found.num_worse ? ["better", "text good"] : ["worse", "text bad"];
+  return found.signed_rank_sum < 0 ? ["better", "text good"] : ["worse", "text bad"];
 }
 
 function showPaired() {

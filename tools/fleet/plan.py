@@ -52,7 +52,7 @@ def drive_key(drive):
     for name in ("input", "truth", "rig"):
         if key[name]:
             key["digests"][name] = digest(key[name])
-    del key["group"]  # it names a row of the page, and no result depends on it
+    del key["group"], key["place"]  # no result depends on them
     return key
 
 
@@ -128,12 +128,14 @@ def check_scenarios(fleet):
         return
     listed = subprocess.run([program("", "lio-sim"), "--list"], capture_output=True, text=True,
                             check=False).stdout.split()
-    for group in sorted({(drive.group, drive.sim) for drive in fleet.drives if drive.sim}):
-        words = " ".join(group[1]).replace("=", " ").split()
+    for place, group, sim in sorted({(drive.place, drive.group, drive.sim)
+                                     for drive in fleet.drives if drive.sim}):
+        words = " ".join(sim).replace("=", " ").split()
         if "--scenario" in words[:-1]:
             scenario = words[words.index("--scenario") + 1]
             if scenario not in listed:
-                yield f"drive {group[0]}: lio-sim knows no scenario {scenario}; see lio-sim --list"
+                yield (f"{place}: drive {group}: lio-sim knows no scenario {scenario}; "
+                       "see lio-sim --list")
 
 
 def write_plan(fleet, out):
