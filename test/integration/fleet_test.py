@@ -1,0 +1,242 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""Runs a tiny fleet of simulated drives, a recording and a foreign trajectory through
+tools/fleet.sh: killed in its midst and resumed, it must give the table of an undisturbed one."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import support
+
+FLEET = support.SOURCE / "tools/fleet.sh"
+MEASURED = ("_wall_s", "_cpu_s", "_ms", "_mb")
+FLEET_FILE = """\
+drives:
+  - {name: street, sim: --scenario street --duration 5 --lidar vlp16, seeds: 1..2}
+configurations:
+  - {name: ndt}
+  - {name: loam, set: pipeline.method=loam}
+peers:
+  - {name: foreign, files: "foreign/{drive}.tum"}
+baseline: ndt
+"""
+FAULTY_FILE = """\
+drives:
+  - {name: a, sim: --scenario strete, seeds: 1..x}
+  - {name: a, input: nowhere.bag, sim: --scenario street}
+  - {name: c/d, inptu: nowhere.bag}
+configurations:
+  - {name: ndt, threads: 0, set: voxel}
+baseline: nothing
+extra: 1
+"""
+
+
+def missing_part():
+    if not shutil.which("snakemake"):
+        return "snakemake is not installed"
+    done = subprocess.run(["/usr/bin/python3", "-c", "import scipy"], capture_output=True,
+                          check=False)
+    return "python3-scipy is not installed" if done.returncode else ""
+
+
+def words(file, out, *more):
+    return [str(word) for word in (FLEET, file, "--out", out, "--jobs", 2, *more)]
+
+
+def environment():
+    return dict(os.environ, LIO_BUILD=str(support.BUILD))
+
+
+def fleet(file, out, *more):
+    done = subprocess.run(words(file, out, *more), stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=support.TIMEOUT_S, check=False, env=environment())
+    return done
+
+
+def table(out):
+    """The rows by system and drive, without what every run measures anew."""
+    with open(out / "table.tsv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream, delimiter="\t", quoting=csv.QUOTE_NONE))
+    return {(row["system"], row["drive"]): {key: value for key, value in row.items()
+                                            if not key.endswith(MEASURED)} for row in rows}
+
+
+def processes_in(folder):
+    """The processes that work in a folder."""
+    found = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if (process / "cwd").resolve() == folder:
+                found.append((process / "cmdline").read_text().replace("\0", " "))
+        except OSError:
+            pass  # it has ended
+    return found
+
+
+def kill_when(file, out, condition):
+    """Kills the entry alone, by kill -9, as soon as the condition holds."""
+    with subprocess.Popen(words(file, out), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL, env=environment()) as process:
+        deadline = time.monotonic() + support.TIMEOUT_S
+        while process.poll() is None and not condition():
+            if time.monotonic() > deadline:
+                break
+            time.sleep(0.002)
+        ended = process.poll() is not None
+        process.send_signal(signal.SIGKILL)
+    return not ended
+
+
+def times_of_rows(out):
+    return {file: file.stat().st_mtime_ns for file in out.glob("runs/*/*/row.json")}
+
+
+@unittest.skipIf(missing_part(), missing_part())
+class Fleet(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = pathlib.Path(holder.name).resolve()
+        cls.file = cls.folder / "tiny.yaml"
+        cls.file.write_text(FLEET_FILE)
+        drive = support.simulated("street", "--duration", "5", "--lidar", "vlp16")
+        (cls.folder / "foreign").mkdir()
+        shutil.copy(drive / "truth.tum", cls.folder / "foreign/street-1.tum")
+        cls.whole = cls.folder / "whole"
+        done = fleet(cls.file, cls.whole)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+
+    def test_1_the_table_has_every_run_with_its_figures(self):
+        rows = table(self.whole)
+        self.assertEqual(len(rows), 6)
+        for system in ("ndt", "loam"):
+            for drive in ("street-1", "street-2"):
+                row = rows[system, drive]
+                self.assertEqual(row["status"], "done", row)
+                self.assertLess(float(row["ape_m"]), 0.05)
+                self.assertGreater(float(row["nees_pose"]), 0)
+                self.assertTrue((self.whole / f"runs/{system}/{drive}/report.html").exists())
+        # The foreign trajectory is the truth itself.
+        self.assertLess(float(rows["foreign", "street-1"]["ape_m"]), 1e-6)
+        self.assertEqual(rows["foreign", "street-2"]["status"], "absent")
+        self.assertEqual(list(self.whole.glob("drives/*/log.lcm")), [])
+
+    def test_2_a_rerun_does_nothing(self):
+        before = times_of_rows(self.whole)
+        page = (self.whole / "index.html").stat().st_mtime_ns
+        done = fleet(self.file, self.whole)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("nothing to do", done.stderr)
+        self.assertEqual(times_of_rows(self.whole), before)
+        self.assertEqual((self.whole / "index.html").stat().st_mtime_ns, page)
+
+    def test_3_killed_twice_and_resumed_it_gives_the_same_table(self):
+        out = self.folder / "killed"
+        conditions = (lambda: list(out.glob("scratch/drives*/log.lcm")),
+                      lambda: times_of_rows(out) and list(out.glob("scratch/runs*/run")))
+        for condition in conditions:
+            self.assertTrue(kill_when(self.file, out, condition), "it ended before it was killed")
+            time.sleep(1)
+            self.assertEqual(processes_in(out), [], "a job outlived its fleet")
+        self.assertFalse((out / "table.tsv").exists())
+        kept = times_of_rows(out)
+        self.assertTrue(kept)
+        done = fleet(self.file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(table(out), table(self.whole))
+        after = times_of_rows(out)
+        self.assertEqual({file: after[file] for file in kept}, kept, "a finished run ran again")
+        self.assertEqual(list(out.glob("scratch/*")), [])
+
+    def test_4_a_new_configuration_leaves_the_other_runs_alone(self):
+        out = self.folder / "grown"
+        shutil.copytree(self.whole, out)
+        file = self.folder / "grown.yaml"
+        fine = "  - {name: fine, set: ndt.voxel_m=0.8}\n"
+        file.write_text(FLEET_FILE.replace("peers:", fine + "peers:"))
+        before = times_of_rows(out)
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        after = times_of_rows(out)
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.assertEqual(len(after), len(before) + 2)
+        self.assertEqual(len(table(out)), 8)
+
+    def test_4_logs_can_be_asked_for_later(self):
+        out, file = self.folder / "kept", self.folder / "kept.yaml"
+        shutil.copytree(self.whole, out)
+        file.write_text(FLEET_FILE.replace("baseline", "keep: logs\nbaseline"))
+        before = times_of_rows(out)
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(list(out.glob("drives/*/log.lcm"))), 2)
+        self.assertEqual(times_of_rows(out), before)
+
+    def test_5_runs_that_fail_are_rows(self):
+        file = self.folder / "failing.yaml"
+        (self.folder / "broken.bag").write_bytes(b"#ROSBAG V2.0\n" + bytes(100))
+        file.write_text("drives:\n"
+                        "  - {name: broken, input: broken.bag}\n"
+                        "  - {name: wrong, sim: --scenario street --lidar nothing}\n")
+        out = self.folder / "failing"
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for row in table(out).values():
+            self.assertEqual(row["status"], "failed", row)
+            self.assertTrue(row["said"], row)
+
+    def test_6_a_recording_is_run_from_a_tsv_table(self):
+        drive = support.simulated("street", "--duration", "5", "--lidar", "vlp16")
+        file, out = self.folder / "drives.tsv", self.folder / "tsv"
+        file.write_text(f"name\tinput\tseeds\nrecorded\t{drive}\t\n")
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        row = table(out)["default", "recorded"]
+        same = table(self.whole)["ndt", "street-1"]
+        self.assertEqual(row["ape_m"], same["ape_m"], "the simulated drive has this seed, too")
+
+    def test_7_all_faults_are_told_at_once_with_their_lines(self):
+        file = self.folder / "faulty.yaml"
+        file.write_text(FAULTY_FILE)
+        done = fleet(file, self.folder / "never")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        for line, text in ((2, "seeds"), (3, "a is taken by"), (3, "either input"), (4, "c/d"),
+                           (4, "did you mean input?"), (6, "threads"), (6, "KEY=VALUE"),
+                           (7, "nothing is neither"), (8, "extra: unknown key")):
+            self.assertTrue(any(f"faulty.yaml:{line}:" in told and text in told
+                                for told in done.stderr.splitlines()), (line, text, done.stderr))
+        self.assertFalse((self.folder / "never").exists())
+
+    def test_8_options_that_liod_does_not_know_are_faults(self):
+        file = self.folder / "unknown.yaml"
+        file.write_text(FLEET_FILE.replace("pipeline.method=loam", "pipeline.metod=loam"))
+        done = fleet(file, self.folder / "never")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("unknown.yaml:5: configuration loam", done.stderr)
+        self.assertIn("did you mean pipeline.method?", done.stderr)
+        file.write_text(FLEET_FILE.replace("--scenario street", "--scenario strete"))
+        done = fleet(file, self.folder / "never")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("unknown.yaml:2: drive street: lio-sim knows no scenario", done.stderr)
+
+    def test_9_the_table_as_json_holds_the_summary(self):
+        content = json.loads((self.whole / "table.json").read_text())
+        systems = {entry["system"]: entry for entry in content["summary"]}
+        self.assertEqual(list(systems), ["ndt", "loam", "foreign"])
+        self.assertEqual(systems["loam"]["against_baseline"]["ape_m"]["num_pairs"], 2)
+        self.assertEqual(systems["foreign"]["status"], {"done": 1, "absent": 1})
+
+
+if __name__ == "__main__":
+    support.main()
