@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Checks the paired tests of tools/fleet by known numbers, and its page in Chromium: a page of 1000
-runs opens in 2 s, sorts, filters and draws, without an error or an outside host."""
+runs opens, sorts, filters and draws, without an error or an outside host."""
 import pathlib
 import random
 import sys
