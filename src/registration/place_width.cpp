@@ -13,10 +13,13 @@ namespace {
 
 using Parameters = PlaceWidthParameters;
 
+constexpr float kMaxRange_m = 1e6f;  // cells beyond have numbers that no integer holds
+
 double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
   const auto per_metre = static_cast<float>(1.0 / edge_m);
   std::set<std::array<int, 3>> cells;
   for (const Eigen::Vector3f& point : points) {
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kMaxRange_m) continue;
     const Eigen::Vector3i cell = (per_metre * point).array().floor().cast<int>();
     cells.insert({cell.x(), cell.y(), cell.z()});
     if (cells.size() >= Parameters::kMaxCounted) break;

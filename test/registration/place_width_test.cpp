@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 namespace lio {
@@ -57,6 +58,17 @@ TEST(PlaceWidth, AGlanceAtAWallMakesNoPlaceNarrow) {
   for (int i = 0; i < 3; ++i) width.Add(PointsIn(5), 1.0);
   EXPECT_FALSE(width.is_narrow());
   for (int i = 0; i < 20; ++i) width.Add(PointsIn(5), 1.0);
+  EXPECT_TRUE(width.is_narrow());
+}
+
+TEST(PlaceWidth, PointsThatAreNoNumbersOrBeyondAllPlacesDoNotCount) {
+  std::vector<Eigen::Vector3f> points = PointsIn(59);
+  for (int i = 0; i < 10; ++i) {
+    points.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.f, static_cast<float>(i));
+    points.emplace_back(1e30f, 0.f, static_cast<float>(i));
+  }
+  PlaceWidth width;
+  width.Add(points, 1.0);
   EXPECT_TRUE(width.is_narrow());
 }
 
