@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The path as TUM, and the map's points as PLY.
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "export/output_reader.hpp"
 #include "lio/io/map_cloud.hpp"
-#include "lio/io/output_file.hpp"
+#include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 
 namespace lio {
@@ -41,15 +37,7 @@ ExportCounts ExportPly(const std::filesystem::path& log, const std::filesystem::
   };
   ExportCounts counts = ReadOutputs(log, options, takers);
   counts.num_points = static_cast<std::int64_t>(map.points_map().size());
-  OutputFile out(file);
-  out.Write(
-      fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-                  "property float x\nproperty float y\nproperty float z\nend_header\n",
-                  counts.num_points));
-  for (const Eigen::Vector3f& point : map.points_map()) {
-    out.Write({reinterpret_cast<const char*>(point.data()), sizeof(point)});
-  }
-  out.Close();
+  WritePly(file, map.points_map());
   return counts;
 }
 

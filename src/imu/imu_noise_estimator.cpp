@@ -78,7 +78,7 @@ ImuNoise EstimateNoise(std::span<const ImuSample> samples) {
     if (ratio < kImuNoise.min_step_ratio || ratio > kImuNoise.max_step_ratio) {
       differences.Interrupt();
     }
-    if (samples[i].is_rate_saturated || samples[i].is_force_saturated) {
+    if (samples[i].is_saturated()) {
       differences.Interrupt();
     } else {
       differences.Add(samples[i]);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "io/ply_file.hpp"
+#include "lio/io/ply_file.hpp"
 
 #include <fmt/format.h>
 

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "io/ply_file.hpp"
 #include "lio/base/counters_fields.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/pcd_file.hpp"
+#include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "stage_names.hpp"

@@ -25,8 +25,4 @@ Json StatusReportJson(const StatusReport& report) {
           {"map_mb", report.map_mb}};
 }
 
-std::string TextOf(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace lio

@@ -15,11 +15,6 @@ namespace {
 
 using Parameters = GaussianMapParameters;
 
-// Can the voxel be expressed? False for coordinates that are not numbers, too.
-bool IsInRange(const Vector3& scaled) {
-  return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
-}
-
 // Is a point, given from the voxel's centre, within three standard deviations of the plane?
 bool IsOn(const SurfacePatch& patch, const Eigen::Vector3f& local) {
   const float off = patch.normal.dot(local - patch.mean);
@@ -47,7 +42,7 @@ Vector3 GaussianMap::CentreOf(VoxelKey key) const {
 
 GaussianMap::Place GaussianMap::PlaceOf(const Vector3& point_map) const {
   const Vector3 scaled = inverse_voxel_ * point_map;
-  if (!IsInRange(scaled)) return {kNoVoxel, Eigen::Vector3f::Zero()};
+  if (!IsVoxel(scaled)) return {kNoVoxel, Eigen::Vector3f::Zero()};
   const std::int32_t x = FloorToInt(scaled.x());
   const std::int32_t y = FloorToInt(scaled.y());
   const std::int32_t z = FloorToInt(scaled.z());

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lio/registration/place_width.hpp"
 
-#include <array>
-#include <cmath>
-#include <set>
+#include <unordered_set>
 
+#include "lio/base/voxel_key.hpp"
 #include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
@@ -13,15 +12,13 @@ namespace {
 
 using Parameters = PlaceWidthParameters;
 
-constexpr float kMaxRange_m = 1e6f;  // cells beyond have numbers that no integer holds
-
 double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
-  const auto per_metre = static_cast<float>(1.0 / edge_m);
-  std::set<std::array<int, 3>> cells;
+  std::unordered_set<VoxelKey> cells;
   for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kMaxRange_m) continue;
-    const Eigen::Vector3i cell = (per_metre * point).array().floor().cast<int>();
-    cells.insert({cell.x(), cell.y(), cell.z()});
+    const Vector3 scaled = point.cast<double>() / edge_m;
+    if (!IsVoxel(scaled)) continue;
+    const VoxelCell cell = VoxelOf(scaled);
+    cells.insert(PackVoxel(cell[0], cell[1], cell[2]));
     if (cells.size() >= Parameters::kMaxCounted) break;
   }
   return static_cast<double>(cells.size());

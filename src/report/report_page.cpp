@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lio/io/json_text.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/report/run_report.hpp"
 
@@ -59,13 +60,10 @@ std::string PageScript() {
 }  // namespace
 
 std::string ReportPage(const nlohmann::ordered_json& data) {
-  // Text that is no UTF-8, e.g. in a file's name, must not end the run.
-  const std::string json =
-      data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return Filled(kPageHtml, {{"@PLOT_LICENCE@", std::string(kPlotLicence)},
                             {"@PLOT_CSS@", std::string(kPlotCss)},
                             {"@PAGE_CSS@", std::string(kPageCss)},
-                            {"@DATA@", ForScript(json)},
+                            {"@DATA@", ForScript(TextOf(data))},
                             {"@PLOT_JS@", std::string(kPlotJs)},
                             {"@PAGE_JS@", PageScript()}});
 }

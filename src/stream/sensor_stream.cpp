@@ -261,7 +261,7 @@ void SensorStream::Accept(const ImuSample& sent) {
 ImuSample SensorStream::MarkSaturated(ImuSample sent) {
   const ImuConvention& convention = imu_.convention();
   saturation_.Mark(sent, convention.rate_scale(), convention.force_scale());
-  if (!sent.is_rate_saturated && !sent.is_force_saturated) return sent;
+  if (!sent.is_saturated()) return sent;
   if (counters_->num_imu_clipped++ == 0) {
     Notify(sent.stamp, Notice::Severity::kWarning,
            fmt::format("the {} is saturated: the motion beyond its range is estimated from scans "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/verdict/motion_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,10 +28,7 @@ ImuSample MeanAbout(std::span<const ImuSample> samples, Timestamp stamp, double 
 }
 
 bool HasSaturated(std::span<const ImuSample> samples) {
-  for (const ImuSample& sample : samples) {
-    if (sample.is_rate_saturated || sample.is_force_saturated) return true;
-  }
-  return false;
+  return std::ranges::any_of(samples, &ImuSample::is_saturated);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "lio/io/host_clock.hpp"
+#include "lio/io/json_text.hpp"
 #include "view/client_frame.hpp"
 #include "view/client_message.hpp"
 #include "view/frame_writer.hpp"
@@ -62,12 +62,11 @@ class PageConnection : public std::enable_shared_from_this<PageConnection> {
 
  private:
   void Greet() {
-    const nlohmann::json hello = {{"is_live", serving_->player == nullptr},
-                                  {"source", serving_->options.source},
-                                  {"version", serving_->options.version}};
+    const nlohmann::ordered_json hello = {{"is_live", serving_->player == nullptr},
+                                          {"source", serving_->options.source},
+                                          {"version", serving_->options.version}};
     FrameWriter writer;
-    writer.Text(Section::kHello,
-                hello.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    writer.Text(Section::kHello, TextOf(hello));
     Write(writer.Take());
   }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lio/base/counters_fields.hpp"
+#include "lio/io/json_text.hpp"
 #include "lio/io/status_report_json.hpp"
 
 namespace lio {

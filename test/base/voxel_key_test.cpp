@@ -63,5 +63,12 @@ TEST(VoxelKey, NeighbouringVoxelsSpreadOverTheTable) {
   EXPECT_LT(search, 1.0);
 }
 
+TEST(VoxelKey, OnlyPointsWithinTheLimitHaveAVoxel) {
+  EXPECT_TRUE(IsVoxel({0.5, -1e6, 1e6}));
+  EXPECT_FALSE(IsVoxel({0.5, 0.5, 1.1e6}));
+  EXPECT_FALSE(IsVoxel({-1e30, 0.5, 0.5}));
+  EXPECT_FALSE(IsVoxel({0.5, std::numeric_limits<double>::quiet_NaN(), 0.5}));
+}
+
 }  // namespace
 }  // namespace lio

@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 
-#include "io/ply_file.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/pcd_file.hpp"
+#include "lio/io/ply_file.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {

@@ -22,12 +22,5 @@ TEST(StatusReportJson, NamesStateTrustLatenciesAndLoad) {
   EXPECT_EQ(json["cpu_cores"], 0.25);
 }
 
-TEST(StatusReportJson, ReplacesBytesThatAreNoUtf8) {
-  StatusReport report;
-  report.note = "a \xff note";
-  const auto json = nlohmann::ordered_json::parse(TextOf(StatusReportJson(report)));
-  EXPECT_EQ(json["note"], "a \xEF\xBF\xBD note");
-}
-
 }  // namespace
 }  // namespace lio

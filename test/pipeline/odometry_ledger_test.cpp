@@ -19,8 +19,8 @@ using test::RunResult;
 using test::StaticStartDrive;
 
 // After the end of a log nothing may wait, so the ledgers without what waits must close.
-const Ledgers& ExpectClosed(const RunResult& run, const Messages& messages) {
-  const Ledgers& ledgers = run.counters.ledgers;
+Ledgers ExpectClosed(const RunResult& run, const Messages& messages) {
+  Ledgers ledgers = run.counters.ledgers;
   EXPECT_EQ(ledgers.samples.num_received + ledgers.chunks.num_received, std::ssize(messages));
   EXPECT_EQ(ledgers.samples.Unaccounted(), 0);
   EXPECT_EQ(ledgers.chunks.Unaccounted(), 0);
@@ -32,7 +32,7 @@ const Ledgers& ExpectClosed(const RunResult& run, const Messages& messages) {
 
 TEST(OdometryLedger, ClosesOnACleanDrive) {
   const RunResult run = RunOdometry(StaticStartDrive(), test::DriveRig());
-  const Ledgers& ledgers = ExpectClosed(run, StaticStartDrive());
+  const Ledgers ledgers = ExpectClosed(run, StaticStartDrive());
   EXPECT_EQ(ledgers.samples.Of(SampleFate::kUsed), ledgers.samples.num_received);
   EXPECT_EQ(ledgers.chunks.Of(ChunkFate::kUsed), ledgers.chunks.num_received);
   EXPECT_EQ(ledgers.scans.Of(ScanFate::kUsed) + ledgers.scans.Of(ScanFate::kBeforeStart),
@@ -45,7 +45,7 @@ TEST(OdometryLedger, ClosesWithSlowMatches) {
 
 TEST(OdometryLedger, ClosesInLidarOnlyOdometry) {
   const RunResult run = RunOdometry(StaticStartDrive(), test::LidarOnly());
-  const Ledgers& ledgers = ExpectClosed(run, StaticStartDrive());
+  const Ledgers ledgers = ExpectClosed(run, StaticStartDrive());
   EXPECT_EQ(ledgers.samples.Of(SampleFate::kUnwanted), ledgers.samples.num_received);
 }
 
@@ -80,7 +80,7 @@ TEST(OdometryLedger, ClosesOnDamagedMessages) {
     if (dice == 4) messages.back().sample.f_imu_mps2.setConstant(1e9);
     if (dice == 5) test::MakeBlind(messages.back());
   }
-  const Ledgers& ledgers = ExpectClosed(RunOdometry(messages, test::DriveRig()), messages);
+  const Ledgers ledgers = ExpectClosed(RunOdometry(messages, test::DriveRig()), messages);
   EXPECT_GT(ledgers.samples.Of(SampleFate::kNonfinite), 0);
   EXPECT_GT(ledgers.samples.Of(SampleFate::kOutOfRange), 0);
   EXPECT_GT(ledgers.chunks.Of(ChunkFate::kLate) + ledgers.chunks.Of(ChunkFate::kDuplicate), 0);
@@ -122,7 +122,7 @@ TEST(OdometryLedger, ClosesOnHostileMessages) {
     }
     messages.push_back(forged);
   }
-  const Ledgers& ledgers = ExpectClosed(RunOdometry(messages, test::DriveRig()), messages);
+  const Ledgers ledgers = ExpectClosed(RunOdometry(messages, test::DriveRig()), messages);
   EXPECT_GT(ledgers.chunks.Of(ChunkFate::kBad), 0);
   EXPECT_GT(ledgers.chunks.Of(ChunkFate::kForeign), 0);
 }

@@ -80,7 +80,7 @@ TEST(RigExaminer, BoundsOfTheRigAreThoseOfTheLastLook) {
   EXPECT_FALSE(examiner.bounds());
   EXPECT_TRUE(examiner.Look(StampAt(40.0)));
   ASSERT_TRUE(examiner.bounds());
-  EXPECT_LT(examiner.bounds()->lever_m.norm(), 0.05);
+  EXPECT_LT(examiner.bounds()->lever_m.norm(), 0.1);
   examiner.SetConvention(ConventionOf(ImuUnits::kSi));
   EXPECT_FALSE(examiner.bounds());
 }

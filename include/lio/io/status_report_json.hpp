@@ -4,7 +4,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "lio/io/status_report.hpp"
 
@@ -12,8 +11,5 @@ namespace lio {
 
 // State, trust, note, latencies, load and memory: all of a status report but stamps and counts.
 [[nodiscard]] nlohmann::ordered_json StatusReportJson(const StatusReport& report);
-
-// One line. Bytes that are no UTF-8, which a note may have, are replaced.
-[[nodiscard]] std::string TextOf(const nlohmann::ordered_json& json);
 
 }  // namespace lio

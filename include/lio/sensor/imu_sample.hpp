@@ -16,13 +16,14 @@ struct ImuSample {
   Vector3 f_imu_mps2 = Vector3::Zero();   // specific force in imu: +g upward at rest
   bool is_rate_saturated = false;   // an axis is at the end of its range: the true rate is larger
   bool is_force_saturated = false;  // likewise for the force
+  bool is_saturated() const { return is_rate_saturated || is_force_saturated; }
   // The true rate and force may be so far off, for all of a gap that a made-up sample fills, 1
   // sigma per axis. Zero for a measured one.
   float made_up_w_std_radps = 0.f;
   float made_up_f_std_mps2 = 0.f;
   bool is_made_up() const { return made_up_w_std_radps > 0.f; }
   // It shows the motion as it was: no axis is at the end of its range, and it was sent.
-  bool IsMeasured() const { return !is_made_up() && !is_rate_saturated && !is_force_saturated; }
+  bool IsMeasured() const { return !is_made_up() && !is_saturated(); }
   std::int32_t seq = 0;  // the sender's number: one more for each sample, where it counts
 };
 
