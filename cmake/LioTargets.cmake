@@ -25,9 +25,13 @@ if(LIO_SANITIZE)
 endif()
 
 # lio_precompile(TARGET HEADER...): reads the headers that cost most once a target, not once a source.
-# Only with LIO_PCH: ccache and a build after a small change do better without.
+# Only with LIO_PCH: ccache and a build after a small change do better without. g++ 12 then warns of
+# faults in the standard library that are none, at one source in four hundred.
 function(lio_precompile target)
   if(LIO_PCH)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -Wno-error=array-bounds -Wno-error=restrict)
+    endif()
     target_precompile_headers(${target} PRIVATE <Eigen/Dense> <algorithm> <cmath> <functional>
       <map> <memory> <optional> <string> <string_view> <unordered_map> <vector> ${ARGN})
   endif()
