@@ -3,6 +3,7 @@
 #include "lio/pipeline/constant_velocity_tracker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -17,7 +18,7 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   if (options.first_rate_radps) {
     history.noise.gyro_density = kConstantVelocity.gyro_density;
   } else {
-    history.noise.gyro_bias_walk_density = kConstantVelocity.turn_accel_density;
+    history.noise.gyro_bias_walk_density = kConstantVelocity.max_turn_accel_density;
   }
   history.g_world = Vector3::Zero();
   history.span_s = options.span_s;
@@ -84,10 +85,20 @@ void AllowUnseenHalfSecond(Estimate& estimate) {
                                       kConstantVelocity.known_velocity_std_mps));
 }
 
+// A gyro's rate turns the body alone: it may be of other units, and must not turn the velocity.
 ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
   ImuSample sample;
   sample.stamp = stamp;
   sample.w_imu_radps = w_imu_radps;
+  return sample;
+}
+
+// The velocity that is constant is that in the imu's axes: a car follows its wheels, and what a
+// hand holds swings about a body. So the force is the one that turns the velocity.
+ImuSample Predicted(Timestamp stamp, const NavState& state) {
+  const Vector3 v_imu_mps = state.T_world_imu.rotation.conjugate() * state.v_world_imu;
+  ImuSample sample = Rate(stamp, Vector3::Zero());
+  sample.f_imu_mps2 = (-state.gyro_bias).cross(v_imu_mps);
   return sample;
 }
 
@@ -97,7 +108,11 @@ ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerO
     : history_options_(MakeHistoryOptions(options)),
       has_gyro_(options.first_rate_radps.has_value()),
       last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
-      history_(history_options_, Start(start, options), Rate(start, last_rate_)) {}
+      turn_error_var_(std::pow(
+          kConstantVelocity.max_turn_accel_density / kConstantVelocity.density_per_error, 2)),
+      history_(history_options_, Start(start, options), Rate(start, last_rate_)) {
+  if (!has_gyro_) history_ = {history_options_, history_.head(), SampleNow()};
+}
 
 void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
   if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
@@ -112,8 +127,15 @@ void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
   while (at < stamp) {
     at = std::min(at + kConstantVelocity.step, stamp);
     // The history cannot refuse it: it is newer than all that came.
-    (void)history_.AddImu(Rate(at, last_rate_));
+    ImuSample sample = SampleNow();
+    sample.stamp = at;
+    (void)history_.AddImu(sample);
   }
+}
+
+ImuSample ConstantVelocityTracker::SampleNow() const {
+  const Estimate& head = history_.head();
+  return has_gyro_ ? Rate(head.stamp, last_rate_) : Predicted(head.stamp, head.state);
 }
 
 bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
@@ -128,6 +150,17 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
          history_.AddRebase(middle) == EventOutcome::kApplied;
 }
 
+void ConstantVelocityTracker::NoteTurnError(double error_rad, double since_s) {
+  if (has_gyro_) return;
+  constexpr ConstantVelocityParameters kParameters = kConstantVelocity;
+  const double var = error_rad * error_rad / (since_s * since_s * since_s);
+  turn_error_var_ += kParameters.turn_error_rate * (var - turn_error_var_);
+  history_options_.noise.gyro_bias_walk_density =
+      std::clamp(kParameters.density_per_error * std::sqrt(turn_error_var_),
+                 kParameters.min_turn_accel_density, kParameters.max_turn_accel_density);
+  history_.SetBiasWalk(history_options_.noise.gyro_bias_walk_density);
+}
+
 Estimate ConstantVelocityTracker::AtEnd(Timestamp middle, Timestamp end,
                                         const std::optional<TurnRate>& shown) const {
   if (!shown || has_gyro_) return history_.At(end);
@@ -135,7 +168,7 @@ Estimate ConstantVelocityTracker::AtEnd(Timestamp middle, Timestamp end,
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
   H.middleCols<3>(kGyroBias) = -Matrix3::Identity();
   FuseLinear(estimate, H, shown->w_imu_radps + estimate.state.gyro_bias, shown->cov);
-  Propagate(estimate, Rate(middle, Vector3::Zero()), Rate(end, Vector3::Zero()),
+  Propagate(estimate, Predicted(middle, estimate.state), Predicted(end, estimate.state),
             history_options_.noise, history_options_.g_world);
   estimate.stamp = end;
   return estimate;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lio {
@@ -89,11 +90,13 @@ bool ImuConventionMonitor::IsDoubtful(const TrackingFacts& facts) const {
          classifier_.FavoursAnother();
 }
 
-// Nothing is matched any more, and the gyro reads more than a vehicle's turns.
+// Nothing is matched any more, and the gyro reads more than a vehicle's turns. One at the end of
+// its range does so rightly, and misses a part of the motion.
 bool ImuConventionMonitor::IsGyroWild(const TrackingFacts& facts) const {
   if (facts.num_unmatched_in_a_row < kConventionMonitor.wild_after_unmatched) return false;
   const std::vector<ImuSample> samples =
       imu_->Between(facts.stamp - kConventionMonitor.wild_span, facts.stamp);
+  if (std::ranges::any_of(samples, &ImuSample::is_saturated)) return false;
   double sum_sq = 0.0;
   for (const ImuSample& sample : samples) {
     sum_sq += (sample.w_imu_radps - facts.gyro_bias_radps).squaredNorm();

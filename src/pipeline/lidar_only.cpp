@@ -8,6 +8,7 @@
 #include "lio/filter/process_model.hpp"
 #include "pipeline/coarse_tracking.hpp"
 #include "pipeline/estimate_report.hpp"
+#include "pipeline/prior_error.hpp"
 #include "pipeline/scan_fusion.hpp"
 
 namespace lio {
@@ -34,6 +35,7 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   }
   tracker_->AdvanceTo(sweep->end);
   MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
+  CorrectPrior(trend_.Expected(), job);
   if (!inertial_ && num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
   if (!inertial_ && is_first) job.map_action = MapAction::kClear;
   if (handover_.last_located) {
@@ -102,7 +104,10 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const bool is_place_sure = IsPlaceSure(outcome);
   const bool is_keyframe = keyframes_.IsKeyframe(outcome.match.T_map_imu) && is_place_sure &&
                            !context_.place.is_map_locked();
+  const Pose T_map_imu_predicted = tracker_->history().At(middle).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
+  trend_.Forget();
+  if (report.fused && !outcome.is_relocalized) NoteError(T_map_imu_predicted, outcome);
   if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }
@@ -129,6 +134,13 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
   if (is_imu_back_ && report.fused && is_place_sure) return ReturnToImu(outcome);
   return std::nullopt;
+}
+
+void LidarOnly::NoteError(const Pose& T_map_imu_predicted, const MatchOutcome& outcome) {
+  trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
+  if (!handover_.last_located) return;
+  const double since_s = SecondsBetween(*handover_.last_located, outcome.sweep->middle());
+  if (since_s > 0.0) tracker_->NoteTurnError(trend_.error().tail<3>().norm(), since_s);
 }
 
 ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {

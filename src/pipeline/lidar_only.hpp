@@ -10,6 +10,7 @@
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "pipeline/health.hpp"
 #include "pipeline/mode_context.hpp"
+#include "pipeline/motion_trend.hpp"
 #include "pipeline/transition.hpp"
 
 namespace lio {
@@ -51,6 +52,8 @@ class LidarOnly {
   // A scan grows the map where its place is beyond doubt: in the first one that was located after
   // some that were not, it is not yet.
   bool IsPlaceSure(const MatchOutcome& outcome) const;
+  // A fused scan tells how wrong its prediction was.
+  void NoteError(const Pose& T_map_imu_predicted, const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   Transition RestartWhenLost(Timestamp sweep_end) const;
@@ -61,6 +64,7 @@ class LidarOnly {
   MotionSeed seed_;
   Health health_;
   KeyframePolicy keyframes_;
+  MotionTrend trend_;
   std::optional<ConstantVelocityTracker> tracker_;  // from the first sweep on
   Vector3 up_map_ = Vector3::UnitZ();               // roughly
   int num_scans_ = 0;                               // that have been tracked

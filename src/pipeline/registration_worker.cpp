@@ -8,21 +8,14 @@
 #include "lio/registration/match_budget.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
+#include "pipeline/prior_error.hpp"
 
 namespace lio {
 namespace {
 
-// The trajectory over the sweep, bent so that its middle is where the scan was found: the error of
-// a constant velocity has grown in proportion to the time since the last located scan.
-StampedPoses Bend(const MatchJob& job, const Pose& found) {
-  const Vector6 correction = LogSe3(job.prior.T_map_imu.Inverse() * found);
-  StampedPoses bent = job.T_any_imu;
-  for (StampedPose& pose : bent) {
-    const double from_mid_sweep_s = SecondsBetween(job.sweep->middle(), pose.stamp);
-    pose.pose =
-        pose.pose * ExpSe3((1.0 + from_mid_sweep_s / job.prior.since_last_fix_s) * correction);
-  }
-  return bent;
+// The trajectory over the sweep, bent so that its middle is where the scan was found.
+StampedPoses BentTo(const Pose& found, const MatchJob& job) {
+  return Bent(job, LogSe3(job.prior.T_map_imu.Inverse() * found));
 }
 
 template <class T>
@@ -43,6 +36,16 @@ std::vector<float> TimesFromMidSweep(const SweepTimes& times, const ReducedScan&
     from_mid_sweep_s.push_back(start_s + 1e-9f * static_cast<float>(reduced.points[i].t_offset_ns));
   }
   return from_mid_sweep_s;
+}
+
+std::vector<float> SharesOfPriorError(const std::vector<float>& from_mid_sweep_s,
+                                      const MatchJob& job) {
+  std::vector<float> shares;
+  shares.reserve(from_mid_sweep_s.size());
+  for (const float at_s : from_mid_sweep_s) {
+    shares.push_back(static_cast<float>(ShareOfPriorError(static_cast<double>(at_s), job)));
+  }
+  return shares;
 }
 
 // The turn rate that the scan was deskewed by, less its error as the match shows it.
@@ -138,9 +141,26 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
   scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
   const MotionPrior prior = task.aligns_prior ? relocalizer_.Align(deskewed, job.prior) : job.prior;
-  scan.outcome.match = MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
+  scan.outcome.match = job.refines_deskew
+                           ? MatchBending(prior, scan)
+                           : MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
   if (search != nullptr) Search(*search, scan);
   AddTime(Stage::kMatch, begin, scan.outcome);
+}
+
+// The motion within the sweep is a guess as the prior is, so the scan is bent along with the pose,
+// and stays as it was bent where it was found.
+MatchResult RegistrationWorker::MatchBending(const MotionPrior& prior, ScanInWork& scan) {
+  const SweepTimes times = TimesOf(*scan.job.sweep);
+  const std::vector<float> shares =
+      SharesOfPriorError(TimesFromMidSweep(times, scan.reduced), scan.job);
+  MatchInput input = scan.InputFrom(prior.T_map_imu, prior.cov);
+  input.shares_of_correction = shares;
+  const MatchResult match = MatchFully(input, scan);
+  scan.motion = BentTo(match.T_map_imu, scan.job);
+  scan.outcome.points_imu = Deskew(scan.reduced.points, times, scan.motion, T_imu_lidar_);
+  scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
+  return match;
 }
 
 void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) {
@@ -181,7 +201,7 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   const SweepTimes times = TimesOf(*job.sweep);
   std::int64_t begin = Now();
   const bool is_near_prior = !outcome.is_relocalized && !outcome.is_clock_set;
-  if (is_near_prior) scan.motion = Bend(job, outcome.match.T_map_imu);
+  if (is_near_prior) scan.motion = BentTo(outcome.match.T_map_imu, job);
   outcome.points_imu = Deskew(scan.reduced.points, times, scan.motion, T_imu_lidar_);
   AddTime(Stage::kDeskew, begin, outcome);
   begin = Now();

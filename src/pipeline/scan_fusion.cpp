@@ -7,6 +7,12 @@
 namespace lio {
 namespace {
 
+// Did the inertial samples miss a part of the motion since the last scan that was fused?
+bool IsMotionHiddenSince(std::optional<Timestamp> last_fused, Timestamp until,
+                         const ModeContext& context) {
+  return last_fused && IsMotionHidden(context.stream.imu().Between(*last_fused, until));
+}
+
 // An error that the rig made in the motion is left in the estimate, above all in its velocity, for
 // as long as a missed motion is: for the filter's window.
 UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& settings,
@@ -31,7 +37,11 @@ void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeCo
   const FilterOptions& filter = context.options.filter;
   if (settings.grows_map) context.sensor_errors.Add(outcome.match);
   settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
-  settings.force = outcome.is_relocalized || health.MustForce(filter.max_gated_in_a_row);
+  const bool is_contradicted_by_guess =
+      outcome.match.degenerate_mask == 0 &&
+      IsMotionHiddenSince(health.last_fused(), outcome.sweep->end, context);
+  settings.force = is_contradicted_by_guess || outcome.is_relocalized ||
+                   health.MustForce(filter.max_gated_in_a_row);
   if (settings.force) settings.max_unseen = MaxUnseenMotion(outcome, settings, context, history);
   const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
   health.AddFusion(fused);

@@ -8,6 +8,7 @@
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/relocalization/relocalizer.hpp"
 #include "pipeline/estimate_report.hpp"
+#include "pipeline/prior_error.hpp"
 #include "pipeline/scan_fusion.hpp"
 
 namespace lio {
@@ -77,6 +78,7 @@ void Tracking::AddSweep(const Sweep& sweep) {
 
 MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   MatchJob job = MakeTrackingJob(sweep, history_, handover_.last_located);
+  if (job.refines_deskew) CorrectPrior(trend_.Expected(), job);
   if (is_first_scan_) job.map_action = MapAction::kClear;
   const NavState& predicted = history_.At(sweep->middle()).state;
   job.prior.up_map = predicted.T_map_imu.rotation *
@@ -110,7 +112,11 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
                            keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+  const Pose T_map_imu_predicted = history_.At(outcome.sweep->middle()).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
+  trend_.Forget();
+  if (report.fused && !outcome.is_relocalized)
+    trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
   UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);

@@ -14,6 +14,7 @@
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/health.hpp"
 #include "pipeline/mode_context.hpp"
+#include "pipeline/motion_trend.hpp"
 #include "pipeline/outage.hpp"
 #include "pipeline/segment_jump.hpp"
 #include "pipeline/transition.hpp"
@@ -86,6 +87,7 @@ class Tracking {
   Health health_;
   KeyframePolicy keyframes_;
   ZeroVelocityUpdater zero_velocity_;
+  MotionTrend trend_;  // of what the inertial samples miss
   OutageRecovery outage_;
   bool is_first_scan_;           // of an empty map
   bool is_map_rebased_ = false;  // and no scan has matched it yet

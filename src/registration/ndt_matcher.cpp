@@ -9,6 +9,7 @@
 #include "lio/map/grazing_incidence.hpp"
 #include "lio/map/surface_sides.hpp"
 #include "lio/registration/registration_parameters.hpp"
+#include "registration/bent_scan.hpp"
 #include "registration/common_radius.hpp"
 #include "registration/match_loop.hpp"
 #include "registration/ndt_term.hpp"
@@ -160,8 +161,9 @@ double NdtMatcher::FixedCorrespondenceCost(const MatchInput& input, const Pose& 
   return cost;
 }
 
-MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                                float radius_var, std::span<PointScore> scores) const {
+MatchSums NdtMatcher::Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
+                                std::span<PointScore> scores) const {
+  const std::span<const Eigen::Vector3f> points = input.points_imu;
   const Eigen::Matrix3f to_imu = T_grid_imu.rotation.conjugate().toRotationMatrix().cast<float>();
   return workers_.SumOverBlocks<MatchSums>(points.size(), [&](const Block& block) {
     MatchSums sums;
@@ -170,7 +172,8 @@ MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const P
       if (pairs_[i].cell == GaussianMap::kNoCell) continue;
       const NdtTerm term = TermOf(pairs_[i], radius_var);
       if (term.IsOutlier()) continue;
-      AddTerm(term, map_.patch(pairs_[i].cell), points[i], to_imu, sums,
+      const float share = input.shares_of_correction.empty() ? 1.f : input.shares_of_correction[i];
+      AddTerm(term, map_.patch(pairs_[i].cell), points[i], share, to_imu, sums,
               scores.empty() ? nullptr : &scores[i]);
     }
     return sums;
@@ -178,7 +181,7 @@ MatchSums NdtMatcher::Linearize(std::span<const Eigen::Vector3f> points, const P
 }
 
 void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
-                         const Eigen::Vector3f& point, const Eigen::Matrix3f& to_imu,
+                         const Eigen::Vector3f& point, float share, const Eigen::Matrix3f& to_imu,
                          MatchSums& sums, PointScore* score) {
   if (patch.kind == SurfacePatch::Kind::kPlane) {
     constexpr float kAlikeVar_m2 = Parameters::kAlikeStd_m * Parameters::kAlikeStd_m;
@@ -193,7 +196,7 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
   if (score != nullptr) score->num_rows = term.num_rows;
   for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
     const NdtRow& row = term.rows[i];
-    const Vector6f jacobian = JacobianRow(point, to_imu * row.direction);
+    const Vector6f jacobian = share * JacobianRow(point, to_imu * row.direction);
     if (patch.kind == SurfacePatch::Kind::kVertical)
       sums.sure_information.Add(jacobian, row.weight);
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
@@ -250,7 +253,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   counted_at_.reset();
   Associate(input, T_grid_imu, 0.0);
   scores_.resize(input.points_imu.size());
-  const MatchSums sums = Linearize(input.points_imu, T_grid_imu, 0.f, scores_);
+  const MatchSums sums = Linearize(input, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
   const std::size_t finest = LevelsInUse().finest;
@@ -281,17 +284,21 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   if (map_.num_cells() == 0) return result;
   counted_at_.reset();
   width_.Add(input.points_imu, options_.voxel_m);
-  Pose T_grid_imu = GridFromMap() * input.T_map_imu_guess;
+  const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
+  BentScan scan(input);
+  const auto scan_at = [&](const Pose& pose) { return scan.At(T_grid_guess.Inverse() * pose); };
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
-    Associate(input, pose, radius.std_m());
-    const MatchSums sums = Linearize(input.points_imu, pose, radius.variance(), {});
+    const MatchInput bent = scan_at(pose);
+    Associate(bent, pose, radius.std_m());
+    const MatchSums sums = Linearize(bent, pose, radius.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations, options_.converged_step_m,
                       options_.converged_step_rad};
+  Pose T_grid_imu = T_grid_guess;
   if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
-    Finish(input, T_grid_imu, result);
+    Finish(scan_at(T_grid_imu), T_grid_imu, result);
   }
   return result;
 }

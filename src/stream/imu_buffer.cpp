@@ -3,11 +3,9 @@
 #include "lio/stream/imu_buffer.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/imu_noise_estimator.hpp"
-#include "lio/imu/rest.hpp"
 #include "lio/sensor/gap.hpp"
 #include "stream/stream_parameters.hpp"
 
@@ -55,44 +53,23 @@ std::optional<ImuSample> ImuBuffer::Read(const ImuSample& sent) {
 }
 
 // Across a gap neither the last sample holds nor a line to the next one: a walker's steps would be
-// taken for a turn and a push. The mean of the time before holds.
+// taken for a turn and a push.
 void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
   if (!sent_.empty() && stamp - sent_.back().stamp >= kImuGap.bridged) {
-    for (const Timestamp at : {sent_.back().stamp + kStream.gap_edge, stamp - kStream.gap_edge}) {
-      AddMadeUp(at, ready);
+    const Timestamp last = stamp - kStream.gap_edge;
+    Timestamp at = sent_.back().stamp + kStream.gap_edge;
+    AddMadeUp(at, ready);
+    if (bridge_->fades()) {
+      while ((at = at + kStream.bridge_step) < last) AddMadeUp(at, ready);
     }
+    AddMadeUp(last, ready);
   }
-  mean_before_gap_.reset();
-}
-
-// The motion in a gap is as far from the one before as that of the last seconds was, per axis.
-// Never zero, so that a made-up sample is told from a measured one.
-float ImuBuffer::StdAround(const Vector3& mean, Vector3 ImuSample::*value) const {
-  double sum_sq = kStream.min_made_up_std * kStream.min_made_up_std;
-  int num_samples = 1;
-  for (const ImuSample& sample : sent_) {
-    const bool is_readable = ToSi(convention_, sample).w_imu_radps.norm() <= kMaxGyroRate_radps;
-    if (sample.is_made_up() || !is_readable) continue;
-    sum_sq += (sample.*value - mean).squaredNorm();
-    ++num_samples;
-  }
-  return static_cast<float>(std::sqrt(sum_sq / (3.0 * num_samples)));
+  bridge_.reset();
 }
 
 void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {
-  if (!mean_before_gap_) {
-    const Timestamp from = sent_.back().stamp - Duration::FromSeconds(kStream.mean_before_gap_s);
-    const ImuStatistics before =
-        Summarise(std::vector<ImuSample>(FirstNotBefore(sent_, from), sent_.cend()));
-    mean_before_gap_ = sent_.back();
-    mean_before_gap_->w_imu_radps = before.mean_w_radps;
-    mean_before_gap_->f_imu_mps2 = before.mean_f_mps2;
-    const ImuSample& mean = *mean_before_gap_;
-    mean_before_gap_->made_up_w_std_radps = StdAround(mean.w_imu_radps, &ImuSample::w_imu_radps);
-    mean_before_gap_->made_up_f_std_mps2 = StdAround(mean.f_imu_mps2, &ImuSample::f_imu_mps2);
-  }
-  mean_before_gap_->stamp = stamp;
-  Keep(*mean_before_gap_, true, ready);
+  if (!bridge_) bridge_.emplace(sent_, convention_);
+  Keep(bridge_->At(stamp), true, ready);
 }
 
 void ImuBuffer::FreezeUpTo(Timestamp stamp, std::vector<ImuReady>& ready) {
@@ -127,7 +104,7 @@ void ImuBuffer::SetConvention(const ImuConvention& convention) {
 void ImuBuffer::Clear() {
   sent_.clear();
   samples_.clear();
-  mean_before_gap_.reset();
+  bridge_.reset();
   frozen_until_.reset();
 }
 

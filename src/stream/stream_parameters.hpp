@@ -16,6 +16,15 @@ struct StreamParameters {
   // Made-up samples stand this far from the measured ones at both edges of a gap. Chosen: less than
   // the period of any unit, so that the line between them takes no time.
   Duration gap_edge{1'000'000};
+  // Between made-up samples the rate is a line. Chosen: half a sweep at 10 Hz, as a sweep is
+  // deskewed along it.
+  Duration bridge_step{50'000'000};
+  // The correlation of the rates is measured at this lag. Chosen: a sweep at 10 Hz, over which a
+  // made-up sample must hold.
+  Duration correlation_lag{100'000'000};
+  // It is taken for no more than this. Chosen: a rate then lasts for 10 s, longer than any gap that
+  // is bridged.
+  double max_correlation = 0.99;
   // rad/s and m/s^2. The least deviation that a made-up sample states, weighed as that of one
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;

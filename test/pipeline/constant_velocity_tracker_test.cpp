@@ -120,6 +120,39 @@ TEST(ConstantVelocityTracker, WithoutAGyroPosesTeachTheTurnRate) {
   EXPECT_LT(off.translation.norm(), 0.03);
 }
 
+// The velocity in the imu's axes is constant: 3 m/s forward and 2 rad/s to the left are a circle of
+// 1.5 m, and a velocity that is constant in the world would miss it by 3 cm in a tenth of a second.
+TEST(ConstantVelocityTracker, ATurningBodyGoesOnAlongItsCircle) {
+  TrackerOptions options;
+  options.seed.motion = NavState{};
+  options.seed.motion->v_world_imu = Vector3(3, 0, 0);
+  options.seed.motion->gyro_bias = Vector3(0, 0, -2);
+  ConstantVelocityTracker tracker(StampAt(0.0), options);
+  tracker.AdvanceTo(StampAt(0.1));
+  const Pose expected{ExpSo3(Vector3(0, 0, 0.2)),
+                      1.5 * Vector3(std::sin(0.2), 1 - std::cos(0.2), 0)};
+  const Pose off = expected.Inverse() * tracker.history().head().state.T_map_imu;
+  EXPECT_LT(off.translation.norm(), 1e-3);
+  EXPECT_LT(LogSo3(off.rotation).norm(), 1e-6);
+}
+
+double TurnRateStdAfterASecond(double turn_error_rad) {
+  ConstantVelocityTracker tracker(StampAt(0.0), {});
+  for (int i = 0; i < 500; ++i) tracker.NoteTurnError(turn_error_rad, 0.1);
+  const double before = StdOf(tracker.history().head(), kGyroBias + 2);
+  tracker.AdvanceTo(StampAt(1.0));
+  return std::sqrt(std::pow(StdOf(tracker.history().head(), kGyroBias + 2), 2) - before * before);
+}
+
+// Its density is the one that the drive shows, between the bounds.
+TEST(ConstantVelocityTracker, TheTurnRateWalksAsTheTurnsBeforeShow) {
+  constexpr ConstantVelocityParameters kParameters = kConstantVelocity;
+  EXPECT_NEAR(TurnRateStdAfterASecond(0.0), kParameters.min_turn_accel_density, 0.01);
+  EXPECT_NEAR(TurnRateStdAfterASecond(0.3), kParameters.max_turn_accel_density, 0.04);
+  const double between = 2.0 / kParameters.density_per_error * std::pow(0.1, 1.5);
+  EXPECT_NEAR(TurnRateStdAfterASecond(between), 2.0, 0.02);
+}
+
 TEST(ConstantVelocityTracker, ASweepsEndIsByTheTurnRateThatItShows) {
   ConstantVelocityTracker tracker(StampAt(0.0), {});
   tracker.AdvanceTo(StampAt(0.1));

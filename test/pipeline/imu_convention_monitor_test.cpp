@@ -182,6 +182,19 @@ TEST(ImuConventionMonitor, AWildGyroContradictsWhereNothingIsMatched) {
   EXPECT_FALSE(is_contradicted(1.2, 5, 0.3)) << "less the bias";
 }
 
+// A gyro at the end of its range reads much, rightly, and the scans are lost because it misses
+// more.
+TEST(ImuConventionMonitor, ASaturatedGyroIsNotWild) {
+  Watched drive(kSi);
+  std::vector<ImuReady> ready;
+  for (int i = 0; i < 100; ++i) {
+    ImuSample sample{StampAt(0.01 * i), Vector3(0, 0, 3.0), Vector3(0, 0, 9.8)};
+    sample.is_rate_saturated = i > 90;
+    (void)drive.imu.Add(sample, ready);
+  }
+  EXPECT_FALSE(drive.monitor.IsContradicted({StampAt(0.99), 5, 0, Vector3::Zero()}));
+}
+
 // Turned axes, too little of a drive for a verdict, but two of five scans were gated.
 TEST(ImuConventionMonitor, GatedScansRaiseADoubtWhereAnotherConventionFitsBetter) {
   for (const bool is_right : {false, true}) {

@@ -107,6 +107,21 @@ TEST_F(ScanFusionTest, AMatchFarOffIsFusedAtLastWhereTheSamplesHaveAHole) {
   EXPECT_NEAR(history_->At(StampAt(2.0)).state.T_map_imu.translation.x(), 5.0, 0.5);
 }
 
+// Since the last scan that was fused, the samples have missed a part of the motion.
+TEST_F(ScanFusionTest, AMatchThatSeesAllIsFusedAtOnceWhereTheMotionSinceTheLastIsHidden) {
+  FeedImu(-4.0, 0.13);
+  FeedImu(0.29, 2.0);
+  KnowTheRig();
+  const MatchOutcome first = MatchedAt(1e-3);
+  ASSERT_TRUE(Fuse(first).fused);
+  (void)health_.AddScan(first.sweep->end, first.match, 2500, true);
+  MatchOutcome outcome = MatchedAt(0.9);
+  outcome.match.degenerate_mask = 1;
+  EXPECT_FALSE(Fuse(outcome).fused);
+  EXPECT_TRUE(Fuse(MatchedAt(0.9)).fused);
+  EXPECT_NEAR(history_->At(StampAt(0.5)).state.T_map_imu.translation.x(), 0.9, 0.2);
+}
+
 TEST_F(ScanFusionTest, AMatchFarOffIsRefusedForGoodWhereTheSamplesShowTheMotion) {
   FeedImu(-4.0, 2.0);
   KnowTheRig();

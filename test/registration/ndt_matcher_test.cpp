@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "support/random_state.hpp"
@@ -36,6 +37,23 @@ class NdtMatcherIn {
   }
   MatchResult MatchFrom(const Pose& T_world_imu, const Vector6& guess_error, double guess_std) {
     return Match(See(T_world_imu), T_world_imu * ExpSe3(guess_error), guess_std);
+  }
+  // The scan as a turn rate deskewed it that is wrong by this much over half a sweep, matched from
+  // the guess of that rate.
+  MatchResult MatchBent(const Pose& T_world_imu, double yaw_error_rad, bool bends) {
+    Points points = See(T_world_imu);
+    Vector6 error = Vector6::Zero();
+    error[5] = yaw_error_rad;
+    std::vector<float> shares;
+    for (Eigen::Vector3f& point : points) {
+      const double share = 1.0 + std::atan2(point.y(), point.x()) / (2.0 * std::numbers::pi);
+      point = (ExpSe3((1.0 - share) * error) * point.cast<double>()).cast<float>();
+      shares.push_back(static_cast<float>(share));
+    }
+    MatchInput input{points, T_world_imu * ExpSe3(-error), 0.01 * Matrix6::Identity()};
+    input.is_far_off = true;
+    if (bends) input.shares_of_correction = shares;
+    return matcher_.Match(input);
   }
   MatchResult Match(const Points& points, const Pose& guess, double guess_std) {
     Matrix6 cov = Matrix6::Zero();
@@ -68,6 +86,20 @@ Vector6 DrawGuessError(std::mt19937_64& random, double std) {
   Vector6 error = std * test::RandomVector<6>(random);
   error.tail<3>() *= 0.05;
   return error;
+}
+
+// A turn of 46 deg/s that the guess did not know: a rigid scan is bent by 2.3 deg either way.
+TEST(NdtMatcher, AScanBendsAlongWithThePose) {
+  NdtMatcherIn scene(test::Street());
+  scene.InsertRoad(-3.0, 3.0);
+  const Pose truth = OnRoad(0.0);
+  const auto off_rad = [&](bool bends) {
+    const MatchResult match = scene.MatchBent(truth, 0.08, bends);
+    EXPECT_TRUE(match.IsUsable()) << bends;
+    return LogSo3(truth.rotation.conjugate() * match.T_map_imu.rotation).norm();
+  };
+  EXPECT_LT(off_rad(true), 0.003);
+  EXPECT_GT(off_rad(false), 0.02);
 }
 
 TEST(NdtMatcher, RecoversKnownOffsetsOnAStreet) {

@@ -70,6 +70,12 @@ class FilterHistory {
   // a scan of that time is still to come. Without a value only the window is kept.
   void KeepFrom(std::optional<Timestamp> stamp) { keep_from_ = stamp; }
 
+  // The turn acceleration of a body whose gyro bias stands for its rate; for all that is propagated
+  // from now on, replays included.
+  void SetBiasWalk(double gyro_bias_walk_density) {
+    options_.noise.gyro_bias_walk_density = gyro_bias_walk_density;
+  }
+
   const Estimate& head() const { return nodes_.back().posterior; }
   Timestamp start_stamp() const { return start_stamp_; }
   // The estimate at `stamp` after all events up to it; before the window the oldest estimate.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar odometry by a constant-velocity model, built from the filter itself: inertial samples that
-// read no force, no gravity, wide process noise. It serves lidar-only operation, and it tracks the
+// Lidar odometry by a model of constant velocity and turn rate in the imu's axes, built from the
+// filter itself: inertial samples that read the force of such a motion, no gravity, wide process
+// noise. It serves lidar-only operation, and it tracks the
 // first seconds before the inertial filter starts. The turn rate is either estimated like the
 // velocity, as the negative gyro bias of samples that read nothing, or that of the gyro.
 #pragma once
@@ -18,10 +19,17 @@ struct ConstantVelocityParameters {
   // After a longer time the clock was set, or all is new. Chosen: no guess holds so long.
   Duration max_unseen{10'000'000'000};
   Duration step{10'000'000};  // of the propagation; chosen: a tenth of a sweep at 10 Hz
-  // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, its turn
-  // rate by 0.3 rad/s, 1 sigma; a walker's does. Less loses turns, more lets the guess scatter.
-  double accel_density = 1.5;       // m/s^2/sqrt(Hz)
-  double turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
+  // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, 1 sigma; a
+  // walker's does. The turn rate walks as the drive shows, within these bounds: a car's changes by
+  // 0.3 rad/s, that of what a hand holds by 1.3 rad/s. Measured: the bounds and the factor keep the
+  // NEES near 1 (docs/experiments/quick_turns.md).
+  double accel_density = 1.5;           // m/s^2/sqrt(Hz)
+  double min_turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
+  double max_turn_accel_density = 4.0;  // also before any turn was seen
+  // Density by the root mean square of turn error / (time since the last scan)^(3/2), the error of
+  // a body whose rate walks at random; more than 0.7, as no body's does.
+  double density_per_error = 4.4;
+  double turn_error_rate = 0.02;  // of the mean, a scan; chosen: 5 s at 10 Hz
   // Nothing is known. Chosen: a vehicle in a city, one that turns.
   double start_velocity_std_mps = 15.0;
   double start_turn_rate_std_radps = 1.0;
@@ -81,6 +89,8 @@ class ConstantVelocityTracker {
   // estimate; an empty map begins at the estimate. Returns false when the match tells nothing, and
   // when its time lies before the history, which then stays as it is.
   [[nodiscard]] bool AddMatch(Timestamp middle, const MatchResult& match);
+  // The turn of a scan was predicted with this error, so long after the last one that was located.
+  void NoteTurnError(double error_rad, double since_s);
   // The estimate at the end of a sweep whose middle is the newest match's, by the turn rate that
   // the sweep itself shows, if it does. The filter does not use that rate: its systematic errors
   // would enter the next sweeps' deskew and, with them, the map, and grow.
@@ -91,9 +101,13 @@ class ConstantVelocityTracker {
   const FilterHistory& history() const { return history_; }
 
  private:
+  // What holds from the head on.
+  [[nodiscard]] ImuSample SampleNow() const;
+
   HistoryOptions history_options_;
   bool has_gyro_;
   Vector3 last_rate_ = Vector3::Zero();  // rad/s; stays zero without a gyro
+  double turn_error_var_;                // rad^2/s^3, running mean
   FilterHistory history_;
 };
 

@@ -47,6 +47,7 @@ class RegistrationWorker {
   // A match with these points that counts; one without budget finds nothing.
   MatchResult MatchFully(const MatchInput& input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
+  MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
   void Search(const SearchRequest& request, ScanInWork& scan);
   void RefineDeskew(ScanInWork& scan);
   void FinishMatch(const Track& task, ScanInWork& scan);

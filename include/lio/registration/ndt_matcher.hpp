@@ -97,10 +97,12 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   // `view`: along the beam, in grid axes, of any length.
   Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
-  MatchSums Linearize(std::span<const Eigen::Vector3f> points, const Pose& T_grid_imu,
-                      float radius_var, std::span<PointScore> scores) const;
+  MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
+                      std::span<PointScore> scores) const;
+  // `share`: how much of a step the point takes (MatchInput::shares_of_correction).
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
-                      const Eigen::Matrix3f& to_imu, MatchSums& sums, PointScore* score);
+                      float share, const Eigen::Matrix3f& to_imu, MatchSums& sums,
+                      PointScore* score);
   double NewContentShare() const;
   Matrix6 ScoreCovariance(const MatchInput& input);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);

@@ -45,6 +45,10 @@ struct MatchInput {
   double shift_std_m = 1.0;
   // The time of each of points_imu; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
+  // How much of the correction of the guess each point's own instant takes, of points_imu: 1 at the
+  // instant that the points are deskewed to. Empty: the scan is rigid. Only the method ndt bends
+  // it.
+  std::span<const float> shares_of_correction = {};
   Pose T_imu_lidar = {};  // tells the points' beams apart
 };
 

@@ -11,6 +11,7 @@
 #include "lio/base/counters.hpp"
 #include "lio/imu/imu_convention.hpp"
 #include "lio/sensor/imu_noise.hpp"
+#include "lio/stream/gap_bridge.hpp"
 #include "lio/stream/stream_event.hpp"
 
 namespace lio {
@@ -52,14 +53,12 @@ class ImuBuffer {
   std::optional<ImuSample> Read(const ImuSample& sent);
   void BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready);
   void AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready);
-  // Root mean square of one axis of what was sent, from `mean`.
-  float StdAround(const Vector3& mean, Vector3 ImuSample::*value) const;
 
   ImuConvention convention_;
   Counters* counters_;
   std::deque<ImuSample> sent_;
   std::deque<ImuSample> samples_;
-  std::optional<ImuSample> mean_before_gap_;  // as sent; while the stream has a gap
+  std::optional<GapBridge> bridge_;  // while the stream has a gap
   std::optional<Timestamp> frozen_until_;
 };
 

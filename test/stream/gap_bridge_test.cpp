@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/stream/gap_bridge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "lio/sensor/gap.hpp"
+#include "support/motion.hpp"
+
+namespace lio {
+namespace {
+
+using test::StampAt;
+
+// Six seconds at 100 Hz, with this rate about z.
+GapBridge After(const std::function<double(double)>& rate_radps) {
+  std::deque<ImuSample> sent;
+  for (int i = 0; i <= 600; ++i) {
+    ImuSample sample;
+    sample.stamp = StampAt(0.01 * i);
+    sample.w_imu_radps.z() = rate_radps(0.01 * i);
+    sample.f_imu_mps2 = Vector3(std::sin(20.0 * i), 0, 9.8);
+    sent.push_back(sample);
+  }
+  return {sent, {}};
+}
+
+// A head that has just begun to turn turns on.
+TEST(GapBridge, ASlowTurnGoesOn) {
+  const GapBridge bridge = After([](double t_s) { return t_s < 3 ? -2.0 : t_s - 5.0 + 2.0; });
+  EXPECT_NEAR(bridge.At(StampAt(6.001)).w_imu_radps.z(), 3.0, 0.01);
+  EXPECT_GT(bridge.At(StampAt(6.2)).w_imu_radps.z(), 2.8);
+}
+
+// A walker sways twice a second: what the last sample read has passed after a sweep.
+TEST(GapBridge, ASwayFadesToTheMean) {
+  const GapBridge bridge =
+      After([](double t_s) { return 0.1 + 0.5 * std::cos(4.0 * std::numbers::pi * t_s); });
+  EXPECT_NEAR(bridge.At(StampAt(6.001)).w_imu_radps.z(), 0.6, 0.02);
+  EXPECT_NEAR(bridge.At(StampAt(6.5)).w_imu_radps.z(), 0.1, 0.05);
+}
+
+TEST(GapBridge, WithoutCorrelationTheMeanHoldsAtOnce) {
+  const GapBridge bridge =
+      After([](double t_s) { return std::fmod(std::round(10.0 * t_s), 2.0) == 0.0 ? 1.0 : -1.0; });
+  EXPECT_NEAR(bridge.At(StampAt(6.001)).w_imu_radps.z(), 0.0, 0.1);
+}
+
+TEST(GapBridge, TheForceIsTheMeanAndTheSampleSaysHowFarTheMotionMayBe) {
+  const GapBridge bridge = After([](double t_s) { return std::cos(t_s); });
+  const ImuSample sample = bridge.At(StampAt(6.1));
+  EXPECT_EQ(sample.stamp, StampAt(6.1));
+  EXPECT_TRUE(sample.is_made_up());
+  EXPECT_NEAR(sample.f_imu_mps2.x(), 0.0, 0.05);
+  EXPECT_NEAR(sample.made_up_f_std_mps2, std::sqrt(0.5 / 3.0), 0.02);
+}
+
+TEST(GapBridge, OneSampleIsEnough) {
+  ImuSample sample;
+  sample.stamp = StampAt(1.0);
+  sample.w_imu_radps = Vector3(0, 0, 0.3);
+  const GapBridge bridge({sample}, {});
+  EXPECT_EQ(bridge.At(StampAt(1.2)).w_imu_radps, sample.w_imu_radps);
+}
+
+}  // namespace
+}  // namespace lio
