@@ -101,7 +101,7 @@ class ConstantVelocityTracker {
   const FilterHistory& history() const { return history_; }
 
  private:
-  // What holds from the head on.
+  // The sample that holds from the head on.
   [[nodiscard]] ImuSample SampleNow() const;
 
   HistoryOptions history_options_;
