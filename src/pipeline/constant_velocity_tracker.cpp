@@ -18,7 +18,9 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   if (options.first_rate_radps) {
     history.noise.gyro_density = kConstantVelocity.gyro_density;
   } else {
-    history.noise.gyro_bias_walk_density = kConstantVelocity.max_turn_accel_density;
+    history.noise.gyro_bias_walk_density = options.follows_turns
+                                               ? kConstantVelocity.max_turn_accel_density
+                                               : kConstantVelocity.min_turn_accel_density;
   }
   history.g_world = Vector3::Zero();
   history.span_s = options.span_s;
@@ -107,11 +109,12 @@ ImuSample Predicted(Timestamp stamp, const NavState& state) {
 ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerOptions& options)
     : history_options_(MakeHistoryOptions(options)),
       has_gyro_(options.first_rate_radps.has_value()),
+      follows_turns_(options.follows_turns && !has_gyro_),
       last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
       turn_error_var_(std::pow(
           kConstantVelocity.max_turn_accel_density / kConstantVelocity.density_per_error, 2)),
       history_(history_options_, Start(start, options), Rate(start, last_rate_)) {
-  if (!has_gyro_) history_ = {history_options_, history_.head(), SampleNow()};
+  if (follows_turns_) history_ = {history_options_, history_.head(), SampleNow()};
 }
 
 void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
@@ -124,18 +127,20 @@ void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
   if (stamp - history_.head().stamp > kConstantVelocity.max_unseen) SetClock(stamp - kMaxSweepSpan);
   Timestamp at = history_.head().stamp;
+  const Timestamp follows_turn_until = at + kConstantVelocity.follows_turn_for;
   while (at < stamp) {
     at = std::min(at + kConstantVelocity.step, stamp);
     // The history cannot refuse it: it is newer than all that came.
     ImuSample sample = SampleNow();
     sample.stamp = at;
+    if (at > follows_turn_until) sample.f_imu_mps2.setZero();
     (void)history_.AddImu(sample);
   }
 }
 
 ImuSample ConstantVelocityTracker::SampleNow() const {
   const Estimate& head = history_.head();
-  return has_gyro_ ? Rate(head.stamp, last_rate_) : Predicted(head.stamp, head.state);
+  return follows_turns_ ? Predicted(head.stamp, head.state) : Rate(head.stamp, last_rate_);
 }
 
 bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
@@ -151,7 +156,7 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
 }
 
 void ConstantVelocityTracker::NoteTurnError(double error_rad, double since_s) {
-  if (has_gyro_) return;
+  if (!follows_turns_) return;
   constexpr ConstantVelocityParameters kParameters = kConstantVelocity;
   const double var = error_rad * error_rad / (since_s * since_s * since_s);
   turn_error_var_ += kParameters.turn_error_rate * (var - turn_error_var_);

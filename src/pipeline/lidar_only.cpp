@@ -35,6 +35,7 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   }
   tracker_->AdvanceTo(sweep->end);
   MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
+  job.bends_scan = true;
   CorrectPrior(trend_.Expected(), job);
   if (!inertial_ && num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
   if (!inertial_ && is_first) job.map_action = MapAction::kClear;
@@ -50,6 +51,7 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   options.span_s = context_.options.filter.history_s;
   options.nis_limit = context_.nis_limit;
   options.seed = seed_;
+  options.follows_turns = true;
   const Timestamp start = TrackStart(sweep, seed_);
   const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
   if (is_lost || std::exchange(handover_.is_placed, false)) StartAtLastFix(start, options);
@@ -66,6 +68,7 @@ void LidarOnly::GoOn() {
   options.span_s = context_.options.filter.history_s;
   options.nis_limit = context_.nis_limit;
   options.seed = seed_;
+  options.follows_turns = true;
   options.goes_on_from = inertial_->estimate;
   tracker_.emplace(inertial_->estimate.stamp, options);
   handover_.origin = Handover::Origin::kLidar;

@@ -141,7 +141,7 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
   scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
   const MotionPrior prior = task.aligns_prior ? relocalizer_.Align(deskewed, job.prior) : job.prior;
-  scan.outcome.match = job.refines_deskew
+  scan.outcome.match = job.bends_scan
                            ? MatchBending(prior, scan)
                            : MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
   if (search != nullptr) Search(*search, scan);

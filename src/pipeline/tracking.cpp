@@ -78,7 +78,8 @@ void Tracking::AddSweep(const Sweep& sweep) {
 
 MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   MatchJob job = MakeTrackingJob(sweep, history_, handover_.last_located);
-  if (job.refines_deskew) CorrectPrior(trend_.Expected(), job);
+  job.bends_scan = job.refines_deskew;
+  if (job.bends_scan) CorrectPrior(trend_.Expected(), job);
   if (is_first_scan_) job.map_action = MapAction::kClear;
   const NavState& predicted = history_.At(sweep->middle()).state;
   job.prior.up_map = predicted.T_map_imu.rotation *

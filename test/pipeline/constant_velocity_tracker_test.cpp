@@ -124,6 +124,7 @@ TEST(ConstantVelocityTracker, WithoutAGyroPosesTeachTheTurnRate) {
 // 1.5 m, and a velocity that is constant in the world would miss it by 3 cm in a tenth of a second.
 TEST(ConstantVelocityTracker, ATurningBodyGoesOnAlongItsCircle) {
   TrackerOptions options;
+  options.follows_turns = true;
   options.seed.motion = NavState{};
   options.seed.motion->v_world_imu = Vector3(3, 0, 0);
   options.seed.motion->gyro_bias = Vector3(0, 0, -2);
@@ -137,7 +138,9 @@ TEST(ConstantVelocityTracker, ATurningBodyGoesOnAlongItsCircle) {
 }
 
 double TurnRateStdAfterASecond(double turn_error_rad) {
-  ConstantVelocityTracker tracker(StampAt(0.0), {});
+  TrackerOptions options;
+  options.follows_turns = true;
+  ConstantVelocityTracker tracker(StampAt(0.0), options);
   for (int i = 0; i < 500; ++i) tracker.NoteTurnError(turn_error_rad, 0.1);
   const double before = StdOf(tracker.history().head(), kGyroBias + 2);
   tracker.AdvanceTo(StampAt(1.0));

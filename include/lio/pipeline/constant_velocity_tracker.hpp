@@ -18,6 +18,9 @@ namespace lio {
 struct ConstantVelocityParameters {
   // After a longer time the clock was set, or all is new. Chosen: no guess holds so long.
   Duration max_unseen{10'000'000'000};
+  // The velocity turns with the body for so long without a sweep, then it is constant in the world:
+  // nobody walks in circles. Chosen: a turn of a walker or of a car at a crossing is half done.
+  Duration follows_turn_for{500'000'000};
   Duration step{10'000'000};  // of the propagation; chosen: a tenth of a sweep at 10 Hz
   // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, 1 sigma; a
   // walker's does. The turn rate walks as the drive shows, within these bounds: a car's changes by
@@ -66,6 +69,9 @@ struct TrackerOptions {
   double nis_limit = HistoryOptions{}.nis_limit;  // gate of poses
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
+  // The velocity turns with the body, and the turn rate walks as the drive shows. Not while the
+  // first scans tell what the rig is: there the simplest model shows best that something is wrong.
+  bool follows_turns = false;
   MotionSeed seed;
   // The track and its map begin at this pose; the covariance is that of the pose in the world.
   Pose T_world_start;
@@ -106,6 +112,7 @@ class ConstantVelocityTracker {
 
   HistoryOptions history_options_;
   bool has_gyro_;
+  bool follows_turns_;
   Vector3 last_rate_ = Vector3::Zero();  // rad/s; stays zero without a gyro
   double turn_error_var_;                // rad^2/s^3, running mean
   FilterHistory history_;

@@ -55,6 +55,8 @@ struct MatchJob {
   MotionPrior prior;
   MapAction map_action = MapAction::kKeep;
   bool refines_deskew = false;  // match, deskew again along what was found, match again
+  // Bend the scan along with the pose that is found, as nothing else measured the motion within it.
+  bool bends_scan = false;
   // The extrinsic that trajectory and prior are of. Absent: the rig has it.
   std::optional<Pose> T_imu_lidar = std::nullopt;
   bool seeks_place = false;  // seek the map's place in the initial map besides
