@@ -70,11 +70,23 @@ GapBridge::GapBridge(const std::deque<ImuSample>& sent, const ImuConvention& con
 ImuSample GapBridge::At(Timestamp stamp) const {
   ImuSample sample = mean_;
   sample.stamp = stamp;
-  if (fades()) {
-    const double kept = std::exp(-SecondsBetween(last_.stamp, stamp) / correlation_time_s_);
-    sample.w_imu_radps += kept * (last_.w_imu_radps - mean_.w_imu_radps);
-  }
+  sample.w_imu_radps += KeptAt(stamp) * (last_.w_imu_radps - mean_.w_imu_radps);
   return sample;
+}
+
+// The integral of the kept share is the correlation time times its decrease.
+ImuSample GapBridge::BeginLine(Timestamp from, Timestamp to) const {
+  const double integral_s = correlation_time_s_ * (KeptAt(from) - KeptAt(to));
+  const double kept = 2.0 * integral_s / SecondsBetween(from, to) - KeptAt(to);
+  ImuSample sample = mean_;
+  sample.stamp = from;
+  sample.w_imu_radps += kept * (last_.w_imu_radps - mean_.w_imu_radps);
+  return sample;
+}
+
+double GapBridge::KeptAt(Timestamp stamp) const {
+  if (correlation_time_s_ <= 0.0) return 0.0;
+  return std::exp(-SecondsBetween(last_.stamp, stamp) / correlation_time_s_);
 }
 
 }  // namespace lio

@@ -56,12 +56,10 @@ std::optional<ImuSample> ImuBuffer::Read(const ImuSample& sent) {
 // taken for a turn and a push.
 void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
   if (!sent_.empty() && stamp - sent_.back().stamp >= kImuGap.bridged) {
+    const Timestamp first = sent_.back().stamp + kStream.gap_edge;
     const Timestamp last = stamp - kStream.gap_edge;
-    Timestamp at = sent_.back().stamp + kStream.gap_edge;
-    AddMadeUp(at, ready);
-    if (bridge_->fades()) {
-      while ((at = at + kStream.bridge_step) < last) AddMadeUp(at, ready);
-    }
+    if (!bridge_) bridge_.emplace(sent_, convention_);
+    Keep(bridge_->BeginLine(first, last), true, ready);
     AddMadeUp(last, ready);
   }
   bridge_.reset();

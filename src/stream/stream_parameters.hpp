@@ -16,9 +16,6 @@ struct StreamParameters {
   // Made-up samples stand this far from the measured ones at both edges of a gap. Chosen: less than
   // the period of any unit, so that the line between them takes no time.
   Duration gap_edge{1'000'000};
-  // Between made-up samples the rate is a line. Chosen: half a sweep at 10 Hz, as a sweep is
-  // deskewed along it.
-  Duration bridge_step{50'000'000};
   // The correlation of the rates is measured at this lag. Chosen: a sweep at 10 Hz, over which a
   // made-up sample must hold.
   Duration correlation_lag{100'000'000};

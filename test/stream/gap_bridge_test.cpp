@@ -59,6 +59,22 @@ TEST(GapBridge, TheForceIsTheMeanAndTheSampleSaysHowFarTheMotionMayBe) {
   EXPECT_NEAR(sample.made_up_f_std_mps2, std::sqrt(0.5 / 3.0), 0.02);
 }
 
+// Two samples with a line between them turn by as much as the fading rate, summed up in steps.
+TEST(GapBridge, ALineTurnsByAsMuchAsTheFadingRate) {
+  const GapBridge bridge = After([](double t_s) { return std::sin(2.0 * t_s); });
+  const double begin_s = 6.001;
+  const double end_s = 6.801;
+  double turn_rad = 0.0;
+  for (double t_s = begin_s + 5e-4; t_s < end_s; t_s += 1e-3) {
+    turn_rad += 1e-3 * bridge.At(StampAt(t_s)).w_imu_radps.z();
+  }
+  const ImuSample begin = bridge.BeginLine(StampAt(begin_s), StampAt(end_s));
+  const double mean_radps =
+      0.5 * (begin.w_imu_radps.z() + bridge.At(StampAt(end_s)).w_imu_radps.z());
+  EXPECT_EQ(begin.stamp, StampAt(begin_s));
+  EXPECT_NEAR(mean_radps * (end_s - begin_s), turn_rad, 1e-4);
+}
+
 TEST(GapBridge, OneSampleIsEnough) {
   ImuSample sample;
   sample.stamp = StampAt(1.0);

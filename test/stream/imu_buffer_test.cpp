@@ -161,19 +161,6 @@ TEST(ImuBuffer, AMadeUpSampleSaysHowFarTheMotionBeforeWasFromItsMean) {
   EXPECT_EQ(ready.back().sample.made_up_w_std_radps, 0.f) << "it was measured";
 }
 
-// A turn that fades is a line between samples 50 ms apart.
-TEST(ImuBuffer, ATurnThatFadesIsBridgedByMoreSamples) {
-  Buffer buffer;
-  for (int i = 0; i < 40; ++i) buffer.Add(Reading(0.1 * i, Vector3(0, 0, i < 20 ? -1 : 1)));
-  const std::vector<ImuReady> ready = buffer.Add(Reading(4.1));
-  ASSERT_EQ(ready.size(), 6u);
-  for (std::size_t i = 1; i < 4; ++i) {
-    EXPECT_EQ(ready[i].sample.stamp - ready[i - 1].sample.stamp, Duration{50'000'000});
-    EXPECT_LE(ready[i].sample.w_imu_radps.z(), ready[i - 1].sample.w_imu_radps.z());
-  }
-  EXPECT_GT(ready[4].sample.w_imu_radps.z(), 0.9);
-}
-
 TEST(ImuBuffer, EachGapHasItsOwnMean) {
   Buffer buffer;
   buffer.AddRest(0.0, 1.0);

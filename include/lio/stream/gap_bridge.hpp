@@ -22,10 +22,14 @@ class GapBridge {
   // The sample for an instant of the gap, as it would be sent. It states how far, per axis, the
   // motion may be from it: as far as that of the last seconds was from the mean.
   [[nodiscard]] ImuSample At(Timestamp stamp) const;
-  // False: it is the same at all instants.
-  [[nodiscard]] bool fades() const { return correlation_time_s_ > 0.0; }
+  // The sample for the beginning of a part of the gap, from which a line to At(to) turns by as much
+  // as the fading rate does: two samples then stand for all of it.
+  [[nodiscard]] ImuSample BeginLine(Timestamp from, Timestamp to) const;
 
  private:
+  // The share of the last rate's deviation from the mean that is left.
+  [[nodiscard]] double KeptAt(Timestamp stamp) const;
+
   ImuSample last_;
   ImuSample mean_;
   double correlation_time_s_;  // of the rates
