@@ -19,7 +19,7 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
     history.noise.gyro_density = kConstantVelocity.gyro_density;
   } else {
     history.noise.gyro_bias_walk_density = options.follows_turns
-                                               ? kConstantVelocity.max_turn_accel_density
+                                               ? kConstantVelocity.start_turn_accel_density
                                                : kConstantVelocity.min_turn_accel_density;
   }
   history.g_world = Vector3::Zero();
@@ -112,7 +112,7 @@ ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerO
       follows_turns_(options.follows_turns && !has_gyro_),
       last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
       turn_error_var_(std::pow(
-          kConstantVelocity.max_turn_accel_density / kConstantVelocity.density_per_error, 2)),
+          kConstantVelocity.start_turn_accel_density / kConstantVelocity.density_per_error, 2)),
       history_(history_options_, Start(start, options), Rate(start, last_rate_)) {
   if (follows_turns_) history_ = {history_options_, history_.head(), SampleNow()};
 }

@@ -28,7 +28,8 @@ struct ConstantVelocityParameters {
   // NEES near 1 (docs/experiments/quick_turns.md).
   double accel_density = 1.5;           // m/s^2/sqrt(Hz)
   double min_turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
-  double max_turn_accel_density = 4.0;  // also before any turn was seen
+  double max_turn_accel_density = 4.0;
+  double start_turn_accel_density = 3.0;  // before a turn was seen; chosen: nearer to the larger
   // Density by the root mean square of turn error / (time since the last scan)^(3/2), the error of
   // a body whose rate walks at random; more than 0.7, as no body's does.
   double density_per_error = 4.4;
