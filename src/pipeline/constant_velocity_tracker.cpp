@@ -30,7 +30,7 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   return history;
 }
 
-// Its samples read no force, so there is no bias of one; that of the gyro is the turn rate.
+// Its samples are made up, so the force has no bias; that of the gyro is the turn rate.
 Estimate GoOnFrom(Estimate estimate, const Vector3& gyro_bias) {
   constexpr double kStd = kConstantVelocity.known_turn_rate_std_radps;
   ForgetBiases(estimate);

@@ -158,9 +158,14 @@ MatchResult RegistrationWorker::MatchBending(const MotionPrior& prior, ScanInWor
   input.shares_of_correction = shares;
   const MatchResult match = MatchFully(input, scan);
   scan.motion = BentTo(match.T_map_imu, scan.job);
-  scan.outcome.points_imu = Deskew(scan.reduced.points, times, scan.motion, T_imu_lidar_);
-  scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
+  DeskewAgain(scan);
   return match;
+}
+
+void RegistrationWorker::DeskewAgain(ScanInWork& scan) const {
+  scan.outcome.points_imu =
+      Deskew(scan.reduced.points, TimesOf(*scan.job.sweep), scan.motion, T_imu_lidar_);
+  scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
 }
 
 void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) {
@@ -200,12 +205,13 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   MatchOutcome& outcome = scan.outcome;
   const SweepTimes times = TimesOf(*job.sweep);
   std::int64_t begin = Now();
-  const bool is_near_prior = !outcome.is_relocalized && !outcome.is_clock_set;
-  if (is_near_prior) scan.motion = BentTo(outcome.match.T_map_imu, job);
-  outcome.points_imu = Deskew(scan.reduced.points, times, scan.motion, T_imu_lidar_);
+  if (!job.bends_scan) {  // else it is deskewed along what was found already
+    const bool is_near_prior = !outcome.is_relocalized && !outcome.is_clock_set;
+    if (is_near_prior) scan.motion = BentTo(outcome.match.T_map_imu, job);
+    DeskewAgain(scan);
+  }
   AddTime(Stage::kDeskew, begin, outcome);
   begin = Now();
-  scan.to_match = Pick(outcome.points_imu, scan.reduced.to_match);
   const std::vector<float> from_mid_sweep_s = TimesFromMidSweep(times, scan.reduced);
   MatchInput input = scan.InputFrom(outcome.match.T_map_imu, Matrix6::Zero());
   input.from_mid_sweep_s = from_mid_sweep_s;

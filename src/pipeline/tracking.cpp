@@ -116,8 +116,9 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   const Pose T_map_imu_predicted = history_.At(outcome.sweep->middle()).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
   trend_.Forget();
-  if (report.fused && !outcome.is_relocalized)
+  if (report.fused && !outcome.is_relocalized) {
     trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
+  }
   UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =
       health_.AddScan(end, outcome.match, outcome.num_used, report.fused);

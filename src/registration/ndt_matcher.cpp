@@ -286,9 +286,11 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   width_.Add(input.points_imu, options_.voxel_m);
   const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
   BentScan scan(input);
-  const auto scan_at = [&](const Pose& pose) { return scan.At(T_grid_guess.Inverse() * pose); };
+  const auto scan_at = [&](const Pose& pose) -> const MatchInput& {
+    return scan.At(T_grid_guess.Inverse() * pose);
+  };
   const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
-    const MatchInput bent = scan_at(pose);
+    const MatchInput& bent = scan_at(pose);
     Associate(bent, pose, radius.std_m());
     const MatchSums sums = Linearize(bent, pose, radius.variance(), {});
     if (sums.num_matched < kMinMatched) return std::nullopt;

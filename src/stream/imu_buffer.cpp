@@ -58,16 +58,19 @@ void ImuBuffer::BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready) {
   if (!sent_.empty() && stamp - sent_.back().stamp >= kImuGap.bridged) {
     const Timestamp first = sent_.back().stamp + kStream.gap_edge;
     const Timestamp last = stamp - kStream.gap_edge;
-    if (!bridge_) bridge_.emplace(sent_, convention_);
-    Keep(bridge_->BeginLine(first, last), true, ready);
+    Keep(Bridge().BeginLine(first, last), true, ready);
     AddMadeUp(last, ready);
   }
   bridge_.reset();
 }
 
-void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {
+const GapBridge& ImuBuffer::Bridge() {
   if (!bridge_) bridge_.emplace(sent_, convention_);
-  Keep(bridge_->At(stamp), true, ready);
+  return *bridge_;
+}
+
+void ImuBuffer::AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready) {
+  Keep(Bridge().At(stamp), true, ready);
 }
 
 void ImuBuffer::FreezeUpTo(Timestamp stamp, std::vector<ImuReady>& ready) {

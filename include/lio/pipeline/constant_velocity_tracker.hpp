@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar odometry by a model of constant velocity and turn rate in the imu's axes, built from the
-// filter itself: inertial samples that read the force of such a motion, no gravity, wide process
-// noise. It serves lidar-only operation, and it tracks the
-// first seconds before the inertial filter starts. The turn rate is either estimated like the
-// velocity, as the negative gyro bias of samples that read nothing, or that of the gyro.
+// Lidar odometry by a model of constant velocity and turn rate, built from the filter itself:
+// inertial samples without gravity, wide process noise. In lidar-only operation the velocity is
+// constant in the imu's axes, and the samples read the force that turns it; in the first seconds
+// before the inertial filter starts it is constant in the world, and they read none. The turn rate
+// is either estimated like the velocity, as the negative gyro bias, or that of the gyro.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,8 @@ struct ConstantVelocityParameters {
   double min_turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
   double max_turn_accel_density = 4.0;
   double start_turn_accel_density = 3.0;  // before a turn was seen; chosen: nearer to the larger
-  // Density by the root mean square of turn error / (time since the last scan)^(3/2), the error of
-  // a body whose rate walks at random; more than 0.7, as no body's does.
+  // Density by the root mean square of turn error / (time since the last scan)^(3/2). A rate that
+  // walks at random would give 0.7; bodies turn smoothly, so that errors of the model last.
   double density_per_error = 4.4;
   double turn_error_rate = 0.02;  // of the mean, a scan; chosen: 5 s at 10 Hz
   // Nothing is known. Chosen: a vehicle in a city, one that turns.

@@ -49,6 +49,8 @@ class RegistrationWorker {
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
   MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
   void Search(const SearchRequest& request, ScanInWork& scan);
+  // Deskews the scan along its motion.
+  void DeskewAgain(ScanInWork& scan) const;
   void RefineDeskew(ScanInWork& scan);
   void FinishMatch(const Track& task, ScanInWork& scan);
   void SeekPlace(ScanInWork& scan);

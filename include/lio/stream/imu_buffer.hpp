@@ -52,6 +52,8 @@ class ImuBuffer {
   bool Keep(const ImuSample& sent, bool is_made_up, std::vector<ImuReady>& ready);
   std::optional<ImuSample> Read(const ImuSample& sent);
   void BridgeTo(Timestamp stamp, std::vector<ImuReady>& ready);
+  // The bridge across the present gap. It begins after the newest sample if there was none yet.
+  const GapBridge& Bridge();
   void AddMadeUp(Timestamp stamp, std::vector<ImuReady>& ready);
 
   ImuConvention convention_;
