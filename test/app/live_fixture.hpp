@@ -127,7 +127,8 @@ class LiveRunnerTest : public ::testing::Test {
   nlohmann::json Stats() { return nlohmann::json::parse(test::ReadText(out_ / "stats.json")); }
   // Every message that was received has a fate in stats.json.
   void ExpectAccountCloses() {
-    for (const auto& [kind, fates] : Stats()["account"].items()) {
+    const nlohmann::json stats = Stats();
+    for (const auto& [kind, fates] : stats["account"].items()) {
       EXPECT_EQ(fates["unaccounted"], 0) << kind << ": " << fates;
       EXPECT_GT(fates["received"], 0) << kind;
     }
