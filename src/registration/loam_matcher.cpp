@@ -125,10 +125,8 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     Associate(input, pose, radius);
     if (terms_->size() < kMinMatched) return std::nullopt;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
-    const DirectionSplit split = SplitDirections(sums);
-    const Pose solved = terms_->Solve(input.points_imu, {}, pose);
     const double share = result.iterations > factor * Parameters::kFullRounds ? 0.5 : 1.0;
-    return share * KeepObservableDirections(split, LogSe3(pose.Inverse() * solved));
+    return share * StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,
                       options_.converged_step_rad};
