@@ -83,7 +83,12 @@ inline Vector3 NormalVector(std::mt19937_64& random, double std) {
   return {a, b, normal(random)};
 }
 
-// Returns samples at rate_hz from `from_s` to `to_s`; time 0 is stamp 0.
+// Tests count seconds of these motions from stamp 0.
+inline Timestamp StampFromZero(double t_s) {
+  return Timestamp{} + Duration::FromSeconds(t_s);
+}
+
+// Returns samples at rate_hz from `from_s` to `to_s`.
 inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s, double to_s,
                                       double rate_hz, const ImuErrors& errors,
                                       std::mt19937_64& random) {
@@ -94,7 +99,7 @@ inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s,
     const double t = i / rate_hz;
     const MotionPoint point = motion.At(t);
     ImuSample sample;
-    sample.stamp = Timestamp{} + Duration::FromSeconds(t);
+    sample.stamp = StampFromZero(t);
     sample.w_imu_radps =
         point.w_imu + errors.gyro_bias + NormalVector(random, errors.gyro_density * to_sample);
     sample.f_imu_mps2 =
