@@ -6,12 +6,13 @@
 
 #include <random>
 
+#include "registration/example_pose.hpp"
 #include "support/random_state.hpp"
 
 namespace lio {
 namespace {
 
-const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
+using test::kTruth;
 
 double ErrorOf(const Pose& pose) {
   return LogSe3(kTruth.Inverse() * pose).norm();

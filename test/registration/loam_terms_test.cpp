@@ -7,13 +7,14 @@
 #include <cmath>
 #include <random>
 
+#include "registration/example_pose.hpp"
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
 
 namespace lio {
 namespace {
 
-const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
+using test::kTruth;
 
 // Returns noisy points of three walls and a post, as terms of 12 parts.
 class LoamTermsTest : public ::testing::Test {
