@@ -11,6 +11,7 @@
 
 #include "lio/base/pose.hpp"
 #include "lio/sensor/imu_sample.hpp"
+#include "support/stamp_from_zero.hpp"
 
 namespace lio::test {
 
@@ -83,12 +84,7 @@ inline Vector3 NormalVector(std::mt19937_64& random, double std) {
   return {a, b, normal(random)};
 }
 
-// Tests count seconds of these motions from stamp 0.
-inline Timestamp StampFromZero(double t_s) {
-  return Timestamp{} + Duration::FromSeconds(t_s);
-}
-
-// Returns samples at rate_hz from `from_s` to `to_s`.
+// Returns samples at rate_hz from `from_s` to `to_s`; time 0 is stamp 0.
 inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s, double to_s,
                                       double rate_hz, const ImuErrors& errors,
                                       std::mt19937_64& random) {
