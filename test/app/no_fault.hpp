@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// What a worker is given to tell its fault to, in tests where none may happen.
+// Fails the test that a worker tells its fault to, where none may happen.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 namespace lio::test {
 
-inline const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
+inline const Pose kLoamTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
 
 // Returns the covariance of a pose that is as sure along and about each axis as any other.
 inline Matrix6 IsotropicCov(double translation_std_m, double rotation_std_rad) {

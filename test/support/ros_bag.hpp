@@ -20,7 +20,7 @@ namespace lio::test {
 // When a bag's messages came, where it does not matter.
 inline constexpr Timestamp kReceived{1'600'000'000'000'000'000};
 
-// What a message's bytes may look like.
+// Tells how a message is laid out in bytes.
 struct RosForm {
   RosEncoding encoding;
   bool big_endian;
