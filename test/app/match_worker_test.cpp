@@ -8,10 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "app/no_fault.hpp"
 #include "lio/io/cpu_clock.hpp"
 
 namespace lio {
 namespace {
+
+using test::ExpectNoFault;
 
 MatchJob EmptyJob(std::int32_t scan_seq) {
   auto sweep = std::make_shared<Sweep>();
@@ -25,10 +28,6 @@ MatchJob EmptyJob(std::int32_t scan_seq) {
 
 InsertTask SomePoints() {
   return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, Pose::Identity()};
-}
-
-void ExpectNoFault(const std::string& fault) {
-  ADD_FAILURE() << fault;
 }
 
 TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {

@@ -9,10 +9,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "app/no_fault.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
 namespace {
+
+using test::ExpectNoFault;
 
 class OutputWorkerTest : public ::testing::Test {
  protected:
@@ -36,10 +39,6 @@ class OutputWorkerTest : public ::testing::Test {
   std::vector<std::string> received_;
   std::vector<std::size_t> sizes_;
 };
-
-void ExpectNoFault(const std::string& fault) {
-  ADD_FAILURE() << fault;
-}
 
 NavOutput ImuRate(std::int64_t stamp_ns) {
   NavOutput nav;

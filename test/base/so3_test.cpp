@@ -16,7 +16,7 @@ namespace {
 using Jet = ceres::Jet<double, 3>;
 using JetVector = so3::Vec3<Jet>;
 
-std::vector<Vector3> SampleRotations() {
+std::vector<Vector3> RotationsForJets() {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::vector<Vector3> samples = {Vector3::Zero(), Vector3(0, 0, 3.1)};
@@ -41,7 +41,7 @@ Matrix3 DerivativesOf(const JetVector& jets) {
 }
 
 TEST(So3, ValuesAreThoseOfDoubles) {
-  for (const Vector3& phi : SampleRotations()) {
+  for (const Vector3& phi : RotationsForJets()) {
     const Eigen::Quaternion<Jet> q = so3::Exp<Jet>(WithDerivatives(phi));
     const Quaternion expected = ExpSo3(phi);
     EXPECT_NEAR(q.w().a, expected.w(), 1e-15);
@@ -51,7 +51,7 @@ TEST(So3, ValuesAreThoseOfDoubles) {
 }
 
 TEST(So3, LogAfterExpHasTheIdentityAsDerivative) {
-  for (const Vector3& phi : SampleRotations()) {
+  for (const Vector3& phi : RotationsForJets()) {
     const JetVector back = so3::Log<Jet>(so3::Exp<Jet>(WithDerivatives(phi)));
     EXPECT_LT((DerivativesOf(back) - Matrix3::Identity()).norm(), 1e-9) << phi.transpose();
   }
@@ -59,7 +59,7 @@ TEST(So3, LogAfterExpHasTheIdentityAsDerivative) {
 
 // Exp(phi + d) Exp(phi)^-1 = Exp(LeftJacobian(phi) d), whose logarithm is differentiated at d = 0.
 TEST(So3, JacobiansAreTheDerivativesOfExp) {
-  for (const Vector3& phi : SampleRotations()) {
+  for (const Vector3& phi : RotationsForJets()) {
     const Eigen::Quaternion<Jet> moved = so3::Exp<Jet>(WithDerivatives(phi));
     const Eigen::Quaternion<Jet> inverse = ExpSo3(phi).conjugate().cast<Jet>();
     const Matrix3 left = DerivativesOf(so3::Log<Jet>(moved * inverse));
@@ -70,7 +70,7 @@ TEST(So3, JacobiansAreTheDerivativesOfExp) {
 }
 
 TEST(So3, InversesInvertTheJacobians) {
-  for (const Vector3& phi : SampleRotations()) {
+  for (const Vector3& phi : RotationsForJets()) {
     const Matrix3 left = so3::LeftJacobianInverse<double>(phi) * so3::LeftJacobian<double>(phi);
     EXPECT_LT((left - Matrix3::Identity()).norm(), 1e-9) << phi.transpose();
   }

@@ -16,15 +16,15 @@ namespace {
 
 using test::kExtrinsic;
 using test::kGyroBias;
+using test::kOffset_s;
 using test::Stand;
 using test::TurnAboutZ;
 using testing::HasSubstr;
 
 constexpr double kRadPerDeg = M_PI / 180.0;
-constexpr double kOffset_s = -0.0312;
 
 // The sensors are in the hands of a person who walks and looks around.
-Pose Walk(double t_s) {
+Pose WalkLookingAround(double t_s) {
   const Vector3 swing(0.05 * std::sin(11.3 * t_s), 0.04 * std::sin(12.1 * t_s + 1.0),
                       0.03 * std::sin(5.9 * t_s));
   const Vector3 look(0.1 * std::sin(0.9 * t_s), 0.15 * std::sin(1.3 * t_s + 0.4),
@@ -60,7 +60,7 @@ RotationCalibrationResult Calibrate(const Recording& recording) {
 }
 
 TEST(RotationCalibration, FindsOffsetRotationAndBiasOfExactTurns) {
-  const RotationCalibrationResult result = Calibrate(Record(Walk, 30.0));
+  const RotationCalibrationResult result = Calibrate(Record(WalkLookingAround, 30.0));
   ASSERT_TRUE(result.found) << result.why_not;
   EXPECT_NEAR(result.found->offset_s, kOffset_s, 2e-5);
   EXPECT_LT(LogSo3(kExtrinsic.conjugate() * result.found->R_imu_lidar).norm(), 2e-4);
@@ -75,7 +75,7 @@ TEST(RotationCalibration, ErrorsAreWhatItsCovarianceSays) {
   double rotation_nees = 0.0;
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
     const RotationCalibrationResult result =
-        Calibrate(Record(Walk, 30.0, kSweepStd_rad, 2e-4, seed));
+        Calibrate(Record(WalkLookingAround, 30.0, kSweepStd_rad, 2e-4, seed));
     ASSERT_TRUE(result.found) << result.why_not;
     const RotationCalibration& found = *result.found;
     EXPECT_NEAR(found.sweep_std_rad, kSweepStd_rad, 0.2 * kSweepStd_rad);
@@ -90,7 +90,7 @@ TEST(RotationCalibration, ErrorsAreWhatItsCovarianceSays) {
 }
 
 TEST(RotationCalibration, HolesInBothStreamsAreLeftOut) {
-  Recording recording = Record(Walk, 30.0);
+  Recording recording = Record(WalkLookingAround, 30.0);
   recording.sweeps.erase(recording.sweeps.begin() + 100, recording.sweeps.begin() + 107);
   recording.samples.erase(recording.samples.begin() + 4000, recording.samples.begin() + 4100);
   const RotationCalibrationResult result = Calibrate(recording);
@@ -115,7 +115,7 @@ TEST(RotationCalibration, RefusesTurnsAboutOneAxisAlone) {
 }
 
 TEST(RotationCalibration, RefusesStreamsThatDoNotBelongTogether) {
-  Recording recording = Record(Walk, 20.0);
+  Recording recording = Record(WalkLookingAround, 20.0);
   recording.samples = test::ExactSamples(TurnAboutZ, 0.0, 20.0, 0.005);
   const RotationCalibrationResult result = Calibrate(recording);
   EXPECT_FALSE(result.found);
@@ -123,7 +123,7 @@ TEST(RotationCalibration, RefusesStreamsThatDoNotBelongTogether) {
 }
 
 TEST(RotationCalibration, RefusesAnOffsetBeyondTheSearch) {
-  Recording recording = Record(Walk, 20.0);
+  Recording recording = Record(WalkLookingAround, 20.0);
   for (SweepRotation& sweep : recording.sweeps) sweep.stamp = sweep.stamp + Duration{700'000'000};
   EXPECT_FALSE(Calibrate(recording).is_sure());
   RotationCalibrationOptions options;

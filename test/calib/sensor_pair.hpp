@@ -12,6 +12,7 @@ namespace lio::test {
 
 inline const Vector3 kGyroBias(0.004, -0.003, 0.006);
 inline const Quaternion kExtrinsic = ExpSo3(Vector3(0.3, -1.1, 2.0));  // R_imu_lidar
+inline constexpr double kOffset_s = -0.0312;  // to be added to the lidar's stamps
 
 // Turns about all axes, at up to 1.2 rad/s.
 inline Pose LookAbout(double t_s) {

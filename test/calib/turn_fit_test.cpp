@@ -14,10 +14,9 @@ namespace lio {
 namespace {
 
 using test::kExtrinsic;
+using test::kOffset_s;
 using test::LookAbout;
 using test::Stand;
-
-constexpr double kOffset_s = -0.0312;
 
 std::vector<ImuSample> Samples() {
   return test::BiasedSamples(LookAbout, 20.0);
@@ -25,8 +24,8 @@ std::vector<ImuSample> Samples() {
 
 // Returns neighbouring turns between sweeps that each err by `sweep_std_rad`, with `turn_std_rad`
 // in addition.
-std::vector<SweepTurn> Turns(const test::Motion& motion, double sweep_std_rad = 0.0,
-                             double turn_std_rad = 0.0) {
+std::vector<SweepTurn> NeighbouringTurns(const test::Motion& motion, double sweep_std_rad = 0.0,
+                                         double turn_std_rad = 0.0) {
   std::mt19937_64 random(5);
   std::vector<Quaternion> sweeps;
   for (int i = 0; i <= 180; ++i) {
@@ -57,7 +56,7 @@ double RotationError(const RotationCalibration& state) {
 
 TEST(TurnFit, ExactTurnsGiveTheTruth) {
   RotationCalibration state = Guess();
-  const auto turns = Turns(LookAbout);
+  const auto turns = NeighbouringTurns(LookAbout);
   ASSERT_TRUE(FitTurns(Samples(), turns, state));
   EXPECT_EQ(state.num_turns, 180);
   EXPECT_NEAR(state.offset_s, kOffset_s, 2e-5);
@@ -70,19 +69,19 @@ TEST(TurnFit, ExactTurnsGiveTheTruth) {
 TEST(TurnFit, SweepsOwnErrorsAndTurnsAreToldApart) {
   constexpr double kLarge_rad = 2e-3;
   RotationCalibration of_sweeps = Guess();
-  ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, kLarge_rad, 0.0), of_sweeps));
+  ASSERT_TRUE(FitTurns(Samples(), NeighbouringTurns(LookAbout, kLarge_rad, 0.0), of_sweeps));
   EXPECT_NEAR(of_sweeps.sweep_std_rad, kLarge_rad, 0.2 * kLarge_rad);
   EXPECT_LT(of_sweeps.turn_std_rad, 0.5 * kLarge_rad);
   RotationCalibration of_turns = Guess();
-  ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, 0.0, kLarge_rad), of_turns));
+  ASSERT_TRUE(FitTurns(Samples(), NeighbouringTurns(LookAbout, 0.0, kLarge_rad), of_turns));
   EXPECT_NEAR(of_turns.turn_std_rad, kLarge_rad, 0.2 * kLarge_rad);
   EXPECT_LT(of_turns.sweep_std_rad, 0.5 * kLarge_rad);
 }
 
 TEST(TurnFit, NoiseIsInTheCovarianceAndTheResidualRatioIsOne) {
   RotationCalibration quiet = Guess(), noisy = Guess();
-  ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, 0.0, 5e-4), quiet));
-  ASSERT_TRUE(FitTurns(Samples(), Turns(LookAbout, 0.0, 5e-3), noisy));
+  ASSERT_TRUE(FitTurns(Samples(), NeighbouringTurns(LookAbout, 0.0, 5e-4), quiet));
+  ASSERT_TRUE(FitTurns(Samples(), NeighbouringTurns(LookAbout, 0.0, 5e-3), noisy));
   for (const RotationCalibration* state : {&quiet, &noisy}) {
     EXPECT_NEAR(state->residual_ratio, 1.0, 0.25);
     EXPECT_LT(std::abs(state->offset_s - kOffset_s), 4 * state->offset_std_s);
@@ -93,7 +92,7 @@ TEST(TurnFit, NoiseIsInTheCovarianceAndTheResidualRatioIsOne) {
 }
 
 TEST(TurnFit, AFewWildTurnsDoLittleHarm) {
-  auto turns = Turns(LookAbout, 0.0, 5e-4);
+  auto turns = NeighbouringTurns(LookAbout, 0.0, 5e-4);
   for (std::size_t i = 10; i < turns.size(); i += 40) {
     turns[i].R_from_to = turns[i].R_from_to * ExpSo3(Vector3(0.3, 0.2, -0.4));
   }
@@ -105,7 +104,7 @@ TEST(TurnFit, AFewWildTurnsDoLittleHarm) {
 }
 
 TEST(TurnFit, MissingTurnsAreNoNeighbours) {
-  auto turns = Turns(LookAbout, 2e-3, 0.0);
+  auto turns = NeighbouringTurns(LookAbout, 2e-3, 0.0);
   std::erase_if(turns, [](const SweepTurn& turn) { return turn.first % 7 == 3; });
   RotationCalibration state = Guess();
   ASSERT_TRUE(FitTurns(Samples(), turns, state));
@@ -115,7 +114,8 @@ TEST(TurnFit, MissingTurnsAreNoNeighbours) {
 
 TEST(TurnFit, RestDoesNotDetermineIt) {
   RotationCalibration state = Guess();
-  EXPECT_FALSE(FitTurns(test::BiasedSamples(Stand, 20.0), Turns(Stand, 0.0, 1e-4), state));
+  EXPECT_FALSE(
+      FitTurns(test::BiasedSamples(Stand, 20.0), NeighbouringTurns(Stand, 0.0, 1e-4), state));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Cloud {
   std::vector<std::uint16_t> rings;
 };
 
-Cloud Make(std::vector<test::SeenPoint> seen) {
+Cloud CloudOf(std::vector<test::SeenPoint> seen) {
   Cloud cloud;
   for (const auto& point : seen) {
     cloud.points.x_m.push_back(static_cast<float>(point.x));
@@ -30,7 +30,7 @@ Cloud Make(std::vector<test::SeenPoint> seen) {
 
 TEST(AzimuthOrder, SeesFiringOrderAndDirectionWithAndWithoutRings) {
   for (const double direction : {-1.0, 1.0}) {
-    const Cloud cloud = Make(test::SeePoints({.direction = direction}, 0));
+    const Cloud cloud = CloudOf(test::SeePoints({.direction = direction}, 0));
     for (const bool with_rings : {true, false}) {
       const OrderVote vote =
           JudgeOrder(cloud.points, with_rings ? std::span<const std::uint16_t>(cloud.rings)
@@ -44,7 +44,7 @@ TEST(AzimuthOrder, SeesFiringOrderAndDirectionWithAndWithoutRings) {
 TEST(AzimuthOrder, SeesRingByRing) {
   auto seen = test::SeePoints({}, 0);
   std::stable_sort(seen.begin(), seen.end(), [](auto& a, auto& b) { return a.ring < b.ring; });
-  const Cloud cloud = Make(seen);
+  const Cloud cloud = CloudOf(seen);
   const OrderVote vote = JudgeOrder(cloud.points, cloud.rings);
   EXPECT_EQ(vote.order, PointOrder::kByRing);
   EXPECT_EQ(vote.direction, -1.0);
@@ -54,15 +54,15 @@ TEST(AzimuthOrder, SeesRingByRing) {
 TEST(AzimuthOrder, SeesThatShuffledPointsHaveNone) {
   auto seen = test::SeePoints({}, 0);
   std::shuffle(seen.begin(), seen.end(), std::mt19937(1));
-  const Cloud cloud = Make(seen);
+  const Cloud cloud = CloudOf(seen);
   EXPECT_EQ(JudgeOrder(cloud.points, cloud.rings).order, PointOrder::kNone);
   EXPECT_EQ(JudgeOrder(cloud.points, {}).order, PointOrder::kNone);
 }
 
 TEST(AzimuthOrder, MeasuresCoverage) {
-  EXPECT_EQ(CoverageOfCircle(Make(test::SeePoints({}, 0)).points), 1.0);
+  EXPECT_EQ(CoverageOfCircle(CloudOf(test::SeePoints({}, 0)).points), 1.0);
   const auto quarter = test::SeePoints({.num_columns = 80, .columns_per_turn = 356}, 0);
-  EXPECT_NEAR(CoverageOfCircle(Make(quarter).points), 0.25, 0.03);
+  EXPECT_NEAR(CoverageOfCircle(CloudOf(quarter).points), 0.25, 0.03);
   EXPECT_EQ(CoverageOfCircle(CloudPoints()), 0.0);
 }
 

@@ -10,9 +10,8 @@ namespace lio {
 namespace {
 
 using test::AsFired;
+using test::kTurn_rad;
 using test::WorstError;
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Float coordinates at 10 m are accurate to 1 um, which is an azimuth of 1e-7 rad and 2 ns. When
 // points come ring by ring, the start is that of the median ring, half a firing cycle off.
@@ -74,7 +73,7 @@ TEST(AzimuthTime, IsNotMisledByStrayPoints) {
 
 TEST(SpinRate, FollowsTheHeadAndLeavesOutLostSweeps) {
   test::SpinningLidar lidar;
-  SpinRate rate(kTurn / 0.1);
+  SpinRate rate(kTurn_rad / 0.1);
   lidar.turn_s = 0.102;
   for (int k = 0; k < 200; ++k) {
     if (k % 7 == 3) continue;
@@ -82,11 +81,11 @@ TEST(SpinRate, FollowsTheHeadAndLeavesOutLostSweeps) {
     SpinModel model;
     rate.Add(cloud.start, UnwrapAzimuth(model, cloud.points, cloud.rings), -1.0);
   }
-  EXPECT_NEAR(rate.radps(), kTurn / 0.102, 0.01);
+  EXPECT_NEAR(rate.radps(), kTurn_rad / 0.102, 0.01);
 }
 
 TEST(TurnBetween, PicksTheTurnNearestToWhatTheSweepCovers) {
-  const double degree = kTurn / 360.0;
+  const double degree = kTurn_rad / 360.0;
   EXPECT_NEAR(TurnBetween(-37 * degree, -39.4 * degree, 362 * degree, -1.0), 362.4 * degree, 1e-9);
   EXPECT_NEAR(TurnBetween(179 * degree, -179 * degree, 178 * degree, 1.0), 2 * degree, 1e-9);
 }

@@ -15,7 +15,7 @@ namespace {
 using test::SeenPoint;
 using test::TestCloud;
 
-constexpr Timestamp kStamp{1'556'268'000'000'000'000};
+constexpr Timestamp kCloudStamp{1'556'268'000'000'000'000};
 
 CloudRules SecondsFromStamp() {
   CloudRules rules;
@@ -24,8 +24,8 @@ CloudRules SecondsFromStamp() {
 }
 
 // Holds a message's bytes and the cloud that is read from them.
-struct Message {
-  explicit Message(const TestCloud& cloud)
+struct DecodedMessage {
+  explicit DecodedMessage(const TestCloud& cloud)
       : bytes(test::CloudMessage(cloud)),
         decoded(DecodeRosCloud(bytes, RosEncoding::kRos1).value()) {}
   std::vector<std::uint8_t> bytes;
@@ -33,21 +33,21 @@ struct Message {
 };
 
 CloudStatus Convert(const CloudRules& rules, const TestCloud& cloud, TimedSweep& sweep) {
-  return CloudToSweep(rules).Convert(Message(cloud).decoded, sweep);
+  return CloudToSweep(rules).Convert(DecodedMessage(cloud).decoded, sweep);
 }
 
 // Returns three points whose times do not ascend.
 TestCloud ThreePoints() {
-  return test::VelodyneCloud(kStamp, {{.x = 1, .y = 2, .z = 3, .ring = 7, .time_s = 0.25},
-                                      {.x = 4, .y = 5, .z = 6, .ring = 2, .time_s = 0.0},
-                                      {.x = 7, .y = 8, .z = 9, .ring = 5, .time_s = 0.125}});
+  return test::VelodyneCloud(kCloudStamp, {{.x = 1, .y = 2, .z = 3, .ring = 7, .time_s = 0.25},
+                                           {.x = 4, .y = 5, .z = 6, .ring = 2, .time_s = 0.0},
+                                           {.x = 7, .y = 8, .z = 9, .ring = 5, .time_s = 0.125}});
 }
 
 TEST(CloudToSweep, PointsAreSortedByTheirInstants) {
   TimedSweep sweep;
   ASSERT_EQ(Convert(SecondsFromStamp(), ThreePoints(), sweep), CloudStatus::kOk);
-  EXPECT_EQ(sweep.first, kStamp);
-  EXPECT_EQ(sweep.last, kStamp + Duration{250'000'000});
+  EXPECT_EQ(sweep.first, kCloudStamp);
+  EXPECT_EQ(sweep.last, kCloudStamp + Duration{250'000'000});
   ASSERT_EQ(sweep.points.size(), 3u);
   EXPECT_EQ(sweep.points[0].x_m, 4.0f);
   EXPECT_EQ(sweep.points[1].x_m, 7.0f);
@@ -87,7 +87,7 @@ TEST(CloudToSweep, WhatIsNoReturnIsLeftOutAndCounted) {
   const CloudRules rules = SecondsFromStamp();
   CloudToSweep converter(rules);
   TimedSweep sweep;
-  ASSERT_EQ(converter.Convert(Message(cloud).decoded, sweep), CloudStatus::kOk);
+  ASSERT_EQ(converter.Convert(DecodedMessage(cloud).decoded, sweep), CloudStatus::kOk);
   EXPECT_EQ(sweep.points.size(), 1u);
   EXPECT_EQ(converter.points().num_nonfinite, 1);
   EXPECT_EQ(converter.points().num_zero, 1);
@@ -95,7 +95,7 @@ TEST(CloudToSweep, WhatIsNoReturnIsLeftOutAndCounted) {
 
 TEST(CloudToSweep, ACloudWithoutAReturnIsEmpty) {
   TimedSweep sweep;
-  EXPECT_EQ(Convert(SecondsFromStamp(), test::VelodyneCloud(kStamp, {}), sweep),
+  EXPECT_EQ(Convert(SecondsFromStamp(), test::VelodyneCloud(kCloudStamp, {}), sweep),
             CloudStatus::kEmpty);
 }
 
@@ -144,11 +144,12 @@ TEST(CloudToSweep, AzimuthTellsTimeWhereNoFieldDoes) {
     TimedSweep sweep;
     ASSERT_EQ(
         converter.Convert(
-            Message(test::VelodyneCloud(kStamp + Duration::FromSeconds(stamp_s), seen)).decoded,
+            DecodedMessage(test::VelodyneCloud(kCloudStamp + Duration::FromSeconds(stamp_s), seen))
+                .decoded,
             sweep),
         CloudStatus::kOk);
-    EXPECT_NEAR(SecondsBetween(kStamp, sweep.first), 0.0, 1e-6);
-    EXPECT_NEAR(SecondsBetween(kStamp, sweep.last), seen.back().time_s, 1e-6);
+    EXPECT_NEAR(SecondsBetween(kCloudStamp, sweep.first), 0.0, 1e-6);
+    EXPECT_NEAR(SecondsBetween(kCloudStamp, sweep.last), seen.back().time_s, 1e-6);
     for (std::size_t i = 0; i < seen.size(); ++i) {
       ASSERT_NEAR(1e-9 * sweep.points[i].t_offset_ns, seen[i].time_s, 1e-6) << i;
     }
@@ -160,7 +161,7 @@ TEST(CloudToSweep, ASpinTooSlowForASweepIsRefused) {
   CloudRules rules = BySpin(StampMeaning::kSweepStart);
   rules.spin.rate_radps = 2.0 * std::numbers::pi * 0.7;
   TimedSweep sweep;
-  EXPECT_EQ(Convert(rules, test::VelodyneCloud(kStamp, SpunPoints(0)), sweep),
+  EXPECT_EQ(Convert(rules, test::VelodyneCloud(kCloudStamp, SpunPoints(0)), sweep),
             CloudStatus::kBadTime);
 }
 

@@ -12,12 +12,12 @@
 namespace lio {
 namespace {
 
-constexpr Timestamp kStamp{1'700'000'000'250'000'000};
-const ImuSample kSample{kStamp, {0.1, -0.2, 0.3}, {1.0, 2.0, 9.8}};
+constexpr Timestamp kFirstStamp{1'700'000'000'250'000'000};
+const ImuSample kSample{kFirstStamp, {0.1, -0.2, 0.3}, {1.0, 2.0, 9.8}};
 
 void ExpectSample(const ImuFile& imu) {
   ASSERT_EQ(imu.samples.size(), 1u);
-  EXPECT_EQ(imu.samples[0].sample.stamp, kStamp);
+  EXPECT_EQ(imu.samples[0].sample.stamp, kFirstStamp);
   EXPECT_EQ(imu.samples[0].sample.w_imu_radps, kSample.w_imu_radps);
   EXPECT_EQ(imu.samples[0].sample.f_imu_mps2, kSample.f_imu_mps2);
 }
@@ -46,11 +46,11 @@ TEST(ImuFile, ALogAndABagAreReadToo) {
   const test::TempDir dir;
   {
     EventLogWriter log(dir.path() / "imu.lcm");
-    log.Write(kStamp.Microseconds(), "LIO_IMU", EncodeImu(kSample, 0));
-    log.Write(kStamp.Microseconds(), "LIO_IMU", {});
+    log.Write(kFirstStamp.Microseconds(), "LIO_IMU", EncodeImu(kSample, 0));
+    log.Write(kFirstStamp.Microseconds(), "LIO_IMU", {});
     log.Close();
     test::Bag1Writer bag(dir.path() / "imu.bag");
-    bag.Write("/imu", "sensor_msgs/Imu", kStamp, test::ImuMessage(kSample));
+    bag.Write("/imu", "sensor_msgs/Imu", kFirstStamp, test::ImuMessage(kSample));
     bag.Close();
   }
   const ImuFile of_log = ReadImuFile(dir.path() / "imu.lcm");
@@ -67,8 +67,8 @@ TEST(ImuFile, WhatHasNoSampleIsRefused) {
   EXPECT_THROW((void)ReadImuFile(dir.Write("imu.csv", "some\nother\ntext\n")), InputError);
   EXPECT_THROW((void)ReadImuFile("/no/such.csv"), InputError);
   test::Bag1Writer bag(dir.path() / "two.bag");
-  bag.Write("/left", "sensor_msgs/Imu", kStamp, test::ImuMessage(kSample));
-  bag.Write("/right", "sensor_msgs/Imu", kStamp, test::ImuMessage(kSample));
+  bag.Write("/left", "sensor_msgs/Imu", kFirstStamp, test::ImuMessage(kSample));
+  bag.Write("/right", "sensor_msgs/Imu", kFirstStamp, test::ImuMessage(kSample));
   bag.Close();
   EXPECT_THROW((void)ReadImuFile(dir.path() / "two.bag"), UsageError);
 }

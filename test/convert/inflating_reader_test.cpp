@@ -11,20 +11,20 @@
 namespace lio {
 namespace {
 
-constexpr Timestamp kReceived{1'600'000'000'000'000'000};
+using test::kReceived;
 
-std::vector<std::uint8_t> Bytes(const std::string& text) {
+std::vector<std::uint8_t> BytesOf(const std::string& text) {
   return {text.begin(), text.end()};
 }
 
 TEST(InflatingReader, EachMessageIsInflatedAndADamagedOneIsCounted) {
   const test::TempDir dir;
   test::Bag2Writer bag(dir.path() / "drive");
-  bag.Write("/one", "std_msgs/msg/String", kReceived, Bytes(test::ZstdFrame("first")));
-  bag.Write("/one", "std_msgs/msg/String", kReceived, Bytes("no frame"));
+  bag.Write("/one", "std_msgs/msg/String", kReceived, BytesOf(test::ZstdFrame("first")));
+  bag.Write("/one", "std_msgs/msg/String", kReceived, BytesOf("no frame"));
   const std::string cut = test::ZstdFrame(std::string(5000, 'x'));
-  bag.Write("/one", "std_msgs/msg/String", kReceived, Bytes(cut.substr(0, cut.size() - 3)));
-  bag.Write("/one", "std_msgs/msg/String", kReceived, Bytes(test::ZstdFrame("last")));
+  bag.Write("/one", "std_msgs/msg/String", kReceived, BytesOf(cut.substr(0, cut.size() - 3)));
+  bag.Write("/one", "std_msgs/msg/String", kReceived, BytesOf(test::ZstdFrame("last")));
   bag.Close();
   dir.Write("drive/metadata.yaml",
             test::WithCompression(test::ReadText(dir.path() / "drive/metadata.yaml"), "MESSAGE"));

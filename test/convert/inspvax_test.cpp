@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 // This is 2019-01-17 03:00:00 UTC: GPS week 2036, a Thursday.
-constexpr Timestamp kReceived{1'547'694'000'000'000'000};
+constexpr Timestamp kThursdayMorning{1'547'694'000'000'000'000};
 constexpr double kWeek = 2036.0;
 constexpr double kSecondsOfWeek = 4 * 86'400 + 3 * 3'600 + 18.0;
 
@@ -29,9 +29,9 @@ RosNumbers Oem7() {
 }
 
 TEST(Inspvax, StampIsUtcOfGpsTime) {
-  const auto row = ToInspvaxRow(Oem7(), kReceived);
+  const auto row = ToInspvaxRow(Oem7(), kThursdayMorning);
   ASSERT_TRUE(row);
-  EXPECT_NEAR(SecondsBetween(kReceived, row->stamp), 0.25, 1e-9);
+  EXPECT_NEAR(SecondsBetween(kThursdayMorning, row->stamp), 0.25, 1e-9);
   EXPECT_EQ(row->ins_status, kInsSolutionGood);
   EXPECT_NEAR(row->latitude_rad, 22.3 * kDegree, 1e-12);
   EXPECT_NEAR(row->ellipsoid_height_m, 2.5, 1e-12);
@@ -49,14 +49,14 @@ TEST(Inspvax, ReadsOtherDriversNamesAndUnits) {
   numbers["status[0]"] = 3.0;
   for (const char* name : {"status[1]", "status[2]", "status[3]"}) numbers[name] = 0.0;
   numbers["altitude"] = 5.0;
-  const auto milliseconds = ToInspvaxRow(numbers, kReceived);
+  const auto milliseconds = ToInspvaxRow(numbers, kThursdayMorning);
   ASSERT_TRUE(milliseconds);
-  EXPECT_NEAR(SecondsBetween(kReceived, milliseconds->stamp), 0.0, 1e-9);
+  EXPECT_NEAR(SecondsBetween(kThursdayMorning, milliseconds->stamp), 0.0, 1e-9);
   EXPECT_EQ(milliseconds->ins_status, 3);
   numbers["header.gps_week_seconds"] = kSecondsOfWeek;
-  const auto seconds = ToInspvaxRow(numbers, kReceived);
+  const auto seconds = ToInspvaxRow(numbers, kThursdayMorning);
   ASSERT_TRUE(seconds);
-  EXPECT_NEAR(SecondsBetween(kReceived, seconds->stamp), 0.0, 1e-9);
+  EXPECT_NEAR(SecondsBetween(kThursdayMorning, seconds->stamp), 0.0, 1e-9);
 }
 
 TEST(Inspvax, RefusesRowsWithHoles) {
@@ -64,11 +64,11 @@ TEST(Inspvax, RefusesRowsWithHoles) {
     if (name == "undulation") continue;
     RosNumbers numbers = Oem7();
     numbers.erase(name);
-    EXPECT_FALSE(ToInspvaxRow(numbers, kReceived)) << name;
+    EXPECT_FALSE(ToInspvaxRow(numbers, kThursdayMorning)) << name;
   }
   RosNumbers numbers = Oem7();
   numbers["latitude"] = 1e300;
-  EXPECT_FALSE(ToInspvaxRow(numbers, kReceived));
+  EXPECT_FALSE(ToInspvaxRow(numbers, kThursdayMorning));
 }
 
 TEST(Inspvax, KnowsLeapSeconds) {

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-Timestamp At(int second) {
+Timestamp AtSecond(int second) {
   return {1'700'000'000'000'000'000 + second * 1'000'000'000LL};
 }
 
@@ -28,7 +28,7 @@ class JoinedBagsTest : public ::testing::Test {
     options.with_index = with_index;
     test::Bag1Writer bag(dir_.path() / name, options);
     for (const int second : seconds) {
-      bag.Write(topic, "std_msgs/Byte", At(second), {static_cast<std::uint8_t>(second)});
+      bag.Write(topic, "std_msgs/Byte", AtSecond(second), {static_cast<std::uint8_t>(second)});
     }
     bag.Close();
   }
@@ -50,7 +50,7 @@ TEST_F(JoinedBagsTest, PartsComeInTheOrderOfTheirTimesNotOfTheirNames) {
   EXPECT_TRUE(bag->knows_all_topics());
   ASSERT_EQ(bag->topics().size(), 2u);
   EXPECT_THAT(ReadAll(*bag), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_EQ(bag->begin_time(), At(1));
+  EXPECT_EQ(bag->begin_time(), AtSecond(1));
   EXPECT_EQ(bag->position_bytes(), bag->size_bytes());
   EXPECT_FALSE(bag->damage().Any());
   BagMessage message;
@@ -85,8 +85,8 @@ class JoinedMcapTest : public JoinedBagsTest {
   void WritePart(const std::string& name, const std::vector<int>& seconds) {
     test::McapWriter part(dir_.path() / name, {.compression = "zstd"});
     for (const int second : seconds) {
-      part.Write("/a", "std_msgs/Byte", At(second), {static_cast<std::uint8_t>(second)});
-      part.Write("/b", "std_msgs/Byte", At(second), {100});
+      part.Write("/a", "std_msgs/Byte", AtSecond(second), {static_cast<std::uint8_t>(second)});
+      part.Write("/b", "std_msgs/Byte", AtSecond(second), {100});
     }
     part.Close();
   }

@@ -16,7 +16,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumScans = 4;
+constexpr int kNumSequenceScans = 4;
 // The camera's axes are z forward, x right, y down; it is 27 cm behind the lidar and 8 cm below.
 const Pose kCameraLidar = {Quaternion((Matrix3() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished()),
                            {0.0, -0.08, -0.27}};
@@ -36,7 +36,7 @@ class KittiOdometry : public testing::Test {
  protected:
   KittiOdometry() {
     std::string times, poses;
-    for (int k = 0; k < kNumScans; ++k) {
+    for (int k = 0; k < kNumSequenceScans; ++k) {
       times += fmt::format("{:e}\n", 0.1037 * k);
       // The lidar drives forward and turns; the file holds the camera's poses.
       T_lidar0_lidar_.push_back({ExpSo3({0.0, 0.01 * k, 0.1 * k}), {1.0 * k, 0.1 * k * k, 0.0}});
@@ -65,8 +65,8 @@ TEST_F(KittiOdometry, ScansHaveOneInstantEach) {
   EXPECT_FALSE(report.IsDamaged());
   const auto log = test::ReadLioLog(options_.output);
   EXPECT_TRUE(log.imu.empty());
-  ASSERT_EQ(log.sweeps.size(), static_cast<std::size_t>(kNumScans));
-  for (int k = 0; k < kNumScans; ++k) {
+  ASSERT_EQ(log.sweeps.size(), static_cast<std::size_t>(kNumSequenceScans));
+  for (int k = 0; k < kNumSequenceScans; ++k) {
     const auto& sweep = log.sweeps[static_cast<std::size_t>(k)];
     ASSERT_EQ(sweep.points.size(), 3u);
     for (const auto& point : sweep.points) EXPECT_EQ(point.instant_ns, 103'700'000 * k);
@@ -77,9 +77,9 @@ TEST_F(KittiOdometry, ScansHaveOneInstantEach) {
 
 TEST_F(KittiOdometry, PosesAreTurnedIntoTheLidarsFrame) {
   const KittiOdometryReport report = ConvertKittiOdometry(options_);
-  EXPECT_EQ(report.num_truth_rows, kNumScans);
+  EXPECT_EQ(report.num_truth_rows, kNumSequenceScans);
   const Trajectory truth = ReadTrajectory(*options_.truth_file);
-  ASSERT_EQ(truth.poses.size(), static_cast<std::size_t>(kNumScans));
+  ASSERT_EQ(truth.poses.size(), static_cast<std::size_t>(kNumSequenceScans));
   for (std::size_t k = 0; k < truth.poses.size(); ++k) {
     EXPECT_EQ(truth.poses[k].stamp.ns, 103'700'000 * static_cast<std::int64_t>(k));
     EXPECT_TRUE(truth.poses[k].pose.translation.isApprox(T_lidar0_lidar_[k].translation, 1e-6));
@@ -92,7 +92,7 @@ TEST_F(KittiOdometry, PosesCanBeNamed) {
   std::filesystem::rename(dir_.path() / "poses/05.txt", dir_.path() / "mine.txt");
   EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
   options_.poses_file = dir_.path() / "mine.txt";
-  EXPECT_EQ(ConvertKittiOdometry(options_).num_truth_rows, kNumScans);
+  EXPECT_EQ(ConvertKittiOdometry(options_).num_truth_rows, kNumSequenceScans);
   options_.poses_file = dir_.path() / "none.txt";
   EXPECT_THROW((void)ConvertKittiOdometry(options_), InputError);
 }

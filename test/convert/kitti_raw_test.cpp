@@ -18,14 +18,14 @@
 namespace lio {
 namespace {
 
-constexpr int kNumScans = 6;
+constexpr int kNumDriveScans = 6;
 constexpr int kNumOxts = 8;
-constexpr double kTurn = 0.104;
+constexpr double kTurn_s = 0.104;
 
 std::string Stamp(double seconds) {
   return fmt::format("2011-09-26 13:04:{:012.9f}\n", seconds);
 }
-Timestamp At(double seconds) {
+Timestamp StampOfDrive(double seconds) {
   return Timestamp{1'317'042'240'000'000'000} + Duration::FromSeconds(seconds);
 }
 
@@ -35,10 +35,10 @@ class KittiRaw : public testing::Test {
  protected:
   KittiRaw() {
     std::string stamps, starts, ends, oxts;
-    for (int k = 0; k < kNumScans; ++k) {
-      stamps += Stamp(20.0 + k * kTurn);
-      starts += Stamp(20.0 + (k - 0.5) * kTurn);
-      ends += Stamp(20.0 + (k + 0.5) * kTurn);
+    for (int k = 0; k < kNumDriveScans; ++k) {
+      stamps += Stamp(20.0 + k * kTurn_s);
+      starts += Stamp(20.0 + (k - 0.5) * kTurn_s);
+      ends += Stamp(20.0 + (k + 0.5) * kTurn_s);
       dir_.Write(fmt::format("day/drive/velodyne_points/data/{:010}.bin", k), Scan());
     }
     for (int k = 0; k < kNumOxts; ++k) {
@@ -83,14 +83,14 @@ TEST_F(KittiRaw, PointTimesFollowTheClockwiseTurn) {
   const KittiRawReport report = ConvertKittiRaw(options_);
   EXPECT_FALSE(report.IsDamaged());
   const auto log = test::ReadLioLog(options_.output);
-  ASSERT_EQ(log.sweeps.size(), static_cast<std::size_t>(kNumScans));
-  for (int k = 0; k < kNumScans; ++k) {
+  ASSERT_EQ(log.sweeps.size(), static_cast<std::size_t>(kNumDriveScans));
+  for (int k = 0; k < kNumDriveScans; ++k) {
     const auto& points = log.sweeps[static_cast<std::size_t>(k)].points;
     ASSERT_EQ(points.size(), 720u);
     for (const auto& logged : points) {
       const double azimuth = std::atan2(logged.point.y_m, logged.point.x_m);
-      const double expected = 20.0 + k * kTurn - azimuth / (2 * std::numbers::pi) * kTurn;
-      EXPECT_NEAR(SecondsBetween(At(0), Timestamp{logged.instant_ns}), expected, 2e-8);
+      const double expected = 20.0 + k * kTurn_s - azimuth / (2 * std::numbers::pi) * kTurn_s;
+      EXPECT_NEAR(SecondsBetween(StampOfDrive(0), Timestamp{logged.instant_ns}), expected, 2e-8);
       EXPECT_EQ(logged.point.ring, logged.point.z_m == 0.0f ? 63 : 62);
       EXPECT_EQ(logged.point.intensity, 64);
     }
@@ -105,7 +105,7 @@ TEST_F(KittiRaw, ImuIsTheOxtsAtItsOwnStamps) {
   ASSERT_EQ(log.imu.size(), static_cast<std::size_t>(kNumOxts));
   for (int k = 0; k < kNumOxts; ++k) {
     const auto& imu = log.imu[static_cast<std::size_t>(k)];
-    EXPECT_EQ(imu.event_utime, At(20.015 + 0.1 * k).Microseconds());
+    EXPECT_EQ(imu.event_utime, StampOfDrive(20.015 + 0.1 * k).Microseconds());
     EXPECT_NEAR(imu.sample.f_imu_mps2.z(), 9.8 + 0.1 * k, 1e-12);
     EXPECT_EQ(imu.sample.f_imu_mps2.x(), 0.3);
     EXPECT_NEAR(imu.sample.w_imu_radps.z(), 0.01 * k, 1e-12);
@@ -118,8 +118,8 @@ TEST_F(KittiRaw, ImuRateInterpolatesLinearly) {
   const auto log = test::ReadLioLog(options_.output);
   ASSERT_EQ(log.imu.size(), 71u);
   for (std::size_t i = 0; i < log.imu.size(); ++i) {
-    EXPECT_NEAR(SecondsBetween(At(20.015), log.imu[i].sample.stamp), 0.01 * static_cast<double>(i),
-                1e-6);
+    EXPECT_NEAR(SecondsBetween(StampOfDrive(20.015), log.imu[i].sample.stamp),
+                0.01 * static_cast<double>(i), 1e-6);
     EXPECT_NEAR(log.imu[i].sample.f_imu_mps2.z(), 9.8 + 0.01 * static_cast<double>(i), 1e-6);
   }
 }
@@ -130,7 +130,7 @@ TEST_F(KittiRaw, TruthIntegratesVelocityFromTheFirstPacket) {
   const Trajectory truth = ReadTrajectory(*options_.truth_file);
   ASSERT_EQ(truth.poses.size(), static_cast<std::size_t>(kNumOxts));
   EXPECT_TRUE(truth.poses[0].pose.translation.isZero(1e-9));
-  EXPECT_EQ(truth.poses[0].stamp, At(20.015));
+  EXPECT_EQ(truth.poses[0].stamp, StampOfDrive(20.015));
   const Vector3& end = truth.poses.back().pose.translation;
   EXPECT_NEAR(end.x(), 0.7 * (5.0 + 12.0) / 2.0, 1e-6);  // east
   EXPECT_NEAR(end.y(), 0.7 * 0.5, 1e-6);                 // north
@@ -161,10 +161,10 @@ TEST_F(KittiRaw, RigWithoutCalibrationIsRefused) {
 
 TEST_F(KittiRaw, TheDaysFolderServesWhenItHasOneDrive) {
   options_.drive = dir_.path() / "day";
-  EXPECT_EQ(ConvertKittiRaw(options_).lidar.num(), kNumScans);
+  EXPECT_EQ(ConvertKittiRaw(options_).lidar.num(), kNumDriveScans);
   options_.drive = dir_.path() / "day/drive/";
   options_.rig_file = dir_.path() / "rig.yaml";
-  EXPECT_EQ(ConvertKittiRaw(options_).lidar.num(), kNumScans);
+  EXPECT_EQ(ConvertKittiRaw(options_).lidar.num(), kNumDriveScans);
   std::filesystem::copy(dir_.path() / "day/drive", dir_.path() / "day/drive2",
                         std::filesystem::copy_options::recursive);
   options_.drive = dir_.path() / "day";
@@ -186,7 +186,7 @@ TEST_F(KittiRaw, MissingAndCutScansAreCountedAndTheRestConverted) {
 }
 
 TEST_F(KittiRaw, WithoutScansOrPacketsIsRefused) {
-  for (int k = 0; k < kNumScans; ++k) {
+  for (int k = 0; k < kNumDriveScans; ++k) {
     dir_.Write(fmt::format("day/drive/velodyne_points/data/{:010}.bin", k), "cut");
   }
   EXPECT_THROW((void)ConvertKittiRaw(options_), InputError);

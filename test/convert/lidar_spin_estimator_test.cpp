@@ -14,9 +14,8 @@ namespace lio {
 namespace {
 
 using test::AsFired;
+using test::kTurn_rad;
 using test::WorstError;
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 TEST(LidarSpinEstimator, LearnsTheRingsAzimuthOffsets) {
   test::SpinningLidar lidar{.num_rings = 8, .num_columns = 1810, .columns_per_turn = 1800};
@@ -46,7 +45,7 @@ TEST(LidarSpinEstimator, CutsUnorderedPointsBehindTheSensor) {
   }
   const SpinModel model = observer.Decide({});
   EXPECT_EQ(model.order, PointOrder::kNone);
-  EXPECT_NEAR(model.rate_radps, kTurn / 0.1, 0.01);
+  EXPECT_NEAR(model.rate_radps, kTurn_rad / 0.1, 0.01);
   const UnwrappedSweep sweep = UnwrapAzimuth(model, cloud.points, cloud.rings);
   for (std::size_t i = 0; i < cloud.seen.size(); ++i) {
     const double behind_first = std::numbers::pi - std::atan2(cloud.seen[i].y, cloud.seen[i].x);

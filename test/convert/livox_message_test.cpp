@@ -11,8 +11,9 @@ namespace lio {
 namespace {
 
 using test::RosBytes;
+using test::RosForm;
 
-constexpr Timestamp kStamp = test::kRecordingBegin;
+constexpr Timestamp kLivoxStamp = test::kRecordingBegin;
 
 struct LivoxPoint {
   std::uint32_t offset_ns = 0;
@@ -39,8 +40,8 @@ std::vector<LivoxPoint> Petal(int num) {
   return points;
 }
 
-std::vector<std::uint8_t> Message(Timestamp stamp, const std::vector<LivoxPoint>& points,
-                                  RosBytes bytes) {
+std::vector<std::uint8_t> LivoxBytes(Timestamp stamp, const std::vector<LivoxPoint>& points,
+                                     RosBytes bytes) {
   bytes.PutHeader(stamp, "livox_frame");
   bytes.Put(static_cast<std::uint64_t>(stamp.ns));
   bytes.Put(static_cast<std::uint32_t>(points.size()));
@@ -53,15 +54,10 @@ std::vector<std::uint8_t> Message(Timestamp stamp, const std::vector<LivoxPoint>
   return bytes.bytes();
 }
 
-struct Form {
-  RosEncoding encoding;
-  bool big_endian;
-};
-
-class LivoxMessage : public testing::TestWithParam<Form> {
+class LivoxMessage : public testing::TestWithParam<RosForm> {
  protected:
   std::vector<std::uint8_t> Encode(const std::vector<LivoxPoint>& points) const {
-    return Message(kStamp, points, RosBytes(GetParam().encoding, GetParam().big_endian));
+    return LivoxBytes(kLivoxStamp, points, RosBytes(GetParam().encoding, GetParam().big_endian));
   }
 };
 
@@ -70,7 +66,7 @@ TEST_P(LivoxMessage, APointKeepsPlaceTimeLineAndReflectivity) {
   const auto message = Encode(points);
   const auto cloud = DecodeLivox(message, GetParam().encoding);
   ASSERT_TRUE(cloud);
-  EXPECT_EQ(cloud->stamp, kStamp);
+  EXPECT_EQ(cloud->stamp, kLivoxStamp);
   CloudPoints read;
   ReadPoints(*cloud, *FindLayout(cloud->fields), read);
   EXPECT_EQ(read.num_zero, 10);
@@ -118,9 +114,9 @@ TEST_P(LivoxMessage, PointsThatTheFirstDriverTagsAsNoiseAreLeftOut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, LivoxMessage,
-                         testing::Values(Form{RosEncoding::kRos1, false},
-                                         Form{RosEncoding::kCdr, false},
-                                         Form{RosEncoding::kCdr, true}),
+                         testing::Values(RosForm{RosEncoding::kRos1, false},
+                                         RosForm{RosEncoding::kCdr, false},
+                                         RosForm{RosEncoding::kCdr, true}),
                          [](const auto& tested) {
                            return std::string(tested.param.encoding == RosEncoding::kRos1 ? "Ros1"
                                               : tested.param.big_endian ? "CdrBigEndian"
@@ -134,9 +130,9 @@ TEST_F(LivoxConversion, ScansBecomeSweepsWithTheTimesOfTheirPoints) {
   const std::vector<LivoxPoint> points = Petal(9'999);
   constexpr int kNumScans = 20;
   for (int k = 0; k < kNumScans; ++k) {
-    const Timestamp stamp = kStamp + Duration{100'000'000LL * k};
+    const Timestamp stamp = kLivoxStamp + Duration{100'000'000LL * k};
     writer.Write("/livox/lidar", "livox_ros_driver2/msg/CustomMsg", stamp + Duration{101'000'000},
-                 Message(stamp, points, RosBytes(RosEncoding::kCdr)));
+                 LivoxBytes(stamp, points, RosBytes(RosEncoding::kCdr)));
     writer.Write("/livox/imu", "sensor_msgs/msg/Imu", stamp,
                  test::ImuMessage({stamp, {}, {0, 0, 1}}, RosBytes(RosEncoding::kCdr)));
   }
@@ -151,7 +147,7 @@ TEST_F(LivoxConversion, ScansBecomeSweepsWithTheTimesOfTheirPoints) {
   ASSERT_EQ(sweep.size(), 8'000u);
   for (std::size_t i = 0; i < sweep.size(); i += 997) {
     const LivoxPoint& point = points[i / 4 * 5 + i % 4];
-    EXPECT_EQ(sweep[i].instant_ns, kStamp.ns + 700'000'000 + point.offset_ns);
+    EXPECT_EQ(sweep[i].instant_ns, kLivoxStamp.ns + 700'000'000 + point.offset_ns);
     EXPECT_EQ(sweep[i].point.x_m, point.x_m);
     EXPECT_EQ(sweep[i].point.ring, point.line);
   }

@@ -20,7 +20,7 @@ using test::McapWriter;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr Timestamp At(int i) {
+constexpr Timestamp NthStamp(int i) {
   return Timestamp{1'600'000'000'000'000'000 + i};
 }
 
@@ -49,7 +49,7 @@ class McapHostile : public testing::Test {
 
 TEST_F(McapHostile, EveryLengthMayBeHuge) {
   McapWriter writer(file_, {.compression = "", .chunk_bytes = 150});
-  for (int i = 0; i < 6; ++i) writer.Write("/a", "a/B", At(i), std::vector<std::uint8_t>(40));
+  for (int i = 0; i < 6; ++i) writer.Write("/a", "a/B", NthStamp(i), std::vector<std::uint8_t>(40));
   writer.Close();
   const std::string whole = test::ReadText(file_);
   for (const char byte : {'\x7f', '\xff'}) {
@@ -66,12 +66,12 @@ TEST_F(McapHostile, EveryLengthMayBeHuge) {
 TEST_F(McapHostile, AMessageThatInflatesBeyondAnyCloudIsDamageAndNotKept) {
   for (const char* compression : {"lz4", "zstd"}) {
     McapWriter writer(file_, {.compression = compression, .chunk_bytes = 5000});
-    writer.Write("/a", "a/B", At(0), {1});
-    writer.Write("/a", "a/B", At(1), std::vector<std::uint8_t>(100 << 20));
-    writer.Write("/a", "a/B", At(2), {3});
+    writer.Write("/a", "a/B", NthStamp(0), {1});
+    writer.Write("/a", "a/B", NthStamp(1), std::vector<std::uint8_t>(100 << 20));
+    writer.Write("/a", "a/B", NthStamp(2), {3});
     writer.Close();
     EXPECT_LT(std::filesystem::file_size(file_), 1'000'000u);
-    EXPECT_THAT(ReadAll(file_), ElementsAre(At(0), At(2))) << compression;
+    EXPECT_THAT(ReadAll(file_), ElementsAre(NthStamp(0), NthStamp(2))) << compression;
     EXPECT_EQ(damage_.num_messages_damaged, 1) << compression;
   }
 }
@@ -79,7 +79,7 @@ TEST_F(McapHostile, AMessageThatInflatesBeyondAnyCloudIsDamageAndNotKept) {
 // The chunk's header says 100 bytes.
 TEST_F(McapHostile, AChunkThatInflatesToMoreThanItSaysIsLeft) {
   McapWriter writer(file_, {.compression = "zstd", .chunk_bytes = 5000, .with_crc = false});
-  writer.Write("/a", "a/B", At(0), std::vector<std::uint8_t>(60 << 20));
+  writer.Write("/a", "a/B", NthStamp(0), std::vector<std::uint8_t>(60 << 20));
   writer.Close();
   std::string bytes = test::ReadText(file_);
   const std::size_t chunk = bytes.find('\x06', 8);
@@ -93,19 +93,19 @@ TEST_F(McapHostile, AChunkThatInflatesToMoreThanItSaysIsLeft) {
 
 TEST_F(McapHostile, UnknownRecordsArePassedOverAndUnknownCompressionIsNamed) {
   McapWriter writer(file_, {.compression = "snappy", .chunk_bytes = 1});
-  writer.Write("/a", "a/B", At(0), {1});
+  writer.Write("/a", "a/B", NthStamp(0), {1});
   writer.Close();
   EXPECT_TRUE(ReadAll(file_).empty());
   EXPECT_THAT(damage_.first_reason, HasSubstr("unknown compression 'snappy'"));
   for (const std::size_t chunk_bytes : {0, 10'000}) {
     McapWriter other(file_, {.compression = "", .chunk_bytes = chunk_bytes});
-    other.Write("/a", "a/B", At(0), {1});
+    other.Write("/a", "a/B", NthStamp(0), {1});
     for (const int op : {0x09, 0x0c, 0x10, 0x80, 0xff}) {
       other.WriteRecord(static_cast<std::uint8_t>(op), {1, 2, 3});
     }
-    other.Write("/a", "a/B", At(1), {1});
+    other.Write("/a", "a/B", NthStamp(1), {1});
     other.Close();
-    EXPECT_THAT(ReadAll(file_), ElementsAre(At(0), At(1)));
+    EXPECT_THAT(ReadAll(file_), ElementsAre(NthStamp(0), NthStamp(1)));
     EXPECT_FALSE(damage_.Any()) << damage_.first_reason;
   }
 }
@@ -113,23 +113,23 @@ TEST_F(McapHostile, UnknownRecordsArePassedOverAndUnknownCompressionIsNamed) {
 TEST_F(McapHostile, RecordsThatAreTooShortOrNameNoTopicAreCounted) {
   for (const std::size_t chunk_bytes : {0, 10'000}) {
     McapWriter writer(file_, {.compression = "", .chunk_bytes = chunk_bytes});
-    writer.Write("/a", "a/B", At(0), {1});
+    writer.Write("/a", "a/B", NthStamp(0), {1});
     writer.WriteRecord(0x05, {1, 0});                            // a message without its header
     writer.WriteRecord(0x05, std::vector<std::uint8_t>(30, 9));  // of channel 0x0909
     writer.WriteRecord(0x03, {1, 0, 4, 0, 0, 0, 'a'});           // a schema whose name is cut
     writer.Write("/a", "a/B", Timestamp{-1}, {1});               // in the year 2554
-    writer.Write("/a", "a/B", At(1), {1});
+    writer.Write("/a", "a/B", NthStamp(1), {1});
     writer.Close();
-    EXPECT_THAT(ReadAll(file_), ElementsAre(At(0), At(1))) << chunk_bytes;
+    EXPECT_THAT(ReadAll(file_), ElementsAre(NthStamp(0), NthStamp(1))) << chunk_bytes;
     EXPECT_EQ(damage_.num_messages_damaged, 4) << chunk_bytes;
   }
 }
 
 TEST_F(McapHostile, NamesThatATerminalWouldObeyAreEscaped) {
   McapWriter writer(file_, {});
-  writer.Write("/velo\x1b[31m\nall is well", "a/B\x07", At(0), {1});
+  writer.Write("/velo\x1b[31m\nall is well", "a/B\x07", NthStamp(0), {1});
   writer.Close();
-  EXPECT_THAT(ReadAll(file_), ElementsAre(At(0)));
+  EXPECT_THAT(ReadAll(file_), ElementsAre(NthStamp(0)));
   EXPECT_EQ(topics_[0].name, "/velo\\x1b[31m\\nall is well");
   EXPECT_EQ(topics_[0].type, "a/B\\x07");
 }

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
+#include "convert/numbered_messages.hpp"
 #include "lio/convert/ros_cursor.hpp"
 #include "lio/io/input_error.hpp"
 #include "support/mcap_writer.hpp"
@@ -16,36 +16,21 @@
 namespace lio {
 namespace {
 
+using test::kNumNumbered;
 using test::McapWriter;
+using test::NumberedPayload;
+using test::ReadBack;
+using test::ReceivedAt;
 using ::testing::HasSubstr;
 
-constexpr int kNumMessages = 200;
-
-Timestamp ReceivedAt(int i) {
-  return Timestamp{1'600'000'000'000'000'000 + i * 10'000'000};
-}
-
-// Message `i` holds 200 + i bytes that no compression makes smaller, on one of two topics.
-std::vector<std::uint8_t> Payload(int i) {
-  std::minstd_rand random(static_cast<unsigned>(i + 1));
-  std::vector<std::uint8_t> payload(static_cast<std::size_t>(200 + i));
-  for (std::uint8_t& byte : payload) byte = static_cast<std::uint8_t>(random() >> 8);
-  return payload;
-}
-
-struct ReadBack {
-  int num = 0;
-  bool all_right = true;  // each message is one of those written, later than the one before
-  BagDamage damage;
-};
-
-ReadBack ReadAll(const std::filesystem::path& path) {
+// All is right if each message is one of those written, later than the one before.
+ReadBack ReadMcap(const std::filesystem::path& path) {
   const auto bag = OpenMcap(path);
   ReadBack result;
   int next = 0;
   for (BagMessage message; bag->Next(message); ++result.num) {
-    while (next < kNumMessages && ReceivedAt(next) < message.received) ++next;
-    const std::vector<std::uint8_t> expected = Payload(next);
+    while (next < kNumNumbered && ReceivedAt(next) < message.received) ++next;
+    const std::vector<std::uint8_t> expected = NumberedPayload(next);
     result.all_right &= message.received == ReceivedAt(next) &&
                         std::ranges::equal(message.data, expected) &&
                         bag->topics()[message.topic].name == (next % 2 == 0 ? "/even" : "/odd");
@@ -62,9 +47,9 @@ class McapReaderTest : public testing::TestWithParam<std::string> {
   }
   void Write(const McapWriter::Options& options, bool is_closed = true) {
     McapWriter writer(file_, options);
-    for (int i = 0; i < kNumMessages; ++i) {
+    for (int i = 0; i < kNumNumbered; ++i) {
       writer.Write(i % 2 == 0 ? "/even" : "/odd", i % 2 == 0 ? "a/Even" : "a/Odd", ReceivedAt(i),
-                   Payload(i), "float64 x");
+                   NumberedPayload(i), "float64 x");
     }
     is_closed ? writer.Close() : writer.FlushChunk();
   }
@@ -75,8 +60,8 @@ class McapReaderTest : public testing::TestWithParam<std::string> {
 
 TEST_P(McapReaderTest, GivesEveryMessageInOrder) {
   Write(Options());
-  const ReadBack read = ReadAll(file_);
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadMcap(file_);
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_FALSE(read.damage.Any()) << read.damage.first_reason;
   EXPECT_EQ(read.damage.lost_bytes, 0);
@@ -99,8 +84,8 @@ TEST_P(McapReaderTest, GivesSelectedTopicsOnlyAndCountsAll) {
   BagMessage message;
   int num = 0;
   for (; bag->Next(message); ++num) EXPECT_EQ(bag->topics()[message.topic].name, "/odd");
-  EXPECT_EQ(num, kNumMessages / 2);
-  EXPECT_EQ(bag->topics()[0].num_messages, kNumMessages / 2);
+  EXPECT_EQ(num, kNumNumbered / 2);
+  EXPECT_EQ(bag->topics()[0].num_messages, kNumNumbered / 2);
   EXPECT_EQ(bag->begin_time(), ReceivedAt(0));
   EXPECT_EQ(bag->position_bytes(), bag->size_bytes());
 }
@@ -110,8 +95,8 @@ TEST_P(McapReaderTest, NeedsNeitherSummaryNorChecksums) {
   options.with_summary = false;
   options.with_crc = false;
   Write(options);
-  const ReadBack read = ReadAll(file_);
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadMcap(file_);
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_FALSE(read.damage.Any()) << read.damage.first_reason;
   EXPECT_FALSE(OpenMcap(file_)->knows_all_topics());
@@ -119,8 +104,8 @@ TEST_P(McapReaderTest, NeedsNeitherSummaryNorChecksums) {
 
 TEST_P(McapReaderTest, AFileThatItsRecorderNeverClosedIsReadWholly) {
   Write(Options(), false);
-  const ReadBack read = ReadAll(file_);
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadMcap(file_);
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_TRUE(read.damage.not_closed);
   EXPECT_FALSE(read.damage.cut_short);
@@ -134,7 +119,7 @@ TEST_P(McapReaderTest, GivesEverythingBeforeACutAndSaysWhatIsLost) {
   ASSERT_NE(data_end, std::string::npos);
   int num_before = 0;
   for (std::size_t cut = 8; cut < data_end; cut += 1511) {
-    const ReadBack read = ReadAll(dir_.Write("cut.mcap", whole.substr(0, cut)));
+    const ReadBack read = ReadMcap(dir_.Write("cut.mcap", whole.substr(0, cut)));
     EXPECT_TRUE(read.all_right) << cut;
     EXPECT_GE(read.num, num_before) << cut;
     EXPECT_TRUE(read.damage.not_closed) << cut;
@@ -142,20 +127,20 @@ TEST_P(McapReaderTest, GivesEverythingBeforeACutAndSaysWhatIsLost) {
     EXPECT_LE(read.damage.lost_bytes, 12'000) << cut << ": more than a chunk";
     num_before = read.num;
   }
-  EXPECT_GE(num_before, kNumMessages - 20);
+  EXPECT_GE(num_before, kNumNumbered - 20);
 }
 
 TEST_P(McapReaderTest, NothingOfADamagedChunkIsTakenForSound) {
   Write(Options());
   std::string bytes = test::ReadText(file_);
   for (std::size_t i = bytes.size() / 3; i < bytes.size() / 3 + 40; ++i) bytes[i] ^= 0x55;
-  const ReadBack read = ReadAll(dir_.Write("broken.mcap", bytes));
+  const ReadBack read = ReadMcap(dir_.Write("broken.mcap", bytes));
   if (GetParam() == "unchunked") return;  // nothing is checked there
   EXPECT_TRUE(read.all_right);
-  EXPECT_LT(read.num, kNumMessages);
-  EXPECT_GT(read.num, kNumMessages - 30);
+  EXPECT_LT(read.num, kNumNumbered);
+  EXPECT_GT(read.num, kNumNumbered - 30);
   EXPECT_EQ(read.damage.num_chunks_damaged, 1);
-  EXPECT_EQ(read.damage.num_messages_missing, kNumMessages - read.num);
+  EXPECT_EQ(read.damage.num_messages_missing, kNumNumbered - read.num);
   EXPECT_GT(read.damage.lost_bytes, 0);
   EXPECT_FALSE(read.damage.cut_short);
   EXPECT_THAT(read.damage.first_reason, HasSubstr("checksum is wrong"));
@@ -167,10 +152,10 @@ TEST_P(McapReaderTest, AChunkWithoutChecksumIsReadUpToItsDamage) {
   Write(options);
   std::string bytes = test::ReadText(file_);
   for (std::size_t i = bytes.size() / 3; i < bytes.size() / 3 + 40; ++i) bytes[i] ^= 0x55;
-  const ReadBack read = ReadAll(dir_.Write("broken.mcap", bytes));
-  EXPECT_GE(read.num, kNumMessages - 30);
+  const ReadBack read = ReadMcap(dir_.Write("broken.mcap", bytes));
+  EXPECT_GE(read.num, kNumNumbered - 30);
   if (GetParam() != "zstd") return;  // the content may look sound
-  EXPECT_LT(read.num, kNumMessages);
+  EXPECT_LT(read.num, kNumNumbered);
   EXPECT_EQ(read.damage.num_chunks_damaged, 1);
   EXPECT_GT(read.damage.lost_bytes, 0);
 }
@@ -179,8 +164,8 @@ TEST_P(McapReaderTest, ADamagedSummaryIsNotBelieved) {
   Write(Options());
   std::string bytes = test::ReadText(file_);
   bytes[bytes.rfind("/odd")] = '!';
-  const ReadBack read = ReadAll(dir_.Write("summary.mcap", bytes));
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadMcap(dir_.Write("summary.mcap", bytes));
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_TRUE(read.damage.Any());
   EXPECT_THAT(read.damage.first_reason, HasSubstr("summary"));

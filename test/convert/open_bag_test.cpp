@@ -12,9 +12,8 @@
 namespace lio {
 namespace {
 
+using test::kReceived;
 using ::testing::HasSubstr;
-
-constexpr Timestamp kReceived{1'600'000'000'000'000'000};
 
 class OpenBagTest : public testing::Test {
  protected:

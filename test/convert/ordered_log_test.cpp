@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-Timestamp At(double seconds) {
+Timestamp StampOfLog(double seconds) {
   return Timestamp{1'000'000'000'000} + Duration::FromSeconds(seconds);
 }
 
@@ -20,7 +20,7 @@ struct Written {
   int id;
 };
 
-std::vector<Written> ReadBack(const std::filesystem::path& path) {
+std::vector<Written> ReadEvents(const std::filesystem::path& path) {
   EventLogReader reader(path);
   std::vector<Written> events;
   LogEvent event;
@@ -40,9 +40,10 @@ TEST(OrderedLog, SortsWhatComesALittleOutOfOrder) {
   OrderedLog log(dir.path() / "a.lcm");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> earlier(0.0, 0.9);
-  for (int i = 0; i < 2000; ++i) log.Add(At(0.01 * i - earlier(random)), kScanChannel, Id(i));
+  for (int i = 0; i < 2000; ++i)
+    log.Add(StampOfLog(0.01 * i - earlier(random)), kScanChannel, Id(i));
   log.Close();
-  const auto events = ReadBack(dir.path() / "a.lcm");
+  const auto events = ReadEvents(dir.path() / "a.lcm");
   ASSERT_EQ(events.size(), 2000u);
   for (std::size_t i = 1; i < events.size(); ++i) {
     EXPECT_GE(events[i].utime, events[i - 1].utime);
@@ -54,12 +55,12 @@ TEST(OrderedLog, SortsWhatComesALittleOutOfOrder) {
 TEST(OrderedLog, KeepsArrivalOrderOnTies) {
   const test::TempDir dir;
   OrderedLog log(dir.path() / "a.lcm");
-  log.Add(At(1.0), kImuChannel, Id(0));
-  log.Add(At(0.5), kImuChannel, Id(1));
-  for (int i = 2; i < 50; ++i) log.Add(At(1.0), i % 2 ? kImuChannel : kScanChannel, Id(i));
-  log.Add(At(1.0 + 9e-7), kImuChannel, Id(50));  // the same microsecond
+  log.Add(StampOfLog(1.0), kImuChannel, Id(0));
+  log.Add(StampOfLog(0.5), kImuChannel, Id(1));
+  for (int i = 2; i < 50; ++i) log.Add(StampOfLog(1.0), i % 2 ? kImuChannel : kScanChannel, Id(i));
+  log.Add(StampOfLog(1.0 + 9e-7), kImuChannel, Id(50));  // the same microsecond
   log.Close();
-  const auto events = ReadBack(dir.path() / "a.lcm");
+  const auto events = ReadEvents(dir.path() / "a.lcm");
   ASSERT_EQ(events.size(), 51u);
   EXPECT_EQ(events[0].id, 1);
   EXPECT_EQ(events[1].id, 0);
@@ -69,11 +70,11 @@ TEST(OrderedLog, KeepsArrivalOrderOnTies) {
 TEST(OrderedLog, StaysOrderedWhenAnEventIsTooLate) {
   const test::TempDir dir;
   OrderedLog log(dir.path() / "a.lcm");
-  for (int i = 0; i < 100; ++i) log.Add(At(0.1 * i), kImuChannel, Id(i));
-  log.Add(At(0.0), kScanChannel, Id(100));
+  for (int i = 0; i < 100; ++i) log.Add(StampOfLog(0.1 * i), kImuChannel, Id(i));
+  log.Add(StampOfLog(0.0), kScanChannel, Id(100));
   log.Close();
   EXPECT_EQ(log.num_late(), 1);
-  const auto events = ReadBack(dir.path() / "a.lcm");
+  const auto events = ReadEvents(dir.path() / "a.lcm");
   ASSERT_EQ(events.size(), 101u);
   for (std::size_t i = 1; i < events.size(); ++i) {
     EXPECT_GE(events[i].utime, events[i - 1].utime);
@@ -84,7 +85,7 @@ TEST(OrderedLog, WritesWhileItGoes) {
   const test::TempDir dir;
   const auto path = dir.path() / "a.lcm";
   OrderedLog log(path);
-  for (int i = 0; i < 1000; ++i) log.Add(At(0.1 * i), kScanChannel, Bytes(60'000));
+  for (int i = 0; i < 1000; ++i) log.Add(StampOfLog(0.1 * i), kScanChannel, Bytes(60'000));
   // The log has 100 s with 60 kB every 100 ms, of which at most 2 s are held back.
   EXPECT_GT(std::filesystem::file_size(path), 50'000'000u);
 }

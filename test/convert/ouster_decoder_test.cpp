@@ -16,16 +16,14 @@
 namespace lio {
 namespace {
 
+using test::ViewOf;
+
 using test::PacketBytes;
 
 constexpr std::size_t kBeams = 4;  // the format has as many as the metadata says
 constexpr int kColumns = 512;
 constexpr std::int64_t kBeginNs = 1'700'000'000'000'000'000;
 constexpr std::int64_t kColumnNs = 195'312;
-
-ByteView View(const std::string& bytes) {
-  return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
-}
 
 std::string Metadata(const std::string& profile) {
   return R"({"beam_intrinsics": {"beam_altitude_angles": [15.0, 5.0, -5.0, -15.0],
@@ -80,7 +78,7 @@ class Ouster : public testing::TestWithParam<OusterProfile> {
 TEST_P(Ouster, PointsAreWhereTheSensorsManualPutsThem) {
   OusterDecoder decoder(Read());
   for (int column = 0; column < 3 * kColumns; column += 16) {
-    decoder.Add(View(LidarPacket(GetParam(), column)), Timestamp{kBeginNs + column * kColumnNs});
+    decoder.Add(ViewOf(LidarPacket(GetParam(), column)), Timestamp{kBeginNs + column * kColumnNs});
   }
   decoder.Finish();
   const std::vector<Turn> turns = decoder.TakeTurns();
@@ -115,13 +113,13 @@ TEST_P(Ouster, DamageIsCountedAndNeverFollowed) {
   const std::string sound = LidarPacket(GetParam(), 0);
   std::mt19937 random(2);
   for (std::size_t size = 0; size < sound.size(); ++size) {
-    if (size != kOusterImuBytes) decoder.Add(View(sound.substr(0, size)), Timestamp{1});
+    if (size != kOusterImuBytes) decoder.Add(ViewOf(sound.substr(0, size)), Timestamp{1});
   }
   EXPECT_EQ(decoder.counts().num_taken, 0);
   for (int k = 0; k < 500; ++k) {
     std::string noise = sound;
     for (int n = 0; n < 40; ++n) noise[random() % noise.size()] = static_cast<char>(random());
-    decoder.Add(View(noise), Timestamp{1});
+    decoder.Add(ViewOf(noise), Timestamp{1});
   }
   EXPECT_EQ(decoder.counts().num_taken + decoder.counts().num_damaged, 500);
 }
@@ -133,7 +131,7 @@ TEST_P(Ouster, ItsImuIsInMetresAndRadians) {
   for (const float value : {0.0f, 0.5f, 1.0f, 90.0f, 0.0f, -180.0f}) {
     packet.Little(std::bit_cast<std::uint32_t>(value));
   }
-  decoder.Add(View(packet.bytes), Timestamp{99});
+  decoder.Add(ViewOf(packet.bytes), Timestamp{99});
   const auto imu = decoder.TakeImu();
   ASSERT_EQ(imu.size(), 1u);
   EXPECT_EQ(imu[0].sample.stamp, Timestamp{1'234'567});

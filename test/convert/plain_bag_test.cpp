@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Timestamp kReceived{1'600'000'000'000'000'000};
-constexpr int kNumMessages = 30;
+using test::kReceived;
+
+constexpr int kNumPlainMessages = 30;
 
 int CountMessages(const fs::path& path) {
   const auto bag = OpenBag(path);
@@ -34,8 +35,8 @@ class PlainBagTest : public testing::Test {
   // A bag of two files, each of which is compressed as a whole.
   fs::path WriteCompressed() {
     const fs::path folder = dir_.path() / "drive";
-    test::Bag2Writer bag(folder, kNumMessages / 2);
-    for (int i = 0; i < kNumMessages; ++i) {
+    test::Bag2Writer bag(folder, kNumPlainMessages / 2);
+    for (int i = 0; i < kNumPlainMessages; ++i) {
       bag.Write("/one", "std_msgs/msg/Byte", kReceived + Duration{i}, {1});
     }
     bag.Close();
@@ -61,7 +62,7 @@ TEST_F(PlainBagTest, AFolderIsReadWholeAndTheInflatedFilesGo) {
     const PlainBag plain(path);
     inflated = plain.path();
     EXPECT_NE(inflated, path);
-    EXPECT_EQ(CountMessages(inflated), kNumMessages);
+    EXPECT_EQ(CountMessages(inflated), kNumPlainMessages);
   }
   EXPECT_FALSE(fs::exists(inflated));
 }
@@ -70,10 +71,10 @@ TEST_F(PlainBagTest, AFolderWithoutMetadataAndASingleFileAreReadToo) {
   const fs::path folder = WriteCompressed();
   fs::remove(folder / "metadata.yaml");
   EXPECT_EQ(KindOf(folder), FileKind::kRosBag);
-  EXPECT_EQ(CountMessages(PlainBag(folder).path()), kNumMessages);
+  EXPECT_EQ(CountMessages(PlainBag(folder).path()), kNumPlainMessages);
   for (const auto& entry : fs::directory_iterator(folder)) {
     EXPECT_EQ(KindOf(entry.path()), FileKind::kRosBag);
-    EXPECT_EQ(CountMessages(PlainBag(entry.path()).path()), kNumMessages / 2);
+    EXPECT_EQ(CountMessages(PlainBag(entry.path()).path()), kNumPlainMessages / 2);
   }
 }
 

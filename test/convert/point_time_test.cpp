@@ -16,7 +16,7 @@ constexpr double kSweep = 0.1;
 
 // Describes sweeps that begin every 100 ms; the stamp is that of the start or of the end, and
 // clouds arrive `latency` after their end.
-struct Recording {
+struct StampedSweeps {
   double unit_s = 1.0;
   double first_s = 0.0;  // raw time of the first point, relative to the stamp or to an epoch
   bool stamp_is_end = false;
@@ -25,7 +25,7 @@ struct Recording {
   bool absolute = false;        // raw times are instants of the sensor's clock
 };
 
-std::vector<CloudObservation> Observe(const Recording& recording) {
+std::vector<CloudObservation> Observe(const StampedSweeps& recording) {
   std::vector<CloudObservation> clouds;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(0.0, 0.003);
@@ -46,7 +46,7 @@ std::vector<CloudObservation> Observe(const Recording& recording) {
   return clouds;
 }
 
-PointTimeRule Detect(const Recording& recording, const PointTimeWishes& wishes = {},
+PointTimeRule Detect(const StampedSweeps& recording, const PointTimeWishes& wishes = {},
                      std::optional<double> imu_delay_s = {}) {
   const auto rule = DetectPointTime(Observe(recording), wishes, imu_delay_s);
   EXPECT_TRUE(rule);
@@ -155,7 +155,7 @@ TEST(PointTime, AWishedStampOverrides) {
 }
 
 TEST(PointTime, AnotherClocksOffsetIsTakenFromTheImu) {
-  const Recording offset{.stamp_is_end = true, .clock_offset_s = 37.0};
+  const StampedSweeps offset{.stamp_is_end = true, .clock_offset_s = 37.0};
   EXPECT_EQ(Detect(offset, {}, 37.002).stamp, StampMeaning::kSweepEnd);
   EXPECT_EQ(Detect({.clock_offset_s = 37.0}, {}, 37.002).stamp, StampMeaning::kSweepStart);
   EXPECT_TRUE(Detect(offset).stamp_reason.starts_with("assumed"));

@@ -13,7 +13,7 @@ namespace {
 
 using test::Field;
 
-constexpr Timestamp kStamp{1'500'000'000'000'000'000};
+constexpr Timestamp kLayoutStamp{1'500'000'000'000'000'000};
 
 // Describes one driver's layout of the same four points.
 struct Layout {
@@ -29,8 +29,8 @@ std::vector<CloudField> Xyz(FieldType type = FieldType::kFloat32) {
   return {Field("x", 0, type), Field("y", size, type), Field("z", 2 * size, type)};
 }
 
-Layout Make(std::string name, std::vector<CloudField> more, std::uint32_t step, bool has_ring,
-            double time_per_second, FieldType xyz = FieldType::kFloat32) {
+Layout MakeLayout(std::string name, std::vector<CloudField> more, std::uint32_t step, bool has_ring,
+                  double time_per_second, FieldType xyz = FieldType::kFloat32) {
   std::vector<CloudField> fields = Xyz(xyz);
   fields.insert(fields.end(), more.begin(), more.end());
   return {std::move(name), fields, step, has_ring, time_per_second};
@@ -41,7 +41,7 @@ class PointLayouts : public testing::TestWithParam<std::tuple<Layout, bool>> {};
 TEST_P(PointLayouts, AreReadByNameTypeAndOffset) {
   const auto& [layout, big_endian] = GetParam();
   test::TestCloud cloud;
-  cloud.stamp = kStamp;
+  cloud.stamp = kLayoutStamp;
   cloud.fields = layout.fields;
   cloud.point_step = layout.point_step;
   cloud.big_endian = big_endian;
@@ -78,45 +78,52 @@ TEST_P(PointLayouts, AreReadByNameTypeAndOffset) {
 
 INSTANTIATE_TEST_SUITE_P(
     Drivers, PointLayouts,
-    testing::Combine(
-        testing::Values(
-            Make("velodyne_s",
-                 {Field("intensity", 12, FieldType::kFloat32),
-                  Field("ring", 16, FieldType::kUint16), Field("time", 18, FieldType::kFloat32)},
-                 22, true, 1.0),
-            Make("velodyne_us_float",
-                 {Field("intensity", 16, FieldType::kFloat32),
-                  Field("ring", 20, FieldType::kUint16), Field("time", 24, FieldType::kFloat32)},
-                 32, true, 1e6),
-            Make("velodyne_us_double",
-                 {Field("intensity", 16, FieldType::kFloat32),
-                  Field("time", 20, FieldType::kFloat64), Field("ring", 28, FieldType::kUint16)},
-                 32, true, 1e6),
-            Make("velodyne_us_uint",
-                 {Field("intensity", 12, FieldType::kUint8), Field("time", 13, FieldType::kUint32),
-                  Field("ring", 17, FieldType::kUint8)},
-                 18, true, 1e6),
-            Make("velodyne_old",
-                 {Field("intensity", 16, FieldType::kFloat32),
-                  Field("ring", 20, FieldType::kUint16)},
-                 32, true, 0.0),
-            Make("xyzi", {Field("intensity", 12, FieldType::kFloat32)}, 16, false, 0.0),
-            Make("ouster",
-                 {Field("intensity", 16, FieldType::kFloat32), Field("t", 20, FieldType::kUint32),
-                  Field("reflectivity", 24, FieldType::kUint16),
-                  Field("ring", 26, FieldType::kUint8), Field("ambient", 28, FieldType::kUint16),
-                  Field("range", 32, FieldType::kUint32)},
-                 48, true, 1e9),
-            Make("hesai",
-                 {Field("intensity", 16, FieldType::kFloat32),
-                  Field("timestamp", 24, FieldType::kFloat64),
-                  Field("ring", 32, FieldType::kUint16)},
-                 48, true, 1.0),
-            Make("doubles",
-                 {Field("intensity", 24, FieldType::kFloat64), Field("ring", 32, FieldType::kInt32),
-                  Field("time", 36, FieldType::kFloat64)},
-                 44, true, 1.0, FieldType::kFloat64)),
-        testing::Bool()),
+    testing::Combine(testing::Values(MakeLayout("velodyne_s",
+                                                {Field("intensity", 12, FieldType::kFloat32),
+                                                 Field("ring", 16, FieldType::kUint16),
+                                                 Field("time", 18, FieldType::kFloat32)},
+                                                22, true, 1.0),
+                                     MakeLayout("velodyne_us_float",
+                                                {Field("intensity", 16, FieldType::kFloat32),
+                                                 Field("ring", 20, FieldType::kUint16),
+                                                 Field("time", 24, FieldType::kFloat32)},
+                                                32, true, 1e6),
+                                     MakeLayout("velodyne_us_double",
+                                                {Field("intensity", 16, FieldType::kFloat32),
+                                                 Field("time", 20, FieldType::kFloat64),
+                                                 Field("ring", 28, FieldType::kUint16)},
+                                                32, true, 1e6),
+                                     MakeLayout("velodyne_us_uint",
+                                                {Field("intensity", 12, FieldType::kUint8),
+                                                 Field("time", 13, FieldType::kUint32),
+                                                 Field("ring", 17, FieldType::kUint8)},
+                                                18, true, 1e6),
+                                     MakeLayout("velodyne_old",
+                                                {Field("intensity", 16, FieldType::kFloat32),
+                                                 Field("ring", 20, FieldType::kUint16)},
+                                                32, true, 0.0),
+                                     MakeLayout("xyzi",
+                                                {Field("intensity", 12, FieldType::kFloat32)}, 16,
+                                                false, 0.0),
+                                     MakeLayout("ouster",
+                                                {Field("intensity", 16, FieldType::kFloat32),
+                                                 Field("t", 20, FieldType::kUint32),
+                                                 Field("reflectivity", 24, FieldType::kUint16),
+                                                 Field("ring", 26, FieldType::kUint8),
+                                                 Field("ambient", 28, FieldType::kUint16),
+                                                 Field("range", 32, FieldType::kUint32)},
+                                                48, true, 1e9),
+                                     MakeLayout("hesai",
+                                                {Field("intensity", 16, FieldType::kFloat32),
+                                                 Field("timestamp", 24, FieldType::kFloat64),
+                                                 Field("ring", 32, FieldType::kUint16)},
+                                                48, true, 1.0),
+                                     MakeLayout("doubles",
+                                                {Field("intensity", 24, FieldType::kFloat64),
+                                                 Field("ring", 32, FieldType::kInt32),
+                                                 Field("time", 36, FieldType::kFloat64)},
+                                                44, true, 1.0, FieldType::kFloat64)),
+                     testing::Bool()),
     [](const auto& test) {
       return std::get<0>(test.param).name + (std::get<1>(test.param) ? "_big" : "_little");
     });
@@ -131,7 +138,7 @@ class PointsOfACloud : public testing::Test {
     return points;
   }
   test::TestCloud cloud_ =
-      test::VelodyneCloud(kStamp, test::SeePoints({.num_rings = 4, .num_columns = 3}, 0));
+      test::VelodyneCloud(kLayoutStamp, test::SeePoints({.num_rings = 4, .num_columns = 3}, 0));
 };
 
 TEST_F(PointsOfACloud, LeaveOutWhatIsNotFiniteOrNoReturn) {

@@ -16,7 +16,7 @@ namespace {
 using test::ProgramResult;
 using testing::HasSubstr;
 
-constexpr Timestamp kBegin{1'500'000'000'000'000'000};
+constexpr Timestamp kLogBegin{1'500'000'000'000'000'000};
 
 class ConvertProgram : public testing::Test {
  protected:
@@ -46,7 +46,7 @@ class ConvertProgram : public testing::Test {
     test::Bag1Writer writer(dir_.path() / "drive.bag", form);
     const test::SpinningLidar lidar;
     for (int k = 0; k < num; ++k) {
-      const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+      const Timestamp stamp = kLogBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
       const Timestamp received = stamp + Duration::FromSeconds(CloudSeconds(lidar) + 0.005);
       writer.Write("/imu", "sensor_msgs/Imu", received,
                    test::ImuMessage({stamp, {0, 0, 0}, {0, 0, 9.81}}));
@@ -152,7 +152,7 @@ TEST_F(ConvertProgram, AWrongUnitIsRefused) {
 
 TEST_F(ConvertProgram, DamagedLivoxMessagesAreRefused) {
   test::Bag1Writer writer(dir_.path() / "livox.bag");
-  writer.Write("/livox/lidar", "livox_ros_driver/CustomMsg", kBegin, {1, 2, 3});
+  writer.Write("/livox/lidar", "livox_ros_driver/CustomMsg", kLogBegin, {1, 2, 3});
   writer.Close();
   const ProgramResult result = Run({"rosbag", Path("livox.bag"), Path("o.lcm")});
   ExpectOneLine(result, 5);
@@ -190,7 +190,7 @@ TEST_F(ConvertProgram, ADamagedMessageInASoundBagIsPassedOverAndIs5) {
   const test::SpinningLidar lidar;
   test::Bag1Writer writer(dir_.path() / "drive.bag");
   for (int k = 0; k < 12; ++k) {
-    const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+    const Timestamp stamp = kLogBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
     auto cloud = test::CloudMessage(test::VelodyneCloud(stamp, test::SeePoints(lidar, k)));
     if (k == 5) cloud.resize(cloud.size() / 2);
     writer.Write("/points", "sensor_msgs/PointCloud2",
@@ -207,7 +207,7 @@ TEST_F(ConvertProgram, ACutRos2BagIsConvertedUpToTheCutAndIs5) {
   const test::SpinningLidar lidar;
   test::Bag2Writer writer(dir_.path() / "drive");
   for (int k = 0; k < 20; ++k) {
-    const Timestamp stamp = kBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
+    const Timestamp stamp = kLogBegin + Duration::FromSeconds(k * CloudSeconds(lidar));
     writer.Write("/points", "sensor_msgs/msg/PointCloud2",
                  stamp + Duration::FromSeconds(CloudSeconds(lidar) + 0.005),
                  test::CloudMessage(test::VelodyneCloud(stamp, test::SeePoints(lidar, k)),

@@ -28,7 +28,7 @@ CloudPoints Points(auto&& number) {
   return points;
 }
 
-std::vector<std::uint16_t> Expected() {
+std::vector<std::uint16_t> ExpectedRings() {
   std::vector<std::uint16_t> rings;
   for (int i = 0; i < 30 * kNumRings; ++i) {
     rings.push_back(static_cast<std::uint16_t>(i % kNumRings));
@@ -50,7 +50,7 @@ TEST(RingRule, CountsFromTheLowestBeam) {
                              Points([&](int ring) { return shuffled[ring]; })}) {
     const RingRule rule = Decide(points);
     EXPECT_EQ(rule.source, RingRule::Source::kField);
-    EXPECT_EQ(AssignRings(rule, points), Expected()) << rule.description;
+    EXPECT_EQ(AssignRings(rule, points), ExpectedRings()) << rule.description;
   }
 }
 
@@ -63,11 +63,11 @@ TEST(RingRule, ComesFromRowsOrColumnsOfOrganisedClouds) {
   }
   const RingRule by_row = Decide(points, kNumRings, 30);
   EXPECT_EQ(by_row.source, RingRule::Source::kRow);
-  EXPECT_EQ(AssignRings(by_row, points), Expected());
+  EXPECT_EQ(AssignRings(by_row, points), ExpectedRings());
   std::swap(points.row, points.column);
   const RingRule by_column = Decide(points, 30, kNumRings);
   EXPECT_EQ(by_column.source, RingRule::Source::kColumn);
-  EXPECT_EQ(AssignRings(by_column, points), Expected());
+  EXPECT_EQ(AssignRings(by_column, points), ExpectedRings());
 }
 
 TEST(RingRule, ComesFromElevationByTheModel) {
@@ -80,7 +80,7 @@ TEST(RingRule, ComesFromElevationByTheModel) {
   points.ring.clear();
   const RingRule rule = Decide(points, 1, 240, table);
   EXPECT_EQ(rule.source, RingRule::Source::kModel);
-  EXPECT_EQ(AssignRings(rule, points), Expected());
+  EXPECT_EQ(AssignRings(rule, points), ExpectedRings());
 }
 
 TEST(RingRule, IsNoneWhenNothingTells) {

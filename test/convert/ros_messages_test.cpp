@@ -12,15 +12,11 @@ namespace lio {
 namespace {
 
 using test::RosBytes;
+using test::RosForm;
 
-constexpr Timestamp kStamp{1'556'268'000'123'456'789};
+constexpr Timestamp kHeaderStamp{1'556'268'000'123'456'789};
 
-struct Form {
-  RosEncoding encoding;
-  bool big_endian;
-};
-
-class RosMessages : public testing::TestWithParam<Form> {
+class RosMessages : public testing::TestWithParam<RosForm> {
  protected:
   RosEncoding encoding() const { return GetParam().encoding; }
   RosBytes Bytes() const { return RosBytes(GetParam().encoding, GetParam().big_endian); }
@@ -39,10 +35,10 @@ class RosMessages : public testing::TestWithParam<Form> {
 };
 
 TEST_P(RosMessages, ImuKeepsStampRateAndForce) {
-  const ImuSample sample{kStamp, {0.1, -0.2, 0.3}, {1.0, 2.0, 9.8}};
+  const ImuSample sample{kHeaderStamp, {0.1, -0.2, 0.3}, {1.0, 2.0, 9.8}};
   const auto decoded = DecodeRosImu(test::ImuMessage(sample, Bytes()), encoding());
   ASSERT_TRUE(decoded);
-  EXPECT_EQ(decoded->stamp, kStamp);
+  EXPECT_EQ(decoded->stamp, kHeaderStamp);
   EXPECT_EQ(decoded->w_imu_radps, sample.w_imu_radps);
   EXPECT_EQ(decoded->f_imu_mps2, sample.f_imu_mps2);
   ExpectOnlyWhole(test::ImuMessage(sample, Bytes()), DecodeRosImu);
@@ -50,11 +46,11 @@ TEST_P(RosMessages, ImuKeepsStampRateAndForce) {
 
 TEST_P(RosMessages, CloudKeepsFieldsAndData) {
   const auto points = test::SeePoints({.num_rings = 2, .num_columns = 3}, 0);
-  const test::TestCloud cloud = test::VelodyneCloud(kStamp, points);
+  const test::TestCloud cloud = test::VelodyneCloud(kHeaderStamp, points);
   const auto message = test::CloudMessage(cloud, Bytes());
   const auto decoded = DecodeRosCloud(message, encoding());
   ASSERT_TRUE(decoded);
-  EXPECT_EQ(decoded->stamp, kStamp);
+  EXPECT_EQ(decoded->stamp, kHeaderStamp);
   EXPECT_EQ(decoded->num_points(), 6u);
   EXPECT_EQ(decoded->fields, cloud.fields);
   EXPECT_EQ(decoded->point_step, 22u);
@@ -64,14 +60,14 @@ TEST_P(RosMessages, CloudKeepsFieldsAndData) {
 }
 
 TEST_P(RosMessages, PosesKeepPositionAndAttitude) {
-  const StampedPose pose{kStamp, {ExpSo3({0.1, 0.2, 0.3}), {4.0, 5.0, 6.0}}};
+  const StampedPose pose{kHeaderStamp, {ExpSo3({0.1, 0.2, 0.3}), {4.0, 5.0, 6.0}}};
   for (const bool odometry : {false, true}) {
     const auto message =
         odometry ? test::OdometryMessage(pose, Bytes()) : test::PoseMessage(pose, Bytes());
     const auto decode = odometry ? DecodeRosOdometry : DecodeRosPoseStamped;
     const auto decoded = decode(message, encoding());
     ASSERT_TRUE(decoded);
-    EXPECT_EQ(decoded->stamp, kStamp);
+    EXPECT_EQ(decoded->stamp, kHeaderStamp);
     EXPECT_EQ(decoded->pose.translation, pose.pose.translation);
     EXPECT_NEAR(decoded->pose.rotation.angularDistance(pose.pose.rotation), 0.0, 1e-15);
     ExpectOnlyWhole(message, decode);
@@ -79,12 +75,12 @@ TEST_P(RosMessages, PosesKeepPositionAndAttitude) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Encodings, RosMessages,
-                         testing::Values(Form{RosEncoding::kRos1, false},
-                                         Form{RosEncoding::kCdr, false},
-                                         Form{RosEncoding::kCdr, true}));
+                         testing::Values(RosForm{RosEncoding::kRos1, false},
+                                         RosForm{RosEncoding::kCdr, false},
+                                         RosForm{RosEncoding::kCdr, true}));
 
 TEST(RosPose, RefusesWhatIsNoRotation) {
-  StampedPose pose{kStamp, {}};
+  StampedPose pose{kHeaderStamp, {}};
   pose.pose.rotation.coeffs() << 0.0, 0.0, 0.0, 0.0;
   EXPECT_FALSE(DecodeRosPoseStamped(test::PoseMessage(pose), RosEncoding::kRos1));
   pose.pose.rotation.setIdentity();
@@ -95,7 +91,7 @@ TEST(RosPose, RefusesWhatIsNoRotation) {
 class RosCloudSizes : public testing::Test {
  protected:
   test::TestCloud cloud_ =
-      test::VelodyneCloud(kStamp, test::SeePoints({.num_rings = 2, .num_columns = 4}, 0));
+      test::VelodyneCloud(kHeaderStamp, test::SeePoints({.num_rings = 2, .num_columns = 4}, 0));
 
   bool IsAccepted() const {
     return DecodeRosCloud(test::CloudMessage(cloud_), RosEncoding::kRos1).has_value();

@@ -14,7 +14,7 @@ namespace {
 
 using test::RosBytes;
 
-constexpr const char* kDefinition = R"(# what it is
+constexpr const char* kNestedDefinition = R"(# what it is
 Header header   # when
 uint8 GOOD = 3
 Status status
@@ -33,7 +33,7 @@ uint8[4] bytes
 bool ok
 )";
 
-RosBytes Message() {
+RosBytes NestedMessage() {
   RosBytes bytes;
   bytes.PutHeader(Timestamp{1'500'000'000}, "frame");
   for (int i = 1; i <= 4; ++i) bytes.Put(static_cast<std::uint8_t>(i));
@@ -45,9 +45,9 @@ RosBytes Message() {
 }
 
 TEST(RosSchema, ReadsNestedFieldsArraysAndTimes) {
-  const auto schema = RosSchema::Parse(kDefinition, "my_msgs/Thing");
+  const auto schema = RosSchema::Parse(kNestedDefinition, "my_msgs/Thing");
   ASSERT_TRUE(schema);
-  const auto numbers = schema->Read(Message().bytes(), RosEncoding::kRos1);
+  const auto numbers = schema->Read(NestedMessage().bytes(), RosEncoding::kRos1);
   ASSERT_TRUE(numbers);
   EXPECT_EQ(numbers->at("header.stamp"), 1.5);
   EXPECT_EQ(numbers->at("status.bytes[0]"), 1.0);
@@ -59,8 +59,8 @@ TEST(RosSchema, ReadsNestedFieldsArraysAndTimes) {
 }
 
 TEST(RosSchema, RefusesEveryTruncation) {
-  const auto schema = RosSchema::Parse(kDefinition, "my_msgs/Thing");
-  const auto message = Message().bytes();
+  const auto schema = RosSchema::Parse(kNestedDefinition, "my_msgs/Thing");
+  const auto message = NestedMessage().bytes();
   for (std::size_t size = 0; size < message.size(); ++size) {
     EXPECT_FALSE(schema->Read(ByteView(message).first(size), RosEncoding::kRos1)) << size;
   }

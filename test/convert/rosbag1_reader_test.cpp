@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "convert/numbered_messages.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/io/input_error.hpp"
 #include "support/ros_bag.hpp"
@@ -13,45 +14,33 @@ namespace lio {
 namespace {
 
 using test::Bag1Writer;
+using test::kNumNumbered;
+using test::NumberedPayload;
+using test::ReadBack;
 
-constexpr int kNumMessages = 200;
-
-Timestamp ReceivedAt(int i) {
+Timestamp ReceivedLongAgo(int i) {
   return Timestamp{1'000'000'000'000 + i * 10'000'000};
-}
-
-// Message `i` holds 200 + i bytes that no compression makes smaller, on one of two topics.
-std::vector<std::uint8_t> Payload(int i) {
-  std::minstd_rand random(static_cast<unsigned>(i + 1));
-  std::vector<std::uint8_t> payload(static_cast<std::size_t>(200 + i));
-  for (std::uint8_t& byte : payload) byte = static_cast<std::uint8_t>(random() >> 8);
-  return payload;
 }
 
 void WriteBag(const std::filesystem::path& path, const Bag1Writer::Options& options) {
   Bag1Writer writer(path, options);
-  for (int i = 0; i < kNumMessages; ++i) {
-    writer.Write(i % 2 == 0 ? "/even" : "/odd", i % 2 == 0 ? "a/Even" : "a/Odd", ReceivedAt(i),
-                 Payload(i), "float64 x");
+  for (int i = 0; i < kNumNumbered; ++i) {
+    writer.Write(i % 2 == 0 ? "/even" : "/odd", i % 2 == 0 ? "a/Even" : "a/Odd", ReceivedLongAgo(i),
+                 NumberedPayload(i), "float64 x");
   }
   writer.Close();
 }
 
-struct ReadBack {
-  int num = 0;
-  bool all_right = true;  // each message is the next one of those written
-  BagDamage damage;
-};
-
-ReadBack ReadAll(const std::filesystem::path& path) {
+// All is right if each message is the next one of those written.
+ReadBack ReadRosbag1(const std::filesystem::path& path) {
   const auto bag = OpenRosbag1(path);
   ReadBack result;
   BagMessage message;
   while (bag->Next(message)) {
-    const auto expected = Payload(result.num);
+    const auto expected = NumberedPayload(result.num);
     const std::string topic = result.num % 2 == 0 ? "/even" : "/odd";
     result.all_right &=
-        message.received == ReceivedAt(result.num) &&
+        message.received == ReceivedLongAgo(result.num) &&
         std::equal(message.data.begin(), message.data.end(), expected.begin(), expected.end()) &&
         bag->topics()[message.topic].name == topic;
     ++result.num;
@@ -71,8 +60,8 @@ class Rosbag1 : public testing::TestWithParam<std::string> {
 
 TEST_P(Rosbag1, GivesEveryMessageInOrder) {
   WriteBag(bag_, Options());
-  const ReadBack read = ReadAll(bag_);
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadRosbag1(bag_);
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_FALSE(read.damage.Any()) << read.damage.first_reason;
 }
@@ -97,9 +86,9 @@ TEST_P(Rosbag1, GivesSelectedTopicsOnlyAndCountsAll) {
     EXPECT_EQ(bag->topics()[message.topic].name, "/odd");
     ++num;
   }
-  EXPECT_EQ(num, kNumMessages / 2);
-  EXPECT_EQ(bag->topics()[0].num_messages, kNumMessages / 2);
-  EXPECT_EQ(bag->begin_time(), ReceivedAt(0));
+  EXPECT_EQ(num, kNumNumbered / 2);
+  EXPECT_EQ(bag->topics()[0].num_messages, kNumNumbered / 2);
+  EXPECT_EQ(bag->begin_time(), ReceivedLongAgo(0));
   EXPECT_EQ(bag->position_bytes(), bag->size_bytes());
 }
 
@@ -107,8 +96,8 @@ TEST_P(Rosbag1, NeedsNoIndexButSaysItIsMissing) {
   auto options = Options();
   options.with_index = false;
   WriteBag(bag_, options);
-  const ReadBack read = ReadAll(bag_);
-  EXPECT_EQ(read.num, kNumMessages);
+  const ReadBack read = ReadRosbag1(bag_);
+  EXPECT_EQ(read.num, kNumNumbered);
   EXPECT_TRUE(read.all_right);
   EXPECT_TRUE(read.damage.not_closed);
   EXPECT_FALSE(read.damage.cut_short);
@@ -121,16 +110,16 @@ TEST_P(Rosbag1, GivesEverythingBeforeACutAndSaysWhatIsMissing) {
   int num_before = 0;
   constexpr std::size_t kHeaderEnd = 13 + 4096;
   for (std::size_t cut = kHeaderEnd; cut < whole.size(); cut += 1511) {
-    const ReadBack read = ReadAll(dir_.Write("cut.bag", whole.substr(0, cut)));
+    const ReadBack read = ReadRosbag1(dir_.Write("cut.bag", whole.substr(0, cut)));
     EXPECT_TRUE(read.all_right) << cut;
     EXPECT_GE(read.num, num_before) << cut;
     EXPECT_TRUE(read.damage.cut_short) << cut;
     EXPECT_FALSE(read.damage.first_reason.empty()) << cut;
     num_before = read.num;
     // The missing bytes up to the index are lost, and at most the piece that was cut.
-    EXPECT_TRUE(read.num >= kNumMessages - 30 || read.damage.lost_bytes > 0) << cut;
+    EXPECT_TRUE(read.num >= kNumNumbered - 30 || read.damage.lost_bytes > 0) << cut;
   }
-  EXPECT_GE(num_before, kNumMessages - 10);
+  EXPECT_GE(num_before, kNumNumbered - 10);
 }
 
 TEST_P(Rosbag1, PassesOverAChunkWithBrokenContent) {
@@ -144,10 +133,10 @@ TEST_P(Rosbag1, PassesOverAChunkWithBrokenContent) {
   while (bag->Next(message)) ++num;
   if (GetParam() == "none") {
     // Only the messages to which the damaged bytes belong are lost.
-    EXPECT_GE(num, kNumMessages - 30);
+    EXPECT_GE(num, kNumNumbered - 30);
   } else {
-    EXPECT_LT(num, kNumMessages);
-    EXPECT_GT(num, kNumMessages / 2);
+    EXPECT_LT(num, kNumNumbered);
+    EXPECT_GT(num, kNumNumbered / 2);
     EXPECT_EQ(bag->damage().num_chunks_damaged, 1);
     EXPECT_GT(bag->damage().lost_bytes, 0);
   }
@@ -168,7 +157,7 @@ TEST_P(Rosbag1, SurvivesRandomMutations) {
     BagMessage message;
     int num = 0;
     while (bag->Next(message)) ++num;
-    EXPECT_LE(num, kNumMessages + 4) << round;
+    EXPECT_LE(num, kNumNumbered + 4) << round;
   }
 }
 
@@ -195,8 +184,8 @@ TEST(Rosbag1File, LeftOpenByItsRecorderGivesItsLastChunk) {
     std::memcpy(&header_bytes, bytes.data() + header_begin, 4);
     const std::size_t length_at = header_begin + 4 + header_bytes;
     for (std::size_t i = 0; i < 4; ++i) bytes[length_at + i] = 0;
-    const ReadBack read = ReadAll(dir.Write("open.bag", bytes));
-    EXPECT_EQ(read.num, kNumMessages) << compression;
+    const ReadBack read = ReadRosbag1(dir.Write("open.bag", bytes));
+    EXPECT_EQ(read.num, kNumNumbered) << compression;
     EXPECT_TRUE(read.all_right) << compression;
     EXPECT_TRUE(read.damage.not_closed);
   }
@@ -222,16 +211,17 @@ TEST(Rosbag1File, AMessageThatInflatesBeyondAnyCloudIsDamageAndNotKept) {
   const test::TempDir dir;
   const std::filesystem::path path = dir.path() / "bomb.bag";
   Bag1Writer writer(path, {.compression = "bz2", .chunk_bytes = 5000, .with_index = true});
-  writer.Write("/small", "a/Small", ReceivedAt(0), Payload(0), "float64 x");
-  writer.Write("/huge", "a/Huge", ReceivedAt(1), std::vector<std::uint8_t>(100 << 20), "float64 x");
-  writer.Write("/small", "a/Small", ReceivedAt(2), Payload(2), "float64 x");
+  writer.Write("/small", "a/Small", ReceivedLongAgo(0), NumberedPayload(0), "float64 x");
+  writer.Write("/huge", "a/Huge", ReceivedLongAgo(1), std::vector<std::uint8_t>(100 << 20),
+               "float64 x");
+  writer.Write("/small", "a/Small", ReceivedLongAgo(2), NumberedPayload(2), "float64 x");
   writer.Close();
   EXPECT_LT(std::filesystem::file_size(path), 100'000u);
   const auto bag = OpenRosbag1(path);
   BagMessage message;
   std::vector<Timestamp> received;
   while (bag->Next(message)) received.push_back(message.received);
-  EXPECT_EQ(received, (std::vector{ReceivedAt(0), ReceivedAt(2)}));
+  EXPECT_EQ(received, (std::vector{ReceivedLongAgo(0), ReceivedLongAgo(2)}));
   EXPECT_EQ(bag->damage().num_messages_damaged, 1);
 }
 
@@ -239,7 +229,8 @@ TEST(Rosbag1File, NamesThatATerminalWouldObeyAreEscaped) {
   const test::TempDir dir;
   const std::filesystem::path path = dir.path() / "escape.bag";
   Bag1Writer writer(path);
-  writer.Write("/velo\x1b[31m\nall is well", "a/B\x07", ReceivedAt(0), Payload(0), "float64 x");
+  writer.Write("/velo\x1b[31m\nall is well", "a/B\x07", ReceivedLongAgo(0), NumberedPayload(0),
+               "float64 x");
   writer.Close();
   const auto bag = OpenRosbag1(path);
   BagMessage message;

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "convert/numbered_messages.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/io/input_error.hpp"
 #include "support/ros_bag.hpp"
@@ -12,17 +13,15 @@
 namespace lio {
 namespace {
 
-constexpr int kNumMessages = 60;
+using test::ReceivedAt;
 
-Timestamp ReceivedAt(int i) {
-  return Timestamp{1'600'000'000'000'000'000 + i * 10'000'000};
-}
+constexpr int kNumFolderMessages = 60;
 
 class Rosbag2 : public testing::Test {
  protected:
   void Write(int messages_per_file) {
     test::Bag2Writer writer(folder_, messages_per_file);
-    for (int i = 0; i < kNumMessages; ++i) {
+    for (int i = 0; i < kNumFolderMessages; ++i) {
       const std::vector<std::uint8_t> data(1000, static_cast<std::uint8_t>(i));
       writer.Write(i % 2 == 0 ? "/imu" : "/other", "a/msg/B", ReceivedAt(i), data, "float64 x");
     }
@@ -50,9 +49,9 @@ TEST_F(Rosbag2, GivesTheMessagesOfAllFilesInOrder) {
     std::filesystem::remove_all(folder_);
     Write(per_file);
     BagDamage damage;
-    EXPECT_EQ(Count(folder_, &damage), kNumMessages);
+    EXPECT_EQ(Count(folder_, &damage), kNumFolderMessages);
     EXPECT_FALSE(damage.Any()) << damage.first_reason;
-    EXPECT_EQ(Count(folder_ / "metadata.yaml"), kNumMessages);
+    EXPECT_EQ(Count(folder_ / "metadata.yaml"), kNumFolderMessages);
   }
 }
 
@@ -71,14 +70,14 @@ TEST_F(Rosbag2, OpensOneFileAndAFolderWithoutMetadata) {
   Write(25);
   EXPECT_EQ(Count(folder_ / "bag_1.db3"), 25);
   std::filesystem::remove(folder_ / "metadata.yaml");
-  EXPECT_EQ(Count(folder_), kNumMessages);
+  EXPECT_EQ(Count(folder_), kNumFolderMessages);
 }
 
 TEST_F(Rosbag2, SaysHowManyMessagesAMissingFileTookAlong) {
   Write(25);
   std::filesystem::remove(folder_ / "bag_1.db3");
   BagDamage damage;
-  EXPECT_EQ(Count(folder_, &damage), kNumMessages - 25);
+  EXPECT_EQ(Count(folder_, &damage), kNumFolderMessages - 25);
   EXPECT_TRUE(damage.cut_short);
   EXPECT_EQ(damage.num_messages_missing, 25);
   EXPECT_EQ(damage.first_reason, "bag_1.db3 is missing");
@@ -92,9 +91,9 @@ TEST_F(Rosbag2, GivesWhatACutFileHolds) {
     dir_.Write("drive/bag_0.db3", whole.substr(0, size));
     BagDamage damage;
     const int num = Count(folder_, &damage);
-    EXPECT_LT(num, kNumMessages) << share;
+    EXPECT_LT(num, kNumFolderMessages) << share;
     EXPECT_TRUE(damage.cut_short) << share;
-    EXPECT_EQ(damage.num_messages_missing, kNumMessages - num) << share;
+    EXPECT_EQ(damage.num_messages_missing, kNumFolderMessages - num) << share;
   }
 }
 
@@ -111,7 +110,7 @@ TEST_F(Rosbag2, SurvivesRandomMutations) {
       BagMessage message;
       int num = 0;
       while (bag->Next(message)) ++num;
-      EXPECT_LE(num, 10 * kNumMessages);
+      EXPECT_LE(num, 10 * kNumFolderMessages);
     } catch (const InputError&) {  // there are no topics left
     }
   }

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Timestamp At(double t_s) {
+Timestamp StampOfBag(double t_s) {
   return Timestamp{1'500'000'000'000'000'000} + Duration::FromSeconds(t_s);
 }
 
@@ -33,7 +33,7 @@ RosbagReport LidarReport() {
   RosbagReport report;
   report.topics.lidar = "/points";
   report.all_topics.push_back({"/points", "sensor_msgs/PointCloud2", "", RosEncoding::kRos1, 11});
-  for (int i = 0; i <= 10; ++i) report.lidar.Add(At(0.1 * i), At(0.1 * i + 0.105));
+  for (int i = 0; i <= 10; ++i) report.lidar.Add(StampOfBag(0.1 * i), StampOfBag(0.1 * i + 0.105));
   report.num_points = 1100;
   report.rules.fields = "x(float32)";
   report.rules.point_time_text = "field 'time' in s";
@@ -47,7 +47,7 @@ void AddImu(RosbagReport& report) {
   report.topics.imu = "/imu";
   for (int i = 0; i <= 300; ++i) {
     ImuSample sample;
-    sample.stamp = At(0.01 * i);
+    sample.stamp = StampOfBag(0.01 * i);
     sample.f_imu_mps2 = {0, 0, 9.81};
     sample.w_imu_radps = {0, 0.25, 0};
     report.imu.Add(sample.stamp, sample.stamp + Duration{2'000'000});
@@ -96,7 +96,7 @@ TEST(RosbagReport, RatesInDegreesAreSuspected) {
   RosbagReport report = LidarReport();
   AddImu(report);
   ImuSample fast;
-  fast.stamp = At(10);
+  fast.stamp = StampOfBag(10);
   fast.w_imu_radps = {40, 0, 0};
   report.accelerometer.Add(fast);
   EXPECT_THAT(Text(report), HasSubstr("largest |gyro| 40.00 rad/s: looks like degrees a second"));
@@ -127,8 +127,8 @@ TEST(RosbagReport, TruthIsToldWithItsFrameAndDelay) {
   report.truth_description = "poses of the INS";
   report.truth.emplace();
   report.truth->num_rows = 4;
-  report.truth->first = At(0);
-  report.truth->last = At(3);
+  report.truth->first = StampOfBag(0);
+  report.truth->last = StampOfBag(3);
   report.truth->delay_sum_s = 0.04;
   EXPECT_THAT(Text(report),
               AllOf(HasSubstr("truth        /ins: 4 rows to truth.tum\n"),

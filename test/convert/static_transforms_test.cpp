@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-constexpr Timestamp kStamp{1'700'000'000'000'000'000};
+constexpr Timestamp kTransformStamp{1'700'000'000'000'000'000};
 
 // A quarter turn about z, and a shift.
 Pose Mounted(const Vector3& translation) {
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> TransformMessage(const std::vector<FrameLink>& links,
                                            test::RosBytes bytes = test::RosBytes()) {
   bytes.Put(static_cast<std::uint32_t>(links.size()));
   for (const FrameLink& link : links) {
-    bytes.PutHeader(kStamp, link.parent).PutString(link.child);
+    bytes.PutHeader(kTransformStamp, link.parent).PutString(link.child);
     for (const double value : link.T_parent_child.translation) bytes.Put(value);
     for (const double value : link.T_parent_child.rotation.coeffs()) bytes.Put(value);
   }
@@ -78,14 +78,14 @@ TEST(FindMounting, TakesTheFramesOfTheSensorsMessages) {
   const test::TempDir dir;
   test::Bag1Writer bag(dir.path() / "drive.bag");
   ImuSample sample;
-  sample.stamp = kStamp;
+  sample.stamp = kTransformStamp;
   test::RosBytes cloud_begin;
-  cloud_begin.PutHeader(kStamp, "lidar");
+  cloud_begin.PutHeader(kTransformStamp, "lidar");
   bag.Write(
-      "/tf_static", "tf2_msgs/TFMessage", kStamp,
+      "/tf_static", "tf2_msgs/TFMessage", kTransformStamp,
       TransformMessage({{"imu_link", "lidar", {}}, {"imu_link", "lidar", Mounted({0, 0, 1})}}));
-  bag.Write("/points", "sensor_msgs/PointCloud2", kStamp, cloud_begin.bytes());
-  bag.Write("/imu", "sensor_msgs/Imu", kStamp, test::ImuMessage(sample));
+  bag.Write("/points", "sensor_msgs/PointCloud2", kTransformStamp, cloud_begin.bytes());
+  bag.Write("/imu", "sensor_msgs/Imu", kTransformStamp, test::ImuMessage(sample));
   bag.Close();
   const MountedSensors mounted = FindMounting(dir.path() / "drive.bag", "/points", "/imu");
   EXPECT_EQ(mounted.lidar_frame, "lidar");

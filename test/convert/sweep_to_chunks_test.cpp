@@ -11,10 +11,10 @@
 namespace lio {
 namespace {
 
-constexpr std::int64_t kBegin = 1'500'000'000'000'000'123;
+constexpr std::int64_t kSweepBegin_ns = 1'500'000'000'000'000'123;
 
 // Returns `num` points 10 us apart in a shuffled order; a point's x gives its place in time.
-TimedSweep Make(std::size_t num) {
+TimedSweep ShuffledSweep(std::size_t num) {
   std::vector<std::size_t> order(num);
   for (std::size_t i = 0; i < num; ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(1));
@@ -22,15 +22,15 @@ TimedSweep Make(std::size_t num) {
   std::vector<std::int64_t> instants(num);
   for (std::size_t i = 0; i < num; ++i) {
     points[i].x_m = static_cast<float>(order[i]);
-    instants[i] = kBegin + static_cast<std::int64_t>(order[i]) * 10'000;
+    instants[i] = kSweepBegin_ns + static_cast<std::int64_t>(order[i]) * 10'000;
   }
   return SortSweep(std::move(points), instants);
 }
 
 TEST(SortSweep, OrdersPointsByTime) {
-  const TimedSweep sweep = Make(1000);
-  EXPECT_EQ(sweep.first.ns, kBegin);
-  EXPECT_EQ(sweep.last.ns, kBegin + 9'990'000);
+  const TimedSweep sweep = ShuffledSweep(1000);
+  EXPECT_EQ(sweep.first.ns, kSweepBegin_ns);
+  EXPECT_EQ(sweep.last.ns, kSweepBegin_ns + 9'990'000);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     EXPECT_EQ(sweep.points[i].x_m, static_cast<float>(i));
     EXPECT_EQ(sweep.points[i].t_offset_ns, i * 10'000);
@@ -42,7 +42,7 @@ TEST(SortSweep, KeepsTheOrderOfEqualTimes) {
   std::vector<std::int64_t> instants(300);
   for (std::size_t i = 0; i < 300; ++i) {
     points[i].x_m = static_cast<float>(i);
-    instants[i] = kBegin - static_cast<std::int64_t>(i / 100);
+    instants[i] = kSweepBegin_ns - static_cast<std::int64_t>(i / 100);
   }
   const TimedSweep sweep = SortSweep(points, instants);
   for (std::size_t i = 1; i < 300; ++i) {
@@ -58,8 +58,8 @@ TEST(SortSweep, OfNothingIsEmpty) {
 }
 
 TEST(SplitSweep, GivesChunksOfADatagramWithTheirOwnStamps) {
-  const TimedSweep sweep = Make(7000);
-  const Timestamp received{kBegin + 200'000'000};
+  const TimedSweep sweep = ShuffledSweep(7000);
+  const Timestamp received{kSweepBegin_ns + 200'000'000};
   const auto sent = SplitSweep(sweep, 42, received);
   ASSERT_EQ(sent.size(), 3u);
   std::size_t next = 0;
@@ -73,7 +73,7 @@ TEST(SplitSweep, GivesChunksOfADatagramWithTheirOwnStamps) {
     for (const LidarPoint& point : chunk.points) {
       EXPECT_EQ(point.x_m, static_cast<float>(next));
       EXPECT_EQ(chunk.stamp.ns + point.t_offset_ns,
-                kBegin + static_cast<std::int64_t>(next) * 10'000);
+                kSweepBegin_ns + static_cast<std::int64_t>(next) * 10'000);
       ++next;
     }
     // Each chunk is sent as long before the cloud's reception as its last point was before the
@@ -86,7 +86,7 @@ TEST(SplitSweep, GivesChunksOfADatagramWithTheirOwnStamps) {
 }
 
 TEST(SplitSweep, GivesOneChunkWhenAllowed) {
-  const auto sent = SplitSweep(Make(7000), 1, Timestamp{kBegin}, 7000);
+  const auto sent = SplitSweep(ShuffledSweep(7000), 1, Timestamp{kSweepBegin_ns}, 7000);
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].chunk.points.size(), 7000u);
   EXPECT_EQ(sent[0].chunk.chunk_count, 1);

@@ -14,10 +14,10 @@ namespace {
 
 using test::RosBytes;
 
-constexpr Timestamp kStamp{1'547'694'000'000'000'000};
+constexpr Timestamp kTruthStamp{1'547'694'000'000'000'000};
 
 // This is the variant of UrbanNav's driver.
-constexpr const char* kDefinition = R"(novatel_msgs/CommonHeader header
+constexpr const char* kInspvaxDefinition = R"(novatel_msgs/CommonHeader header
 uint32 ins_status
 uint32 INS_STATUS_SOLUTION_GOOD=3
 uint32 position_type
@@ -49,14 +49,14 @@ std::vector<std::uint8_t> Inspvax(double seconds, int status, double latitude) {
 class Truth : public testing::Test {
  protected:
   void Add(TruthSource& truth, const std::vector<std::uint8_t>& data, double seconds) {
-    truth.Add({0, kStamp + Duration::FromSeconds(seconds), data});
+    truth.Add({0, kTruthStamp + Duration::FromSeconds(seconds), data});
   }
   test::TempDir dir_;
   std::filesystem::path tum_ = dir_.path() / "truth.tum";
 };
 
 TEST_F(Truth, OfOdometryAndPosesIsCopied) {
-  const StampedPose pose{kStamp, {ExpSo3({0.0, 0.0, 0.5}), {1.0, 2.0, 3.0}}};
+  const StampedPose pose{kTruthStamp, {ExpSo3({0.0, 0.0, 0.5}), {1.0, 2.0, 3.0}}};
   for (const bool odometry : {true, false}) {
     TruthSource truth({"/t", odometry ? "nav_msgs/Odometry" : "geometry_msgs/PoseStamped", "",
                        RosEncoding::kRos1, 0},
@@ -65,15 +65,15 @@ TEST_F(Truth, OfOdometryAndPosesIsCopied) {
     truth.Close();
     const Trajectory read = ReadTrajectory(tum_);
     ASSERT_EQ(read.poses.size(), 1u);
-    EXPECT_EQ(read.poses[0].stamp, kStamp);
+    EXPECT_EQ(read.poses[0].stamp, kTruthStamp);
     EXPECT_NEAR((read.poses[0].pose.translation - pose.pose.translation).norm(), 0.0, 1e-8);
   }
 }
 
 TEST_F(Truth, LeavesOutAndCountsWhatIsNotIncreasingOrDamaged) {
   TruthSource truth({"/t", "nav_msgs/Odometry", "", RosEncoding::kRos1, 0}, tum_);
-  Add(truth, test::OdometryMessage({kStamp, {}}), 0.0);
-  Add(truth, test::OdometryMessage({kStamp, {}}), 0.1);
+  Add(truth, test::OdometryMessage({kTruthStamp, {}}), 0.0);
+  Add(truth, test::OdometryMessage({kTruthStamp, {}}), 0.1);
   Add(truth, {1, 2, 3}, 0.2);
   truth.Close();
   EXPECT_EQ(truth.counts().num_rows, 1);
@@ -82,7 +82,8 @@ TEST_F(Truth, LeavesOutAndCountsWhatIsNotIncreasingOrDamaged) {
 }
 
 TEST_F(Truth, OfInspvaxKeepsGoodRowsInEastNorthUp) {
-  TruthSource truth({"/inspvax", "novatel_msgs/INSPVAX", kDefinition, RosEncoding::kRos1, 0}, tum_);
+  TruthSource truth({"/inspvax", "novatel_msgs/INSPVAX", kInspvaxDefinition, RosEncoding::kRos1, 0},
+                    tum_);
   Add(truth, Inspvax(0.0, 1, 22.2), 0.05);  // the INS is aligning, so this is no origin either
   Add(truth, Inspvax(1.0, 3, 22.3), 1.05);
   Add(truth, Inspvax(2.0, 3, 22.3001), 2.05);
@@ -92,7 +93,7 @@ TEST_F(Truth, OfInspvaxKeepsGoodRowsInEastNorthUp) {
   EXPECT_EQ(truth.counts().num_damaged, 1);
   const Trajectory read = ReadTrajectory(tum_);
   ASSERT_EQ(read.poses.size(), 2u);
-  EXPECT_EQ(read.poses[0].stamp, kStamp + Duration::FromSeconds(1.0));
+  EXPECT_EQ(read.poses[0].stamp, kTruthStamp + Duration::FromSeconds(1.0));
   EXPECT_NEAR(read.poses[0].pose.translation.norm(), 0.0, 1e-9);
   EXPECT_NEAR(read.poses[1].pose.translation.y(), 11.07, 0.01);  // a ten-thousandth of a degree
   EXPECT_NEAR(truth.counts().delay_sum_s / 2.0, 0.05, 1e-6);
@@ -108,7 +109,7 @@ TEST_F(Truth, OfInspvaxNeedsADefinition) {
 
 TEST_F(Truth, OfOem7InspvaxWithoutStoredDefinitionIsRead) {
   RosBytes bytes(RosEncoding::kCdr);
-  bytes.PutHeader(kStamp, "gps").PutString("INSPVAXA").Put(std::uint16_t{1465});
+  bytes.PutHeader(kTruthStamp, "gps").PutString("INSPVAXA").Put(std::uint16_t{1465});
   bytes.Put(std::uint8_t{0}).Put(std::uint32_t{7}).Put(std::uint8_t{180}).Put(std::uint16_t{2036});
   bytes.Put(std::uint32_t{(4 * 86'400 + 3 * 3'600 + 18) * 1000});
   bytes.Put(std::uint32_t{3}).Put(std::uint32_t{56});
@@ -119,7 +120,7 @@ TEST_F(Truth, OfOem7InspvaxWithoutStoredDefinitionIsRead) {
   Add(truth, bytes.bytes(), 0.0);
   truth.Close();
   EXPECT_EQ(truth.counts().num_rows, 1);
-  EXPECT_EQ(truth.counts().first, kStamp);
+  EXPECT_EQ(truth.counts().first, kTruthStamp);
 }
 
 TEST(TruthType, IsKnownByName) {

@@ -15,7 +15,7 @@ namespace {
 
 using test::CaptureWriter;
 
-constexpr Timestamp kBegin{1'700'000'000'123'456'000};
+constexpr Timestamp kCaptureBegin{1'700'000'000'123'456'000};
 
 class UdpCaptureTest : public testing::Test {
  protected:
@@ -38,9 +38,9 @@ class UdpCaptureTest : public testing::Test {
 
 TEST_F(UdpCaptureTest, ADatagramHasItsSenderPortTimeAndContent) {
   CaptureWriter writer;
-  writer.Udp(kBegin, "hello", 2368);
+  writer.Udp(kCaptureBegin, "hello", 2368);
   EXPECT_THAT(ReadAll(writer.bytes()), testing::ElementsAre("hello"));
-  EXPECT_EQ(last_.received, kBegin);
+  EXPECT_EQ(last_.received, kCaptureBegin);
   EXPECT_EQ(last_.port, 2368);
   EXPECT_EQ(AddressText(last_.source), "192.168.1.201");
   EXPECT_FALSE(counts_.Any());
@@ -50,8 +50,8 @@ TEST_F(UdpCaptureTest, FragmentsArePutTogetherAndLostOnesCounted) {
   std::string large(12'608, 'a');
   large[5'000] = 'b';
   CaptureWriter writer;
-  writer.Udp(kBegin, large, 7502);
-  writer.Udp(kBegin, large, 7502);
+  writer.Udp(kCaptureBegin, large, 7502);
+  writer.Udp(kCaptureBegin, large, 7502);
   EXPECT_THAT(ReadAll(writer.bytes()), testing::ElementsAre(large, large));
   constexpr std::size_t kFrame = 16 + 14 + 20 + 1480;  // one of the nine of a datagram
   std::string without = writer.bytes();
@@ -62,38 +62,38 @@ TEST_F(UdpCaptureTest, FragmentsArePutTogetherAndLostOnesCounted) {
 
 TEST_F(UdpCaptureTest, OtherFramesAreCountedAndPassedOver) {
   CaptureWriter writer;
-  writer.Frame(kBegin, std::string(12, '\x02') + "\x08\x06" + std::string(28, '\0'));  // ARP
-  writer.Frame(kBegin, "short");
-  writer.Udp(kBegin, "hello", 2368);
-  writer.Frame(kBegin, std::string(1248, 'x'), 60);
+  writer.Frame(kCaptureBegin, std::string(12, '\x02') + "\x08\x06" + std::string(28, '\0'));  // ARP
+  writer.Frame(kCaptureBegin, "short");
+  writer.Udp(kCaptureBegin, "hello", 2368);
+  writer.Frame(kCaptureBegin, std::string(1248, 'x'), 60);
   EXPECT_THAT(ReadAll(writer.bytes()), testing::ElementsAre("hello"));
   EXPECT_EQ(counts_.num_other, 3);
 }
 
 TEST_F(UdpCaptureTest, AVlanTagIsPassedOver) {
   CaptureWriter plain;
-  plain.Udp(kBegin, "hello", 2368);
+  plain.Udp(kCaptureBegin, "hello", 2368);
   std::string frame = plain.bytes().substr(24 + 16);
   frame.insert(12, std::string("\x81\x00\x00\x05", 4));
   CaptureWriter tagged;
-  tagged.Frame(kBegin, frame);
+  tagged.Frame(kCaptureBegin, frame);
   EXPECT_THAT(ReadAll(tagged.bytes()), testing::ElementsAre("hello"));
   CaptureWriter cut;
-  cut.Frame(kBegin, frame, frame.size() - 2);
+  cut.Frame(kCaptureBegin, frame, frame.size() - 2);
   EXPECT_TRUE(ReadAll(cut.bytes()).empty());
   EXPECT_EQ(counts_.num_cut, 1);
 }
 
 TEST_F(UdpCaptureTest, ACutFileIsReadUpToTheCut) {
   CaptureWriter writer;
-  for (int k = 0; k < 10; ++k) writer.Udp(kBegin, "hello", 2368);
+  for (int k = 0; k < 10; ++k) writer.Udp(kCaptureBegin, "hello", 2368);
   EXPECT_EQ(ReadAll(writer.bytes().substr(0, writer.bytes().size() - 3)).size(), 9u);
   EXPECT_THAT(counts_.fault, testing::HasSubstr("truncated"));
 }
 
 TEST_F(UdpCaptureTest, DamageNeverEndsInACrash) {
   CaptureWriter writer;
-  for (int k = 0; k < 5; ++k) writer.Udp(kBegin, std::string(3'000, 'x'), 2368);
+  for (int k = 0; k < 5; ++k) writer.Udp(kCaptureBegin, std::string(3'000, 'x'), 2368);
   std::mt19937 random(3);
   for (int round = 0; round < 60; ++round) {
     std::string bytes = writer.bytes();

@@ -11,11 +11,9 @@
 namespace lio {
 namespace {
 
-using test::SimulatedVelodyne;
+using test::ViewOf;
 
-ByteView View(const std::string& bytes) {
-  return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
-}
+using test::SimulatedVelodyne;
 
 const char* ModelOf(const SimulatedVelodyne& lidar) {
   return lidar.is_hdl32e ? "hdl32e" : "vlp16";
@@ -24,7 +22,7 @@ const char* ModelOf(const SimulatedVelodyne& lidar) {
 std::vector<Turn> Decode(const SimulatedVelodyne& lidar, double duration_s) {
   VelodyneDecoder decoder(ModelOf(lidar), HourClock{});
   for (double us = 0.0; us < 1e6 * duration_s; us += lidar.packet_us()) {
-    decoder.Add(View(test::VelodynePacket(lidar, us)),
+    decoder.Add(ViewOf(test::VelodynePacket(lidar, us)),
                 lidar.begin + Duration::FromSeconds(1e-6 * us + 0.002));
   }
   decoder.Finish();
@@ -34,11 +32,12 @@ std::vector<Turn> Decode(const SimulatedVelodyne& lidar, double duration_s) {
 }
 
 // The place that the simulated beam hit, at the time that the decoder gives the point.
-struct Expected {
+struct ExpectedPoint {
   double x_m, y_m, z_m;
 };
 
-Expected Hit(const SimulatedVelodyne& lidar, const LidarPoint& point, double time_us, bool is_far) {
+ExpectedPoint Hit(const SimulatedVelodyne& lidar, const LidarPoint& point, double time_us,
+                  bool is_far) {
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   const double azimuth = lidar.AzimuthDeg(time_us);
   double elevation = 0.0;
@@ -66,7 +65,7 @@ TEST_P(Velodyne, PointsAreWhereTheBeamsHitAndTimesAreThoseOfTheFirings) {
       const double range = std::hypot(point.x_m, point.y_m, point.z_m);
       const bool is_far = range > lidar.RangeM(lidar.AzimuthDeg(time_us), point.ring) + 2.5;
       num_far += is_far;
-      const Expected hit = Hit(lidar, point, time_us, is_far);
+      const ExpectedPoint hit = Hit(lidar, point, time_us, is_far);
       // Half a step of the range is 1 mm, half a step of the azimuth 2 mm at 20 m; the time of a
       // packet, in whole us, turns the head by another 0.002 deg.
       const double error =
@@ -81,7 +80,7 @@ TEST_P(Velodyne, PointsAreWhereTheBeamsHitAndTimesAreThoseOfTheFirings) {
 TEST_P(Velodyne, TimesAreRightToAMicrosecond) {
   const SimulatedVelodyne& lidar = GetParam();
   VelodyneDecoder decoder(ModelOf(lidar), HourClock{});
-  decoder.Add(View(test::VelodynePacket(lidar, 0.0)), lidar.begin);
+  decoder.Add(ViewOf(test::VelodynePacket(lidar, 0.0)), lidar.begin);
   decoder.Finish();
   const std::vector<Turn> turns = decoder.TakeTurns();
   ASSERT_EQ(turns.size(), 1u);
@@ -125,7 +124,7 @@ TEST_P(Velodyne, DamageIsCountedAndNeverFollowed) {
   std::uniform_int_distribution<int> any(0, 255);
   const std::string sound = test::VelodynePacket(lidar, 0.0);
   for (std::size_t size = 0; size <= sound.size(); size += 7) {
-    decoder.Add(View(sound.substr(0, size)), lidar.begin);
+    decoder.Add(ViewOf(sound.substr(0, size)), lidar.begin);
   }
   EXPECT_EQ(decoder.counts().num_taken, 0);
   for (int k = 0; k < 500; ++k) {
@@ -133,7 +132,7 @@ TEST_P(Velodyne, DamageIsCountedAndNeverFollowed) {
     for (int n = 0; n < 60; ++n) {
       noise[static_cast<std::size_t>(random()) % noise.size()] = static_cast<char>(any(random));
     }
-    decoder.Add(View(noise), lidar.begin + Duration{k * 1'000'000});
+    decoder.Add(ViewOf(noise), lidar.begin + Duration{k * 1'000'000});
   }
   decoder.Finish();
   EXPECT_EQ(decoder.counts().num_taken + decoder.counts().num_damaged, 500);
@@ -149,7 +148,7 @@ TEST_P(Velodyne, PacketsThatAreMissingAreCounted) {
   for (int k = 0; k < 40; ++k) {
     if (k >= 10 && k < 13) continue;
     const double us = k * lidar.packet_us();
-    decoder.Add(View(test::VelodynePacket(lidar, us)),
+    decoder.Add(ViewOf(test::VelodynePacket(lidar, us)),
                 lidar.begin + Duration::FromSeconds(1e-6 * us));
   }
   EXPECT_EQ(decoder.counts().num_lost, 3);
@@ -166,13 +165,13 @@ INSTANTIATE_TEST_SUITE_P(Sensors, Velodyne,
 
 TEST(VelodyneModel, SaysWhatADatagramIs) {
   std::string packet = test::VelodynePacket({}, 0.0);
-  EXPECT_EQ(VelodyneModel(View(packet)), "vlp16");
+  EXPECT_EQ(VelodyneModel(ViewOf(packet)), "vlp16");
   packet.back() = '\x28';
-  EXPECT_EQ(VelodyneModel(View(packet)), "");
-  EXPECT_EQ(VelodyneProduct(View(packet)), 0x28);
+  EXPECT_EQ(VelodyneModel(ViewOf(packet)), "");
+  EXPECT_EQ(VelodyneProduct(ViewOf(packet)), 0x28);
   packet[500] = '\0';  // the flag of a block
-  EXPECT_FALSE(VelodyneModel(View(packet)));
-  EXPECT_FALSE(VelodyneModel(View(packet.substr(1))));
+  EXPECT_FALSE(VelodyneModel(ViewOf(packet)));
+  EXPECT_FALSE(VelodyneModel(ViewOf(packet.substr(1))));
 }
 
 TEST(HourClock, TheHourIsThatOfTheReception) {

@@ -9,7 +9,8 @@
 namespace lio {
 namespace {
 
-const Pose kMove{ExpSo3({0.3, -0.5, 2.0}), {10, -20, 30}};
+using test::kWorldMove;
+
 const Pose kTurn{ExpSo3({0, 0, 2.0}), {10, -20, 30}};
 
 PosePairs Pairs(const Trajectory& truth, const Trajectory& estimate) {
@@ -23,9 +24,10 @@ void ExpectNear(const Pose& a, const Pose& b, double tolerance) {
 
 TEST(Align, Se3RecoversAKnownMotion) {
   const Trajectory truth = test::Helix(300);
-  const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove.Inverse() * p; });
+  const Trajectory estimate =
+      test::Map(truth, [](const Pose& p) { return kWorldMove.Inverse() * p; });
   const PathAlignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
-  ExpectNear(alignment.T_truth_estimate, kMove, 1e-9);
+  ExpectNear(alignment.T_truth_estimate, kWorldMove, 1e-9);
   EXPECT_FALSE(alignment.used_attitude);
   EXPECT_NEAR(alignment.rotation_uncertainty_deg, 0, 1e-6);
 }
@@ -42,7 +44,8 @@ TEST(Align, YawTurnsAboutZOnly) {
   const Trajectory truth = test::Helix(300);
   const Trajectory turned = test::Map(truth, [](const Pose& p) { return kTurn.Inverse() * p; });
   ExpectNear(Align(Pairs(truth, turned), AlignMode::kYaw).T_truth_estimate, kTurn, 1e-9);
-  const Trajectory tilted = test::Map(truth, [](const Pose& p) { return kMove.Inverse() * p; });
+  const Trajectory tilted =
+      test::Map(truth, [](const Pose& p) { return kWorldMove.Inverse() * p; });
   const Pose pose = Align(Pairs(truth, tilted), AlignMode::kYaw).T_truth_estimate;
   EXPECT_NEAR((pose.rotation * Vector3::UnitZ()).z(), 1, 1e-12);
 }
@@ -55,10 +58,11 @@ TEST(Align, NoneLeavesTheEstimateWhereItIs) {
 
 TEST(Align, AStraightPathTakesItsRollFromAttitudes) {
   const Trajectory truth = test::Straight(100, 0.5);
-  const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove.Inverse() * p; });
+  const Trajectory estimate =
+      test::Map(truth, [](const Pose& p) { return kWorldMove.Inverse() * p; });
   const PathAlignment alignment = Align(Pairs(truth, estimate), AlignMode::kSe3);
   EXPECT_TRUE(alignment.used_attitude);
-  ExpectNear(alignment.T_truth_estimate, kMove, 1e-9);
+  ExpectNear(alignment.T_truth_estimate, kWorldMove, 1e-9);
 }
 
 TEST(Align, AParkedVehicleIsAlignedByAttitude) {

@@ -10,11 +10,10 @@
 namespace lio {
 namespace {
 
+using test::kWorldMove;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-const Pose kMove{ExpSo3({0.3, -0.5, 2.0}), {10, -20, 30}};
 
 EvaluationOptions With(AlignMode mode) {
   EvaluationOptions options;
@@ -24,7 +23,7 @@ EvaluationOptions With(AlignMode mode) {
 
 TEST(Evaluate, APerfectEstimateInAnotherWorldHasNoErrors) {
   const Trajectory truth = test::Helix(600);
-  const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove * p; });
+  const Trajectory estimate = test::Map(truth, [](const Pose& p) { return kWorldMove * p; });
   const Evaluation e = Evaluate(truth, estimate, {});
   EXPECT_LT(e.ape.position_m.max, 1e-9);
   EXPECT_LT(e.ape.rotation_deg.max, 1e-6);
@@ -51,9 +50,10 @@ TEST(Evaluate, AKnownShiftIsTheApeWithoutAlignment) {
 // Positions alternate by +-0.1 m along z about the truth, so the alignment changes nothing.
 TEST(Evaluate, ApeAfterAlignmentIsTheResidual) {
   const Trajectory truth = test::Helix(400);
-  Trajectory estimate = test::Map(truth, [](const Pose& p) { return kMove * p; });
+  Trajectory estimate = test::Map(truth, [](const Pose& p) { return kWorldMove * p; });
   for (std::size_t i = 0; i < 400; ++i) {
-    estimate.poses[i].pose.translation += kMove.rotation * Vector3(0, 0, i % 2 == 0 ? 0.1 : -0.1);
+    estimate.poses[i].pose.translation +=
+        kWorldMove.rotation * Vector3(0, 0, i % 2 == 0 ? 0.1 : -0.1);
   }
   const Evaluation e = Evaluate(truth, estimate, {});
   EXPECT_NEAR(e.ape.position_m.rmse, 0.1, 1e-4);

@@ -12,6 +12,9 @@ namespace lio::test {
 
 inline constexpr std::int64_t kPeriod_ns = 100'000'000;  // 10 Hz
 
+// Brings a path into another world.
+inline const Pose kWorldMove{ExpSo3({0.3, -0.5, 2.0}), {10, -20, 30}};
+
 // Makes poses 0.1 s apart, beginning at stamp 1000 s.
 inline Trajectory MakeTrajectory(int count, const std::function<Pose(int)>& pose_of) {
   Trajectory trajectory;

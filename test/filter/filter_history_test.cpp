@@ -266,14 +266,14 @@ TEST(FilterHistory, SaturationWidensTheCovarianceOfItsSensorOnly) {
 // off by up to 4 mrad a scan, where matches are right to 0.2 mrad: all poses but some would be
 // refused without its being learned.
 TEST(FilterHistory, PosesAreFusedThoughTheGyrosScaleIsWrong) {
-  constexpr double kRate_radps = 4.0;
+  constexpr double kPeakRate_radps = 4.0;
   constexpr double kFrequency_radps = 2.0;
   HistoryOptions options = TestOptions();
   options.noise.gyro_density = 5e-4;
   const auto sample_at = [&](double t_s) {
     ImuSample sample;
     sample.stamp = StampAt(t_s);
-    sample.w_imu_radps = Vector3(0, 0, 1.01 * kRate_radps * std::sin(kFrequency_radps * t_s));
+    sample.w_imu_radps = Vector3(0, 0, 1.01 * kPeakRate_radps * std::sin(kFrequency_radps * t_s));
     sample.f_imu_mps2 = -options.g_world;
     return sample;
   };
@@ -286,7 +286,7 @@ TEST(FilterHistory, PosesAreFusedThoughTheGyrosScaleIsWrong) {
     if (k % 10 != 0) continue;
     PoseEvent event;
     const double yaw_rad =
-        kRate_radps / kFrequency_radps * (1.0 - std::cos(kFrequency_radps * 0.01 * k));
+        kPeakRate_radps / kFrequency_radps * (1.0 - std::cos(kFrequency_radps * 0.01 * k));
     event.measurement.T_map_imu.rotation = ExpSo3(Vector3(0, 0, yaw_rad));
     event.measurement.cov = 4e-8 * Matrix6::Identity();
     event.force = k % 50 == 0;
@@ -294,7 +294,7 @@ TEST(FilterHistory, PosesAreFusedThoughTheGyrosScaleIsWrong) {
     if (k > 100 && !is_fused) ++num_refused_late;
   }
   EXPECT_EQ(num_refused_late, 0);
-  EXPECT_GT(history.RateErrorStd(StampAt(5.5)), 2e-3 * kRate_radps);  // sin(11) is -1
+  EXPECT_GT(history.RateErrorStd(StampAt(5.5)), 2e-3 * kPeakRate_radps);  // sin(11) is -1
 }
 
 // Noise counts from its own stamp on, whether it was known then or later.

@@ -21,7 +21,7 @@ Estimate Sure() {
 
 // A pose so far along x, as sure as the estimate: its NIS is half the square of the distance in
 // standard deviations.
-PoseEvent PoseAt(double x_m) {
+PoseEvent PoseAlongX(double x_m) {
   PoseEvent event;
   event.measurement.T_map_imu.translation.x() = x_m;
   event.measurement.cov = kStd_m * kStd_m * Matrix6::Identity();
@@ -31,7 +31,7 @@ PoseEvent PoseAt(double x_m) {
 TEST(PoseEvent, APoseWithinTheGateIsFused) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
-  const UpdateResult update = FusePoseEvent(PoseAt(0.2), kGate, kMost, inflation, estimate);
+  const UpdateResult update = FusePoseEvent(PoseAlongX(0.2), kGate, kMost, inflation, estimate);
   EXPECT_TRUE(update.fused);
   EXPECT_NEAR(update.nis, 2.0, 1e-9);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 0.1, 1e-9);
@@ -41,7 +41,7 @@ TEST(PoseEvent, APoseBeyondTheGateChangesTheInflationAlone) {
   Estimate estimate = Sure();
   const Estimate before = estimate;
   CovarianceInflation inflation;
-  const UpdateResult update = FusePoseEvent(PoseAt(1.0), kGate, kMost, inflation, estimate);
+  const UpdateResult update = FusePoseEvent(PoseAlongX(1.0), kGate, kMost, inflation, estimate);
   EXPECT_FALSE(update.fused);
   EXPECT_EQ(estimate.cov, before.cov);
   EXPECT_EQ(estimate.state.T_map_imu.translation, Vector3::Zero());
@@ -52,7 +52,7 @@ TEST(PoseEvent, APoseBeyondTheGateChangesTheInflationAlone) {
 TEST(PoseEvent, InflationWeighsAPoseLess) {
   Estimate estimate = Sure();
   CovarianceInflation inflation{3.0, 1.0};
-  const UpdateResult update = FusePoseEvent(PoseAt(0.2), kGate, kMost, inflation, estimate);
+  const UpdateResult update = FusePoseEvent(PoseAlongX(0.2), kGate, kMost, inflation, estimate);
   EXPECT_NEAR(update.nis, 1.0, 1e-9);  // 0.04 / (0.01 + 0.03)
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 0.05, 1e-9);
 }
@@ -61,11 +61,11 @@ TEST(PoseEvent, InflationStaysWithinItsBounds) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
   for (int i = 0; i < 100; ++i) {
-    (void)FusePoseEvent(PoseAt(1.0), 0.0, {2.0, 2.0}, inflation, estimate);
+    (void)FusePoseEvent(PoseAlongX(1.0), 0.0, {2.0, 2.0}, inflation, estimate);
   }
   EXPECT_EQ(inflation.translation, 2.0);
   for (int i = 0; i < 100; ++i) {
-    (void)FusePoseEvent(PoseAt(0.0), 0.0, {2.0, 2.0}, inflation, estimate);
+    (void)FusePoseEvent(PoseAlongX(0.0), 0.0, {2.0, 2.0}, inflation, estimate);
   }
   EXPECT_EQ(inflation.translation, 1.0);
 }
@@ -73,7 +73,7 @@ TEST(PoseEvent, InflationStaysWithinItsBounds) {
 TEST(PoseEvent, AForcedPoseFarOffIsAMotionThatNobodySaw) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
-  PoseEvent event = PoseAt(20.0);
+  PoseEvent event = PoseAlongX(20.0);
   event.force = true;
   EXPECT_TRUE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 20.0, 0.1);
@@ -85,7 +85,7 @@ TEST(PoseEvent, AForcedPoseIsWrongWhereSoMuchMotionCannotHaveBeenUnseen) {
   Estimate estimate = Sure();
   const Estimate before = estimate;
   CovarianceInflation inflation;
-  PoseEvent event = PoseAt(20.0);
+  PoseEvent event = PoseAlongX(20.0);
   event.force = true;
   event.max_unseen = {19.0, 0.1};
   EXPECT_FALSE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
@@ -98,7 +98,7 @@ TEST(PoseEvent, AForcedPoseIsWrongWhereSoMuchMotionCannotHaveBeenUnseen) {
 TEST(PoseEvent, AForcedTurnIsWrongWhereSoMuchTurnCannotHaveBeenUnseen) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
-  PoseEvent event = PoseAt(0.0);
+  PoseEvent event = PoseAlongX(0.0);
   event.measurement.T_map_imu.rotation = ExpSo3(Vector3(0.0, 0.0, 1.5));
   event.force = true;
   event.max_unseen = {1.0, 1.4};
@@ -110,7 +110,7 @@ TEST(PoseEvent, AForcedTurnIsWrongWhereSoMuchTurnCannotHaveBeenUnseen) {
 TEST(PoseEvent, APoseThatReplacesTheMotionIsWhereTheBodyIs) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
-  PoseEvent event = PoseAt(500.0);
+  PoseEvent event = PoseAlongX(500.0);
   event.replaces_motion = true;
   const UpdateResult update = FusePoseEvent(event, kGate, kMost, inflation, estimate);
   EXPECT_TRUE(update.fused);
@@ -121,7 +121,7 @@ TEST(PoseEvent, APoseThatReplacesTheMotionIsWhereTheBodyIs) {
 TEST(PoseEvent, AClockThatWasSetTakesTheMotionBackAndLeavesTheVelocity) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
-  PoseEvent event = PoseAt(3.0);
+  PoseEvent event = PoseAlongX(3.0);
   event.is_clock_set = true;
   EXPECT_TRUE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 3.0, 0.02);

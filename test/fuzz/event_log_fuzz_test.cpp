@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumMutants = 1000;
+constexpr int kNumLogMutants = 1000;
 constexpr std::int64_t kHeaderBytes = 28;
 
 TEST(EventLogFuzz, EveryByteOfADamagedLogIsReadOrCounted) {
@@ -26,7 +26,7 @@ TEST(EventLogFuzz, EveryByteOfADamagedLogIsReadOrCounted) {
   const std::string sound{std::istreambuf_iterator<char>(file), {}};
   std::mt19937 random(7);
   int num_skipping = 0;
-  for (int i = 0; i < kNumMutants; ++i) {
+  for (int i = 0; i < kNumLogMutants; ++i) {
     std::string mutant = sound;
     for (auto rounds = 1 + random() % 5; rounds > 0; --rounds) {
       mutant[random() % mutant.size()] = static_cast<char>(random());
@@ -43,7 +43,7 @@ TEST(EventLogFuzz, EveryByteOfADamagedLogIsReadOrCounted) {
     ASSERT_EQ(read_bytes + reader.skipped_bytes(), std::ssize(mutant)) << "mutant " << i;
     num_skipping += reader.skipped_bytes() > 0 ? 1 : 0;
   }
-  EXPECT_GT(num_skipping, kNumMutants / 4);
+  EXPECT_GT(num_skipping, kNumLogMutants / 4);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumMutants = 1'000'000;
+constexpr int kNumMessageMutants = 1'000'000;
 constexpr std::size_t kScanFixedBytes = 44;
 constexpr std::size_t kPointBytes = sizeof(LidarPoint);
 
@@ -85,7 +85,7 @@ TEST(LcmCodecFuzz, OneMillionMutantsAreDecodedOrRefused) {
   std::int32_t seq = 0;
   int num_imu = 0;
   int num_scan = 0;
-  for (int i = 0; i < kNumMutants; ++i) {
+  for (int i = 0; i < kNumMessageMutants; ++i) {
     Bytes mutant = seeds[mutator.Below(seeds.size())];
     for (std::size_t rounds = 1 + mutator.Below(3); rounds > 0; --rounds) mutator.Mutate(mutant);
     // The block has exactly the message's size, so that a sanitizer sees the first byte behind it.
@@ -108,9 +108,9 @@ TEST(LcmCodecFuzz, OneMillionMutantsAreDecodedOrRefused) {
     }
   }
   // Both outcomes must be frequent, or the test would test nothing.
-  EXPECT_GT(num_imu, kNumMutants / 50);
-  EXPECT_GT(num_scan, kNumMutants / 20);
-  EXPECT_LT(num_imu + num_scan, kNumMutants / 2);
+  EXPECT_GT(num_imu, kNumMessageMutants / 50);
+  EXPECT_GT(num_scan, kNumMessageMutants / 20);
+  EXPECT_LT(num_imu + num_scan, kNumMessageMutants / 2);
 }
 
 }  // namespace

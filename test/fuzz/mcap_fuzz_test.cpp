@@ -15,7 +15,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumMutants = 300;
+constexpr int kNumMcapMutants = 300;
 constexpr int kNumMessages = 40;
 
 std::vector<std::uint8_t> Payload(int i) {
@@ -41,7 +41,7 @@ TEST_P(McapFuzz, AnyDamageIsSurvivedAndTold) {
   const std::string sound = SoundFile();
   std::mt19937 random(7);
   int num_told = 0;
-  for (int i = 0; i < kNumMutants; ++i) {
+  for (int i = 0; i < kNumMcapMutants; ++i) {
     std::string mutant = sound;
     for (auto rounds = 1 + random() % 5; rounds > 0; --rounds) {
       mutant[8 + random() % (mutant.size() - 8)] = static_cast<char>(random());
@@ -63,7 +63,7 @@ TEST_P(McapFuzz, AnyDamageIsSurvivedAndTold) {
     ASSERT_GE(bag->damage().lost_bytes, 0) << "mutant " << i;
     num_told += bag->damage().Any() ? 1 : 0;
   }
-  EXPECT_GT(num_told, kNumMutants * 3 / 4);
+  EXPECT_GT(num_told, kNumMcapMutants * 3 / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressions, McapFuzz, testing::Values("", "lz4", "zstd"),

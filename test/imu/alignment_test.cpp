@@ -15,10 +15,7 @@ namespace {
 using test::CarMotion;
 using test::MotionPoint;
 using test::ReadImu;
-
-Timestamp At(double t_s) {
-  return Timestamp{} + Duration::FromSeconds(t_s);
-}
+using test::StampFromZero;
 
 // Returns two seconds of a car's drive at 400 Hz with 10 poses per second, in a frame that leans.
 struct Window {
@@ -35,12 +32,13 @@ struct Window {
           {T_any_imu.rotation, T_any_imu.translation, T_any_world.rotation * point.v_world});
       if (i == 0) continue;
       MatchedPose pose;
-      pose.stamp = At(0.1 * i);
+      pose.stamp = StampFromZero(0.1 * i);
       pose.T_any_imu = T_any_imu;
       pose.cov.diagonal() << Vector3::Constant(0.02 * 0.02), Vector3::Constant(0.003 * 0.003);
       poses.push_back(pose);
       const ProcessNoise noise{1e-3, 1e-2, 0, 0};
-      terms.motions.push_back(Preintegrate(samples, At(0.1 * (i - 1)), At(0.1 * i), {}, noise));
+      terms.motions.push_back(
+          Preintegrate(samples, StampFromZero(0.1 * (i - 1)), StampFromZero(0.1 * i), {}, noise));
     }
     truth.biases = {errors.gyro_bias, errors.accel_bias};
     truth.up_any = T_any_world.rotation * Vector3::UnitZ();
@@ -54,7 +52,8 @@ struct Window {
 
   void TakeGravityOut(std::vector<ImuSample>& samples) const {
     for (ImuSample& sample : samples) {
-      const Pose T_world_imu = motion.At(SecondsBetween(At(0), sample.stamp)).T_world_imu;
+      const Pose T_world_imu =
+          motion.At(SecondsBetween(StampFromZero(0), sample.stamp)).T_world_imu;
       sample.f_imu_mps2 -= T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity_mps2);
     }
   }

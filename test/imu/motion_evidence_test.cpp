@@ -11,17 +11,17 @@ namespace {
 
 using test::StampAt;
 
-constexpr double kStep_s = 0.1;
+constexpr double kPosePeriod_s = 0.1;
 
 // Returns exact poses and samples of a drive; the samples were taken `late_s` later.
 MotionEvidence Exact(double to_s, double late_s = 0.0) {
   const test::Motion motion = test::WindingDrive(0.5);
   MotionEvidence evidence;
   evidence.BeginMap(StampAt(0.0));
-  for (int k = 0; k * kStep_s <= to_s; ++k) {
-    const double t_s = k * kStep_s;
+  for (int k = 0; k * kPosePeriod_s <= to_s; ++k) {
+    const double t_s = k * kPosePeriod_s;
     std::vector<ImuSample> samples =
-        test::ExactSamples(motion, t_s - kStep_s + late_s, t_s + late_s, 0.01);
+        test::ExactSamples(motion, t_s - kPosePeriod_s + late_s, t_s + late_s, 0.01);
     evidence.AddPose({StampAt(t_s), motion(t_s)}, samples);
   }
   return evidence;
@@ -54,8 +54,9 @@ TEST(MotionEvidence, ABiasIsNoContradiction) {
   MotionEvidence evidence;
   evidence.BeginMap(StampAt(0.0));
   for (int k = 0; k < 40; ++k) {
-    const ImuSample sample{StampAt(k * kStep_s), Vector3(0.03, -0.02, 0.01), Vector3(0, 0, 9.8)};
-    evidence.AddPose({StampAt(k * kStep_s), Pose{}}, std::vector{sample, sample});
+    const ImuSample sample{StampAt(k * kPosePeriod_s), Vector3(0.03, -0.02, 0.01),
+                           Vector3(0, 0, 9.8)};
+    evidence.AddPose({StampAt(k * kPosePeriod_s), Pose{}}, std::vector{sample, sample});
   }
   EXPECT_LT(evidence.RateScore(Matrix3::Identity(), 1.0), 3.0);
 }
@@ -67,10 +68,10 @@ TEST(MotionEvidence, ASpikeIsNoRateInAnyUnit) {
   std::vector<ImuSample> spiked = still;
   spiked[7].w_imu_radps.z() = 1000.0;
   evidence.AddPose({StampAt(0.0), Pose{}}, still);
-  evidence.AddPose({StampAt(kStep_s), Pose{}}, spiked);
+  evidence.AddPose({StampAt(kPosePeriod_s), Pose{}}, spiked);
   EXPECT_EQ(evidence.steps().back().w_sent, Vector3(Vector3::Zero()));
   for (ImuSample& sample : spiked) sample.w_imu_radps.z() = 120.0;  // deg/s
-  evidence.AddPose({StampAt(2 * kStep_s), Pose{}}, spiked);
+  evidence.AddPose({StampAt(2 * kPosePeriod_s), Pose{}}, spiked);
   EXPECT_DOUBLE_EQ(evidence.steps().back().w_sent.z(), 120.0);
 }
 

@@ -20,13 +20,10 @@ using test::MotionPoint;
 using test::NormalVector;
 using test::ReadImu;
 using test::SmoothMotion;
+using test::StampFromZero;
 using test::WalkMotion;
 
 constexpr double kDegree = M_PI / 180.0;
-
-Timestamp At(double t_s) {
-  return Timestamp{} + Duration::FromSeconds(t_s);
-}
 
 SmoothMotion StraightMotion() {
   SmoothMotion motion;
@@ -83,7 +80,7 @@ Case MakeCase(const CaseSetup& setup, std::mt19937_64& random) {
     Vector6 noise;
     noise << NormalVector(random, setup.pose_std_m), NormalVector(random, setup.pose_std_rad);
     const Pose truth = T_any_world * setup.motion.At(0.1 * i).T_world_imu;
-    c.poses.push_back({At(0.1 * i), truth * ExpSe3(noise), 1e-8 * Matrix6::Identity()});
+    c.poses.push_back({StampFromZero(0.1 * i), truth * ExpSe3(noise), 1e-8 * Matrix6::Identity()});
   }
   const MotionPoint start = setup.motion.At(0.0);
   c.truth.T_world_imu.rotation =
@@ -120,7 +117,7 @@ TEST(MovingStart, TiltAndVelocityAreGoodAfterTwoSeconds) {
       CaseSetup setup;
       setup.motion = named.motion;
       const Case c = MakeCase(setup, random);
-      const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+      const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
       ASSERT_TRUE(result.start) << named.name << ": " << result.why_not;
       const Estimate& estimate = result.start->estimate;
       EXPECT_LT(TiltError(estimate.state, c.truth), 1.0 * kDegree) << named.name;
@@ -141,7 +138,7 @@ TEST(MovingStart, CovarianceIsHonest) {
       CaseSetup setup;
       setup.motion = named.motion;
       const Case c = MakeCase(setup, random);
-      const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+      const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
       ASSERT_TRUE(result.start) << named.name << ": " << result.why_not;
       const Estimate& estimate = result.start->estimate;
       const ErrorVector error = BoxMinus(c.truth, estimate.state);
@@ -166,7 +163,7 @@ TEST(MovingStart, KnowsThatTiltAndAccelerometerBiasGoTogether) {
   CaseSetup setup;
   setup.motion = StraightMotion();
   const Case c = MakeCase(setup, random);
-  const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+  const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
   ASSERT_TRUE(result.start) << result.why_not;
   const ErrorMatrix& P = result.start->estimate.cov;
   // The car goes straight on, so a lateral bias looks like a tilt: both stay at the prior, nearly
@@ -194,7 +191,7 @@ TEST(MovingStart, WrongMatchesDoLittleHarm) {
       off << NormalVector(random, 1.0), NormalVector(random, 0.1);
       c.poses[bad].T_any_imu = c.poses[bad].T_any_imu * ExpSe3(off);
     }
-    const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+    const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
     ASSERT_TRUE(result.start) << named.name << ": " << result.why_not;
     EXPECT_LT(TiltError(result.start->estimate.state, c.truth), 1.0 * kDegree) << named.name;
     EXPECT_LT((result.start->estimate.state.v_world_imu - c.truth.v_world_imu).norm(), 0.2)
@@ -210,7 +207,7 @@ TEST(MovingStart, WorksOnRealisticRatesAndWindows) {
       setup.rate_hz = rate_hz;
       setup.window_s = window_s;
       const Case c = MakeCase(setup, random);
-      const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+      const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
       ASSERT_TRUE(result.start) << result.why_not;
       EXPECT_LT(TiltError(result.start->estimate.state, c.truth), 1.0 * kDegree);
     }
@@ -222,11 +219,11 @@ TEST(MovingStart, WithoutGravityFindsVelocityAndKeepsRollAndPitchAtZero) {
   CaseSetup setup;
   Case c = MakeCase(setup, random);
   for (ImuSample& sample : c.samples) {
-    const double t = SecondsBetween(At(0), sample.stamp);
+    const double t = SecondsBetween(StampFromZero(0), sample.stamp);
     sample.f_imu_mps2 -=
         setup.motion.At(t).T_world_imu.rotation.conjugate() * Vector3(0, 0, test::kGravity_mps2);
   }
-  const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), false);
+  const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), false);
   ASSERT_TRUE(result.start) << result.why_not;
   EXPECT_EQ(result.start->g_world.norm(), 0.0);
   const MotionPoint start = setup.motion.At(0);
@@ -244,7 +241,7 @@ TEST(MovingStart, RefusesAnImuThatIsTurnedAgainstTheLidar) {
     sample.w_imu_radps =
         Vector3(-sample.w_imu_radps.y(), sample.w_imu_radps.z(), -sample.w_imu_radps.x());
   }
-  const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+  const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
   EXPECT_FALSE(result.start);
   EXPECT_NE(result.why_not.find("rig.T_imu_lidar"), std::string::npos) << result.why_not;
 }
@@ -253,7 +250,7 @@ TEST(MovingStart, RefusesForcesInUnitsOfG) {
   std::mt19937_64 random(9);
   Case c = MakeCase({}, random);
   for (ImuSample& sample : c.samples) sample.f_imu_mps2 /= test::kGravity_mps2;
-  const MovingStart result = StartMoving(c.samples, c.poses, At(0), TestRig(), true);
+  const MovingStart result = StartMoving(c.samples, c.poses, StampFromZero(0), TestRig(), true);
   EXPECT_FALSE(result.start);
   EXPECT_NE(result.why_not, "");
 }
@@ -262,7 +259,7 @@ TEST(MovingStart, SaysWhatIsMissing) {
   std::mt19937_64 random(10);
   const Case c = MakeCase({}, random);
   const auto why = [&](const Case& part) {
-    return StartMoving(part.samples, part.poses, At(0), TestRig(), true).why_not;
+    return StartMoving(part.samples, part.poses, StampFromZero(0), TestRig(), true).why_not;
   };
   Case few = c;
   few.poses.resize(5);

@@ -19,7 +19,7 @@ namespace {
 using test::BoxMinus;
 using test::StampAt;
 
-constexpr double kStep_s = 0.01;
+constexpr double kSamplePeriod_s = 0.01;
 
 struct Rest {
   Quaternion R_world_imu = Quaternion::Identity();
@@ -30,11 +30,11 @@ struct Rest {
 
 // Returns a second of an IMU at rest, with noise as in the rig.
 std::vector<ImuSample> StandStill(const Rest& rest, const Rig& rig, std::mt19937_64& random) {
-  const double white = 1.0 / std::sqrt(kStep_s);
+  const double white = 1.0 / std::sqrt(kSamplePeriod_s);
   std::vector<ImuSample> samples;
   for (int i = 0; i <= 100; ++i) {
     ImuSample sample;
-    sample.stamp = StampAt(i * kStep_s);
+    sample.stamp = StampAt(i * kSamplePeriod_s);
     sample.w_imu_radps =
         rest.gyro_bias + rig.imu.gyro_noise_density * white * test::RandomVector<3>(random);
     sample.f_imu_mps2 = rest.R_world_imu.conjugate() * -rest.g_world + rest.accel_bias +

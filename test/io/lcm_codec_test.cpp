@@ -16,14 +16,15 @@
 namespace lio {
 namespace {
 
-constexpr Timestamp kStamp{1'700'000'000'123'456'000};
+constexpr Timestamp kMessageStamp{1'700'000'000'123'456'000};
 
 ImuSample SampleImu() {
-  return {kStamp, Vector3(0.1, -0.2, 0.3), Vector3(1.0, 2.0, 9.8)};
+  return {kMessageStamp, Vector3(0.1, -0.2, 0.3), Vector3(1.0, 2.0, 9.8)};
 }
 
 ScanChunk SampleChunk(int num_points) {
-  ScanChunk chunk{.stamp = kStamp, .scan_seq = 7, .chunk_index = 2, .chunk_count = 9, .points = {}};
+  ScanChunk chunk{
+      .stamp = kMessageStamp, .scan_seq = 7, .chunk_index = 2, .chunk_count = 9, .points = {}};
   for (int i = 0; i < num_points; ++i) {
     const auto x = static_cast<float>(i);
     chunk.points.push_back({x, -x, 0.5F * x, static_cast<std::uint32_t>(1000 * i), 600, 31});
@@ -55,14 +56,14 @@ TEST(LcmCodec, ImuRoundTrips) {
   std::int32_t seq = 0;
   ASSERT_EQ(DecodeImu(EncodeImu(SampleImu(), 42), sample, seq), DecodeStatus::kOk);
   EXPECT_EQ(seq, 42);
-  EXPECT_EQ(sample.stamp, kStamp);
+  EXPECT_EQ(sample.stamp, kMessageStamp);
   EXPECT_EQ(sample.w_imu_radps, SampleImu().w_imu_radps);
   EXPECT_EQ(sample.f_imu_mps2, SampleImu().f_imu_mps2);
 }
 
 TEST(LcmCodec, OwnImuDecoderAgreesWithTheGeneratedOne) {
   const auto message = Decoded<imu_t>(EncodeImu(SampleImu(), -3));
-  EXPECT_EQ(message.utime, kStamp.Microseconds());
+  EXPECT_EQ(message.utime, kMessageStamp.Microseconds());
   EXPECT_EQ(message.seq, -3);
   EXPECT_EQ(message.gyro[1], -0.2);
   EXPECT_EQ(message.accel[2], 9.8);
@@ -72,7 +73,7 @@ TEST(LcmCodec, OwnImuDecoderAgreesWithTheGeneratedOne) {
 TEST(LcmCodec, ChunkRoundTrips) {
   ScanChunk chunk;
   ASSERT_EQ(DecodeChunk(EncodeChunk(SampleChunk(5)), chunk), DecodeStatus::kOk);
-  EXPECT_EQ(chunk.stamp, kStamp);
+  EXPECT_EQ(chunk.stamp, kMessageStamp);
   EXPECT_EQ(chunk.scan_seq, 7);
   EXPECT_EQ(chunk.chunk_index, 2);
   EXPECT_EQ(chunk.chunk_count, 9);
@@ -87,7 +88,7 @@ TEST(LcmCodec, ChunkRoundTrips) {
 
 TEST(LcmCodec, OwnChunkDecoderAgreesWithTheGeneratedOne) {
   const auto message = Decoded<scan_t>(EncodeChunk(SampleChunk(kMaxChunkPoints)));
-  EXPECT_EQ(message.utime, kStamp.Microseconds());
+  EXPECT_EQ(message.utime, kMessageStamp.Microseconds());
   EXPECT_EQ(message.scan_seq, 7);
   EXPECT_EQ(message.n_points, kMaxChunkPoints);
   EXPECT_EQ(message.n_bytes, 20 * kMaxChunkPoints);
@@ -101,11 +102,11 @@ TEST(LcmCodec, AnEmptyChunkReplacesThePointsOfTheReusedOne) {
 
 TEST(LcmCodec, NanosecondsBelowTheStampsMicrosecondMoveIntoTheOffsets) {
   ScanChunk chunk = SampleChunk(2);
-  chunk.stamp = kStamp + Duration{789};
+  chunk.stamp = kMessageStamp + Duration{789};
   chunk.points[1].t_offset_ns = std::numeric_limits<std::uint32_t>::max();
   ScanChunk decoded;
   ASSERT_EQ(DecodeChunk(EncodeChunk(chunk), decoded), DecodeStatus::kOk);
-  EXPECT_EQ(decoded.stamp, kStamp);
+  EXPECT_EQ(decoded.stamp, kMessageStamp);
   EXPECT_EQ(decoded.points[0].t_offset_ns, 789u);
   EXPECT_EQ(decoded.points[1].t_offset_ns, std::numeric_limits<std::uint32_t>::max());
 }
@@ -184,7 +185,7 @@ TEST(LcmCodec, MessagesAboveTheLimitAreRefusedUnread) {
 
 TEST(LcmCodec, OdometryCarriesBothPosesAndTheirCovariancesRowByRow) {
   NavOutput nav;
-  nav.stamp = kStamp;
+  nav.stamp = kMessageStamp;
   nav.scan_seq = 12;
   nav.status = TrackingStatus::kCoasting;
   nav.source = OdometrySource::kImuPropagated;
@@ -194,7 +195,7 @@ TEST(LcmCodec, OdometryCarriesBothPosesAndTheirCovariancesRowByRow) {
   nav.map_pose_cov(5, 0) = 0.75;
   nav.velocity_cov(0, 2) = 0.5;
   const auto message = Decoded<odometry_t>(EncodeOdometry(nav));
-  EXPECT_EQ(message.utime, kStamp.Microseconds());
+  EXPECT_EQ(message.utime, kMessageStamp.Microseconds());
   EXPECT_EQ(message.scan_seq, 12);
   EXPECT_EQ(message.status, odometry_t::STATUS_COASTING);
   EXPECT_EQ(message.source, odometry_t::SOURCE_IMU_PROPAGATED);
@@ -210,7 +211,7 @@ TEST(LcmCodec, OdometryCarriesBothPosesAndTheirCovariancesRowByRow) {
 TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
   FilterReport report;
   NavOutput& nav = report.nav;
-  nav.stamp = kStamp;
+  nav.stamp = kMessageStamp;
   nav.T_world_imu.translation = Vector3(1, 2, 3);
   nav.T_map_imu = {Quaternion(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), Vector3(4, 5, 6)};
   nav.map_pose_cov.diagonal() << 0.25, 1.0, 2.0, 3.0, 4.0, 5.0;
@@ -218,7 +219,7 @@ TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
   report.v_map_imu_mps = Vector3(10, 11, 12);
   report.map_velocity_cov(0, 2) = 0.5;
   const auto message = Decoded<odometry_t>(EncodeLocalOdometry(report));
-  EXPECT_EQ(message.utime, kStamp.Microseconds());
+  EXPECT_EQ(message.utime, kMessageStamp.Microseconds());
   EXPECT_EQ(message.pos[0], 4.0);
   EXPECT_EQ(message.map_pos[0], 4.0);
   EXPECT_EQ(message.quat[3], std::sqrt(0.5));
@@ -233,7 +234,7 @@ TEST(LcmCodec, LocalOdometryHasTheMapWhereElseIsTheWorld) {
 
 TEST(LcmCodec, FilterStateCarriesTheFullCovariance) {
   FilterReport report;
-  report.nav.stamp = kStamp;
+  report.nav.stamp = kMessageStamp;
   report.gyro_bias_radps = Vector3(0.01, 0.02, 0.03);
   report.nis = 5.5;
   report.nis_dof = 6;
@@ -249,7 +250,7 @@ TEST(LcmCodec, FilterStateCarriesTheFullCovariance) {
 
 TEST(LcmCodec, RegistrationCarriesEigenvaluesAndStageTimes) {
   ScanReport report;
-  report.stamp = kStamp;
+  report.stamp = kMessageStamp;
   report.scan_seq = 3;
   report.status = MatchStatus::kDegenerate;
   report.fused = true;
@@ -265,7 +266,8 @@ TEST(LcmCodec, RegistrationCarriesEigenvaluesAndStageTimes) {
 }
 
 TEST(LcmCodec, CloudsAreScansOfTheRegisteredKind) {
-  const RegisteredCloud cloud{kStamp, 4, {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}};
+  const RegisteredCloud cloud{
+      kMessageStamp, 4, {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}};
   ScanChunk chunk;
   ASSERT_EQ(DecodeChunk(EncodeCloud(cloud), chunk), DecodeStatus::kOk);
   EXPECT_EQ(chunk.sensor_id, scan_t::SENSOR_REGISTERED);

@@ -15,7 +15,7 @@ using ::testing::Not;
 
 const Bytes kAny{0};
 
-StatusReport Report() {
+StatusReport ReportOfARun() {
   StatusReport report;
   report.counters.num_imu = 4;
   report.counters.num_chunks = 2;
@@ -31,7 +31,7 @@ void AddTimes(OutputAccount& account, const char* channel, int times) {
 }
 
 TEST(StatusCounts, ComeBackFromTheWire) {
-  StatusReport report = Report();
+  StatusReport report = ReportOfARun();
   report.start_utime = 77;
   const auto counts = DecodeStatusCounts(EncodeStatus(report, "1.0.0"));
   ASSERT_TRUE(counts);
@@ -43,7 +43,7 @@ TEST(StatusCounts, ComeBackFromTheWire) {
 TEST(StatusCounts, AreAbsentFromForeignAndDamagedBytes) {
   EXPECT_FALSE(DecodeStatusCounts({}));
   EXPECT_FALSE(DecodeStatusCounts(kAny));
-  const Bytes bytes = EncodeStatus(Report(), "1.0.0");
+  const Bytes bytes = EncodeStatus(ReportOfARun(), "1.0.0");
   EXPECT_FALSE(DecodeStatusCounts(ByteView(bytes).first(200)));
   for (const std::size_t at : {std::size_t{0}, std::size_t{37}, std::size_t{37 + 8 * 26}}) {
     Bytes damaged = bytes;  // of the fingerprint, the first count and the first refusal
@@ -63,7 +63,7 @@ TEST(OutputAccount, ClosesWhereAllThatWasRecordedArrived) {
   AddTimes(account, "LIO_IMU", 5);
   AddTimes(account, "LIO_SCAN", 3);
   AddTimes(account, "LIO_REG", 1);
-  account.Add("LIO_STATUS", EncodeStatus(Report(), "1.0.0"));
+  account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
   AddTimes(account, "LIO_IMU", 9);  // after the last status
   EXPECT_THAT(account.Text(), HasSubstr("messages: 8 recorded"));
   EXPECT_THAT(account.Text(), Not(HasSubstr("does not close")));
@@ -72,7 +72,7 @@ TEST(OutputAccount, ClosesWhereAllThatWasRecordedArrived) {
 TEST(OutputAccount, SaysByHowMuchItDoesNotClose) {
   OutputAccount account{Channels()};
   AddTimes(account, "LIO_IMU", 10);
-  account.Add("LIO_STATUS", EncodeStatus(Report(), "1.0.0"));
+  account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
   EXPECT_THAT(account.Text(), HasSubstr("does not close by 2: messages were on the way"));
   EXPECT_THAT(account.Text(), HasSubstr("does not close by 1: scans were before the start"));
 }
@@ -80,7 +80,7 @@ TEST(OutputAccount, SaysByHowMuchItDoesNotClose) {
 TEST(OutputAccount, TheOutputsAloneAreHeldAgainstScansOnly) {
   OutputAccount account{Channels()};
   AddTimes(account, "LIO_REG", 1);
-  account.Add("LIO_STATUS", EncodeStatus(Report(), "1.0.0"));
+  account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
   EXPECT_THAT(account.Text(), Not(HasSubstr("messages")));
   EXPECT_THAT(account.Text(), HasSubstr("scans: 2 closed = 1 with a row + 1 empty"));
 }
@@ -92,7 +92,7 @@ TEST(OutputAccount, ASecondDaemonCountsFromItsStart) {
   account.Add("LIO_STATUS", EncodeStatus({}, "1.0.0"));
   AddTimes(account, "LIO_IMU", 8);
   AddTimes(account, "LIO_REG", 1);
-  StatusReport second = Report();
+  StatusReport second = ReportOfARun();
   second.start_utime = 5;
   account.Add("LIO_STATUS", EncodeStatus(second, "1.0.0"));
   EXPECT_THAT(account.Text(), Not(HasSubstr("does not close")));

@@ -24,9 +24,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr Timestamp kStamp{1'700'000'000'000'000'007};
+constexpr Timestamp kRowStamp{1'700'000'000'000'000'007};
 
-std::vector<std::string> Lines(const std::filesystem::path& file) {
+std::vector<std::string> LinesOfFile(const std::filesystem::path& file) {
   std::istringstream text(test::ReadText(file));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -68,8 +68,8 @@ class RunWriterTest : public ::testing::Test {
 };
 
 TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
-  WriteRun(Scan(kStamp));
-  EXPECT_THAT(Lines(out_ / "trajectory.tum"),
+  WriteRun(Scan(kRowStamp));
+  EXPECT_THAT(LinesOfFile(out_ / "trajectory.tum"),
               ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.250000000 "
                           "-0.500000000 0.500000000 0.500000000 0.500000000"));
 }
@@ -77,13 +77,13 @@ TEST_F(RunWriterTest, TrajectoryRowsAreTumWithNineDecimals) {
 // The logs count from zero; their stamps are shifted back.
 TEST_F(RunWriterTest, StampsBeforeTheEpochAreRowsToo) {
   WriteRun(Scan(Timestamp{-40'000'000}));
-  EXPECT_THAT(Lines(out_ / "trajectory.tum"),
+  EXPECT_THAT(LinesOfFile(out_ / "trajectory.tum"),
               ElementsAre(testing::StartsWith("-0.040000000 1.000000000 ")));
 }
 
 TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
-  WriteRun(Scan(kStamp));
-  const auto lines = Lines(out_ / "covariance.csv");
+  WriteRun(Scan(kRowStamp));
+  const auto lines = LinesOfFile(out_ / "covariance.csv");
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_THAT(lines[0], StartsWith("t_s,cov_x_x,cov_x_y,"));
   EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','), 36);
@@ -92,23 +92,23 @@ TEST_F(RunWriterTest, CovarianceHasAHeaderAndTheTrajectorysStamps) {
 }
 
 TEST_F(RunWriterTest, TheWorldHasATrajectoryAndCovariancesOfItsOwn) {
-  WriteRun(Scan(kStamp));
-  EXPECT_THAT(Lines(out_ / "trajectory_world.tum"),
+  WriteRun(Scan(kRowStamp));
+  EXPECT_THAT(LinesOfFile(out_ / "trajectory_world.tum"),
               ElementsAre("1700000000.000000007 1.000000000 -2.000000000 3.500000000 "
                           "0.000000000 0.000000000 0.000000000 1.000000000"));
-  const auto lines = Lines(out_ / "covariance_world.csv");
+  const auto lines = LinesOfFile(out_ / "covariance_world.csv");
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0], Lines(out_ / "covariance.csv")[0]);
+  EXPECT_EQ(lines[0], LinesOfFile(out_ / "covariance.csv")[0]);
   EXPECT_THAT(lines[1], StartsWith("1700000000.000000007,0.000000000000e+00,6.250000000000e-02,"));
 }
 
 TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
   Options options;
   options.rig.T_base_imu = Pose{Quaternion::Identity(), Vector3(1, 0, 0)};
-  ScanOutput scan = Scan(kStamp);
+  ScanOutput scan = Scan(kRowStamp);
   scan.filter->nav.base.emplace().T_map_base.translation = Vector3(0, -2, 3.25);
   WriteRun(scan, options);
-  EXPECT_THAT(Lines(out_ / "trajectory_base.tum"),
+  EXPECT_THAT(LinesOfFile(out_ / "trajectory_base.tum"),
               ElementsAre("1700000000.000000007 0.000000000 -2.000000000 3.250000000 "
                           "0.000000000 0.000000000 0.000000000 1.000000000"));
   RunWriter(out_, Options{}).Finish({});
@@ -116,11 +116,11 @@ TEST_F(RunWriterTest, TheBaseHasATrajectoryOfItsOwnWhereTheRigNamesOne) {
 }
 
 TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
-  ScanOutput waiting = Scan(kStamp);
+  ScanOutput waiting = Scan(kRowStamp);
   waiting.filter.reset();
   WriteRun(waiting);
-  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
-  const auto rows = Lines(out_ / "registration.csv");
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory.tum").size(), 0u);
+  const auto rows = LinesOfFile(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), ','),
             std::count(rows[1].begin(), rows[1].end(), ','));
@@ -128,11 +128,11 @@ TEST_F(RunWriterTest, ScansBeforeTheStartAreRegisteredButNotInTheTrajectory) {
 }
 
 TEST_F(RunWriterTest, ARowSaysHowManyMatchesItTook) {
-  ScanOutput scan = Scan(kStamp);
+  ScanOutput scan = Scan(kRowStamp);
   scan.scan.num_matches = 3;
   scan.scan.num_coarse_matches = 13;
   WriteRun(scan);
-  const auto rows = Lines(out_ / "registration.csv");
+  const auto rows = LinesOfFile(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0],
               HasSubstr(",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
@@ -142,14 +142,15 @@ TEST_F(RunWriterTest, ARowSaysHowManyMatchesItTook) {
 
 TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {
   RunWriter writer(out_, Options{});
-  for (const Timestamp stamp : {kStamp, kStamp, kStamp - Duration{5}, kStamp + Duration{1}}) {
+  for (const Timestamp stamp :
+       {kRowStamp, kRowStamp, kRowStamp - Duration{5}, kRowStamp + Duration{1}}) {
     writer.Write(Scan(stamp));
     writer.Write(ImuRate(stamp));
   }
   writer.Finish({});
-  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 2u);
-  EXPECT_EQ(Lines(out_ / "covariance.csv").size(), 3u);
-  EXPECT_EQ(Lines(out_ / "trajectory_imu_rate.tum").size(), 2u);
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory.tum").size(), 2u);
+  EXPECT_EQ(LinesOfFile(out_ / "covariance.csv").size(), 3u);
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory_imu_rate.tum").size(), 2u);
   EXPECT_EQ(Stats()["num_rows_not_later"], 4);
 }
 
@@ -157,16 +158,16 @@ TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {
 TEST_F(RunWriterTest, RowsAfterAClockThatWentBackStandInASegmentBesides) {
   RunWriter writer(out_, Options{});
   for (const std::int64_t at_s : {0, 1, -4, -3, 2}) {
-    const Timestamp stamp = kStamp + Duration{1'000'000'000 * at_s};
+    const Timestamp stamp = kRowStamp + Duration{1'000'000'000 * at_s};
     writer.Write(ImuRate(stamp));
     writer.Write(Scan(stamp));
   }
-  ScanOutput waiting = Scan(kStamp - Duration{3600'000'000'000});
+  ScanOutput waiting = Scan(kRowStamp - Duration{3600'000'000'000});
   waiting.filter.reset();
   writer.Write(waiting);
   writer.Finish({});
   const auto num_rows = [&](const std::filesystem::path& folder, const char* file) {
-    return Lines(out_ / folder / file).size();
+    return LinesOfFile(out_ / folder / file).size();
   };
   for (const char* folder : {"", "segment_2"}) {  // 0, 1, 2 and -4, -3, 2
     EXPECT_EQ(num_rows(folder, "trajectory.tum"), 3u) << folder;
@@ -187,7 +188,7 @@ TEST_F(RunWriterTest, RowsAfterAClockThatWentBackStandInASegmentBesides) {
 TEST_F(RunWriterTest, StatsHoldCountsSpeedAndStageTimes) {
   RunWriter writer(out_, Options{});
   for (int i = 1; i <= 100; ++i) {
-    ScanOutput scan = Scan(kStamp + Duration{i});
+    ScanOutput scan = Scan(kRowStamp + Duration{i});
     scan.scan.stage_ns[static_cast<std::size_t>(Stage::kMatch)] = i * 1'000'000;
     writer.Write(scan);
   }
@@ -242,7 +243,7 @@ TEST_F(RunWriterTest, EachCountHasItsNameInTheStats) {
 
 TEST_F(RunWriterTest, ALongRunsStageTimesAreRightToOnePercent) {
   RunWriter writer(out_, Options{});
-  ScanOutput scan = Scan(kStamp);
+  ScanOutput scan = Scan(kRowStamp);
   scan.filter.reset();
   constexpr int kNumScans = 8'000;
   for (int i = 1; i <= kNumScans; ++i) {
@@ -265,7 +266,7 @@ TEST_F(RunWriterTest, WithoutScansStageTimesAreNull) {
 }
 
 TEST_F(RunWriterTest, StatsHaveTheNoiseOfTheImuWhereItIsKnown) {
-  ScanOutput scan = Scan(kStamp);
+  ScanOutput scan = Scan(kRowStamp);
   scan.filter->imu_noise.accel = 9.0;
   WriteRun(scan);
   EXPECT_EQ(Stats()["imu_noise_per_rig"]["accel"]["median"], 9.0);
@@ -273,7 +274,7 @@ TEST_F(RunWriterTest, StatsHaveTheNoiseOfTheImuWhereItIsKnown) {
 }
 
 TEST_F(RunWriterTest, TheMapIsTurnedAsTheLevelPathIs) {
-  ScanOutput scan = Scan(kStamp);
+  ScanOutput scan = Scan(kRowStamp);
   scan.filter->g_world_mps2 = Vector3(0, 0, -9.8);
   scan.filter->nav.T_map_imu.rotation = ExpSo3(Vector3(M_PI / 2, 0, 0));  // map's z is along -y
   RunWriter writer(out_, Options{});
@@ -301,28 +302,28 @@ TEST_F(RunWriterTest, OptionsAreThoseThatWereUsed) {
 
 TEST_F(RunWriterTest, StatesAndNoticesAreTablesOfTheirOwn) {
   RunWriter writer(out_, Options{});
-  writer.Write(Scan(kStamp), Trust::kNo);
-  writer.Write(Scan(kStamp + Duration{1}));
-  writer.Write(Notice{kStamp, Notice::Severity::kWarning, "look out"});
+  writer.Write(Scan(kRowStamp), Trust::kNo);
+  writer.Write(Scan(kRowStamp + Duration{1}));
+  writer.Write(Notice{kRowStamp, Notice::Severity::kWarning, "look out"});
   writer.Finish({});
-  const auto states = Lines(out_ / "states.csv");
+  const auto states = LinesOfFile(out_ / "states.csv");
   ASSERT_EQ(states.size(), 3u);
   EXPECT_THAT(states[1], StartsWith("1700000000.000000007,0,2,"));
   EXPECT_THAT(states[2], StartsWith("1700000000.000000008,0,-1,"));
-  EXPECT_THAT(Lines(out_ / "notices.tsv"),
+  EXPECT_THAT(LinesOfFile(out_ / "notices.tsv"),
               ElementsAre("t_s\tseverity\ttext", "1700000000.000000007\twarning\tlook out"));
 }
 
 TEST_F(RunWriterTest, EarlierRunsAreOverwritten) {
   {
     RunWriter writer(out_, Options{});
-    writer.Write(Scan(kStamp));
+    writer.Write(Scan(kRowStamp));
     writer.WriteMap(std::vector<Eigen::Vector3f>{{1, 2, 3}});
     writer.Finish({});
   }
   RunWriter writer(out_, Options{});
   writer.Finish({});
-  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory.tum").size(), 0u);
   EXPECT_FALSE(std::filesystem::exists(out_ / "map.pcd"));
 }
 
@@ -334,18 +335,18 @@ TEST_F(RunWriterTest, WhatCannotBeWrittenIsNamed) {
 TEST_F(RunWriterTest, RowsOfAllFilesAreThereAfterAHundredOfThemOrAFlush) {
   RunWriter writer(out_, Options{});
   for (int i = 1; i <= 99; ++i) writer.Write(Scan(Timestamp{i}));
-  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 0u);
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory.tum").size(), 0u);
   writer.Write(Scan(Timestamp{100}));
   for (const char* name : {"trajectory.tum", "trajectory_world.tum"}) {
-    EXPECT_EQ(Lines(out_ / name).size(), 100u) << name;
+    EXPECT_EQ(LinesOfFile(out_ / name).size(), 100u) << name;
   }
   for (const char* name : {"covariance.csv", "states.csv", "registration.csv"}) {
-    EXPECT_EQ(Lines(out_ / name).size(), 101u) << name;
+    EXPECT_EQ(LinesOfFile(out_ / name).size(), 101u) << name;
   }
   writer.Write(Scan(Timestamp{101}));
   writer.Flush();
-  EXPECT_EQ(Lines(out_ / "trajectory.tum").size(), 101u);
-  EXPECT_EQ(Lines(out_ / "registration.csv").size(), 102u);
+  EXPECT_EQ(LinesOfFile(out_ / "trajectory.tum").size(), 101u);
+  EXPECT_EQ(LinesOfFile(out_ / "registration.csv").size(), 102u);
 }
 
 TEST_F(RunWriterTest, AFullDiskIsAFailureThatFinishThrows) {
@@ -363,7 +364,8 @@ TEST_F(RunWriterTest, AFullDiskIsAFailureThatFinishThrows) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
   std::signal(SIGXFSZ, before);
   EXPECT_FALSE(Stats().empty());
-  EXPECT_EQ(Lines(out_ / "states.csv").size(), Lines(out_ / "trajectory_world.tum").size() + 1);
+  EXPECT_EQ(LinesOfFile(out_ / "states.csv").size(),
+            LinesOfFile(out_ / "trajectory_world.tum").size() + 1);
   EXPECT_TRUE(test::ReadText(out_ / "covariance.csv").ends_with('\n'));
 }
 

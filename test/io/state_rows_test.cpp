@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-FilterReport Report() {
+FilterReport CoastingReport() {
   FilterReport filter;
   filter.nav.stamp = {1'700'000'000'000'000'007};
   filter.nav.status = TrackingStatus::kCoasting;
@@ -24,21 +24,21 @@ FilterReport Report() {
 
 TEST(StateRows, EachRowHasAsManyColumnsAsTheHeader) {
   const std::string header = StateHeader();
-  const std::string row = StateRow(Report(), Trust::kDoubtful);
+  const std::string row = StateRow(CoastingReport(), Trust::kDoubtful);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
   EXPECT_TRUE(header.starts_with("t_s,status,trust,velocity_x_mps,velocity_y_mps,"));
   EXPECT_TRUE(header.ends_with(",nis,nis_dof\n"));
 }
 
 TEST(StateRows, ValuesComeBeforeTheirStandardDeviations) {
-  const std::string row = StateRow(Report(), Trust::kDoubtful);
+  const std::string row = StateRow(CoastingReport(), Trust::kDoubtful);
   EXPECT_TRUE(row.starts_with(
       "1700000000.000000007,3,1,1.500000e+00,0.000000e+00,0.000000e+00,2.000000e-01,"));
   EXPECT_NE(row.find(",-2.500000e-01,0.000000e+00,0.000000e+00,1.000000e-01,"), std::string::npos);
 }
 
 TEST(StateRows, UnknownTrustAndASmallCovarianceAreRowsToo) {
-  FilterReport filter = Report();
+  FilterReport filter = CoastingReport();
   filter.cov = {};
   EXPECT_TRUE(StateRow(filter, std::nullopt).starts_with("1700000000.000000007,3,-1,"));
 }

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-std::vector<Vector3> RandomPoints(int count, double size, unsigned seed) {
+std::vector<Vector3> RandomPositions(int count, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-size, size);
   std::vector<Vector3> points;
@@ -35,11 +35,11 @@ TEST(PointMap, WiderSearchFindsTheExactNearest) {
   PointMap map(options);
   std::vector<Vector3> kept;
   std::set<VoxelKey> keys;
-  for (const Vector3& point : RandomPoints(500, 2.0, 1)) {
+  for (const Vector3& point : RandomPositions(500, 2.0, 1)) {
     if (keys.insert(map.ContentAt(point).key).second) kept.push_back(point);
   }
   map.Insert(kept, Vector3::Zero());
-  for (const Vector3& query : RandomPoints(50, 2.0, 2)) {
+  for (const Vector3& query : RandomPositions(50, 2.0, 2)) {
     std::vector<double> expected;
     for (const Vector3& point : kept) expected.push_back((point - query).norm());
     std::sort(expected.begin(), expected.end());
@@ -91,7 +91,7 @@ TEST(PointMap, BoundsHoldExactlyAfterEveryInsertion) {
   std::vector<Vector3> all;
   for (int scan = 0; scan < 40; ++scan) {
     const Vector3 centre(3.0 * scan, 0, 0);
-    std::vector<Vector3> points = RandomPoints(60, 20.0, static_cast<unsigned>(scan));
+    std::vector<Vector3> points = RandomPositions(60, 20.0, static_cast<unsigned>(scan));
     for (Vector3& point : points) point += centre;
     map.Insert(points, centre);
     all.insert(all.end(), points.begin(), points.end());

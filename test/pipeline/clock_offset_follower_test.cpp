@@ -9,22 +9,20 @@
 namespace lio {
 namespace {
 
-constexpr double kScan_s = 0.1;
+using test::StampFromZero;
+
+constexpr double kWalkScan_s = 0.1;
 constexpr double kImuRate_hz = 100.0;
 constexpr double kGyroDensity = 5e-4;
 constexpr double kOffset_s = 0.02;  // the lidar's clock is behind the IMU's
-constexpr int kEnough = 150;        // scans of a walk
+constexpr int kEnoughOfWalk = 150;  // scans of a walk
 
-Options OptionsWith(bool estimates, double configured_s = 0.0) {
+Options OptionsOfClock(bool estimates, double configured_s = 0.0) {
   Options options;
   options.rig.imu.gyro_noise_density = kGyroDensity;
   options.rig.lidar.clock_offset_s = configured_s;
   options.filter.estimate_clock_offset = estimates;
   return options;
-}
-
-Timestamp At(double t_s) {
-  return Timestamp{} + Duration::FromSeconds(t_s);
 }
 
 // A sensor in a walker's hands, whose scans are matched without errors.
@@ -36,10 +34,10 @@ class Walk {
   std::optional<std::string> AddScan(ClockOffsetFollower& follower,
                                      MatchStatus status = MatchStatus::kConverged,
                                      unsigned degenerate_mask = 0) {
-    const double start_s = 1.0 + kScan_s * num_scans_++ - offset_s_;
+    const double start_s = 1.0 + kWalkScan_s * num_scans_++ - offset_s_;
     Sweep sweep;
-    sweep.start = At(start_s);
-    sweep.end = At(start_s + kScan_s);
+    sweep.start = StampFromZero(start_s);
+    sweep.end = StampFromZero(start_s + kWalkScan_s);
     sweep.MoveBy(follower.correction());
     FeedImuUpTo(SecondsBetween(Timestamp{}, sweep.end) + 0.02);
     MatchOutcome outcome;
@@ -47,7 +45,7 @@ class Walk {
     outcome.match.status = status;
     outcome.match.degenerate_mask = degenerate_mask;
     outcome.match.cov = 1e-8 * Matrix6::Identity();
-    const double seen_s = start_s + 0.5 * kScan_s + offset_s_;
+    const double seen_s = start_s + 0.5 * kWalkScan_s + offset_s_;
     outcome.match.T_map_imu = motion_.At(seen_s).T_world_imu;
     return follower.AddScan(outcome, history_, kGyroDensity);
   }
@@ -84,7 +82,7 @@ class Walk {
 };
 
 TEST(ClockOffsetFollower, DoesNothingWhenSwitchedOff) {
-  const Options options = OptionsWith(false, 0.03);
+  const Options options = OptionsOfClock(false, 0.03);
   ClockOffsetFollower follower(options);
   Walk walk;
   EXPECT_EQ(walk.NumAnnounced(follower, 30), 0);
@@ -97,14 +95,14 @@ TEST(ClockOffsetFollower, DoesNothingWhenSwitchedOff) {
 }
 
 TEST(ClockOffsetFollower, DoesNotRunWithoutAnImu) {
-  Options options = OptionsWith(true);
+  Options options = OptionsOfClock(true);
   EXPECT_TRUE(ClockOffsetFollower(options).is_running());
   options.pipeline.use_imu = false;
   EXPECT_FALSE(ClockOffsetFollower(options).is_running());
 }
 
 TEST(ClockOffsetFollower, MovesNoSweepWhileNothingIsKnown) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);
   EXPECT_EQ(follower.correction(), Duration{});
 }
@@ -112,29 +110,29 @@ TEST(ClockOffsetFollower, MovesNoSweepWhileNothingIsKnown) {
 // Tolerance: what ten scans a second of a walk tell, see the test of ClockOffset.
 TEST(ClockOffsetFollower, MovesSweepsByTheOffsetOnceThatIsKnown) {
   for (const double offset_s : {kOffset_s, -kOffset_s}) {
-    const Options options = OptionsWith(true);
+    const Options options = OptionsOfClock(true);
     ClockOffsetFollower follower(options);
     Walk walk(offset_s);
-    walk.NumAnnounced(follower, kEnough);
+    walk.NumAnnounced(follower, kEnoughOfWalk);
     EXPECT_NEAR(follower.correction().Seconds(), offset_s, 1e-3);
   }
 }
 
 TEST(ClockOffsetFollower, WhatIsConfiguredComesOnTop) {
-  const Options options = OptionsWith(true, 0.1);
+  const Options options = OptionsOfClock(true, 0.1);
   ClockOffsetFollower follower(options);
   EXPECT_EQ(follower.total_s(), 0.1);
   Walk walk;
-  walk.NumAnnounced(follower, kEnough);
+  walk.NumAnnounced(follower, kEnoughOfWalk);
   EXPECT_NEAR(follower.total_s(), 0.1 + kOffset_s, 1e-3);
 }
 
 TEST(ClockOffsetFollower, AnnouncesTheOffsetOnceWhenItIsKnownToAMillisecond) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);
   Walk walk;
   std::optional<std::string> text;
-  for (int k = 0; k < kEnough && !text; ++k) {
+  for (int k = 0; k < kEnoughOfWalk && !text; ++k) {
     EXPECT_GT(follower.std_s(), 1e-3);
     text = walk.AddScan(follower);
   }
@@ -142,22 +140,22 @@ TEST(ClockOffsetFollower, AnnouncesTheOffsetOnceWhenItIsKnownToAMillisecond) {
   EXPECT_LE(follower.std_s(), 1e-3);
   EXPECT_NE(text->find("ms behind the IMU's"), std::string::npos) << *text;
   EXPECT_NE(text->find("rig.lidar.clock_offset_s: 0.0"), std::string::npos) << *text;
-  EXPECT_EQ(walk.NumAnnounced(follower, kEnough), 0);
+  EXPECT_EQ(walk.NumAnnounced(follower, kEnoughOfWalk), 0);
 }
 
 TEST(ClockOffsetFollower, ALidarThatIsAheadIsAnnouncedAsSuch) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);
   Walk walk(-kOffset_s);
   std::optional<std::string> text;
-  for (int k = 0; k < kEnough && !text; ++k) text = walk.AddScan(follower);
+  for (int k = 0; k < kEnoughOfWalk && !text; ++k) text = walk.AddScan(follower);
   ASSERT_TRUE(text);
   EXPECT_NE(text->find("ms ahead of the IMU's"), std::string::npos) << *text;
   EXPECT_NE(text->find("rig.lidar.clock_offset_s: -0.0"), std::string::npos) << *text;
 }
 
 TEST(ClockOffsetFollower, ScansThatAreNotMatchedInAllDirectionsTellNothing) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   for (const bool is_degenerate : {false, true}) {
     ClockOffsetFollower follower(options);
     const double std_s = follower.std_s();
@@ -175,7 +173,7 @@ TEST(ClockOffsetFollower, ScansThatAreNotMatchedInAllDirectionsTellNothing) {
 }
 
 TEST(ClockOffsetFollower, TheTurnAcrossALostScanIsNotMeasured) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   for (const bool is_told : {false, true}) {  // told of it, or by a match of no use
     ClockOffsetFollower follower(options);
     const double std_s = follower.std_s();
@@ -193,11 +191,11 @@ TEST(ClockOffsetFollower, TheTurnAcrossALostScanIsNotMeasured) {
 }
 
 TEST(ClockOffsetFollower, ARestartKnowsNothingAnyMore) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);
   const double std_s = follower.std_s();
   Walk walk;
-  walk.NumAnnounced(follower, kEnough);
+  walk.NumAnnounced(follower, kEnoughOfWalk);
   follower.Restart();
   EXPECT_EQ(follower.std_s(), std_s);
   EXPECT_EQ(follower.total_s(), 0.0);
@@ -205,10 +203,10 @@ TEST(ClockOffsetFollower, ARestartKnowsNothingAnyMore) {
 }
 
 TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
-  const Options options = OptionsWith(true, 0.1);
+  const Options options = OptionsOfClock(true, 0.1);
   ClockOffsetFollower follower(options);
   Walk walk;
-  walk.NumAnnounced(follower, kEnough);
+  walk.NumAnnounced(follower, kEnoughOfWalk);
   follower.Stop();
   EXPECT_EQ(follower.correction(), Duration{});
   EXPECT_FALSE(follower.is_running());
@@ -217,11 +215,11 @@ TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
 }
 
 TEST(ClockOffsetFollower, AfterARestartTheOffsetIsAnnouncedAgain) {
-  const Options options = OptionsWith(true);
+  const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);
-  EXPECT_EQ(Walk().NumAnnounced(follower, kEnough), 1);
+  EXPECT_EQ(Walk().NumAnnounced(follower, kEnoughOfWalk), 1);
   follower.Restart();
-  EXPECT_EQ(Walk().NumAnnounced(follower, kEnough), 1);
+  EXPECT_EQ(Walk().NumAnnounced(follower, kEnoughOfWalk), 1);
 }
 
 }  // namespace

@@ -10,10 +10,9 @@ namespace lio {
 namespace {
 
 using test::kImuStep_s;
+using test::kSpeed_mps;
 using test::StampAt;
 using test::Straight;
-
-constexpr double kSpeed_mps = 8.0;
 
 // Stamps went forth from second 1 to second 3.
 const ClockStep kStep{StampAt(1.0), StampAt(3.0)};

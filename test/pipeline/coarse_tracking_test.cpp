@@ -13,7 +13,7 @@ namespace {
 
 using test::StampAt;
 
-SweepPtr SweepFrom(double start_s) {
+SweepPtr EmptySweepFrom(double start_s) {
   auto sweep = std::make_shared<Sweep>();
   sweep->start = StampAt(start_s);
   sweep->end = StampAt(start_s + 0.1);
@@ -44,15 +44,15 @@ ConstantVelocityTracker TrackerFrom(double start_s) {
 
 TEST(TrackStart, IsTheMiddleOfTheSweepWhereNoMotionIsKnown) {
   MotionSeed seed;
-  EXPECT_EQ(TrackStart(*SweepFrom(1.0), seed), StampAt(1.05));
+  EXPECT_EQ(TrackStart(*EmptySweepFrom(1.0), seed), StampAt(1.05));
   seed.v_imu_mps = Vector3(10.0, 0, 0);
-  EXPECT_EQ(TrackStart(*SweepFrom(1.0), seed), StampAt(1.05));
+  EXPECT_EQ(TrackStart(*EmptySweepFrom(1.0), seed), StampAt(1.05));
 }
 
 TEST(TrackStart, IsTheStartOfTheSweepWithAKnownMotion) {
   MotionSeed seed;
   seed.motion = NavState{};
-  EXPECT_EQ(TrackStart(*SweepFrom(1.0), seed), StampAt(1.0));
+  EXPECT_EQ(TrackStart(*EmptySweepFrom(1.0), seed), StampAt(1.0));
 }
 
 TEST(MeanUp, IsAlongTheMeanForceInAnyUnit) {
@@ -88,7 +88,7 @@ TEST(MeanUp, BelievesForcesThatLeanBy45DegreesAtMost) {
 TEST(FollowClockBack, LeavesATrackThatTheSweepFollows) {
   ConstantVelocityTracker tracker = TrackerFrom(1.0);
   std::optional<Timestamp> last_located = StampAt(0.95);
-  FollowClockBack(*SweepFrom(1.0), tracker, last_located);
+  FollowClockBack(*EmptySweepFrom(1.0), tracker, last_located);
   EXPECT_EQ(tracker.history().head().stamp, StampAt(1.0));
   EXPECT_EQ(last_located, StampAt(0.95));
 }
@@ -97,7 +97,7 @@ TEST(FollowClockBack, GoesOnAtTheSweepWhereStampsWentBack) {
   for (const double start_s : {0.5, 1.9}) {  // the second one ends at the newest event
     ConstantVelocityTracker tracker = TrackerFrom(2.0);
     std::optional<Timestamp> last_located = StampAt(1.95);
-    FollowClockBack(*SweepFrom(start_s), tracker, last_located);
+    FollowClockBack(*EmptySweepFrom(start_s), tracker, last_located);
     EXPECT_EQ(tracker.history().head().stamp, StampAt(start_s));
     EXPECT_EQ(last_located, StampAt(start_s));
   }
@@ -106,7 +106,7 @@ TEST(FollowClockBack, GoesOnAtTheSweepWhereStampsWentBack) {
 TEST(MakeCoarseJob, PredictsByTheVelocityOfTheTrack) {
   ConstantVelocityTracker tracker = TrackerFrom(1.0);
   tracker.AdvanceTo(StampAt(1.3));
-  const MatchJob job = MakeCoarseJob(SweepFrom(1.2), tracker, StampAt(1.05), Vector3::UnitZ());
+  const MatchJob job = MakeCoarseJob(EmptySweepFrom(1.2), tracker, StampAt(1.05), Vector3::UnitZ());
   EXPECT_NEAR(job.prior.T_map_imu.translation.x(), 2.5, 1e-6);
   EXPECT_NEAR(job.prior.since_last_fix_s, 0.2, 1e-9);
 }
@@ -114,7 +114,7 @@ TEST(MakeCoarseJob, PredictsByTheVelocityOfTheTrack) {
 TEST(MakeCoarseJob, RefinesTheDeskewAndHoldsDegenerateDirections) {
   ConstantVelocityTracker tracker = TrackerFrom(1.0);
   const Vector3 up_map = Vector3(0.1, 0, 1).normalized();
-  const MatchJob job = MakeCoarseJob(SweepFrom(0.95), tracker, std::nullopt, up_map);
+  const MatchJob job = MakeCoarseJob(EmptySweepFrom(0.95), tracker, std::nullopt, up_map);
   EXPECT_TRUE(job.refines_deskew);
   ASSERT_TRUE(std::holds_alternative<Track>(job.task));
   EXPECT_TRUE(std::get<Track>(job.task).holds_degenerate);

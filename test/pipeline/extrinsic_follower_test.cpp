@@ -11,7 +11,7 @@ Pose Shifted(double x_m) {
   return {Quaternion::Identity(), Vector3(x_m, 0.0, 0.0)};
 }
 
-Options OptionsWith(bool estimates) {
+Options OptionsOfExtrinsic(bool estimates) {
   Options options;
   options.rig.T_imu_lidar = Shifted(1.0);
   options.filter.estimate_extrinsic = estimates;
@@ -31,7 +31,7 @@ RigFindings Bettered(double right_x_m) {
 }
 
 TEST(ExtrinsicFollower, TheRigsIsUsedUntilItIsSurelyWrong) {
-  ExtrinsicFollower follower(OptionsWith(true));
+  ExtrinsicFollower follower(OptionsOfExtrinsic(true));
   EXPECT_FALSE(follower.Take({}));
   EXPECT_FALSE(follower.Take(Bettered(1.01)));
   EXPECT_EQ(follower.T_imu_lidar().translation.x(), 1.0);
@@ -42,7 +42,7 @@ TEST(ExtrinsicFollower, TheRigsIsUsedUntilItIsSurelyWrong) {
 }
 
 TEST(ExtrinsicFollower, WhatWasCorrectedIsBettered) {
-  ExtrinsicFollower follower(OptionsWith(true));
+  ExtrinsicFollower follower(OptionsOfExtrinsic(true));
   ASSERT_TRUE(follower.Take(Wrong(0.4)));
   ASSERT_TRUE(follower.Take(Bettered(0.38)));
   EXPECT_EQ(follower.T_imu_lidar().translation.x(), 0.38);
@@ -50,9 +50,9 @@ TEST(ExtrinsicFollower, WhatWasCorrectedIsBettered) {
 }
 
 TEST(ExtrinsicFollower, NothingIsCorrectedWhereThatIsOffOrThereIsNoImu) {
-  Options without_imu = OptionsWith(true);
+  Options without_imu = OptionsOfExtrinsic(true);
   without_imu.pipeline.use_imu = false;
-  for (const Options& options : {OptionsWith(false), without_imu}) {
+  for (const Options& options : {OptionsOfExtrinsic(false), without_imu}) {
     ExtrinsicFollower follower(options);
     EXPECT_FALSE(follower.Take(Wrong(0.4)));
     EXPECT_EQ(follower.T_imu_lidar().translation.x(), 1.0);
@@ -60,7 +60,7 @@ TEST(ExtrinsicFollower, NothingIsCorrectedWhereThatIsOffOrThereIsNoImu) {
 }
 
 TEST(ExtrinsicFollower, ARestartGoesBackToTheRigs) {
-  ExtrinsicFollower follower(OptionsWith(true));
+  ExtrinsicFollower follower(OptionsOfExtrinsic(true));
   ASSERT_TRUE(follower.Take(Wrong(0.4)));
   follower.Restart();
   EXPECT_EQ(follower.T_imu_lidar().translation.x(), 1.0);

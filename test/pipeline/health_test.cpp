@@ -6,8 +6,12 @@
 
 #include <algorithm>
 
+#include "support/stamp_from_zero.hpp"
+
 namespace lio {
 namespace {
+
+using test::StampFromZero;
 
 constexpr int kManyPoints = 5000;
 constexpr int kFewPoints = 199;  // one less than says anything about the map
@@ -23,14 +27,12 @@ MatchResult Match(MatchStatus status, unsigned degenerate_mask = 0) {
 const MatchResult kGood = Match(MatchStatus::kConverged);
 const MatchResult kBad = Match(MatchStatus::kDiverged);
 
-Timestamp At(double t_s) {
-  return Timestamp{} + Duration::FromSeconds(t_s);
-}
-
 // A vehicle that was located at 10 s, with ten scans a second from then on.
 class HealthTest : public testing::Test {
  protected:
-  Health With(bool has_imu) { return {has_imu, TrackingStatus::kOk, At(10.0), counters_}; }
+  Health With(bool has_imu) {
+    return {has_imu, TrackingStatus::kOk, StampFromZero(10.0), counters_};
+  }
 
   Health::Verdict AddUnmatched(Health& health, int num, int num_points = kManyPoints) {
     Health::Verdict verdict;
@@ -42,30 +44,31 @@ class HealthTest : public testing::Test {
   }
 
   Counters counters_;
-  Timestamp now_ = At(10.0);
+  Timestamp now_ = StampFromZero(10.0);
 };
 
 TEST_F(HealthTest, AFusedScanIsOk) {
-  Health health(true, TrackingStatus::kLost, At(1.0), counters_);
-  const Health::Verdict verdict = health.AddScan(At(10.0), kGood, kManyPoints, true);
+  Health health(true, TrackingStatus::kLost, StampFromZero(1.0), counters_);
+  const Health::Verdict verdict = health.AddScan(StampFromZero(10.0), kGood, kManyPoints, true);
   EXPECT_EQ(health.status(), TrackingStatus::kOk);
-  EXPECT_EQ(health.last_fused(), At(10.0));
+  EXPECT_EQ(health.last_fused(), StampFromZero(10.0));
   EXPECT_FALSE(verdict.rebases_map || verdict.restarts || verdict.is_newly_lost);
   EXPECT_EQ(counters_.num_matches_rejected, 0);
 }
 
 TEST_F(HealthTest, AFusedScanWithADirectionThatIsNotObservableIsDegenerate) {
   Health health = With(true);
-  (void)health.AddScan(At(10.1), Match(MatchStatus::kDegenerate, 0b1), kManyPoints, true);
+  (void)health.AddScan(StampFromZero(10.1), Match(MatchStatus::kDegenerate, 0b1), kManyPoints,
+                       true);
   EXPECT_EQ(health.status(), TrackingStatus::kDegenerate);
-  EXPECT_EQ(health.last_fused(), At(10.1));
+  EXPECT_EQ(health.last_fused(), StampFromZero(10.1));
 }
 
 TEST_F(HealthTest, AScanThatBeginsTheMapCountsAsFused) {
   Health health(true, TrackingStatus::kInit, std::nullopt, counters_);
-  (void)health.AddScan(At(10.0), Match(MatchStatus::kEmptyMap), kManyPoints, false);
+  (void)health.AddScan(StampFromZero(10.0), Match(MatchStatus::kEmptyMap), kManyPoints, false);
   EXPECT_EQ(health.status(), TrackingStatus::kOk);
-  EXPECT_EQ(health.last_fused(), At(10.0));
+  EXPECT_EQ(health.last_fused(), StampFromZero(10.0));
   EXPECT_EQ(counters_.num_matches_rejected, 0);
 }
 
@@ -74,52 +77,53 @@ TEST_F(HealthTest, AMatchThatWasRefusedDoesNotEndTheMapAtOnce) {
   Health health = With(true);
   MatchResult refused = Match(MatchStatus::kTooFewPoints);
   refused.num_matched = 800;
-  EXPECT_FALSE(health.AddScan(At(10.1), refused, kManyPoints, false).rebases_map);
+  EXPECT_FALSE(health.AddScan(StampFromZero(10.1), refused, kManyPoints, false).rebases_map);
   refused.num_matched = 49;
-  EXPECT_TRUE(health.AddScan(At(10.2), refused, kManyPoints, false).rebases_map);
+  EXPECT_TRUE(health.AddScan(StampFromZero(10.2), refused, kManyPoints, false).rebases_map);
 }
 
 TEST_F(HealthTest, AMatchThatWasNotFusedIsNoMatch) {
   Health health = With(true);
-  (void)health.AddScan(At(10.1), kGood, kManyPoints, false);
+  (void)health.AddScan(StampFromZero(10.1), kGood, kManyPoints, false);
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
-  EXPECT_EQ(health.last_fused(), At(10.0));
+  EXPECT_EQ(health.last_fused(), StampFromZero(10.0));
   EXPECT_EQ(health.num_unmatched_in_a_row(), 1);
   EXPECT_EQ(counters_.num_matches_rejected, 1);
 }
 
 TEST_F(HealthTest, ItCoastsForTwoSecondsWithoutAMatchAndIsLostThen) {
   Health health = With(true);
-  (void)health.AddScan(At(11.9), kBad, kManyPoints, false);
+  (void)health.AddScan(StampFromZero(11.9), kBad, kManyPoints, false);
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
-  (void)health.AddScan(At(12.0), kBad, kManyPoints, false);
+  (void)health.AddScan(StampFromZero(12.0), kBad, kManyPoints, false);
   EXPECT_EQ(health.status(), TrackingStatus::kLost);
 }
 
 TEST_F(HealthTest, ADegenerateScanThatWasNotFusedCoasts) {
   Health health = With(true);
-  (void)health.AddScan(At(10.1), Match(MatchStatus::kDegenerate, 0b1), kManyPoints, false);
+  (void)health.AddScan(StampFromZero(10.1), Match(MatchStatus::kDegenerate, 0b1), kManyPoints,
+                       false);
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
 }
 
 TEST_F(HealthTest, WithoutAnyFusedScanItIsLostAtOnce) {
   Health health(true, TrackingStatus::kInit, std::nullopt, counters_);
-  EXPECT_TRUE(health.AddScan(At(10.0), kBad, kManyPoints, false).is_newly_lost);
+  EXPECT_TRUE(health.AddScan(StampFromZero(10.0), kBad, kManyPoints, false).is_newly_lost);
   EXPECT_EQ(health.status(), TrackingStatus::kLost);
 }
 
 TEST_F(HealthTest, ItIsNewlyLostOnceForEachTime) {
   Health health = With(true);
-  EXPECT_FALSE(health.AddScan(At(11.0), kBad, kManyPoints, false).is_newly_lost);
-  EXPECT_TRUE(health.AddScan(At(12.5), kBad, kManyPoints, false).is_newly_lost);
-  EXPECT_FALSE(health.AddScan(At(12.6), kBad, kManyPoints, false).is_newly_lost);
-  EXPECT_FALSE(health.AddScan(At(12.7), kGood, kManyPoints, true).is_newly_lost);
-  EXPECT_TRUE(health.AddScan(At(15.0), kBad, kManyPoints, false).is_newly_lost);
+  EXPECT_FALSE(health.AddScan(StampFromZero(11.0), kBad, kManyPoints, false).is_newly_lost);
+  EXPECT_TRUE(health.AddScan(StampFromZero(12.5), kBad, kManyPoints, false).is_newly_lost);
+  EXPECT_FALSE(health.AddScan(StampFromZero(12.6), kBad, kManyPoints, false).is_newly_lost);
+  EXPECT_FALSE(health.AddScan(StampFromZero(12.7), kGood, kManyPoints, true).is_newly_lost);
+  EXPECT_TRUE(health.AddScan(StampFromZero(15.0), kBad, kManyPoints, false).is_newly_lost);
 }
 
 TEST_F(HealthTest, AModeThatBeginsLostIsNotNewlyLost) {
-  Health health(true, TrackingStatus::kLost, At(1.0), counters_);
-  EXPECT_FALSE(health.AddScan(At(10.0), kBad, kManyPoints, false).is_newly_lost);
+  Health health(true, TrackingStatus::kLost, StampFromZero(1.0), counters_);
+  EXPECT_FALSE(health.AddScan(StampFromZero(10.0), kBad, kManyPoints, false).is_newly_lost);
 }
 
 TEST_F(HealthTest, WithAnImuTheMapIsRebasedAfterMoreThanTenUnmatchedScans) {
@@ -131,8 +135,8 @@ TEST_F(HealthTest, WithAnImuTheMapIsRebasedAfterMoreThanTenUnmatchedScans) {
 TEST_F(HealthTest, WithAnImuAMapThatTheScanDoesNotMeetIsRebasedAtOnce) {
   Health health = With(true);
   const MatchResult beside_map = Match(MatchStatus::kTooFewPoints);
-  EXPECT_TRUE(health.AddScan(At(10.1), beside_map, kManyPoints, false).rebases_map);
-  EXPECT_FALSE(health.AddScan(At(10.2), beside_map, kFewPoints, false).rebases_map);
+  EXPECT_TRUE(health.AddScan(StampFromZero(10.1), beside_map, kManyPoints, false).rebases_map);
+  EXPECT_FALSE(health.AddScan(StampFromZero(10.2), beside_map, kFewPoints, false).rebases_map);
 }
 
 TEST_F(HealthTest, WithoutAnImuTheMapIsNeverRebased) {
@@ -240,23 +244,23 @@ TEST_F(HealthTest, GatedAndLatePosesAreCountedEachOnItsOwn) {
 TEST_F(HealthTest, AClockThatWasSetDoesNotLoseTheWay) {
   Health health = With(true);
   health.ShiftTimesBy(Duration::FromSeconds(100.0));
-  EXPECT_EQ(health.last_fused(), At(110.0));
-  (void)health.AddScan(At(111.0), kBad, kManyPoints, false);
+  EXPECT_EQ(health.last_fused(), StampFromZero(110.0));
+  (void)health.AddScan(StampFromZero(111.0), kBad, kManyPoints, false);
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
 }
 
 TEST_F(HealthTest, GapOfTwoSecondsLosesTheWayOnce) {
   Health health = With(true);
-  EXPECT_FALSE(health.AddGap(At(11.5)));
+  EXPECT_FALSE(health.AddGap(StampFromZero(11.5)));
   EXPECT_EQ(health.status(), TrackingStatus::kCoasting);
-  EXPECT_TRUE(health.AddGap(At(12.0)));
+  EXPECT_TRUE(health.AddGap(StampFromZero(12.0)));
   EXPECT_EQ(health.status(), TrackingStatus::kLost);
-  EXPECT_FALSE(health.AddGap(At(13.0)));
+  EXPECT_FALSE(health.AddGap(StampFromZero(13.0)));
 }
 
 TEST_F(HealthTest, StatusIsLostUntilAnOutageIsOver) {
   Health health = With(true);
-  (void)health.AddScan(At(10.1), kGood, kManyPoints, true);
+  (void)health.AddScan(StampFromZero(10.1), kGood, kManyPoints, true);
   EXPECT_EQ(health.status(true), TrackingStatus::kLost);
   EXPECT_EQ(health.status(false), TrackingStatus::kOk);
   EXPECT_EQ(Health::StatusWhileSeeking(true), TrackingStatus::kLost);

@@ -13,7 +13,7 @@ namespace lio {
 namespace {
 
 using test::StampAt;
-using Kind = ImuConventionMonitor::Finding::Kind;
+using FindingKind = ImuConventionMonitor::Finding::Kind;
 
 // The imu's x axis points to the left.
 const ImuConvention kTurned{false, false,
@@ -37,25 +37,25 @@ std::vector<ImuSample> NoiseOfDegrees() {
 TEST(ImuConventionMonitor, APlainDriveSettlesIt) {
   Watched drive(kSi);
   drive.AddSteps(kManySteps);
-  EXPECT_EQ(drive.Judge().kind, Kind::kNone);
+  EXPECT_EQ(drive.Judge().kind, FindingKind::kNone);
   EXPECT_TRUE(drive.monitor.trusts_gyro());
   // Once settled nothing is doubted any more, whatever speaks against it.
-  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, Kind::kNone);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, FindingKind::kNone);
   EXPECT_TRUE(drive.monitor.trusts_gyro());
 }
 
 TEST(ImuConventionMonitor, AStandstillSettlesNothing) {
   Watched rest(kSi, [](double) { return Pose{}; });
   rest.AddSteps(kManySteps);
-  EXPECT_EQ(rest.Judge().kind, Kind::kNone);
-  EXPECT_EQ(rest.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
+  EXPECT_EQ(rest.Judge().kind, FindingKind::kNone);
+  EXPECT_EQ(rest.monitor.JudgeInitializing({8, 0, {}}, false).kind, FindingKind::kMisleadingGyro);
 }
 
 TEST(ImuConventionMonitor, ForcesInGAreFoundAtOnce) {
   Watched drive(kG);
   drive.AddSteps(kManySteps);
   const ImuConventionMonitor::Finding finding = drive.Judge();
-  EXPECT_EQ(finding.kind, Kind::kOtherwise);
+  EXPECT_EQ(finding.kind, FindingKind::kOtherwise);
   EXPECT_EQ(finding.convention, kG);
   EXPECT_NE(finding.evidence, "");
   EXPECT_TRUE(drive.monitor.trusts_gyro()) << "its rates are right";
@@ -66,12 +66,12 @@ TEST(ImuConventionMonitor, OtherRatesAreMisleadingFirstAndFoundByATrackWithoutTh
   for (const ImuConvention& sent_as : {kDeg, kTurned}) {
     Watched drive(sent_as);
     drive.AddSteps(kManySteps);
-    EXPECT_EQ(drive.Judge().kind, Kind::kMisleadingGyro);
+    EXPECT_EQ(drive.Judge().kind, FindingKind::kMisleadingGyro);
     EXPECT_FALSE(drive.monitor.trusts_gyro());
-    EXPECT_EQ(drive.Judge().kind, Kind::kNone) << "no evidence is left";
+    EXPECT_EQ(drive.Judge().kind, FindingKind::kNone) << "no evidence is left";
     drive.AddSteps(kManySteps);
     const ImuConventionMonitor::Finding finding = drive.Judge();
-    EXPECT_EQ(finding.kind, Kind::kOtherwise);
+    EXPECT_EQ(finding.kind, FindingKind::kOtherwise);
     EXPECT_EQ(finding.convention, sent_as) << Describe(finding.convention);
   }
 }
@@ -80,8 +80,9 @@ TEST(ImuConventionMonitor, TheConventionThatWasFoundIsSettledByMoreOfTheDrive) {
   Watched drive(kDeg);
   drive.Believe(kDeg);
   drive.AddSteps(kManySteps);
-  EXPECT_EQ(drive.Judge().kind, Kind::kNone);
-  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, Kind::kNone) << "settled";
+  EXPECT_EQ(drive.Judge().kind, FindingKind::kNone);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, true).kind, FindingKind::kNone)
+      << "settled";
 }
 
 TEST(ImuConventionMonitor, AnotherMapIsNoMotion) {
@@ -93,7 +94,7 @@ TEST(ImuConventionMonitor, AnotherMapIsNoMotion) {
     drive.AddSteps(kManySteps / 2);
     (void)drive.Judge();
     const bool is_settled =
-        drive.monitor.JudgeInitializing({8, 0, {}}, false).kind == Kind::kNone &&
+        drive.monitor.JudgeInitializing({8, 0, {}}, false).kind == FindingKind::kNone &&
         drive.monitor.trusts_gyro();
     EXPECT_EQ(is_settled, is_told);
   }
@@ -103,17 +104,17 @@ TEST(ImuConventionMonitor, AGyroByWhichFewScansAreMatchedMisleads) {
   const auto kind_of = [](const ImuConventionMonitor::TrackFacts& facts) {
     return Watched(kSi).monitor.JudgeInitializing(facts, false).kind;
   };
-  EXPECT_EQ(kind_of({8, 3, {}}), Kind::kMisleadingGyro);
-  EXPECT_EQ(kind_of({8, 4, {}}), Kind::kNone);
-  EXPECT_EQ(kind_of({7, 0, {}}), Kind::kNone) << "too few to tell";
+  EXPECT_EQ(kind_of({8, 3, {}}), FindingKind::kMisleadingGyro);
+  EXPECT_EQ(kind_of({8, 4, {}}), FindingKind::kNone);
+  EXPECT_EQ(kind_of({7, 0, {}}), FindingKind::kNone) << "too few to tell";
 }
 
 TEST(ImuConventionMonitor, AGyroMisleadsOnce) {
   Watched drive(kSi);
-  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
-  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kNone);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, FindingKind::kMisleadingGyro);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, FindingKind::kNone);
   drive.monitor.TrustGyro(true);
-  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, Kind::kMisleadingGyro);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({8, 0, {}}, false).kind, FindingKind::kMisleadingGyro);
 }
 
 TEST(ImuConventionMonitor, NoiseThatOnlyFitsDegreesMisleads) {
@@ -121,7 +122,8 @@ TEST(ImuConventionMonitor, NoiseThatOnlyFitsDegreesMisleads) {
   Watched drive(kSi);
   drive.rig.imu.gyro_noise_density = 5.2e-4;
   EXPECT_TRUE(drive.monitor.MayBeDegrees(noise));
-  EXPECT_EQ(drive.monitor.JudgeInitializing({1, 1, noise}, false).kind, Kind::kMisleadingGyro);
+  EXPECT_EQ(drive.monitor.JudgeInitializing({1, 1, noise}, false).kind,
+            FindingKind::kMisleadingGyro);
 }
 
 TEST(ImuConventionMonitor, NoiseSaysNothingWhereUnitsAreKnownOrDegreesAreBelieved) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMaxScans = 60;
 
-Pose At(double x, double yaw_rad = 0.0) {
+Pose AboveGroundAt(double x, double yaw_rad = 0.0) {
   return {ExpSo3(Vector3(0, 0, yaw_rad)), Vector3(x, 0, 1.0)};
 }
 
@@ -38,7 +38,7 @@ InitialMap StreetMap(int to_m = 140) {
   InitialMap map;
   VoxelSet taken;
   for (int i = 0; i < to_m; ++i) {
-    const Pose T_world_imu = At(i);
+    const Pose T_world_imu = AboveGroundAt(i);
     for (const Eigen::Vector3f& point : Seen(T_world_imu, 100 + static_cast<unsigned>(i))) {
       const Vector3 point_world = T_world_imu * point.cast<double>();
       const auto [x, y, z] = VoxelOf(point_world / kVoxel_m);
@@ -51,10 +51,10 @@ InitialMap StreetMap(int to_m = 140) {
 
 // Drives on from `x_m` by half a metre a scan, with a new map whose origin is the first pose.
 std::optional<FoundPlace> Seek(InitialMapEntry& entry, double x_m, int* num_scans = nullptr) {
-  const Pose T_world_map = At(x_m, 0.3);
+  const Pose T_world_map = AboveGroundAt(x_m, 0.3);
   for (int i = 0; i < kMaxScans; ++i) {
     if (num_scans != nullptr) *num_scans = i + 1;
-    const Pose T_world_imu = At(x_m + 0.5 * i, 0.3);
+    const Pose T_world_imu = AboveGroundAt(x_m + 0.5 * i, 0.3);
     const auto points = Seen(T_world_imu, static_cast<unsigned>(i));
     MatchResult match;
     match.status = MatchStatus::kConverged;
@@ -74,7 +74,7 @@ TEST(InitialMapEntry, FindsTheNewMapInTheInitialOne) {
     int num_scans = 0;
     const auto found = Seek(entry, x_m, &num_scans);
     ASSERT_TRUE(found) << x_m;
-    const Pose off = (kInitialFromWorld * At(x_m, 0.3)).Inverse() * found->T_initial_map;
+    const Pose off = (kInitialFromWorld * AboveGroundAt(x_m, 0.3)).Inverse() * found->T_initial_map;
     EXPECT_LT(off.translation.norm(), 0.1) << x_m << " m, after " << num_scans << " scans";
     EXPECT_LT(LogSo3(off.rotation).norm(), 0.01);
     std::unique_ptr<ScanMatcher> matcher = std::make_unique<NdtMatcher>(NdtOptions{});
@@ -84,7 +84,7 @@ TEST(InitialMapEntry, FindsTheNewMapInTheInitialOne) {
 
 TEST(InitialMapEntry, GuessOfAnotherPlaceFindsNothing) {
   InitialMap map = StreetMap();
-  map.guess = {(kInitialFromWorld * At(95.0)).translation, 0.7};
+  map.guess = {(kInitialFromWorld * AboveGroundAt(95.0)).translation, 0.7};
   InitialMapEntry entry(map, std::make_unique<NdtMatcher>(NdtOptions{}));
   EXPECT_FALSE(Seek(entry, 30.0));
 }

@@ -12,6 +12,8 @@
 
 namespace lio::test {
 
+inline constexpr double kDriveFrom_s = 6.0;  // WindingDrive() has its full speed of 8 m/s by then
+
 struct InitializingBench {
   explicit InitializingBench(const Options& options = {}, Handover handover = {})
       : bench(options),

@@ -12,14 +12,14 @@ namespace lio {
 namespace {
 
 using test::InitializingBench;
+using test::kDriveFrom_s;
+using test::kStandardGravity_mps2;
 using test::Leaning;
 using test::Motion;
 
-constexpr double kStandardGravity_mps2 = 9.80665;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kDriveFrom_s = 6.0;  // WindingDrive() has its full speed of 8 m/s by then
 
-Options WithUnits(ImuUnits units) {
+Options OptionsIn(ImuUnits units) {
   Options options;
   options.rig.imu.units = units;
   return options;
@@ -66,7 +66,7 @@ TEST(InitializingConvention, RatesInDegreesOfADriveChangeTheConvention) {
 }
 
 TEST(InitializingConvention, ForcesInGContradictConfiguredSiUnits) {
-  InitializingBench b(WithUnits(ImuUnits::kSi));
+  InitializingBench b(OptionsIn(ImuUnits::kSi));
   b.bench.force_scale = 1.0 / kStandardGravity_mps2;
   const auto transition = b.Drive(Leaning(), 0.0, 2.0);
   ASSERT_TRUE(transition);

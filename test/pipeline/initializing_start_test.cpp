@@ -10,15 +10,14 @@ namespace lio {
 namespace {
 
 using test::InitializingBench;
+using test::kDriveFrom_s;
+using test::kStandardGravity_mps2;
 using test::Leaning;
 using test::Motion;
 using test::SecondsOf;
 using test::StampAt;
 using test::StateOf;
 using test::Straight;
-
-constexpr double kStandardGravity_mps2 = 9.80665;
-constexpr double kDriveFrom_s = 6.0;  // WindingDrive() has its full speed of 8 m/s by then
 
 Vector3 UpOf(const Pose& T_world_imu) {
   return T_world_imu.rotation.conjugate() * Vector3::UnitZ();

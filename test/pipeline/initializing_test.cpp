@@ -10,14 +10,13 @@ namespace lio {
 namespace {
 
 using test::InitializingBench;
+using test::kSpeed_mps;
 using test::StampAt;
 using test::Straight;
 using test::WithoutImu;
 
 using Step = ImuPreprocessor::Step;
 using Origin = Handover::Origin;
-
-constexpr double kSpeed_mps = 8.0;
 
 bool IsTrack(const MatchJob& job) {
   return std::holds_alternative<Track>(job.task);

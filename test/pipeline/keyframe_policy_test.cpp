@@ -7,7 +7,7 @@
 namespace lio {
 namespace {
 
-Pose At(double x_m, double yaw_rad = 0.0) {
+Pose OnGroundAt(double x_m, double yaw_rad = 0.0) {
   return {ExpSo3(Vector3(0, 0, yaw_rad)), Vector3(x_m, 0, 0)};
 }
 
@@ -24,20 +24,20 @@ int NumGrown(KeyframePolicy& policy, const Pose& pose, int num) {
 
 TEST(KeyframePolicy, StandstillGrowsTheMapFourTimesOnly) {
   KeyframePolicy policy;
-  EXPECT_EQ(NumGrown(policy, At(0.0), 1000), 4);
+  EXPECT_EQ(NumGrown(policy, OnGroundAt(0.0), 1000), 4);
 }
 
 TEST(KeyframePolicy, MovingOnGrowsItFourTimesAgain) {
   KeyframePolicy policy;
   for (const double x_m : {0.0, 0.3, 0.0}) {
-    EXPECT_EQ(NumGrown(policy, At(x_m), 100), 4) << x_m;
+    EXPECT_EQ(NumGrown(policy, OnGroundAt(x_m), 100), 4) << x_m;
   }
 }
 
 // Motion counts from the last place, whatever that is: 20 cm in any direction, or 0.03 rad.
 TEST(KeyframePolicy, OtherSurfacesAreSeenAfter20CentimetresOr30Milliradians) {
   KeyframePolicy policy;
-  const Pose here = At(50.0, 1.0);
+  const Pose here = OnGroundAt(50.0, 1.0);
   NumGrown(policy, here, 100);
   const auto is_keyframe_after = [&](const Vector3& shift_m, const Vector3& turn_rad) {
     return policy.IsKeyframe(here * Pose{ExpSo3(turn_rad), shift_m});
@@ -57,21 +57,21 @@ TEST(KeyframePolicy, CreepingGrowsItByTheWayNotByTheTime) {
   KeyframePolicy policy;
   int num_grown = 0;
   for (int i = 0; i < 1000; ++i) {  // 1.5 mm a scan
-    num_grown += NumGrown(policy, At(0.0015 * i), 1);
+    num_grown += NumGrown(policy, OnGroundAt(0.0015 * i), 1);
   }
   EXPECT_EQ(num_grown, 4 * 8);  // at 0 and after each 134th scan, the first one beyond 20 cm
 }
 
 TEST(KeyframePolicy, AskingChangesNothing) {
   KeyframePolicy policy;
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(policy.IsKeyframe(At(0.0)));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(policy.IsKeyframe(OnGroundAt(0.0)));
 }
 
 TEST(KeyframePolicy, ResetBeginsAnew) {
   KeyframePolicy policy;
-  NumGrown(policy, At(0.0), 100);
+  NumGrown(policy, OnGroundAt(0.0), 100);
   policy.Reset();
-  EXPECT_EQ(NumGrown(policy, At(0.0), 100), 4);
+  EXPECT_EQ(NumGrown(policy, OnGroundAt(0.0), 100), 4);
 }
 
 }  // namespace

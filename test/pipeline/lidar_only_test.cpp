@@ -9,6 +9,7 @@
 namespace lio {
 namespace {
 
+using test::kSpeed_mps;
 using test::kSweepSpan_s;
 using test::ModeBench;
 using test::Motion;
@@ -18,8 +19,6 @@ using test::Straight;
 using test::WithoutImu;
 
 using Origin = Handover::Origin;
-
-constexpr double kSpeed_mps = 8.0;
 
 // A motion that was known before: straight ahead, without turning.
 MotionSeed Ahead(double speed_mps) {

@@ -21,6 +21,8 @@ namespace lio::test {
 
 inline constexpr double kImuStep_s = 0.01;
 inline constexpr double kSweepSpan_s = 0.1;
+inline constexpr double kSpeed_mps = 8.0;  // of a car on a straight road
+inline constexpr double kStandardGravity_mps2 = 9.80665;
 
 inline Options WithoutImu() {
   Options options;

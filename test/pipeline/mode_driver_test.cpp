@@ -12,14 +12,13 @@ namespace lio {
 namespace {
 
 using test::kImuStep_s;
+using test::kStandardGravity_mps2;
 using test::kSweepSpan_s;
 using test::ModeBench;
 using test::Motion;
 using test::StampAt;
 using test::Straight;
 using test::WithoutImu;
-
-constexpr double kStandardGravity_mps2 = 9.80665;
 
 // Feeds the driver along a motion, and matches each sweep that waits.
 struct DriverBench {

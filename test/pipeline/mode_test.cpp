@@ -26,8 +26,8 @@ constexpr std::array kTriggers{
     Trigger::kImuReturned};
 
 // A standstill with its inertial samples, so that every mode can begin.
-struct Rest {
-  Rest() { (void)bench.FeedImu(Straight(0.0), -0.1, kImuStep_s); }
+struct Standstill {
+  Standstill() { (void)bench.FeedImu(Straight(0.0), -0.1, kImuStep_s); }
 
   Mode Of(ModeKind kind) {
     const ModeContext context = bench.context();
@@ -54,12 +54,12 @@ struct Rest {
 };
 
 TEST(Mode, KindIsThatOfTheModeThatIsHeld) {
-  Rest rest;
+  Standstill rest;
   for (const ModeKind kind : kKinds) EXPECT_EQ(KindOf(rest.Of(kind)), kind) << NameOf(kind);
 }
 
 TEST(Mode, EveryRuleOfTheTableIsBuilt) {
-  Rest rest;
+  Standstill rest;
   for (const TransitionRule& rule : kTransitions) {
     EXPECT_EQ(KindOf(rest.Next(rule.from, rule.trigger)), rule.to)
         << NameOf(rule.from) << " by " << NameOf(rule.trigger);
@@ -68,7 +68,7 @@ TEST(Mode, EveryRuleOfTheTableIsBuilt) {
 
 TEST(Mode, RestartsAreCounted) {
   for (const TransitionRule& rule : kTransitions) {
-    Rest rest;
+    Standstill rest;
     const std::int64_t before = rest.bench.context().counters.num_restarts;
     (void)rest.Next(rule.from, rule.trigger);
     EXPECT_EQ(rest.bench.context().counters.num_restarts - before, rule.is_restart ? 1 : 0)
@@ -77,7 +77,7 @@ TEST(Mode, RestartsAreCounted) {
 }
 
 TEST(Mode, TransitionThatTheTableDoesNotNameThrows) {
-  Rest rest;
+  Standstill rest;
   for (const ModeKind from : kKinds) {
     for (const Trigger trigger : kTriggers) {
       if (FindRule(from, trigger)) continue;
@@ -88,14 +88,14 @@ TEST(Mode, TransitionThatTheTableDoesNotNameThrows) {
 }
 
 TEST(Mode, TrackingBeginsWithTheStartOfTheTransition) {
-  Rest rest;
+  Standstill rest;
   const Mode mode = rest.Next(ModeKind::kInitializing, Trigger::kStarted);
   EXPECT_EQ(std::get<Tracking>(mode).begin(), StampAt(0.0));
   EXPECT_EQ(StatusOf(mode), TrackingStatus::kOk);
 }
 
 TEST(Mode, HandoverOfTheTransitionReachesTheNextMode) {
-  Rest rest;
+  Standstill rest;
   Transition lost{.trigger = Trigger::kLost};
   lost.handover.origin = Handover::Origin::kLostLidar;
   const Mode lidar_only = rest.Of(ModeKind::kLidarOnly);
@@ -135,7 +135,7 @@ TEST(Mode, RejectedMatchesNothing) {
 }
 
 TEST(Mode, InitializingKeepsTheSweepsThatItLooksBackOn) {
-  Rest rest;
+  Standstill rest;
   Mode mode = rest.Of(ModeKind::kInitializing);
   EXPECT_EQ(NextSweepOf(mode), 0U);
   auto& initializing = std::get<Initializing>(mode);

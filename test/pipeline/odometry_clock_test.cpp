@@ -18,15 +18,15 @@ using test::RunResult;
 using test::StaticStartDrive;
 
 TEST(Odometry, TheLidarsConfiguredOffsetIsTakenOffItsStamps) {
-  constexpr double kOffset_s = 0.3;
+  constexpr double kConfigured_s = 0.3;
   Messages messages = StaticStartDrive();
   for (Message& message : messages) {
     if (!message.is_imu) {
-      message.chunk.stamp = message.chunk.stamp - Duration::FromSeconds(kOffset_s);
+      message.chunk.stamp = message.chunk.stamp - Duration::FromSeconds(kConfigured_s);
     }
   }
   Options options = test::DriveRig();
-  options.rig.lidar.clock_offset_s = kOffset_s;
+  options.rig.lidar.clock_offset_s = kConfigured_s;
   EXPECT_TRUE(Bytes(RunOdometry(messages, options).scans) ==
               Bytes(RunOdometry(StaticStartDrive(), test::DriveRig()).scans));
 }

@@ -22,7 +22,7 @@ const ImuConvention kInG{true, false, Matrix3::Identity()};
 const ImuConvention kInDeg{false, true, Matrix3::Identity()};
 const ImuConvention kInBoth{true, true, Matrix3::Identity()};
 const ImuConvention kZDown{false, false, Vector3(1, -1, -1).asDiagonal()};
-const ImuConvention kTurned{
+const ImuConvention kInTurnedAxes{
     false, false, ExpSo3(Vector3(0, 0, 0.5 * M_PI)).toRotationMatrix().array().round().matrix()};
 
 // Returns the same drive with samples as another driver sends them.
@@ -33,7 +33,7 @@ Messages SentAs(Messages messages, const ImuConvention& reading) {
   return messages;
 }
 
-Options WithUnits(ImuUnits units) {
+Options DriveRigIn(ImuUnits units) {
   Options options = test::DriveRig();
   options.rig.imu.units = units;
   return options;
@@ -78,7 +78,7 @@ void ExpectTracksFromTheFirstRow(const RunResult& run, const ImuConvention& read
 
 TEST(OdometryImuConvention, AStartInMotionIsRightFromItsFirstRow) {
   const Messages plain = test::MovingStartDrive(6.0);
-  for (const ImuConvention& reading : {kInG, kInDeg, kInBoth, kZDown, kTurned}) {
+  for (const ImuConvention& reading : {kInG, kInDeg, kInBoth, kZDown, kInTurnedAxes}) {
     ExpectTracksFromTheFirstRow(RunOdometry(SentAs(plain, reading), test::DriveRig()), reading);
   }
 }
@@ -86,7 +86,7 @@ TEST(OdometryImuConvention, AStartInMotionIsRightFromItsFirstRow) {
 TEST(OdometryImuConvention, PlainMessagesCauseNoTalk) {
   EXPECT_FALSE(IsAnyCalled(RunOdometry(test::MovingStartDrive(6.0), test::DriveRig())));
   EXPECT_FALSE(IsAnyCalled(RunOdometry(test::StaticStartDrive(), test::DriveRig())));
-  EXPECT_EQ(Refusal(RunOdometry(test::StaticStartDrive(), WithUnits(ImuUnits::kSi))), nullptr);
+  EXPECT_EQ(Refusal(RunOdometry(test::StaticStartDrive(), DriveRigIn(ImuUnits::kSi))), nullptr);
 }
 
 TEST(OdometryImuConvention, UnitsOfForceAreFoundAtRest) {
@@ -99,7 +99,7 @@ TEST(OdometryImuConvention, UnitsOfForceAreFoundAtRest) {
 
 // After a start at rest, axes show with the first turns: rows end before they are wrong.
 TEST(OdometryImuConvention, RatesAndAxesAreFoundAfterAStartAtRest) {
-  for (const ImuConvention& reading : {kInDeg, kZDown, kTurned}) {
+  for (const ImuConvention& reading : {kInDeg, kZDown, kInTurnedAxes}) {
     SCOPED_TRACE(Describe(reading));
     const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), test::DriveRig());
     EXPECT_TRUE(test::HasNotice(run, "inertial messages: " + Describe(reading)));
@@ -122,7 +122,7 @@ TEST(OdometryImuConvention, StatedUnitsAreTaken) {
     ImuConvention reading;
   } cases[] = {{ImuUnits::kG, kInG}, {ImuUnits::kDeg, kInDeg}, {ImuUnits::kGAndDeg, kInBoth}};
   for (const auto& [units, reading] : cases) {
-    const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), WithUnits(units));
+    const RunResult run = RunOdometry(SentAs(test::StaticStartDrive(), reading), DriveRigIn(units));
     EXPECT_FALSE(IsAnyCalled(run)) << Describe(reading);
     EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans).max_m, 0.06) << Describe(reading);
   }
@@ -136,11 +136,11 @@ TEST(OdometryImuConvention, UnitsOtherThanStatedAreRefusedWithTheFix) {
                {kInDeg, "set rig.imu.units: auto or deg"},
                {kInBoth, "set rig.imu.units: auto or g_deg"},
                {kZDown, "or turn rig.T_imu_lidar: translation_m: ["},
-               {kTurned, "or turn rig.T_imu_lidar: translation_m: ["}};
+               {kInTurnedAxes, "or turn rig.T_imu_lidar: translation_m: ["}};
   const Messages plain = test::MovingStartDrive(5.0);
   for (const auto& [reading, fix] : cases) {
     SCOPED_TRACE(Describe(reading));
-    const RunResult run = RunOdometry(SentAs(plain, reading), WithUnits(ImuUnits::kSi));
+    const RunResult run = RunOdometry(SentAs(plain, reading), DriveRigIn(ImuUnits::kSi));
     const Notice* refusal = Refusal(run);
     ASSERT_NE(refusal, nullptr);
     EXPECT_NE(refusal->text.find(Describe(reading)), std::string::npos) << refusal->text;
@@ -151,10 +151,10 @@ TEST(OdometryImuConvention, UnitsOtherThanStatedAreRefusedWithTheFix) {
 }
 
 TEST(OdometryImuConvention, TheExtrinsicThatARefusalNamesIsRight) {
-  Options options = WithUnits(ImuUnits::kSi);
-  const Pose T_sent_imu{Quaternion(Matrix3(kTurned.R_imu_sent.transpose())), Vector3::Zero()};
+  Options options = DriveRigIn(ImuUnits::kSi);
+  const Pose T_sent_imu{Quaternion(Matrix3(kInTurnedAxes.R_imu_sent.transpose())), Vector3::Zero()};
   options.rig.T_imu_lidar = T_sent_imu * *options.rig.T_imu_lidar;
-  const RunResult run = RunOdometry(SentAs(test::MovingStartDrive(5.0), kTurned), options);
+  const RunResult run = RunOdometry(SentAs(test::MovingStartDrive(5.0), kInTurnedAxes), options);
   EXPECT_EQ(Refusal(run), nullptr);
   EXPECT_FALSE(run.scans.empty());
 }
@@ -219,7 +219,7 @@ TEST(OdometryImuConvention, ImpossibleRatesInDegreesAreDropped) {
     if (message.is_imu && t_s > 3.005 && t_s < 3.015) message.sample.w_imu_radps.z() = 5800.0;
     if (message.is_imu && t_s > 3.025 && t_s < 3.035) message.sample.w_imu_radps.z() = 1e6;
   }
-  const RunResult run = RunOdometry(messages, WithUnits(ImuUnits::kDeg));
+  const RunResult run = RunOdometry(messages, DriveRigIn(ImuUnits::kDeg));
   EXPECT_EQ(run.counters.num_imu_out_of_range, 2);
   EXPECT_LT(ErrorAgainst(test::RestThenDrive(), run.scans).max_m, 0.06);
 }

@@ -13,10 +13,9 @@ namespace {
 
 using test::StampAt;
 using Event = OutageRecovery::Event;
-using Stage = OutageRecovery::Stage;
 
 // Ten metres a second along y, heading there, and sure of all of it.
-Estimate Driving() {
+Estimate HeadingAlongY() {
   Estimate estimate;
   estimate.stamp = StampAt(20.0);
   estimate.state.T_world_imu = {ExpSo3(Vector3(0, 0, std::numbers::pi / 2)), Vector3(3, 4, 5)};
@@ -44,12 +43,12 @@ OutageRecovery Begun(unsigned degenerate_mask = 0) {
   MatchResult before = Scan(1000, 500).match;
   before.degenerate_mask = degenerate_mask;
   recovery.NoteMatch(before);
-  recovery.Begin(Driving());
+  recovery.Begin(HeadingAlongY());
   return recovery;
 }
 
 TEST(AcrossOutage, DrivesOnInWorldAndInMapAlike) {
-  const Estimate after = AcrossOutage(Driving(), StampAt(25.0));
+  const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(25.0));
   EXPECT_EQ(after.stamp, StampAt(25.0));
   EXPECT_NEAR((after.state.T_world_imu.translation - Vector3(3, 54, 5)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((after.state.T_map_imu.translation - Vector3(51, 0, 0)).norm(), 0.0, 1e-9);
@@ -57,7 +56,7 @@ TEST(AcrossOutage, DrivesOnInWorldAndInMapAlike) {
 }
 
 TEST(AcrossOutage, CovarianceHoldsWhoeverStoppedDroveOnFasterOrTurned) {
-  const Estimate after = AcrossOutage(Driving(), StampAt(25.0));
+  const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(25.0));
   for (const Vector3& truth : {Vector3(3, 4, 5), Vector3(3, 54, 5), Vector3(3, 90, 9),
                                Vector3(53, 4, 5), Vector3(-40, 30, 0)}) {
     EXPECT_LT(Nees(after, truth), 1.5) << truth.transpose();
@@ -65,7 +64,7 @@ TEST(AcrossOutage, CovarianceHoldsWhoeverStoppedDroveOnFasterOrTurned) {
 }
 
 TEST(AcrossOutage, WhoStoodMayHaveDrivenOff) {
-  Estimate standing = Driving();
+  Estimate standing = HeadingAlongY();
   standing.state.v_world_imu.setZero();
   const Estimate after = AcrossOutage(standing, StampAt(30.0));
   EXPECT_LT(Nees(after, Vector3(3, 54, 5)), 1.5);
@@ -73,13 +72,13 @@ TEST(AcrossOutage, WhoStoodMayHaveDrivenOff) {
 }
 
 TEST(AcrossOutage, YawMayBeAnyAndTiltIsThatOfRoads) {
-  const Estimate after = AcrossOutage(Driving(), StampAt(60.0));
+  const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(60.0));
   EXPECT_NEAR(std::sqrt(after.cov(kRot + 2, kRot + 2)), std::numbers::pi / std::sqrt(3.0), 0.01);
   EXPECT_NEAR(std::sqrt(after.cov(kRot, kRot)), 0.1, 0.01);
 }
 
 TEST(AcrossOutage, YearsLeaveACovarianceThatCanBeFused) {
-  const Estimate after = AcrossOutage(Driving(), StampAt(1e9));
+  const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(1e9));
   EXPECT_LT(after.state.T_world_imu.translation.norm(), 400.0);  // no longer than 30 s on
   EXPECT_LT(after.cov.diagonal().maxCoeff(), 2e8);
 }
@@ -90,9 +89,9 @@ TEST(OutageRecovery, NothingIsLostBeforeAnOutage) {
 
 TEST(OutageRecovery, PlaceThatIsFoundIsCheckedByTheScansAfterIt) {
   OutageRecovery recovery = Begun();
-  EXPECT_EQ(recovery.stage(), Stage::kSeek);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kSeek);
   EXPECT_EQ(recovery.AddScan(Scan(1000, 0), true, true), Event::kNone);
-  EXPECT_EQ(recovery.stage(), Stage::kCheck);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kCheck);
   EXPECT_EQ(recovery.AddScan(Scan(700, 400), true, true), Event::kNone);
   EXPECT_TRUE(recovery.is_running());
   EXPECT_EQ(recovery.AddScan(Scan(700, 400), true, true), Event::kConfirmed);
@@ -104,12 +103,12 @@ TEST(OutageRecovery, PlaceThatFitsLargeCellsAloneIsGivenUp) {
   (void)recovery.AddScan(Scan(1000, 0), true, true);
   Event event = Event::kNone;
   for (int i = 0; i < kOutage.max_scans_checked; ++i) {
-    EXPECT_EQ(recovery.stage(), Stage::kCheck);
+    EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kCheck);
     EXPECT_EQ(event, Event::kNone);
     event = recovery.AddScan(Scan(900, 20), true, true);
   }
   EXPECT_EQ(event, Event::kContradicted);
-  EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kFindVelocity);
 }
 
 TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
@@ -118,16 +117,16 @@ TEST(OutageRecovery, FoundNowhereItBeginsANewMapOnceTheVelocityIsKnown) {
     EXPECT_EQ(recovery.AddScan(Scan(0, 0), false, true), Event::kNone);
   }
   EXPECT_EQ(recovery.AddScan(Scan(0, 0), false, true), Event::kFoundNowhere);
-  EXPECT_EQ(recovery.stage(), Stage::kFindVelocity);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kFindVelocity);
   (void)recovery.AddScan({}, false, true);
   MatchOutcome with_velocity;
   with_velocity.v_map_imu_mps = Vector3(10, 0, 0);
   (void)recovery.AddScan(with_velocity, false, true);
-  EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kBeginMap);
   MatchOutcome first_of_map;
   first_of_map.match.status = MatchStatus::kEmptyMap;
   (void)recovery.AddScan(first_of_map, false, true);
-  EXPECT_EQ(recovery.stage(), Stage::kConfirm);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kConfirm);
   (void)recovery.AddScan(Scan(300, 100), true, true);
   EXPECT_FALSE(recovery.is_running());
 }
@@ -165,17 +164,17 @@ TEST(OutageRecovery, MapBeginsWithoutAVelocityWhereNoneIsClear) {
   for (int i = 0; i < kOutage.max_scans_sought + kOutage.max_scans_for_velocity; ++i) {
     (void)recovery.AddScan({}, false, true);
   }
-  EXPECT_EQ(recovery.stage(), Stage::kBeginMap);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kBeginMap);
 }
 
 TEST(OutageRecovery, ScansThatSeeNothingEndNoSearch) {
   OutageRecovery recovery = Begun();
   for (int i = 0; i < 100; ++i) (void)recovery.AddScan(Scan(0, 0), false, false);
-  EXPECT_EQ(recovery.stage(), Stage::kSeek);
+  EXPECT_EQ(recovery.stage(), OutageRecovery::Stage::kSeek);
 }
 
 TEST(OutageRecovery, NoSearchIsBelievedWhereTheSceneHeldOneDirectionLess) {
-  EXPECT_EQ(Begun(1U).stage(), Stage::kFindVelocity);
+  EXPECT_EQ(Begun(1U).stage(), OutageRecovery::Stage::kFindVelocity);
 }
 
 }  // namespace

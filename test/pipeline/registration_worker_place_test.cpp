@@ -12,13 +12,10 @@
 namespace lio {
 namespace {
 
+using test::Driving;
 using test::StampAt;
 
-test::Motion Driving() {
-  return [](double t_s) { return test::WindingDrive(0.0)(t_s + 4.0); };
-}
-
-MatchJob JobFor(double start_s, const Vector6& guess_error) {
+MatchJob GuessedJob(double start_s, const Vector6& guess_error) {
   std::mt19937_64 random(static_cast<unsigned>(1000 * start_s));
   auto sweep = std::make_shared<Sweep>();
   sweep->start = StampAt(start_s);
@@ -36,7 +33,7 @@ MatchJob JobFor(double start_s, const Vector6& guess_error) {
 
 // A job whose prior has a standard deviation of 2 m and 0.2 rad.
 MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
-  MatchJob job = JobFor(start_s, guess_error);
+  MatchJob job = GuessedJob(start_s, guess_error);
   job.prior.cov.diagonal() << Vector3::Constant(4.0), Vector3::Constant(0.04);
   job.task = Relocalize{{}, {SearchRegion::kAnywhere, {}}};
   job.refines_deskew = true;
@@ -44,9 +41,9 @@ MatchJob UnsureJobFor(double start_s, const Vector6& guess_error) {
   return job;
 }
 
-void FillMap(RegistrationWorker& side) {
+void FillMapAhead(RegistrationWorker& side) {
   for (int i = 0; i < 10; ++i) {
-    MatchOutcome outcome = side.Run(JobFor(0.1 * i, Vector6::Zero()));
+    MatchOutcome outcome = side.Run(GuessedJob(0.1 * i, Vector6::Zero()));
     side.Insert(
         {.points_imu = std::move(outcome.points_imu), .T_map_imu = Driving()(0.1 * i + 0.05)});
   }
@@ -61,7 +58,7 @@ Vector6 FarAhead() {
 
 TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
   RegistrationWorker side(test::DriveRig());
-  FillMap(side);
+  FillMapAhead(side);
   const MatchOutcome outcome = side.Run(UnsureJobFor(0.93, FarAhead()));
   ASSERT_TRUE(outcome.match.IsUsable());
   EXPECT_TRUE(outcome.is_relocalized);
@@ -73,7 +70,7 @@ TEST(RegistrationWorkerPlace, AScanGuessedFarAheadIsFoundWhereTheLastOneWas) {
 // The scan sees a street that the map has not: every candidate is tried in vain.
 TEST(RegistrationWorkerPlace, AtMostFourFullMatchesRunForAScan) {
   RegistrationWorker side(test::DriveRig());
-  FillMap(side);
+  FillMapAhead(side);
   int most = 0;
   int num_coarse = 0;
   for (int i = 0; i < 4; ++i) {
@@ -92,7 +89,7 @@ TEST(RegistrationWorkerPlace, AtMostFourFullMatchesRunForAScan) {
 
 TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {
   RegistrationWorker side(test::DriveRig());
-  FillMap(side);
+  FillMapAhead(side);
   const MatchOutcome outcome = side.Run(UnsureJobFor(1.0, Vector6::Zero()));
   EXPECT_TRUE(outcome.match.IsUsable());
   EXPECT_FALSE(outcome.is_relocalized);
@@ -100,7 +97,7 @@ TEST(RegistrationWorkerPlace, AScanThatIsFoundAsGuessedIsNotSought) {
 
 TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
   RegistrationWorker side(test::DriveRig());
-  FillMap(side);
+  FillMapAhead(side);
   MatchJob job = UnsureJobFor(0.93, FarAhead());
   job.task = Track{};
   EXPECT_FALSE(side.Run(job).is_relocalized);
@@ -110,9 +107,9 @@ TEST(RegistrationWorkerPlace, WithoutLeaveToSeekItIsNot) {
 TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
   for (const bool was_set : {true, false}) {
     RegistrationWorker side(test::DriveRig());
-    FillMap(side);
+    FillMapAhead(side);
     const Vector6 way = FarAhead();
-    MatchJob job = JobFor(0.93, was_set ? way : Vector6(Vector6::Zero()));
+    MatchJob job = GuessedJob(0.93, was_set ? way : Vector6(Vector6::Zero()));
     const Pose alternative =
         Driving()(0.98) * ExpSe3(was_set ? Vector6(Vector6::Zero()) : Vector6(-way));
     job.task = Relocalize{{}, {SearchRegion::kAlternative, alternative}};

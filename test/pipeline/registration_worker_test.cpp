@@ -11,13 +11,10 @@
 namespace lio {
 namespace {
 
+using test::Driving;
 using test::StampAt;
 
-test::Motion Driving() {
-  return [](double t_s) { return test::WindingDrive(0.0)(t_s + 4.0); };
-}
-
-std::shared_ptr<const Sweep> SweepFrom(double start_s) {
+std::shared_ptr<const Sweep> StreetSweepFrom(double start_s) {
   std::mt19937_64 random(static_cast<unsigned>(1000 * start_s));
   auto sweep = std::make_shared<Sweep>();
   sweep->start = StampAt(start_s);
@@ -45,7 +42,7 @@ MatchJob JobFor(const std::shared_ptr<const Sweep>& sweep,
 // Matches and inserts the scans of a second, each at its true pose.
 void FillMap(RegistrationWorker& side) {
   for (int i = 0; i < 10; ++i) {
-    const auto sweep = SweepFrom(0.1 * i);
+    const auto sweep = StreetSweepFrom(0.1 * i);
     MatchOutcome outcome = side.Run(JobFor(sweep));
     side.Insert(
         {.points_imu = std::move(outcome.points_imu), .T_map_imu = Driving()(0.1 * i + 0.05)});
@@ -59,7 +56,7 @@ double ErrorOf(const MatchOutcome& outcome) {
 
 TEST(RegistrationWorker, FirstScanFindsAnEmptyMapAndFillsIt) {
   RegistrationWorker side(test::DriveRig());
-  MatchOutcome outcome = side.Run(JobFor(SweepFrom(0.0)));
+  MatchOutcome outcome = side.Run(JobFor(StreetSweepFrom(0.0)));
   EXPECT_EQ(outcome.match.status, MatchStatus::kEmptyMap);
   EXPECT_GT(outcome.points_imu.size(), 2000u);
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
@@ -69,7 +66,7 @@ TEST(RegistrationWorker, FirstScanFindsAnEmptyMapAndFillsIt) {
 
 TEST(RegistrationWorker, TaskWithoutAPoseIsNotInserted) {
   RegistrationWorker side(test::DriveRig());
-  MatchOutcome outcome = side.Run(JobFor(SweepFrom(0.0)));
+  MatchOutcome outcome = side.Run(JobFor(StreetSweepFrom(0.0)));
   side.Insert({.points_imu = outcome.points_imu, .T_map_imu = std::nullopt});
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
 }
@@ -79,7 +76,7 @@ TEST(RegistrationWorker, ScanOfAMovingVehicleIsFoundAtItsMiddle) {
   FillMap(side);
   Vector6 guess_error;
   guess_error << 0.1, -0.1, 0.05, 0.003, -0.002, 0.004;
-  const MatchOutcome outcome = side.Run(JobFor(SweepFrom(1.0), guess_error));
+  const MatchOutcome outcome = side.Run(JobFor(StreetSweepFrom(1.0), guess_error));
   ASSERT_TRUE(outcome.match.IsUsable());
   EXPECT_LT(ErrorOf(outcome), 0.02);
   EXPECT_GT(outcome.num_used, 1000);
@@ -88,7 +85,7 @@ TEST(RegistrationWorker, ScanOfAMovingVehicleIsFoundAtItsMiddle) {
 TEST(RegistrationWorker, JobMayClearTheMap) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);
-  MatchJob job = JobFor(SweepFrom(1.0));
+  MatchJob job = JobFor(StreetSweepFrom(1.0));
   job.map_action = MapAction::kClear;
   EXPECT_EQ(side.Run(job).match.status, MatchStatus::kEmptyMap);
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
@@ -98,7 +95,7 @@ TEST(RegistrationWorker, JobMayClearTheMap) {
 TEST(RegistrationWorker, SweepShowsTheTurnRateThatTheGuessHasWrong) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);
-  MatchJob job = JobFor(SweepFrom(1.0));
+  MatchJob job = JobFor(StreetSweepFrom(1.0));
   const Vector3 true_rate =
       LogSo3(job.T_any_imu.front().pose.rotation.conjugate() * job.T_any_imu.back().pose.rotation) /
       SecondsBetween(job.T_any_imu.front().stamp, job.T_any_imu.back().stamp);
@@ -121,7 +118,7 @@ TEST(RegistrationWorker, DeskewIsRefinedWhenTheMotionIsOnlyGuessed) {
   const auto outcome_of = [](double velocity_error_mps, bool refine) {
     RegistrationWorker side(test::DriveRig());
     FillMap(side);
-    MatchJob job = JobFor(SweepFrom(1.0));
+    MatchJob job = JobFor(StreetSweepFrom(1.0));
     job.refines_deskew = refine;
     job.prior.since_last_fix_s = 0.1;
     const Vector6 velocity_error = velocity_error_mps * Vector6::Unit(0);
@@ -152,7 +149,7 @@ TEST(RegistrationWorker, SweepWithoutAFinitePointIsRefusedNotFatal) {
   for (const bool has_map : {false, true}) {
     RegistrationWorker side(test::DriveRig());
     if (has_map) FillMap(side);
-    Sweep blind = *SweepFrom(1.0);
+    Sweep blind = *StreetSweepFrom(1.0);
     for (LidarPoint& point : blind.points) point.y_m = std::numeric_limits<float>::quiet_NaN();
     const auto num_points = static_cast<int>(blind.points.size());
     MatchOutcome outcome = side.Run(JobFor(std::make_shared<const Sweep>(std::move(blind))));
@@ -170,7 +167,7 @@ std::int64_t TickingClock() {
 
 TEST(RegistrationWorker, StageTimesComeFromTheGivenClock) {
   RegistrationWorker side(test::DriveRig(), &TickingClock);
-  MatchJob job = JobFor(SweepFrom(0.0));
+  MatchJob job = JobFor(StreetSweepFrom(0.0));
   job.filter_ns = 33;
   const auto time = [](const MatchOutcome& outcome, Stage stage) {
     return outcome.stage_ns[static_cast<std::size_t>(stage)];
@@ -183,13 +180,13 @@ TEST(RegistrationWorker, StageTimesComeFromTheGivenClock) {
   EXPECT_GT(time(first, Stage::kMatch), 0);
   EXPECT_EQ(time(first, Stage::kInsert), 0) << "nothing was inserted before";
   side.Insert({.points_imu = first.points_imu, .T_map_imu = Driving()(0.05)});
-  EXPECT_GT(time(side.Run(JobFor(SweepFrom(0.1))), Stage::kInsert), 0);
-  EXPECT_EQ(time(side.Run(JobFor(SweepFrom(0.2))), Stage::kInsert), 0) << "counted once";
+  EXPECT_GT(time(side.Run(JobFor(StreetSweepFrom(0.1))), Stage::kInsert), 0);
+  EXPECT_EQ(time(side.Run(JobFor(StreetSweepFrom(0.2))), Stage::kInsert), 0) << "counted once";
 }
 
 TEST(RegistrationWorker, WithoutAClockThereAreNoTimes) {
   RegistrationWorker side(test::DriveRig());
-  const MatchOutcome outcome = side.Run(JobFor(SweepFrom(0.0)));
+  const MatchOutcome outcome = side.Run(JobFor(StreetSweepFrom(0.0)));
   EXPECT_EQ(outcome.stage_ns[static_cast<std::size_t>(Stage::kMatch)], 0);
 }
 

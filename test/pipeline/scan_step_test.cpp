@@ -14,7 +14,7 @@ namespace {
 
 using test::StampAt;
 
-constexpr double kSpeed_mps = 10.0;
+constexpr double kSpeedAlongX_mps = 10.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 SweepPtr SweepOf(double start_s, double end_s) {
@@ -33,14 +33,14 @@ struct Unknown {
 
 // A body that drives along world's x, its own x axis to the left of that, over two seconds. Its IMU
 // has no noise, so the covariance is exactly what the start makes of it.
-FilterHistory Driving(const Unknown& unknown, double nis_limit = kNever) {
+FilterHistory DrivenAlongX(const Unknown& unknown, double nis_limit = kNever) {
   HistoryOptions options;
   options.nis_limit = nis_limit;
   Estimate start;
   start.stamp = StampAt(0.0);
   start.state.T_world_imu.rotation = ExpSo3(Vector3(0, 0, M_PI / 2));
   start.state.T_map_imu = start.state.T_world_imu;
-  start.state.v_world_imu = kSpeed_mps * Vector3::UnitX();
+  start.state.v_world_imu = kSpeedAlongX_mps * Vector3::UnitX();
   start.cov.block<3, 3>(kVel, kVel) = unknown.velocity_mps.cwiseAbs2().asDiagonal();
   start.cov.block<3, 3>(kGyroBias, kGyroBias) =
       unknown.gyro_bias_radps * unknown.gyro_bias_radps * Matrix3::Identity();
@@ -60,7 +60,7 @@ MatchOutcome Matched(const Vector6& error = Vector6::Zero()) {
   MatchOutcome outcome;
   outcome.sweep = SweepOf(0.95, 1.05);
   outcome.match.status = MatchStatus::kConverged;
-  const Pose truth{ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(kSpeed_mps, 0, 0)};
+  const Pose truth{ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(kSpeedAlongX_mps, 0, 0)};
   outcome.match.T_map_imu = truth * ExpSe3(error);
   outcome.match.cov = 1e-6 * Matrix6::Identity();
   return outcome;
@@ -82,7 +82,7 @@ FilterOptions UnscaledFilter() {
 double VarianceOfMatch(int axis, const Unknown& unknown, const FusionSettings& settings = {},
                        const FilterOptions& filter = UnscaledFilter()) {
   constexpr double kError = 1e-4;
-  FilterHistory history = Driving(unknown);
+  FilterHistory history = DrivenAlongX(unknown);
   (void)history.AddRebase(StampAt(1.0) - Duration{1});
   double nis = 0.0;
   const MatchOutcome outcome = Matched(Along(axis, kError));
@@ -95,7 +95,7 @@ const Track& TrackOf(const MatchJob& job) {
 }
 
 TEST(MakeTrackingJob, PredictsTheMiddleOfTheSweep) {
-  const FilterHistory history = Driving({Vector3(0.2, 0.1, 0.1)});
+  const FilterHistory history = DrivenAlongX({Vector3(0.2, 0.1, 0.1)});
   const SweepPtr sweep = SweepOf(0.9, 1.1);
   const MatchJob job = MakeTrackingJob(sweep, history, std::nullopt);
   EXPECT_EQ(job.sweep, sweep);
@@ -106,7 +106,7 @@ TEST(MakeTrackingJob, PredictsTheMiddleOfTheSweep) {
 }
 
 TEST(MakeTrackingJob, HasTheTrajectoryOverTheWholeSweep) {
-  const MatchJob job = MakeTrackingJob(SweepOf(0.905, 1.105), Driving({}), std::nullopt);
+  const MatchJob job = MakeTrackingJob(SweepOf(0.905, 1.105), DrivenAlongX({}), std::nullopt);
   ASSERT_GE(job.T_any_imu.size(), 20U);
   EXPECT_EQ(job.T_any_imu.front().stamp, StampAt(0.905));
   EXPECT_EQ(job.T_any_imu.back().stamp, StampAt(1.105));
@@ -114,7 +114,7 @@ TEST(MakeTrackingJob, HasTheTrajectoryOverTheWholeSweep) {
 }
 
 TEST(MakeTrackingJob, AsksForNothingBesidesTracking) {
-  const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), Driving({}), std::nullopt);
+  const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), DrivenAlongX({}), std::nullopt);
   EXPECT_FALSE(TrackOf(job).aligns_prior);
   EXPECT_FALSE(TrackOf(job).holds_degenerate);
   EXPECT_FALSE(job.refines_deskew);
@@ -125,31 +125,31 @@ TEST(MakeTrackingJob, RefinesTheDeskewWhereTheTurnIsUnsure) {
   for (const double std_rad : {0.004, 0.006}) {
     Unknown unknown;
     unknown.rotation_rad = std_rad;
-    const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), Driving(unknown), std::nullopt);
+    const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), DrivenAlongX(unknown), std::nullopt);
     EXPECT_EQ(job.refines_deskew, std_rad > 0.005) << std_rad;
   }
 }
 
 TEST(MakeTrackingJob, TheShiftIsAsUnsureAsTheWorstVelocityOverTheTimeSinceTheLastFix) {
-  const FilterHistory history = Driving({Vector3(0.1, 0.3, 0.2)});
+  const FilterHistory history = DrivenAlongX({Vector3(0.1, 0.3, 0.2)});
   const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), history, StampAt(0.5));
   EXPECT_NEAR(job.prior.since_last_fix_s, 0.5, 1e-9);
   EXPECT_NEAR(job.prior.shift_std_m, 0.15, 1e-9);
 }
 
 TEST(MakeTrackingJob, AlignsAPriorOfUnsureShift) {
-  const FilterHistory history = Driving({Vector3(1.0, 0.1, 0.1)});
+  const FilterHistory history = DrivenAlongX({Vector3(1.0, 0.1, 0.1)});
   EXPECT_FALSE(TrackOf(MakeTrackingJob(SweepOf(0.9, 1.1), history, StampAt(0.31))).aligns_prior);
   EXPECT_TRUE(TrackOf(MakeTrackingJob(SweepOf(0.9, 1.1), history, StampAt(0.29))).aligns_prior);
 }
 
 TEST(MakeTrackingJob, TheTimeSinceTheLastFixIsPositive) {
-  const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), Driving({}), StampAt(1.5));
+  const MatchJob job = MakeTrackingJob(SweepOf(0.9, 1.1), DrivenAlongX({}), StampAt(1.5));
   EXPECT_EQ(job.prior.since_last_fix_s, 0.01);
 }
 
 TEST(FuseMatch, MovesTheEstimateToTheMatchAtTheMiddleOfTheSweep) {
-  FilterHistory history = Driving({Vector3(1.0, 1.0, 1.0)});
+  FilterHistory history = DrivenAlongX({Vector3(1.0, 1.0, 1.0)});
   double nis = 0.0;
   const MatchOutcome outcome = Matched(Along(1, -0.5));
   EXPECT_EQ(FuseMatch(outcome, {}, UnscaledFilter(), history, nis), EventOutcome::kApplied);
@@ -202,7 +202,7 @@ TEST(FuseMatch, AnUnsureGyroBiasLeavesErrorsInTheDeskewedScan) {
 }
 
 TEST(FuseMatch, AMatchBeyondTheGateLeavesTheEstimate) {
-  FilterHistory history = Driving({Vector3(0.01, 0.01, 0.01)}, 22.5);
+  FilterHistory history = DrivenAlongX({Vector3(0.01, 0.01, 0.01)}, 22.5);
   double nis = 0.0;
   EXPECT_EQ(FuseMatch(Matched(Along(1, -1.0)), {}, UnscaledFilter(), history, nis),
             EventOutcome::kGated);
@@ -211,7 +211,7 @@ TEST(FuseMatch, AMatchBeyondTheGateLeavesTheEstimate) {
 }
 
 TEST(FuseMatch, AForcedMatchIsFusedEvenBeyondTheGate) {
-  FilterHistory history = Driving({Vector3(0.01, 0.01, 0.01)}, 22.5);
+  FilterHistory history = DrivenAlongX({Vector3(0.01, 0.01, 0.01)}, 22.5);
   FusionSettings settings;
   settings.force = true;
   double nis = 0.0;
@@ -222,7 +222,7 @@ TEST(FuseMatch, AForcedMatchIsFusedEvenBeyondTheGate) {
 }
 
 TEST(FuseMatch, AScanBeforeTheStartIsNotFused) {
-  FilterHistory history = Driving({});
+  FilterHistory history = DrivenAlongX({});
   MatchOutcome outcome = Matched();
   outcome.sweep = SweepOf(-0.3, -0.2);
   double nis = 7.0;
@@ -235,7 +235,7 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
   FilterOptions filter = UnscaledFilter();
   filter.map_walk_scale = 0.5;
   for (const bool grows_map : {false, true}) {
-    FilterHistory history = Driving({Vector3(1.0, 1.0, 1.0)});
+    FilterHistory history = DrivenAlongX({Vector3(1.0, 1.0, 1.0)});
     MatchOutcome outcome = Matched();
     outcome.match.new_content_share = 1.0;
     outcome.match.observable_cov = 9e-4 * Matrix6::Identity();
@@ -250,7 +250,7 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
 
 TEST(FuseMatch, AGrowingMapIsBentByTheErrorsThatMoveWithTheSensor) {
   for (const bool grows_map : {false, true}) {
-    FilterHistory history = Driving({Vector3(1.0, 1.0, 1.0)});
+    FilterHistory history = DrivenAlongX({Vector3(1.0, 1.0, 1.0)});
     MatchOutcome outcome = Matched();
     outcome.match.new_content_share = 1.0;
     FusionSettings settings;
@@ -266,14 +266,14 @@ TEST(FuseMatch, AGrowingMapIsBentByTheErrorsThatMoveWithTheSensor) {
 // The body has not moved as far as the stamps say, and is no slower.
 TEST(FuseMatch, WhereTheClockWasSetThePlaceIsCorrectedAndTheSpeedIsNot) {
   for (const bool is_clock_set : {false, true}) {
-    FilterHistory history = Driving({Vector3(0.1, 0.1, 0.1)});
+    FilterHistory history = DrivenAlongX({Vector3(0.1, 0.1, 0.1)});
     MatchOutcome outcome = Matched(Along(1, 5.0));
     outcome.is_clock_set = is_clock_set;
     double nis = 0.0;
     (void)FuseMatch(outcome, {}, UnscaledFilter(), history, nis);
     const NavState state = history.At(StampAt(1.0)).state;
     EXPECT_NEAR(state.T_map_imu.translation.x(), 5.0, 0.1);
-    EXPECT_NEAR(state.v_world_imu.x(), is_clock_set ? kSpeed_mps : 5.0, 0.2);
+    EXPECT_NEAR(state.v_world_imu.x(), is_clock_set ? kSpeedAlongX_mps : 5.0, 0.2);
   }
 }
 

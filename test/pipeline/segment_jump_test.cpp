@@ -10,7 +10,6 @@ namespace lio {
 namespace {
 
 using test::StampAt;
-using Kind = SegmentJump::Kind;
 using Step = ImuPreprocessor::Step;
 
 SegmentJump JumpTo(double first_s, Step step) {
@@ -21,7 +20,7 @@ SegmentJump JumpTo(double first_s, Step step) {
 }
 
 // Ten metres a second along y, and sure of all of it.
-Estimate Driving() {
+Estimate SlidingAlongY() {
   Estimate estimate;
   estimate.stamp = StampAt(10.0);
   estimate.state.T_world_imu.translation = Vector3(3, 4, 5);
@@ -37,26 +36,26 @@ double PositionVariance(const Estimate& estimate) {
 
 TEST(JudgeJump, SamplesThatAreMissingAreAGapUpToThreeSeconds) {
   const SegmentJump gap = JumpTo(12.9, Step::kGap);
-  EXPECT_EQ(gap.kind, Kind::kGap);
+  EXPECT_EQ(gap.kind, SegmentJump::Kind::kGap);
   EXPECT_NEAR(gap.jump_s, 2.9, 1e-9);
   EXPECT_NEAR(gap.unknown_s, 2.9, 1e-9);
   EXPECT_EQ(gap.set_by(), Duration{});
-  EXPECT_EQ(JumpTo(13.0, Step::kGap).kind, Kind::kUnseen);
+  EXPECT_EQ(JumpTo(13.0, Step::kGap).kind, SegmentJump::Kind::kUnseen);
 }
 
 TEST(JudgeJump, AClockThatGoesBackWasSetUnlessBySeconds) {
   for (const Step step : {Step::kSetBack, Step::kGap}) {
     const SegmentJump jump = JumpTo(7.1, step);
-    EXPECT_EQ(jump.kind, Kind::kClockSet);
+    EXPECT_EQ(jump.kind, SegmentJump::Kind::kClockSet);
     EXPECT_EQ(jump.unknown_s, kSegmentJump.clock_set_s);
     EXPECT_NEAR(jump.set_by().Seconds(), -2.9 - kSegmentJump.clock_set_s, 1e-9);
-    EXPECT_EQ(JumpTo(7.0, step).kind, Kind::kSetFarBack);
+    EXPECT_EQ(JumpTo(7.0, step).kind, SegmentJump::Kind::kSetFarBack);
   }
 }
 
 TEST(JudgeJump, AClockThatIsSetRightHidesAMomentHoweverFarItGoes) {
   const SegmentJump jump = JumpTo(110.0, Step::kSetRight);
-  EXPECT_EQ(jump.kind, Kind::kClockSet);
+  EXPECT_EQ(jump.kind, SegmentJump::Kind::kClockSet);
   EXPECT_EQ(jump.unknown_s, kSegmentJump.clock_set_s);
   EXPECT_NEAR(jump.set_by().Seconds(), 100.0 - kSegmentJump.clock_set_s, 1e-9);
 }
@@ -67,7 +66,7 @@ TEST(JudgeJump, OtherwiseTheTimeOfAStepForthMayHavePassedButNoMoreThanThreeSecon
 }
 
 TEST(CarriedOver, TheBodyGoesStraightOnInAGap) {
-  const Estimate before = Driving();
+  const Estimate before = SlidingAlongY();
   const Estimate after =
       CarriedOver(before, JumpTo(12.0, Step::kGap), StampAt(12.0), HistoryOptions{});
   EXPECT_EQ(after.stamp, StampAt(12.0));
@@ -78,7 +77,7 @@ TEST(CarriedOver, TheBodyGoesStraightOnInAGap) {
 }
 
 TEST(CarriedOver, TheBodyStaysWhileAClockIsSetButForAMoment) {
-  const Estimate before = Driving();
+  const Estimate before = SlidingAlongY();
   const Estimate after =
       CarriedOver(before, JumpTo(8.0, Step::kSetBack), StampAt(8.0), HistoryOptions{});
   EXPECT_EQ(after.stamp, StampAt(8.0));

@@ -114,8 +114,6 @@ struct TrackingBench {
 
 // Straight ahead, one second of it tracked.
 struct AfterOneSecond : TrackingBench {
-  static constexpr double kSpeed_mps = 8.0;
-
   AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
 };
 

@@ -12,7 +12,7 @@ namespace {
 using test::ExamplePose;
 using test::SecondsOf;
 
-Options OptionsWith(const Pose& T_imu_lidar) {
+Options OptionsMountedAt(const Pose& T_imu_lidar) {
   Options options;
   options.rig.T_imu_lidar = T_imu_lidar;
   return options;
@@ -21,7 +21,7 @@ Options OptionsWith(const Pose& T_imu_lidar) {
 // Matching finds the lidar, the extrinsic in use makes a body of that.
 struct WrongRig : test::TrackingBench {
   explicit WrongRig(const Pose& T_configured)
-      : TrackingBench(test::Tumble(), OptionsWith(T_configured)) {}
+      : TrackingBench(test::Tumble(), OptionsMountedAt(T_configured)) {}
 
   std::optional<Transition> MatchLidar() {
     MatchOutcome outcome = bench.Matched(NextJob(), motion);

@@ -12,6 +12,7 @@ namespace lio {
 namespace {
 
 using test::AfterOneSecond;
+using test::kSpeed_mps;
 using test::MapOfNextStep;
 using test::StampAt;
 using test::StdOf;
@@ -19,8 +20,6 @@ using test::Straight;
 using test::XOf;
 
 using Step = ImuPreprocessor::Step;
-
-constexpr double kSpeed_mps = AfterOneSecond::kSpeed_mps;
 
 TEST(TrackingOutage, LostAtOnceAfterAnOutage) {
   AfterOneSecond b;

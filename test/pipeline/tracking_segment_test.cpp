@@ -10,6 +10,7 @@ namespace lio {
 namespace {
 
 using test::kImuStep_s;
+using test::kSpeed_mps;
 using test::Motion;
 using test::StampAt;
 using test::StdOf;
@@ -18,10 +19,8 @@ using test::XOf;
 
 using Step = ImuPreprocessor::Step;
 
-constexpr double kSpeed_mps = test::AfterOneSecond::kSpeed_mps;
-
 // Straight ahead, one second of it tracked; then a clock steps.
-struct AfterOneSecond : test::AfterOneSecond {
+struct StepAfterOneSecond : test::AfterOneSecond {
   // The clock now says so at the end of that second.
   void SetClock(double now_s, Step step) {
     motion = [before = motion, by_s = now_s - 1.0](double t_s) { return before(t_s - by_s); };
@@ -41,14 +40,14 @@ bool IsSought(const MatchJob& job) {
 }
 
 TEST(TrackingSegment, StateGoesOnAlongItsVelocityOverAGap) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StartSegment(3.0, Step::kGap);
   EXPECT_EQ(b.mode.begin(), StampAt(3.0));
   EXPECT_NEAR(XOf(b.NextJob()), 3.05 * kSpeed_mps, 0.2);
 }
 
 TEST(TrackingSegment, PositionAfterAGapIsUnsureByMetres) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   const double before_m = StdOf(b.NextJob());
   b.StartSegment(3.0, Step::kGap);
   const double after_m = StdOf(b.NextJob());
@@ -57,7 +56,7 @@ TEST(TrackingSegment, PositionAfterAGapIsUnsureByMetres) {
 }
 
 TEST(TrackingSegment, StateStaysWhereItWasWhenTheClockWasSetBack) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.SetClock(-1.5, Step::kSetBack);
   EXPECT_EQ(b.mode.begin(), StampAt(-1.5));
   const MatchJob job = b.NextJob();
@@ -67,7 +66,7 @@ TEST(TrackingSegment, StateStaysWhereItWasWhenTheClockWasSetBack) {
 }
 
 TEST(TrackingSegment, TimesThatAreRememberedMoveWithTheClock) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.SetClock(7.0, Step::kSetRight);
   const MatchJob job = b.NextJob();
   // From the middle of the last sweep, with a tenth of a second that may be missing.
@@ -77,7 +76,7 @@ TEST(TrackingSegment, TimesThatAreRememberedMoveWithTheClock) {
 }
 
 TEST(TrackingSegment, SweepsBeforeItAreDroppedWithANotice) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.FeedSweep();
   b.StartSegment(3.0, Step::kGap);
   EXPECT_TRUE(b.bench.sweeps.empty());
@@ -85,7 +84,7 @@ TEST(TrackingSegment, SweepsBeforeItAreDroppedWithANotice) {
 }
 
 TEST(TrackingSegment, StatesArePublishedByAClockThatWasSetBack) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.SetClock(-1.5, Step::kSetBack);
   (void)b.bench.Take<NavOutput>();
   b.imu_from_s += kImuStep_s;
@@ -96,13 +95,13 @@ TEST(TrackingSegment, StatesArePublishedByAClockThatWasSetBack) {
 }
 
 TEST(TrackingSegment, MapIsKeptOverAGap) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StartSegment(3.0, Step::kGap);
   EXPECT_EQ(b.NextJob().map_action, MapAction::kKeep);
 }
 
 TEST(TrackingSegment, AfterAGapTheScanIsSoughtWhereItWasBeforeAsWell) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StartSegment(3.0, Step::kGap);
   const MatchJob job = b.NextJob();
   const auto* task = std::get_if<Relocalize>(&job.task);
@@ -113,13 +112,13 @@ TEST(TrackingSegment, AfterAGapTheScanIsSoughtWhereItWasBeforeAsWell) {
 }
 
 TEST(TrackingSegment, ClockThatWasSetBackLeavesNoDoubt) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.SetClock(-1.5, Step::kSetBack);
   EXPECT_FALSE(IsSought(b.NextJob()));
 }
 
 TEST(TrackingSegment, AmbiguousClockStepGivesTheNextJobTheAlternative) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StepForthInDoubt();
   const MatchJob job = b.NextJob();
   const auto* task = std::get_if<Relocalize>(&job.task);
@@ -130,13 +129,13 @@ TEST(TrackingSegment, AmbiguousClockStepGivesTheNextJobTheAlternative) {
 }
 
 TEST(TrackingSegment, SweepBeforeAnAmbiguousClockStepIsTracked) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.mode.TakeClockStep({{StampAt(1.2), StampAt(1.6)}});
   EXPECT_FALSE(IsSought(b.NextJob()));
 }
 
 TEST(TrackingSegment, ScanAtTheAlternativeSettlesThatTheClockWasSet) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StepForthInDoubt();
   b.motion = [](double t_s) { return Straight(kSpeed_mps)(t_s - 0.4); };
   MatchOutcome outcome = b.bench.Matched(b.NextJob(), b.motion);
@@ -151,7 +150,7 @@ TEST(TrackingSegment, ScanAtTheAlternativeSettlesThatTheClockWasSet) {
 }
 
 TEST(TrackingSegment, ScanAtThePredictionSettlesThatTimeHasPassed) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StepForthInDoubt();
   ASSERT_FALSE(b.Match());
   EXPECT_EQ(b.bench.counters.num_clock_jumps, 0);
@@ -159,7 +158,7 @@ TEST(TrackingSegment, ScanAtThePredictionSettlesThatTimeHasPassed) {
 }
 
 TEST(TrackingSegment, UnmatchedScanSettlesNothing) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StepForthInDoubt();
   ASSERT_FALSE(b.Miss());
   const MatchJob job = b.NextJob();
@@ -169,7 +168,7 @@ TEST(TrackingSegment, UnmatchedScanSettlesNothing) {
 }
 
 TEST(TrackingSegment, UnseenForTwoSecondsItIsLostUntilAScanMatches) {
-  AfterOneSecond b;
+  StepAfterOneSecond b;
   b.StartSegment(2.5, Step::kGap);
   EXPECT_EQ(b.mode.status(), TrackingStatus::kCoasting);
   b.StartSegment(5.0, Step::kGap);

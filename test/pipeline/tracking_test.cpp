@@ -14,6 +14,7 @@ namespace lio {
 namespace {
 
 using test::ExactSample;
+using test::kSpeed_mps;
 using test::MapOfNextStep;
 using test::Motion;
 using test::SecondsOf;
@@ -22,8 +23,6 @@ using test::StateOf;
 using test::Straight;
 using test::TrackingBench;
 using test::TrueStart;
-
-constexpr double kSpeed_mps = 8.0;
 
 // Eight metres a second on a winding road.
 Motion Winding() {

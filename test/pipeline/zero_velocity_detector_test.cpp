@@ -13,7 +13,7 @@ constexpr double kScan_s = 0.1;
 constexpr double kRate_hz = 100.0;
 constexpr int kEnough = 20;  // scans: two seconds
 
-ImuRig Rig() {
+ImuRig QuietImu() {
   ImuRig rig;
   rig.gyro_noise_density = 5e-4;
   rig.accel_noise_density = 1e-3;
@@ -34,8 +34,8 @@ const Vector3 kGravityWorld(0, 0, -test::kGravity_mps2);
 // Returns the k-th scan and the IMU samples of a moving body; the lidar may see another motion.
 ZeroVelocityScan ScanOf(int k, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
                         double scatter_m, std::mt19937_64& random) {
-  const test::ImuErrors errors{Vector3::Zero(), Vector3::Zero(), Rig().gyro_noise_density,
-                               Rig().accel_noise_density};
+  const test::ImuErrors errors{Vector3::Zero(), Vector3::Zero(), QuietImu().gyro_noise_density,
+                               QuietImu().accel_noise_density};
   const double middle_s = kScan_s * (k + 0.5);
   return {Timestamp{} + Duration::FromSeconds(middle_s),
           seen.At(middle_s).T_world_imu.translation + test::NormalVector(random, scatter_m),
@@ -45,7 +45,7 @@ ZeroVelocityScan ScanOf(int k, const test::SmoothMotion& felt, const test::Smoot
 bool HoldsAfter(int num_scans, const test::SmoothMotion& felt, const test::SmoothMotion& seen,
                 double scatter_m = 1e-3) {
   std::mt19937_64 random(3);
-  ZeroVelocityDetector standstill(Rig());
+  ZeroVelocityDetector standstill(QuietImu());
   for (int k = 0; k < num_scans; ++k) {
     standstill.Add(ScanOf(k, felt, seen, scatter_m, random));
   }
@@ -114,7 +114,7 @@ TEST(ZeroVelocityDetector, AfterAStartAtRestItIsSeenAtOnceUntilItDrivesOff) {
   drives_off.x.accel = 0.3;
   for (const bool moves : {false, true}) {
     std::mt19937_64 random(5);
-    ZeroVelocityDetector standstill(Rig());
+    ZeroVelocityDetector standstill(QuietImu());
     standstill.BeginAtRest();
     const test::SmoothMotion motion = moves ? drives_off : test::SmoothMotion();
     for (int k = 0; k < 10; ++k) {
@@ -128,7 +128,7 @@ TEST(ZeroVelocityDetector, AScanNowAndThenMayBeMissing) {
   const test::SmoothMotion rest;
   for (const bool lasts : {false, true}) {
     std::mt19937_64 random(5);
-    ZeroVelocityDetector standstill(Rig());
+    ZeroVelocityDetector standstill(QuietImu());
     const auto is_missing = [&](int k) { return lasts ? k >= 8 && k < 14 : k % 3 == 1; };
     for (int k = 0; k < kEnough; ++k) {
       if (!is_missing(k)) standstill.Add(ScanOf(k, rest, rest, 1e-3, random));
@@ -138,7 +138,7 @@ TEST(ZeroVelocityDetector, AScanNowAndThenMayBeMissing) {
 }
 
 TEST(ZeroVelocityDetector, ForgettingBeginsTheWindowAnew) {
-  ZeroVelocityDetector standstill(Rig());
+  ZeroVelocityDetector standstill(QuietImu());
   const auto add = [&](double t_s) {
     ImuSample sample;
     sample.f_imu_mps2 = -kGravityWorld;
@@ -158,7 +158,7 @@ TEST(ZeroVelocityDetector, ForgettingBeginsTheWindowAnew) {
 
 // Judges two seconds in which rate and force were the same all the time.
 bool HoldsAt(const Estimate& estimate, const Vector3& w_imu_radps, const Vector3& f_imu_mps2) {
-  ZeroVelocityDetector standstill(Rig());
+  ZeroVelocityDetector standstill(QuietImu());
   for (int k = 0; k < kEnough; ++k) {
     std::vector<ImuSample> samples;
     for (int i = 0; i < 10; ++i) {

@@ -9,9 +9,9 @@
 namespace lio {
 namespace {
 
+using test::kGravity;
 using test::StampAt;
 
-const Vector3 kGravityWorld(0, 0, -9.80665);
 constexpr double kSwayVariance = 0.0025 * 0.0025;  // variance of a body's sway at rest [(m/s)^2]
 
 struct Belief {
@@ -20,9 +20,10 @@ struct Belief {
 };
 
 // A filter of an IMU at rest, without noise, ten scans a second of a lidar at rest.
-class Rest {
+class RestingFilter {
  public:
-  explicit Rest(const Belief& belief = {}) : history_(Settings(), Start(belief), Sample(0)) {
+  explicit RestingFilter(const Belief& belief = {})
+      : history_(Settings(), Start(belief), Sample(0)) {
     for (int i = 1; i <= 250; ++i) (void)history_.AddImu(Sample(i));
   }
 
@@ -37,7 +38,7 @@ class Rest {
     outcome.match.status = MatchStatus::kConverged;
     outcome.match.T_map_imu.translation.x() = position_m;
     outcome.match.degenerate_mask = degenerate_mask;
-    return updater.AddFusedScan(outcome, kGravityWorld, history_);
+    return updater.AddFusedScan(outcome, kGravity, history_);
   }
 
   double SpeedVarianceAt(double t_s) const { return history_.At(StampAt(t_s)).cov(kVel, kVel); }
@@ -46,10 +47,10 @@ class Rest {
  private:
   static HistoryOptions Settings() {
     HistoryOptions options;
-    options.g_world = kGravityWorld;
+    options.g_world = kGravity;
     return options;
   }
-  static ImuSample Sample(int i) { return {StampAt(0.01 * i), Vector3::Zero(), -kGravityWorld}; }
+  static ImuSample Sample(int i) { return {StampAt(0.01 * i), Vector3::Zero(), -kGravity}; }
   static Estimate Start(const Belief& belief) {
     Estimate estimate;
     estimate.stamp = StampAt(0.0);
@@ -64,14 +65,14 @@ class Rest {
 
 TEST(ZeroVelocityUpdater, AfterAStartAtRestTheFirstScanIsFusedAsRest) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest({0.5, 10.0});
+  RestingFilter rest({0.5, 10.0});
   EXPECT_TRUE(rest.AddScan(updater, 0.1));
   EXPECT_NEAR(rest.SpeedAt(0.1), 0.0, 1e-4);
 }
 
 TEST(ZeroVelocityUpdater, OtherwiseRestIsFusedOnceTheWindowIsFull) {
   ZeroVelocityUpdater updater({}, false);
-  Rest rest;
+  RestingFilter rest;
   for (int k = 0; k < 15; ++k) EXPECT_FALSE(rest.AddScan(updater, 0.1 + 0.1 * k)) << k;
   EXPECT_NEAR(rest.SpeedVarianceAt(1.5), 100.0, 1e-6);
   EXPECT_TRUE(rest.AddScan(updater, 1.65));
@@ -81,7 +82,7 @@ TEST(ZeroVelocityUpdater, OtherwiseRestIsFusedOnceTheWindowIsFull) {
 // A body sways to and fro within 0.3 s: a measurement on its own counts as twice that.
 TEST(ZeroVelocityUpdater, TheFirstMeasurementHasTwiceTheVarianceOfTheSway) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   rest.AddScan(updater, 0.1);
   EXPECT_NEAR(rest.SpeedVarianceAt(0.1), 2.0 * kSwayVariance, 1e-3 * kSwayVariance);
 }
@@ -89,7 +90,7 @@ TEST(ZeroVelocityUpdater, TheFirstMeasurementHasTwiceTheVarianceOfTheSway) {
 // 0.1 s apart they have six times the variance of the sway, for 2 * 0.3 s / 0.1 s = 6.
 TEST(ZeroVelocityUpdater, MeasurementsThatFollowSoonerHaveLargerVariances) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   rest.AddScan(updater, 0.1);
   rest.AddScan(updater, 0.2);
   const double expected = 1.0 / (1.0 / 2.0 + 1.0 / 6.0) * kSwayVariance;
@@ -98,7 +99,7 @@ TEST(ZeroVelocityUpdater, MeasurementsThatFollowSoonerHaveLargerVariances) {
 
 TEST(ZeroVelocityUpdater, MeasurementsFartherApartThanTheSwayLastsAreIndependent) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   rest.AddScan(updater, 0.1);
   rest.AddScan(updater, 0.5);
   EXPECT_NEAR(rest.SpeedVarianceAt(0.5), kSwayVariance, 1e-3 * kSwayVariance);
@@ -107,14 +108,14 @@ TEST(ZeroVelocityUpdater, MeasurementsFartherApartThanTheSwayLastsAreIndependent
 TEST(ZeroVelocityUpdater, MatchesAtRestAreLessSure) {
   ZeroVelocityUpdater updater({}, true);
   EXPECT_EQ(updater.match_cov_factor(), 1.0);
-  Rest rest;
+  RestingFilter rest;
   rest.AddScan(updater, 0.1);
   EXPECT_EQ(updater.match_cov_factor(), 4.0);
 }
 
 TEST(ZeroVelocityUpdater, MotionEndsIt) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   ASSERT_TRUE(rest.AddScan(updater, 0.1));
   EXPECT_FALSE(rest.AddScan(updater, 0.2, 0.2));
   EXPECT_EQ(updater.match_cov_factor(), 1.0);
@@ -123,7 +124,7 @@ TEST(ZeroVelocityUpdater, MotionEndsIt) {
 
 TEST(ZeroVelocityUpdater, AScanThatIsNotObservableInAllDirectionsBeginsTheWindowAnew) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   ASSERT_TRUE(rest.AddScan(updater, 0.1));
   EXPECT_FALSE(rest.AddScan(updater, 0.2, 0.0, 0b1));
   EXPECT_EQ(updater.match_cov_factor(), 1.0);
@@ -133,7 +134,7 @@ TEST(ZeroVelocityUpdater, AScanThatIsNotObservableInAllDirectionsBeginsTheWindow
 
 TEST(ZeroVelocityUpdater, AfterForgettingTheWindowBeginsAnew) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest;
+  RestingFilter rest;
   ASSERT_TRUE(rest.AddScan(updater, 0.1));
   updater.Forget();
   EXPECT_FALSE(rest.AddScan(updater, 0.2));
@@ -142,14 +143,14 @@ TEST(ZeroVelocityUpdater, AfterForgettingTheWindowBeginsAnew) {
 
 TEST(ZeroVelocityUpdater, RestThatAFilterSureOfItsSpeedRefusesIsNotTakenForFused) {
   ZeroVelocityUpdater updater({}, true);
-  Rest rest({1.0, 0.001});
+  RestingFilter rest({1.0, 0.001});
   EXPECT_FALSE(rest.AddScan(updater, 0.1));
   EXPECT_NEAR(rest.SpeedAt(0.1), 1.0, 1e-9);
   EXPECT_EQ(updater.match_cov_factor(), 1.0);
 }
 
 TEST(ZeroVelocityUpdater, AfterForgettingMatchesCountInFullAgain) {
-  Rest rest;
+  RestingFilter rest;
   ZeroVelocityUpdater updater(ImuRig{}, true);
   ASSERT_TRUE(rest.AddScan(updater, 0.1));
   ASSERT_GT(updater.match_cov_factor(), 1.0);

@@ -8,14 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "lio/io/event_log.hpp"
+#include "programs/scene_folder.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
+using test::kScene;
 using ::testing::HasSubstr;
 
-const std::string kScene = LIO_SCENE_DIR;
 const std::string kLog = kScene + "/log.lcm";
 
 class LioReplayTest : public ::testing::Test {

@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "programs/scene_folder.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
+using test::kScene;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const std::string kScene = LIO_SCENE_DIR;
 
 class LioRunTest : public ::testing::Test {
  protected:

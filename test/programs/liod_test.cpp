@@ -6,14 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "programs/scene_folder.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
+using test::kScene;
 using ::testing::HasSubstr;
 
-const std::string kScene = LIO_SCENE_DIR;
 const std::string kBin = LIO_BIN_DIR;
 constexpr const char* kUp = "ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; ";
 

@@ -10,10 +10,8 @@
 namespace lio {
 namespace {
 
-using Score = BeamScores::Score;
-
-Score Ones() {
-  return Score::Ones();
+BeamScores::Score Ones() {
+  return BeamScores::Score::Ones();
 }
 
 Eigen::Vector3f PointAt(double azimuth_deg, double elevation_deg, double range_m) {

@@ -34,7 +34,7 @@ class Random {
 };
 
 // Returns poses of all kinds: identity, nearly identity, small and large rotations.
-std::vector<Pose> Poses() {
+std::vector<Pose> UniformPoses() {
   Random random(3);
   std::vector<Pose> poses{Pose::Identity(), {ExpSo3(Vector3(1e-9, -2e-9, 1e-9)), Vector3::Zero()}};
   for (const double angle : {1e-6, 1e-3, 0.1, 1.0, 1.8}) {
@@ -93,7 +93,7 @@ std::vector<Pair> RandomPairs(unsigned seed) {
 
 TEST(LoamFactors, AnalyticAndAutomaticJacobiansAgree) {
   unsigned seed = 0;
-  for (const Pose& pose : Poses()) {
+  for (const Pose& pose : UniformPoses()) {
     for (const Pair& pair : RandomPairs(++seed)) {
       const Tangent analytic = TangentJacobian(*pair.analytic, pose);
       const Tangent automatic = TangentJacobian(*pair.automatic, pose);
@@ -106,7 +106,7 @@ TEST(LoamFactors, AnalyticAndAutomaticJacobiansAgree) {
 
 TEST(LoamFactors, JacobiansAreThoseOfTheRightPerturbation) {
   Random random(5);
-  for (const Pose& pose : Poses()) {
+  for (const Pose& pose : UniformPoses()) {
     const Vector3 point = random.Point(10);
     const Vector3 a = random.Point(10);
     const Vector3 b = random.Point(10);

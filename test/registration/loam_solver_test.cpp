@@ -6,15 +6,16 @@
 
 #include <random>
 
+#include "registration/example_pose.hpp"
 #include "support/random_state.hpp"
 
 namespace lio {
 namespace {
 
-const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
+using test::kLoamTruth;
 
 double ErrorOf(const Pose& pose) {
-  return LogSe3(kTruth.Inverse() * pose).norm();
+  return LogSe3(kLoamTruth.Inverse() * pose).norm();
 }
 
 // Returns points of three walls and a post, seen from the truth; those of a sweep ratio below 1 are
@@ -22,7 +23,7 @@ double ErrorOf(const Pose& pose) {
 class LoamSolverTest : public ::testing::Test {
  protected:
   void AddWorld(double ratio = 1.0) {
-    const Pose seen_from = Interpolate(Pose::Identity(), kTruth, ratio);
+    const Pose seen_from = Interpolate(Pose::Identity(), kLoamTruth, ratio);
     for (int i = 0; i < 60; ++i) {
       const int axis = i % 3;
       Vector3 on_wall = 4.0 * test::RandomVector<3>(random_);
@@ -74,7 +75,7 @@ TEST_F(LoamSolverTest, OutliersPullNoMoreThanHubersLossLets) {
   AddWorld();
   for (int i = 0; i < 12; ++i) {
     const Vector3 wrong(5.0 - 1.0, i, 0.1 * i * i);
-    solver_.AddPlane(kTruth.Inverse() * wrong, Vector3::UnitX(), -5.0, 1.0);
+    solver_.AddPlane(kLoamTruth.Inverse() * wrong, Vector3::UnitX(), -5.0, 1.0);
   }
   LoamSolverOptions options = Patient();
   const double robust = ErrorOf(solver_.Solve(Pose::Identity(), options));
@@ -90,7 +91,7 @@ TEST_F(LoamSolverTest, EdgesWeighAsMuchAsTheyAreTold) {
   for (int i = 0; i < 60; ++i) {
     // Adds another post, moved by 5 cm along x.
     const Vector3 seen(-3.0 + 0.05, -4, 0.1 * i - 3);
-    solver_.AddEdge(kTruth.Inverse() * seen, Vector3(-3, -4, -1), Vector3(-3, -4, 1), 1.0);
+    solver_.AddEdge(kLoamTruth.Inverse() * seen, Vector3(-3, -4, -1), Vector3(-3, -4, 1), 1.0);
   }
   LoamSolverOptions options = Patient();
   options.edge_weight = 1e-4;
@@ -104,7 +105,7 @@ TEST_F(LoamSolverTest, AClearedOneHasNothingToSay) {
   AddWorld();
   AddWorld(0.5);
   solver_.Clear();
-  EXPECT_NEAR(ErrorOf(solver_.Solve(kTruth, {})), 0.0, 1e-12);
+  EXPECT_NEAR(ErrorOf(solver_.Solve(kLoamTruth, {})), 0.0, 1e-12);
   EXPECT_NEAR(ErrorOf(solver_.Solve(Pose::Identity(), {})), ErrorOf(Pose::Identity()), 1e-12);
 }
 

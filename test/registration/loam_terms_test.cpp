@@ -7,13 +7,14 @@
 #include <cmath>
 #include <random>
 
+#include "registration/example_pose.hpp"
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
 
 namespace lio {
 namespace {
 
-const Pose kTruth{ExpSo3(Vector3(0.05, -0.1, 0.3)), Vector3(0.5, -0.8, 0.2)};
+using test::kLoamTruth;
 
 // Returns noisy points of three walls and a post, as terms of 12 parts.
 class LoamTermsTest : public ::testing::Test {
@@ -41,7 +42,7 @@ class LoamTermsTest : public ::testing::Test {
     term.axes << Vector3::Unit(axis), Vector3::Unit((axis + 1) % 3), Vector3::Unit((axis + 2) % 3);
     term.normal_var = {1e-4, 2e-4};
     terms_.Add(term);
-    points_.push_back((kTruth.Inverse() * seen).cast<float>());
+    points_.push_back((kLoamTruth.Inverse() * seen).cast<float>());
   }
   void AddEdge(const Vector3& on_line, const Vector3& seen, int part) {
     EdgeTerm term;
@@ -51,7 +52,7 @@ class LoamTermsTest : public ::testing::Test {
     term.direction = Vector3::UnitZ();
     term.direction_var = 1e-3;
     terms_.Add(term);
-    points_.push_back((kTruth.Inverse() * seen).cast<float>());
+    points_.push_back((kLoamTruth.Inverse() * seen).cast<float>());
   }
   MatchSums LinearizeAt(const Pose& pose) {
     scores_.Reset(12, Pose::Identity());
@@ -66,7 +67,7 @@ class LoamTermsTest : public ::testing::Test {
 
 // The gradient by central differences of the cost with constant weights.
 TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
-  const Pose at = kTruth * ExpSe3(0.01 * Vector6::Ones());
+  const Pose at = kLoamTruth * ExpSe3(0.01 * Vector6::Ones());
   const MatchSums sums = LinearizeAt(at);
   const auto gradient_at = [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
     const Pose pose = at * ExpSe3(Vector6(d));
@@ -84,7 +85,7 @@ TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
 }
 
 TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
-  const MatchSums sums = LinearizeAt(kTruth * ExpSe3(0.01 * Vector6::Ones()));
+  const MatchSums sums = LinearizeAt(kLoamTruth * ExpSe3(0.01 * Vector6::Ones()));
   EXPECT_EQ(sums.num_matched, 240);
   // The square of a single part is the gradient's.
   LoamTerms one(options_);
@@ -93,7 +94,8 @@ TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
     one.Add(term);
   }
   scores_.Reset(1, Pose::Identity());
-  const MatchSums of_one = one.Linearize(points_, kTruth * ExpSe3(0.01 * Vector6::Ones()), scores_);
+  const MatchSums of_one =
+      one.Linearize(points_, kLoamTruth * ExpSe3(0.01 * Vector6::Ones()), scores_);
   const Matrix6 square = of_one.gradient * of_one.gradient.transpose();
   EXPECT_LT((scores_.by_part.SumOfSquares() - square).norm(), 1e-4 * square.norm());
 }
@@ -104,7 +106,7 @@ TEST_F(LoamTermsTest, FarPointsWeighByHubersRule) {
   terms_.Clear();
   points_.clear();
   AddPlane({5, 0, 0}, 0, {5.0 + 5.0 * options_.huber_m, 0, 0}, 0);
-  const MatchSums sums = LinearizeAt(kTruth);
+  const MatchSums sums = LinearizeAt(kLoamTruth);
   const double full = 1.0 / (options_.surface_std_m * options_.surface_std_m);
   EXPECT_NEAR(terms_.planes()[0].weight, 0.2 * full, 1e-3);
   EXPECT_NEAR(sums.weight_sum, 0.2, 1e-5);
@@ -117,25 +119,26 @@ TEST_F(LoamTermsTest, EdgesWeighByTheirOwnAccuracyAndHoldTwoDirections) {
   terms_.Clear();
   points_.clear();
   AddEdge({3, 4, 0}, {3.03, 4.04, 0.7}, 0);
-  const MatchSums sums = LinearizeAt(kTruth);
+  const MatchSums sums = LinearizeAt(kLoamTruth);
   const double weight = 1.0 / (options_.edge_std_m * options_.edge_std_m);
   EXPECT_NEAR(terms_.edges()[0].weight, weight, 1e-6);
-  const Matrix3 R = kTruth.rotation.toRotationMatrix();
+  const Matrix3 R = kLoamTruth.rotation.toRotationMatrix();
   const Matrix3 in_map = R * sums.information.Full().topLeftCorner<3, 3>() * R.transpose();
   EXPECT_NEAR(in_map(0, 0), weight, 1e-3);
   EXPECT_NEAR(in_map(1, 1), weight, 1e-3);
   EXPECT_NEAR(in_map(2, 2), 0.0, 1e-3);
   EXPECT_NEAR(sums.residual_sq_sum, 0.5 * 0.05 * 0.05, 1e-6);  // a mean of two directions
   // The cost is the squared distance of 5 cm, halved.
-  EXPECT_NEAR(terms_.FixedCorrespondenceCost(points_, kTruth), 0.5 * weight * 0.05 * 0.05, 1e-4);
+  EXPECT_NEAR(terms_.FixedCorrespondenceCost(points_, kLoamTruth), 0.5 * weight * 0.05 * 0.05,
+              1e-4);
 }
 
 TEST_F(LoamTermsTest, SolvesToThePoseThatMadeThePoints) {
   AddWorld(0.0);
-  LinearizeAt(kTruth);
-  Pose pose = kTruth * ExpSe3(0.05 * Vector6::Ones());
+  LinearizeAt(kLoamTruth);
+  Pose pose = kLoamTruth * ExpSe3(0.05 * Vector6::Ones());
   for (int round = 0; round < 3; ++round) pose = terms_.Solve(points_, {}, pose);
-  EXPECT_LT(LogSe3(kTruth.Inverse() * pose).norm(), 1e-5);
+  EXPECT_LT(LogSe3(kLoamTruth.Inverse() * pose).norm(), 1e-5);
   EXPECT_LT(terms_.FixedCorrespondenceCost(points_, pose), 1e-6);
 }
 
@@ -143,8 +146,8 @@ TEST_F(LoamTermsTest, ClearedTermsAreGone) {
   EXPECT_EQ(terms_.size(), 240u);
   terms_.Clear();
   EXPECT_EQ(terms_.size(), 0u);
-  EXPECT_EQ(LinearizeAt(kTruth).num_matched, 0);
-  EXPECT_EQ(terms_.FixedCorrespondenceCost(points_, kTruth), 0.0);
+  EXPECT_EQ(LinearizeAt(kLoamTruth).num_matched, 0);
+  EXPECT_EQ(terms_.FixedCorrespondenceCost(points_, kLoamTruth), 0.0);
 }
 
 }  // namespace

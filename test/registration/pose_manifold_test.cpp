@@ -14,7 +14,7 @@ namespace lio {
 namespace {
 
 // Returns identity, nearly identity, small and large rotations.
-std::vector<Pose> Poses() {
+std::vector<Pose> ExactAnglePoses() {
   std::mt19937_64 random(3);
   std::vector<Pose> poses{Pose::Identity(), {ExpSo3(Vector3(1e-9, -2e-9, 1e-9)), Vector3::Zero()}};
   for (const double angle : {1e-6, 1e-3, 0.1, 1.0, 1.8}) {
@@ -48,7 +48,7 @@ TEST(PoseManifold, StepsAreInTheBodysAxesTranslationFirst) {
 TEST(PoseManifold, IsConsistent) {
   const PoseManifold manifold;
   std::mt19937_64 random(9);
-  for (const Pose& pose : Poses()) {
+  for (const Pose& pose : ExactAnglePoses()) {
     const PoseBlock x = ToBlock(pose);
     Vector6 delta;
     delta << test::RandomVector<3>(random), 0.4 * test::RandomVector<3>(random);

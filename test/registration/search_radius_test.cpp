@@ -4,25 +4,22 @@
 
 #include <gtest/gtest.h>
 
+#include "registration/example_pose.hpp"
+
 namespace lio {
 namespace {
 
-Matrix6 Cov(double translation_std, double rotation_std) {
-  Vector6 variance;
-  variance << Vector3::Constant(translation_std * translation_std),
-      Vector3::Constant(rotation_std * rotation_std);
-  return variance.asDiagonal();
-}
+using test::IsotropicCov;
 
 TEST(SearchRadius, GrowsWithTheGuessAndTheRange) {
-  const SearchRadius radius(Cov(0.1, 0.01));
+  const SearchRadius radius(IsotropicCov(0.1, 0.01));
   EXPECT_NEAR(radius.StdAt(0.0), 0.1, 1e-12);
   EXPECT_NEAR(radius.StdAt(10.0), std::sqrt(0.02), 1e-12);
   EXPECT_GT(radius.StdAt(50.0), 0.5);
 }
 
 TEST(SearchRadius, ShrinksToNothing) {
-  SearchRadius radius(Cov(0.5, 0.05));
+  SearchRadius radius(IsotropicCov(0.5, 0.05));
   double before = radius.StdAt(20.0);
   int num_steps = 0;
   while (!radius.IsExhausted()) {
@@ -42,7 +39,7 @@ TEST(SearchRadius, AnExactGuessNeedsNone) {
 }
 
 TEST(SearchRadius, IsBoundedHoweverPoorTheGuess) {
-  const SearchRadius radius(Cov(1000.0, 10.0));
+  const SearchRadius radius(IsotropicCov(1000.0, 10.0));
   EXPECT_LE(radius.StdAt(100.0), 2.0);
 }
 

@@ -12,7 +12,7 @@ namespace lio {
 namespace {
 
 // Posts at random places beside a road along x, seen from a point on it.
-test::Points Road(float x_m) {
+test::Points RoadsidePosts(float x_m) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> along(-60.f, 60.f);
   std::uniform_real_distribution<float> across(8.f, 30.f);
@@ -38,11 +38,11 @@ TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
   BirdsEyeHold hold;
   for (int i = 0; i < 3; ++i) {
     MatchResult match = MatchAt(2.0 * i, 0.05);
-    hold.Apply(Road(2.f * static_cast<float>(i)), Quaternion::Identity(), match);
+    hold.Apply(RoadsidePosts(2.f * static_cast<float>(i)), Quaternion::Identity(), match);
     EXPECT_EQ(match.T_map_imu.translation.x(), 2.0 * i) << "nothing was degenerate";
   }
   MatchResult match = MatchAt(4.8, 1.5);  // truth: 6 m
-  hold.Apply(Road(6.f), Quaternion::Identity(), match);
+  hold.Apply(RoadsidePosts(6.f), Quaternion::Identity(), match);
   EXPECT_NEAR(match.T_map_imu.translation.x(), 6.0, 0.25);
   EXPECT_LT(std::sqrt(match.cov(0, 0)), 0.5);
 }
@@ -50,7 +50,7 @@ TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
 TEST(BirdsEyeHold, WithoutEarlierViewsAMatchStaysAsItIs) {
   BirdsEyeHold hold;
   MatchResult match = MatchAt(1.0, 1.5);
-  hold.Apply(Road(0.f), Quaternion::Identity(), match);
+  hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), match);
   EXPECT_EQ(match.T_map_imu.translation.x(), 1.0);
   EXPECT_EQ(match.cov(0, 0), 2.25);
 }

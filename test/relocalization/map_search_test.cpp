@@ -16,7 +16,7 @@ using Points2 = std::vector<Eigen::Vector2f>;
 constexpr std::int64_t kUnlimited = 1'000'000'000;
 
 // Things at random places of a square of 300 m.
-Points2 Wood() {
+Points2 ThingsOfAWood() {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> coordinate(-150.f, 150.f);
   Points2 things;
@@ -42,7 +42,7 @@ double OffRad(const PlanarPose& a, const PlanarPose& b) {
 }
 
 TEST(MapSearch, FindsThePlaceAnywhereAtAnyTurn) {
-  const Points2 wood = Wood();
+  const Points2 wood = ThingsOfAWood();
   const StructurePyramid pyramid(wood);
   for (const PlanarPose& truth : {PlanarPose{{80.f, -41.f}, 0.6f}, PlanarPose{{0.f, 0.f}, 0.f},
                                   PlanarPose{{-92.f, 106.f}, -2.9f}}) {
@@ -56,7 +56,7 @@ TEST(MapSearch, FindsThePlaceAnywhereAtAnyTurn) {
 }
 
 TEST(MapSearch, TheTurnMayBeAboutAnyCentre) {
-  const Points2 wood = Wood();
+  const Points2 wood = ThingsOfAWood();
   const StructurePyramid pyramid(wood);
   const PlanarPose truth{{40.f, 25.f}, 1.1f};
   MapSearch search(pyramid, SeenFrom(truth, wood), {6.f, -4.f}, {});
@@ -66,7 +66,7 @@ TEST(MapSearch, TheTurnMayBeAboutAnyCentre) {
 }
 
 TEST(MapSearch, SmallStepsGiveTheSamePlaces) {
-  const Points2 wood = Wood();
+  const Points2 wood = ThingsOfAWood();
   const StructurePyramid pyramid(wood);
   const Points2 seen = SeenFrom({{80.f, -41.f}, 0.6f}, wood);
   MapSearch at_once(pyramid, seen, {0.f, 0.f}, {});
@@ -83,7 +83,7 @@ TEST(MapSearch, SmallStepsGiveTheSamePlaces) {
 }
 
 TEST(MapSearch, SeeksOnlyAroundAGuess) {
-  const Points2 wood = Wood();
+  const Points2 wood = ThingsOfAWood();
   const StructurePyramid pyramid(wood);
   const PlanarPose truth{{80.f, -41.f}, 0.6f};
   const Points2 seen = SeenFrom(truth, wood);
@@ -101,7 +101,7 @@ TEST(MapSearch, SeeksOnlyAroundAGuess) {
 
 // Two places that look alike both come out, so that somebody else decides.
 TEST(MapSearch, GivesEachOfTwoPlacesThatLookAlike) {
-  const Points2 seen = SeenFrom({{0.f, 0.f}, 0.f}, Wood());
+  const Points2 seen = SeenFrom({{0.f, 0.f}, 0.f}, ThingsOfAWood());
   Points2 twice = seen;
   for (const Eigen::Vector2f& thing : seen) twice.push_back(thing + Eigen::Vector2f(90.f, 0.f));
   const StructurePyramid pyramid(twice);
@@ -114,7 +114,7 @@ TEST(MapSearch, GivesEachOfTwoPlacesThatLookAlike) {
 
 TEST(MapSearch, FindsNothingForThingsThatAreNotInTheMap) {
   const StructurePyramid pyramid(Points2{{0.f, 0.f}, {50.f, 20.f}});
-  MapSearch search(pyramid, SeenFrom({{0.f, 0.f}, 0.f}, Wood()), {0.f, 0.f}, {});
+  MapSearch search(pyramid, SeenFrom({{0.f, 0.f}, 0.f}, ThingsOfAWood()), {0.f, 0.f}, {});
   EXPECT_TRUE(search.GoOn(kUnlimited));
   EXPECT_TRUE(search.places().empty());
   MapSearch nothing(pyramid, Points2{}, {0.f, 0.f}, {});

@@ -20,7 +20,7 @@ Eigen::Matrix2f TurnBy(float angle_rad) {
 }
 
 // Posts at random places, as seen from `sensor`.
-Points Wood(const PlanarPose& sensor, unsigned seed = 4) {
+Points WoodSeenFrom(const PlanarPose& sensor, unsigned seed = 4) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> coordinate(-50.f, 50.f);
   Points points;
@@ -41,8 +41,8 @@ const PlanarRange kFarAround{{12.f, 12.f}, 3.15f};
 TEST(PlaceSearch, FindsWhereTheSensorIsAfterItWasBlind) {
   for (const PlanarPose& truth : {PlanarPose{{7.3f, -4.1f}, 0.6f}, PlanarPose{{0.f, 0.f}, 0.f},
                                   PlanarPose{{-9.2f, 10.6f}, -2.9f}}) {
-    const auto found =
-        FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)), PlanarPose{}, kFarAround);
+    const auto found = FindPlaces(BirdsEyeView(WoodSeenFrom({})), BirdsEyeView(WoodSeenFrom(truth)),
+                                  PlanarPose{}, kFarAround);
     ASSERT_FALSE(found.empty());
     EXPECT_LT((found.front().shift_m - truth.shift_m).norm(), 0.4f) << truth.shift_m.transpose();
     EXPECT_LT(AngleBetween(found.front().turn_rad, truth.turn_rad), 0.015);
@@ -52,14 +52,15 @@ TEST(PlaceSearch, FindsWhereTheSensorIsAfterItWasBlind) {
 TEST(PlaceSearch, SeeksAroundWhereItIsTold) {
   const PlanarPose truth{{25.f, 3.f}, 0.2f};
   const PlanarRange range{{3.f, 3.f}, 0.1f};
-  const auto found = FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood(truth)),
+  const auto found = FindPlaces(BirdsEyeView(WoodSeenFrom({})), BirdsEyeView(WoodSeenFrom(truth)),
                                 PlanarPose{{24.f, 2.f}, 0.25f}, range);
   ASSERT_FALSE(found.empty());
   EXPECT_LT((found.front().shift_m - truth.shift_m).norm(), 0.4f);
 }
 
 TEST(PlaceSearch, TellsSeveralPlacesThatDiffer) {
-  const auto found = FindPlaces(BirdsEyeView(Wood({})), BirdsEyeView(Wood({}, 5)), {}, kFarAround);
+  const auto found =
+      FindPlaces(BirdsEyeView(WoodSeenFrom({})), BirdsEyeView(WoodSeenFrom({}, 5)), {}, kFarAround);
   ASSERT_GT(found.size(), 1u);
   for (std::size_t i = 1; i < found.size(); ++i) {
     const bool differs = (found[i].shift_m - found[0].shift_m).norm() > 1.f ||
@@ -70,8 +71,8 @@ TEST(PlaceSearch, TellsSeveralPlacesThatDiffer) {
 
 TEST(PlaceSearch, FindsNothingWhereNothingStands) {
   const BirdsEyeView bare(Points{{5.f, 0.f, -1.8f}, {0.f, 5.f, -1.8f}});
-  EXPECT_TRUE(FindPlaces(bare, BirdsEyeView(Wood({})), {}, kFarAround).empty());
-  EXPECT_TRUE(FindPlaces(BirdsEyeView(Wood({})), bare, {}, kFarAround).empty());
+  EXPECT_TRUE(FindPlaces(bare, BirdsEyeView(WoodSeenFrom({})), {}, kFarAround).empty());
+  EXPECT_TRUE(FindPlaces(BirdsEyeView(WoodSeenFrom({})), bare, {}, kFarAround).empty());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 using test::Points;
 
 // Posts at random places around the origin, and the ground.
-Points Wood(unsigned seed) {
+Points WoodAroundTheOrigin(unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> coordinate(-35.f, 35.f);
   Points points;
@@ -64,7 +64,7 @@ PlaceMatching Matching(Counts& counts) {
 }
 
 TEST(PlaceSeeker, FindsThePlaceWithABoundForEachScan) {
-  const Points wood = Wood(1);
+  const Points wood = WoodAroundTheOrigin(1);
   const PlaceIndex index(wood);
   PlaceSeeker seeker(index, {});
   std::optional<FoundPlace> found;
@@ -82,7 +82,7 @@ TEST(PlaceSeeker, FindsThePlaceWithABoundForEachScan) {
 }
 
 TEST(PlaceSeeker, SeeksAgainInTheNextNewMap) {
-  const Points wood = Wood(1);
+  const Points wood = WoodAroundTheOrigin(1);
   const PlaceIndex index(wood);
   PlaceSeeker seeker(index, {});
   const MatchResult match = Located();
@@ -98,8 +98,8 @@ TEST(PlaceSeeker, SeeksAgainInTheNextNewMap) {
 }
 
 TEST(PlaceSeeker, FindsNothingOutsideTheMap) {
-  const PlaceIndex index(Wood(1));
-  const Points elsewhere = Wood(2);
+  const PlaceIndex index(WoodAroundTheOrigin(1));
+  const Points elsewhere = WoodAroundTheOrigin(2);
   PlaceSeeker seeker(index, {});
   for (int i = 0; i < 60; ++i) {
     const Pose T_map_imu{Quaternion::Identity(), Vector3(0.2 * i, 0, 0)};

@@ -6,27 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "support/standing_things.hpp"
 
 namespace lio {
 namespace {
 
-constexpr int kNumPoints = 1000;
+using test::PostsSeenFrom;
 
-// Posts at random places, as a body at the pose sees them.
-std::vector<Eigen::Vector3f> Wood(const Pose& T_map_imu) {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 80; ++i) {
-    const double x = coordinate(random);
-    const double y = coordinate(random);
-    for (double z = -1.8; z < 0.6; z += 0.3) {
-      points.push_back((T_map_imu.Inverse() * Vector3(x, y, z)).cast<float>());
-    }
-  }
-  return points;
-}
+constexpr int kNumPoints = 1000;
 
 Pose At(double x_m, double y_m, double yaw_rad) {
   return {ExpSo3(Vector3(0, 0, yaw_rad)), Vector3(x_m, y_m, 0)};
@@ -73,11 +60,11 @@ MotionPrior PriorAt(const Pose& T_map_imu, double std_m, double std_rad) {
 class RelocalizerTest : public ::testing::Test {
  protected:
   RelocalizerTest() {
-    relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), Matched(earlier_, 0.98));
+    relocalizer_.SetLocated(StampAt(0.0), PostsSeenFrom(earlier_), Matched(earlier_, 0.98));
   }
 
   Relocalizer::Found Search(const SearchRequest& request, const MotionPrior& prior) {
-    const std::vector<Eigen::Vector3f> points = Wood(truth_);
+    const std::vector<Eigen::Vector3f> points = PostsSeenFrom(truth_);
     const auto match = [this](const Pose& guess, const Matrix6& /*cov*/) {
       return matcher_(guess);
     };
@@ -139,7 +126,7 @@ TEST_F(RelocalizerTest, ATrackedScanIsSoughtUnlessTheLastOneWasDegenerate) {
   EXPECT_TRUE(Search({SearchRegion::kTracked, {}}, far_prior_).is_relocalized);
   MatchResult degenerate = Matched(earlier_, 0.98);
   degenerate.degenerate_mask = 1u;
-  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), degenerate);
+  relocalizer_.SetLocated(StampAt(0.0), PostsSeenFrom(earlier_), degenerate);
   const auto found = Search({SearchRegion::kTracked, {}}, far_prior_);
   EXPECT_FALSE(found.is_relocalized);
   EXPECT_EQ(found.match.status, MatchStatus::kTooFewPoints) << "it is checked all the same";
@@ -167,7 +154,7 @@ TEST_F(RelocalizerTest, TheCoarseMatchesSayWhichCandidateIsMatchedFirst) {
 TEST_F(RelocalizerTest, TheBudgetHoldsAndTheSearchGoesOnWithTheNextScan) {
   // Coarsely every place looks alike, so that the right one is not matched first.
   coarse_ = PlayedMatcher(At(500, 500, 0));
-  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), Matched(earlier_, 0.98));
+  relocalizer_.SetLocated(StampAt(0.0), PostsSeenFrom(earlier_), Matched(earlier_, 0.98));
   truth_ = earlier_;  // the last candidate
   matcher_ = PlayedMatcher(truth_);
   max_matches_ = 1;
@@ -192,7 +179,7 @@ TEST_F(RelocalizerTest, TheAlternativeHasAMatchOfTheBudget) {
 TEST_F(RelocalizerTest, AfterADegenerateScanInertialPredictionIsBelieved) {
   MatchResult degenerate = Matched(earlier_, 0.98);
   degenerate.degenerate_mask = 1u;
-  relocalizer_.SetLocated(StampAt(0.0), Wood(earlier_), degenerate);
+  relocalizer_.SetLocated(StampAt(0.0), PostsSeenFrom(earlier_), degenerate);
   EXPECT_FALSE(Search({SearchRegion::kObservable, {}}, far_prior_).is_relocalized);
   EXPECT_TRUE(Search({SearchRegion::kAnywhere, {}}, far_prior_).is_relocalized);
 }
@@ -214,7 +201,7 @@ TEST_F(RelocalizerTest, WithoutALocatedScanNothingIsSearched) {
 TEST_F(RelocalizerTest, AlignmentBringsAPriorToWhereThePostsSay) {
   const Pose truth = At(9, -1, 0.5);
   const MotionPrior prior = PriorAt(At(4, 3, 0.5), 3.0, 0.01);
-  const std::vector<Eigen::Vector3f> points = Wood(truth);
+  const std::vector<Eigen::Vector3f> points = PostsSeenFrom(truth);
   const MotionPrior aligned = relocalizer_.Align({StampAt(0.5), points}, prior);
   EXPECT_LT((aligned.T_map_imu.translation - truth.translation).norm(), 0.7);
   EXPECT_LT(aligned.cov(0, 0), prior.cov(0, 0));
@@ -227,7 +214,7 @@ TEST_F(RelocalizerTest, AVelocityIsFoundFromThreeScans) {
   std::vector<Vector3> found_mps;
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(found_mps.empty());
-    const std::vector<Eigen::Vector3f> points = Wood(At(2.0 * i, 0.5 * i, 0.0));
+    const std::vector<Eigen::Vector3f> points = PostsSeenFrom(At(2.0 * i, 0.5 * i, 0.0));
     const auto v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
     if (v_map_mps) found_mps.push_back(*v_map_mps);
   }

@@ -17,7 +17,7 @@ using test::AddRings;
 using test::Points;
 
 // Returns posts at random places and rails on both sides of the road along x.
-Points Road(const Eigen::Vector2f& sensor) {
+Points RoadWithRails(const Eigen::Vector2f& sensor) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> along(-60.f, 60.f);
   std::uniform_real_distribution<float> across(8.f, 30.f);
@@ -53,9 +53,9 @@ std::vector<PlacedView> Views(const Place& points_at, int num) {
 
 TEST(ShiftSearch, FindsHowFarTheSensorHasGoneAlongARoad) {
   for (const int num_views : {1, 4, 8}) {
-    const std::vector<PlacedView> earlier = Views(Road, num_views);
+    const std::vector<PlacedView> earlier = Views(RoadWithRails, num_views);
     const Eigen::Vector2f truth_m(2.f * static_cast<float>(num_views) + 0.7f, 0.2f);
-    const auto found = FindShift(earlier, BirdsEyeView(Road(truth_m)),
+    const auto found = FindShift(earlier, BirdsEyeView(RoadWithRails(truth_m)),
                                  truth_m + Eigen::Vector2f(-2.2f, 0.4f), 4.f);
     ASSERT_TRUE(found);
     EXPECT_LT((found->position_m - truth_m.cast<double>()).norm(), 0.25) << num_views;
@@ -88,8 +88,8 @@ TEST(ShiftSearch, IsNotDeceivedByWhatMovesWithTheSensor) {
 TEST(ShiftSearch, SaysNothingWhereNothingStandsOrNothingWasSeen) {
   Points bare;
   AddRings(bare);
-  EXPECT_FALSE(FindShift(Views(Road, 2), BirdsEyeView(bare), {4.f, 0.f}, 4.f));
-  EXPECT_FALSE(FindShift({}, BirdsEyeView(Road({0.f, 0.f})), {0.f, 0.f}, 4.f));
+  EXPECT_FALSE(FindShift(Views(RoadWithRails, 2), BirdsEyeView(bare), {4.f, 0.f}, 4.f));
+  EXPECT_FALSE(FindShift({}, BirdsEyeView(RoadWithRails({0.f, 0.f})), {0.f, 0.f}, 4.f));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::AddPost;
 using test::AddRings;
 using test::Points;
 
-Points Wood(const Eigen::Vector2f& sensor) {
+Points WoodOnTheGround(const Eigen::Vector2f& sensor) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> place(-40.f, 40.f);
   Points points;
@@ -52,7 +52,7 @@ VelocitySearch Drive(const Place& points_at, const Eigen::Vector2f& v_mps) {
 TEST(VelocitySearch, FindsFastMotionAmongThingsThatStand) {
   for (const Eigen::Vector2f& v_mps :
        {Eigen::Vector2f(28.f, -7.f), Eigen::Vector2f(-39.f, 2.f), Eigen::Vector2f(0.2f, 0.1f)}) {
-    const auto found = Drive(Wood, v_mps).Find();
+    const auto found = Drive(WoodOnTheGround, v_mps).Find();
     ASSERT_TRUE(found);
     EXPECT_LT((*found - v_mps).norm(), 1.0f) << found->transpose() << " for " << v_mps.transpose();
   }
@@ -88,7 +88,7 @@ TEST(VelocitySearch, SaysNothingOfBareGroundOrASingleScan) {
   AddRings(points);
   EXPECT_FALSE(Drive([&](const Eigen::Vector2f&) { return points; }, {5.f, 0.f}).Find());
   VelocitySearch search;
-  search.Add(Timestamp{0}, Wood({0.f, 0.f}));
+  search.Add(Timestamp{0}, WoodOnTheGround({0.f, 0.f}));
   EXPECT_FALSE(search.Find());
 }
 

@@ -16,10 +16,10 @@
 namespace lio {
 namespace {
 
-using test::CastSweep;
 using test::CastTurn;
 using test::Cylinder;
 using test::RayBox;
+using test::RayCastSweep;
 using test::RayScene;
 using test::SpinningLidar;
 
@@ -39,7 +39,7 @@ RayScene Street() {
   return scene;
 }
 
-CastSweep StreetSweep(double start_azimuth_rad = 0.0, double range_std_m = 0.0) {
+RayCastSweep StreetCast(double start_azimuth_rad = 0.0, double range_std_m = 0.0) {
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.start_azimuth_rad = start_azimuth_rad;
   lidar.range_std_m = range_std_m;
@@ -71,7 +71,7 @@ std::array<std::set<Place>, 6> AllPlaces(const Sweep& sweep, const LoamFeatures&
 }
 
 TEST(LoamFeatures, SharpPointsLieWhereTheSurfaceTurnsOrEnds) {
-  const CastSweep cast = StreetSweep();
+  const RayCastSweep cast = StreetCast();
   const LoamFeatures features = Extract(cast.sweep);
   ASSERT_GT(features.sharp.size(), 100u);
   // A sharp point has, along its ring and within five steps, a neighbour on another object or face.
@@ -95,7 +95,7 @@ TEST(LoamFeatures, SharpPointsLieWhereTheSurfaceTurnsOrEnds) {
 }
 
 TEST(LoamFeatures, VerticalCornersOfHousesArePicked) {
-  const CastSweep cast = StreetSweep();
+  const RayCastSweep cast = StreetCast();
   const LoamFeatures features = Extract(cast.sweep);
   // Finds the corner of the first house that faces the sensor.
   const Vector3 corner = Vector3(8, 9, 0) + ExpSo3(Vector3(0, 0, 0.1)) * Vector3(-5, -3, 0);
@@ -108,7 +108,7 @@ TEST(LoamFeatures, VerticalCornersOfHousesArePicked) {
 }
 
 TEST(LoamFeatures, FlatPointsLieOnPlanes) {
-  const CastSweep cast = StreetSweep();
+  const RayCastSweep cast = StreetCast();
   const LoamFeatures features = Extract(cast.sweep);
   ASSERT_GT(features.flat.size(), 400u);
   int num_on_poles = 0;
@@ -126,7 +126,7 @@ TEST(LoamFeatures, SectorsGiveNoMoreThanTheirShare) {
     scene.Add(
         Cylinder{{12 * std::cos(azimuth + 0.03), 12 * std::sin(azimuth + 0.03), -1.8}, 0.15, 5});
   }
-  const CastSweep cast = CastTurn(scene, SpinningLidar::Hdl32e(), Pose::Identity());
+  const RayCastSweep cast = CastTurn(scene, SpinningLidar::Hdl32e(), Pose::Identity());
   LoamFeatureOptions options;
   const LoamFeatures features = Extract(cast.sweep, options);
   std::array<int, 32> sharp{};
@@ -142,7 +142,7 @@ TEST(LoamFeatures, SectorsGiveNoMoreThanTheirShare) {
 }
 
 TEST(LoamFeatures, NeighboursOfAPickAreNotPickedUnlessTheSurfaceBreaks) {
-  const CastSweep cast = StreetSweep(0.0, 0.02);
+  const RayCastSweep cast = StreetCast(0.0, 0.02);
   LoamFeatureOptions options;
   const LoamFeatures features = Extract(cast.sweep, options);
   std::vector<std::vector<std::uint32_t>> rings(32);
@@ -181,7 +181,7 @@ RayScene BoardBeforeWall() {
 TEST(LoamFeatures, BorderOfAShadowIsLeftOut) {
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.start_azimuth_rad = std::numbers::pi;  // the seam is behind
-  const CastSweep cast = CastTurn(BoardBeforeWall(), lidar, Pose::Identity());
+  const RayCastSweep cast = CastTurn(BoardBeforeWall(), lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
   // The board's sides cast their shadow on the wall at |y| = 15/6.
   const auto is_at_shadow = [&](std::uint32_t i) {
@@ -212,7 +212,7 @@ TEST(LoamFeatures, SurfacesNearlyParallelToTheBeamAreLeftOut) {
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.start_azimuth_rad = std::numbers::pi;
   lidar.range_std_m = 0.02;
-  const CastSweep cast = CastTurn(scene, lidar, Pose::Identity());
+  const RayCastSweep cast = CastTurn(scene, lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
   // The very end is left out, because the wall's end truncates the window.
   const auto is_grazed = [&](std::uint32_t i) {
@@ -238,7 +238,7 @@ TEST(LoamFeatures, NoisyWallFacingTheSensorIsNotGrazed) {
   scene.Add(RayBox{{3, 0, 0}, {1, 30, 8}, 0});
   SpinningLidar lidar = SpinningLidar::Hdl32e();
   lidar.range_std_m = 0.02;
-  const CastSweep cast = CastTurn(scene, lidar, Pose::Identity());
+  const RayCastSweep cast = CastTurn(scene, lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
   for (const std::uint32_t i : features.grazed) {
     EXPECT_GT(std::abs(cast.sweep.points[i].y_m), 5.f);
@@ -246,7 +246,7 @@ TEST(LoamFeatures, NoisyWallFacingTheSensorIsNotGrazed) {
 }
 
 TEST(LoamFeatures, RingsAreRebuiltFromElevation) {
-  const CastSweep cast = StreetSweep();
+  const RayCastSweep cast = StreetCast();
   Sweep without = cast.sweep;
   for (LidarPoint& point : without.points) point.ring = 0;
   const LoamFeatures expected = Extract(cast.sweep);
@@ -263,7 +263,7 @@ TEST(LoamFeatures, RingsAreRebuiltFromElevation) {
 }
 
 TEST(LoamFeatures, WithoutRingsAndBeamsThereAreNone) {
-  Sweep sweep = StreetSweep().sweep;
+  Sweep sweep = StreetCast().sweep;
   for (LidarPoint& point : sweep.points) point.ring = 0;
   const LoamFeatures features = Extract(sweep);
   EXPECT_TRUE(features.less_sharp.empty());
@@ -271,7 +271,7 @@ TEST(LoamFeatures, WithoutRingsAndBeamsThereAreNone) {
 }
 
 TEST(LoamFeatures, OrderOfThePointsDoesNotMatter) {
-  const Sweep sweep = StreetSweep(0.0, 0.02).sweep;
+  const Sweep sweep = StreetCast(0.0, 0.02).sweep;
   Sweep shuffled = sweep;
   std::shuffle(shuffled.points.begin(), shuffled.points.end(), std::mt19937(7));
   EXPECT_EQ(AllPlaces(shuffled, Extract(shuffled)), AllPlaces(sweep, Extract(sweep)));
@@ -280,7 +280,7 @@ TEST(LoamFeatures, OrderOfThePointsDoesNotMatter) {
 TEST(LoamFeatures, TurnsMayBeginAtAnyAzimuth) {
   // The same corner of a house is found with the seam behind, and just beside the wrap of atan2.
   for (const double start : {std::numbers::pi, 3.1, -3.1, 0.5}) {
-    const CastSweep cast = StreetSweep(start);
+    const RayCastSweep cast = StreetCast(start);
     const LoamFeatures features = Extract(cast.sweep);
     const Vector3 corner = Vector3(8, 9, 0) + ExpSo3(Vector3(0, 0, 0.1)) * Vector3(-5, -3, 0);
     int num_near = 0;
@@ -292,7 +292,7 @@ TEST(LoamFeatures, TurnsMayBeginAtAnyAzimuth) {
 }
 
 TEST(LoamFeatures, WithoutTimesRingsAreOrderedByAzimuth) {
-  const Sweep timed = StreetSweep(0.5).sweep;
+  const Sweep timed = StreetCast(0.5).sweep;
   Sweep untimed = timed;  // ring after ring, as KITTI stores them
   for (LidarPoint& point : untimed.points) point.t_offset_ns = 0;
   std::stable_sort(untimed.points.begin(), untimed.points.end(),
@@ -301,7 +301,7 @@ TEST(LoamFeatures, WithoutTimesRingsAreOrderedByAzimuth) {
 }
 
 TEST(LoamFeatures, LessFlatHasOnePointAVoxelAndRing) {
-  const CastSweep cast = StreetSweep();
+  const RayCastSweep cast = StreetCast();
   LoamFeatureOptions options;
   const LoamFeatures features = Extract(cast.sweep, options);
   std::set<std::array<int, 4>> voxels;
@@ -316,7 +316,7 @@ TEST(LoamFeatures, LessFlatHasOnePointAVoxelAndRing) {
 }
 
 TEST(LoamFeatures, UnusablePointsArePassedOver) {
-  CastSweep cast = StreetSweep();
+  RayCastSweep cast = StreetCast();
   const LoamFeatures expected = Extract(cast.sweep);
   const auto expected_places = AllPlaces(cast.sweep, expected);
   for (int i = 0; i < 500; ++i) {
@@ -333,7 +333,7 @@ TEST(LoamFeatures, UnusablePointsArePassedOver) {
 
 TEST(LoamFeatures, EmptyAndTinySweepsHaveNone) {
   EXPECT_TRUE(Extract(Sweep{}).less_flat.empty());
-  Sweep sweep = StreetSweep().sweep;
+  Sweep sweep = StreetCast().sweep;
   sweep.points.resize(40);
   EXPECT_TRUE(Extract(sweep).less_sharp.empty());
 }

@@ -13,14 +13,14 @@
 namespace lio {
 namespace {
 
-Sweep StreetSweep() {
+Sweep RayCastStreet() {
   test::SpinningLidar lidar = test::SpinningLidar::Hdl32e();
   lidar.num_columns = 1200;
   return CastTurn(test::StreetScene(), lidar, test::SensorAt(0, 0)).sweep;
 }
 
 TEST(LoamReducer, TagsSayWhatEachPointIs) {
-  const Sweep sweep = StreetSweep();
+  const Sweep sweep = RayCastStreet();
   LoamReducer reducer({}, {}, {}, {});
   const ReducedScan scan = reducer.Reduce(sweep);
   ASSERT_EQ(scan.tags.size(), scan.points.size());
@@ -38,7 +38,7 @@ TEST(LoamReducer, MatchesAboutAsManyAsAskedForEdgesFirst) {
   ReduceOptions options;
   options.match_points = 1500;
   LoamReducer reducer({}, options, {}, {});
-  const ReducedScan scan = reducer.Reduce(StreetSweep());
+  const ReducedScan scan = reducer.Reduce(RayCastStreet());
   EXPECT_NEAR(static_cast<double>(scan.to_match.size()), 1500.0, 20.0);
   const auto num_edges = static_cast<std::size_t>(
       std::count_if(scan.to_match.begin(), scan.to_match.end(),
@@ -48,7 +48,7 @@ TEST(LoamReducer, MatchesAboutAsManyAsAskedForEdgesFirst) {
 }
 
 TEST(LoamReducer, ThinningAdaptsToTheTarget) {
-  const Sweep sweep = StreetSweep();
+  const Sweep sweep = RayCastStreet();
   ReduceOptions options;
   options.target_points = 2000;
   LoamReducer reducer({}, options, {}, {});
@@ -61,7 +61,7 @@ TEST(LoamReducer, ThinningAdaptsToTheTarget) {
 }
 
 TEST(LoamReducer, CountsWhatIsNotFinite) {
-  Sweep sweep = StreetSweep();
+  Sweep sweep = RayCastStreet();
   for (std::size_t i = 0; i < 10; ++i) {
     sweep.points[i * 7].y_m = std::numeric_limits<float>::infinity();
   }
@@ -70,7 +70,7 @@ TEST(LoamReducer, CountsWhatIsNotFinite) {
 }
 
 TEST(LoamReducer, WithoutRingsAndBeamsNothingIsLeft) {
-  Sweep sweep = StreetSweep();
+  Sweep sweep = RayCastStreet();
   for (LidarPoint& point : sweep.points) point.ring = 0;
   LoamReducer blind({}, {}, {}, {});
   EXPECT_TRUE(blind.Reduce(sweep).points.empty());

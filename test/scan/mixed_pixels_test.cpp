@@ -18,7 +18,7 @@ constexpr double kStep_rad = 0.2 * std::numbers::pi / 180.0;
 constexpr std::uint32_t kStep_ns = 50'000;
 
 // A sweep of two rings over 20 degrees, with ranges by azimuth; the second ring sees the same.
-Sweep SweepOf(const std::function<double(double)>& range_m) {
+Sweep TwoRingSweep(const std::function<double(double)>& range_m) {
   Sweep sweep;
   for (int column = -50; column <= 50; ++column) {
     const double azimuth = kStep_rad * column;
@@ -52,7 +52,7 @@ double AcrossEdge(double azimuth) {
 }
 
 TEST(MixedPixels, AReturnBetweenTwoSurfacesIsOne) {
-  const Sweep sweep = SweepOf(AcrossEdge);
+  const Sweep sweep = TwoRingSweep(AcrossEdge);
   MixedPixelFinder finder;
   finder.Load(sweep);
   for (std::uint32_t i = 0; i < sweep.points.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(MixedPixels, AReturnBetweenTwoSurfacesIsOne) {
 }
 
 TEST(MixedPixels, ACleanEdgeHasNone) {
-  EXPECT_EQ(NumMixed(SweepOf([](double azimuth) { return azimuth < 0.0 ? 10.0 : 16.0; })), 0);
+  EXPECT_EQ(NumMixed(TwoRingSweep([](double azimuth) { return azimuth < 0.0 ? 10.0 : 16.0; })), 0);
 }
 
 TEST(MixedPixels, AWallAtGrazingIncidenceHasNone) {
@@ -70,22 +70,22 @@ TEST(MixedPixels, AWallAtGrazingIncidenceHasNone) {
   const auto wall = [](double azimuth) {
     return azimuth > 0.02 ? 1.0 / std::sin(azimuth) : 100.0 + 0.0 * azimuth;
   };
-  EXPECT_EQ(NumMixed(SweepOf(wall)), 0);
+  EXPECT_EQ(NumMixed(TwoRingSweep(wall)), 0);
 }
 
 TEST(MixedPixels, APoleInFrontOfAWallStays) {
   const auto pole = [](double azimuth) { return std::abs(azimuth) < 0.5 * kStep_rad ? 8.0 : 20.0; };
-  EXPECT_EQ(NumMixed(SweepOf(pole)), 0);
+  EXPECT_EQ(NumMixed(TwoRingSweep(pole)), 0);
 }
 
 TEST(MixedPixels, NoiseMakesNone) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);
-  EXPECT_EQ(NumMixed(SweepOf([&](double) { return 15.0 + noise(random); })), 0);
+  EXPECT_EQ(NumMixed(TwoRingSweep([&](double) { return 15.0 + noise(random); })), 0);
 }
 
 TEST(MixedPixels, NeighboursFarOffAreNone) {
-  Sweep sweep = SweepOf(AcrossEdge);
+  Sweep sweep = TwoRingSweep(AcrossEdge);
   std::erase_if(sweep.points, [](const LidarPoint& point) {
     const double azimuth = std::abs(std::atan2(point.y_m, point.x_m));
     return azimuth > 0.5 * kStep_rad && azimuth < 6.0 * kStep_rad;
@@ -94,7 +94,7 @@ TEST(MixedPixels, NeighboursFarOffAreNone) {
 }
 
 TEST(MixedPixels, TheOrderOfThePointsDoesNotMatter) {
-  Sweep sweep = SweepOf(AcrossEdge);
+  Sweep sweep = TwoRingSweep(AcrossEdge);
   std::mt19937_64 random(5);
   std::shuffle(sweep.points.begin(), sweep.points.end(), random);
   MixedPixelFinder finder;
@@ -106,7 +106,7 @@ TEST(MixedPixels, TheOrderOfThePointsDoesNotMatter) {
 
 // Packets are stamped by a host that is now and then busy: the next one seems to overlap this one.
 TEST(MixedPixels, JitterOfTheStampsDoesNotChangeTheOrder) {
-  Sweep sweep = SweepOf(AcrossEdge);
+  Sweep sweep = TwoRingSweep(AcrossEdge);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     if (i % 20 < 10) sweep.points[i].t_offset_ns += 120'000;  // every other packet is late
   }
@@ -114,13 +114,13 @@ TEST(MixedPixels, JitterOfTheStampsDoesNotChangeTheOrder) {
 }
 
 TEST(MixedPixels, WithoutRingsNothingIsKnown) {
-  Sweep sweep = SweepOf(AcrossEdge);
+  Sweep sweep = TwoRingSweep(AcrossEdge);
   for (LidarPoint& point : sweep.points) point.ring = 0;
   EXPECT_EQ(NumMixed(sweep), 0);
 }
 
 TEST(MixedPixels, PointsThatAreNoNumbersDoNoHarm) {
-  Sweep sweep = SweepOf(AcrossEdge);
+  Sweep sweep = TwoRingSweep(AcrossEdge);
   for (std::size_t i = 0; i < sweep.points.size(); i += 5) {
     sweep.points[i].x_m = std::numeric_limits<float>::quiet_NaN();
   }

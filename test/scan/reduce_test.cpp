@@ -47,7 +47,7 @@ LidarRig AnyRange() {
 }
 
 // Returns one turn of the lidar in the street.
-Sweep StreetSweep() {
+Sweep DrivenStreet() {
   static const std::vector<LidarPoint> kPoints = [] {
     std::mt19937_64 random(5);
     return test::CastSweep(test::Street(), test::TestLidar(), test::WindingDrive(0.0), 5.0, random);
@@ -77,19 +77,19 @@ TEST(Reduce, KeepsThePointNearestTheVoxelsCentre) {
 TEST(Reduce, OnePointAVoxelIsLeft) {
   ScanReducer reducer(FixedEdge(0.7), AnyRange());
   std::set<std::tuple<int, int, int>> voxels;
-  const ReducedScan scan = reducer.Reduce(StreetSweep());
+  const ReducedScan scan = reducer.Reduce(DrivenStreet());
   for (const ScanPoint& point : scan.points) {
     const auto floor = [&](float x) { return static_cast<int>(std::floor(x * (1.0f / 0.7f))); };
     voxels.insert(
         {floor(point.position.x()), floor(point.position.y()), floor(point.position.z())});
   }
   EXPECT_EQ(voxels.size(), scan.points.size());
-  EXPECT_LT(scan.points.size(), StreetSweep().points.size());
+  EXPECT_LT(scan.points.size(), DrivenStreet().points.size());
 }
 
 // Order within the sweep must not matter, also where distances tie.
 TEST(Reduce, OrderOfThePointsDoesNotMatter) {
-  Sweep sweep = StreetSweep();
+  Sweep sweep = DrivenStreet();
   for (int i = 0; i < 200; ++i) {  // mirror images in the same voxel, at other times
     const float x = 20.0f + static_cast<float>(i);
     sweep.points.push_back(PointAt(x + 0.25f, 0.25f, 0.25f, 7000));
@@ -107,7 +107,7 @@ TEST(Reduce, OrderOfThePointsDoesNotMatter) {
 }
 
 TEST(Reduce, PointsLeaveInOrderOfTime) {
-  Sweep sweep = StreetSweep();
+  Sweep sweep = DrivenStreet();
   std::shuffle(sweep.points.begin(), sweep.points.end(), std::mt19937(2));
   ScanReducer reducer(FixedEdge(0.5), AnyRange());
   const ReducedScan scan = reducer.Reduce(sweep);
@@ -150,7 +150,7 @@ TEST(Reduce, EdgeAdaptsToTheWantedNumber) {
   options.max_voxel_m = 5.0;
   ScanReducer reducer(options, AnyRange());
   ReducedScan scan;
-  for (int i = 0; i < 20; ++i) scan = reducer.Reduce(StreetSweep());
+  for (int i = 0; i < 20; ++i) scan = reducer.Reduce(DrivenStreet());
   EXPECT_NEAR(static_cast<double>(scan.points.size()), 1500.0, 75.0);
 }
 
@@ -163,7 +163,7 @@ TEST(Reduce, EdgeStaysWithinItsLimits) {
     options.target_points = target;
     ScanReducer reducer(options, AnyRange());
     ReducedScan scan;
-    for (int i = 0; i < 10; ++i) scan = reducer.Reduce(StreetSweep());
+    for (int i = 0; i < 10; ++i) scan = reducer.Reduce(DrivenStreet());
     EXPECT_FLOAT_EQ(scan.voxel_m, target == 100 ? 0.8f : 0.4f);
   }
 }

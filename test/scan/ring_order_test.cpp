@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-LidarPoint PointAt(double azimuth_rad, double elevation_rad, double range_m = 10.0) {
+LidarPoint PointTowards(double azimuth_rad, double elevation_rad, double range_m = 10.0) {
   LidarPoint point;
   point.x_m = static_cast<float>(range_m * std::cos(elevation_rad) * std::cos(azimuth_rad));
   point.y_m = static_cast<float>(range_m * std::cos(elevation_rad) * std::sin(azimuth_rad));
@@ -24,9 +24,10 @@ LidarPoint PointAt(double azimuth_rad, double elevation_rad, double range_m = 10
 
 TEST(RingOrder, RingIsTheNearestBeamWhateverItsSpacing) {
   const std::vector<double> beams{-0.4, -0.2, -0.15, 0.0, 0.3};
-  const std::vector<LidarPoint> points{PointAt(1, -0.9),   PointAt(2, -0.31), PointAt(3, -0.29),
-                                       PointAt(-1, -0.16), PointAt(-2, 0.14), PointAt(-3, 0.16),
-                                       PointAt(0, 1.2)};
+  const std::vector<LidarPoint> points{PointTowards(1, -0.9),  PointTowards(2, -0.31),
+                                       PointTowards(3, -0.29), PointTowards(-1, -0.16),
+                                       PointTowards(-2, 0.14), PointTowards(-3, 0.16),
+                                       PointTowards(0, 1.2)};
   EXPECT_EQ(RingsFromElevation(points, beams), (std::vector<std::uint16_t>{0, 0, 1, 2, 3, 4, 4}));
 }
 
@@ -34,7 +35,7 @@ TEST(RingOrder, TurnFractionsGrowClockwiseAcrossTheWrap) {
   std::vector<LidarPoint> points;
   constexpr int kNum = 100;
   for (int i = 0; i < kNum; ++i) {  // from -170 deg on: soon past the wrap at 180
-    points.push_back(PointAt(-2.967 - 2 * std::numbers::pi * i / kNum, 0.1));
+    points.push_back(PointTowards(-2.967 - 2 * std::numbers::pi * i / kNum, 0.1));
   }
   const std::vector<float> fractions = TurnFractions(points);
   for (int i = 0; i < kNum; ++i) {
@@ -58,7 +59,7 @@ TEST(RingOrder, RebuiltTimesAgreeWithTheTrueOnes) {
 TEST(RingOrder, UnwantedPointsAreLeftOutAndRingsAreInOrderOfTime) {
   std::vector<LidarPoint> points(6);
   for (std::size_t i = 0; i < 6; ++i) {
-    points[i] = PointAt(0.1 * static_cast<double>(i), 0);
+    points[i] = PointTowards(0.1 * static_cast<double>(i), 0);
     points[i].ring = static_cast<std::uint16_t>(2 * (i % 2));
     points[i].t_offset_ns = static_cast<std::uint32_t>(100 - i);
   }

@@ -9,14 +9,14 @@
 namespace lio::sim {
 namespace {
 
-Message ImuAt(std::int64_t t_ns, std::int32_t seq) {
+Message ImuStampedAt(std::int64_t t_ns, std::int32_t seq) {
   ImuMessage imu;
   imu.sample.stamp = {t_ns};
   imu.seq = seq;
   return {{t_ns}, imu};
 }
 
-Message ChunkAt(std::int64_t t_ns, std::int32_t seq) {
+Message ChunkStampedAt(std::int64_t t_ns, std::int32_t seq) {
   ScanChunk chunk;
   chunk.stamp = {t_ns};
   chunk.scan_seq = seq;
@@ -36,8 +36,8 @@ double OffSeconds(const Clocks& clocks, Message message) {
 
 TEST(Clocks, WithoutErrorsStampsStay) {
   const Clocks clocks({}, 1, {0});
-  EXPECT_EQ(OffSeconds(clocks, ImuAt(5'000'000'000, 3)), 0.0);
-  EXPECT_EQ(OffSeconds(clocks, ChunkAt(5'000'000'000, 3)), 0.0);
+  EXPECT_EQ(OffSeconds(clocks, ImuStampedAt(5'000'000'000, 3)), 0.0);
+  EXPECT_EQ(OffSeconds(clocks, ChunkStampedAt(5'000'000'000, 3)), 0.0);
 }
 
 TEST(Clocks, StampsJitterByWholeMicrosecondsInOrder) {
@@ -45,8 +45,8 @@ TEST(Clocks, StampsJitterByWholeMicrosecondsInOrder) {
   double imu_sq = 0.0;
   double lidar_sq = 0.0;
   for (std::int32_t i = 0; i < 2000; ++i) {
-    const double imu = OffSeconds(clocks, ImuAt(1'000'000 * std::int64_t{i}, i));
-    const double lidar = OffSeconds(clocks, ChunkAt(1'000'000 * std::int64_t{i}, i));
+    const double imu = OffSeconds(clocks, ImuStampedAt(1'000'000 * std::int64_t{i}, i));
+    const double lidar = OffSeconds(clocks, ChunkStampedAt(1'000'000 * std::int64_t{i}, i));
     EXPECT_NEAR(1e6 * imu, std::round(1e6 * imu), 1e-6);
     EXPECT_LE(std::abs(imu), 6.01e-4);
     imu_sq += imu * imu;
@@ -60,9 +60,10 @@ TEST(Clocks, TheLidarsDriftsByPartsPerMillion) {
   double sum_sq = 0.0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Clocks clocks({0.0, 0.0, 2e-5}, seed, {0});
-    EXPECT_NEAR(OffSeconds(clocks, ChunkAt(60'000'000'000, 1)), 60.0 * clocks.drift_ratio(), 1e-9);
-    EXPECT_EQ(OffSeconds(clocks, ChunkAt(0, 1)), 0.0);
-    EXPECT_EQ(OffSeconds(clocks, ImuAt(60'000'000'000, 1)), 0.0);
+    EXPECT_NEAR(OffSeconds(clocks, ChunkStampedAt(60'000'000'000, 1)), 60.0 * clocks.drift_ratio(),
+                1e-9);
+    EXPECT_EQ(OffSeconds(clocks, ChunkStampedAt(0, 1)), 0.0);
+    EXPECT_EQ(OffSeconds(clocks, ImuStampedAt(60'000'000'000, 1)), 0.0);
     sum_sq += clocks.drift_ratio() * clocks.drift_ratio();
   }
   EXPECT_NEAR(std::sqrt(sum_sq / 200), 2e-5, 3e-6);

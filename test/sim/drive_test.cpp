@@ -10,13 +10,13 @@
 namespace lio::sim {
 namespace {
 
-struct Case {
+struct BentStreet {
   Path path = Path::Rounded({{0, 0}, {120, 0}, {120, 80}, {240, 80}}, 12.0, false);
   DriveLimits limits;
 };
 
 TEST(Drive, KeepsToItsLimits) {
-  const Case c;
+  const BentStreet c;
   const Drive drive(c.path, c.limits, {{60.0, 3.0}}, 2.5);
   const double h = 0.2;
   for (double t = h; t + h < drive.duration_s(); t += 0.05) {
@@ -33,7 +33,7 @@ TEST(Drive, KeepsToItsLimits) {
 }
 
 TEST(Drive, RestsAtTheStartAtStopsAndAtTheEnd) {
-  const Case c;
+  const BentStreet c;
   const Drive drive(c.path, c.limits, {{60.0, 3.0}}, 2.5);
   EXPECT_EQ(drive.DistanceAt(2.4), 0.0);
   int num_at_stop = 0;
@@ -47,13 +47,13 @@ TEST(Drive, RestsAtTheStartAtStopsAndAtTheEnd) {
 }
 
 TEST(Drive, RefusesLimitsThatAreNotPositive) {
-  Case c;
+  BentStreet c;
   c.limits.brake_mps2 = 0.0;
   EXPECT_THROW(Drive(c.path, c.limits, {}, 1.0), std::invalid_argument);
 }
 
 TEST(FollowDrive, LeansOutwardAndDivesOnBraking) {
-  const Case c;
+  const BentStreet c;
   const Drive drive(c.path, c.limits, {}, 2.5);
   const HeightFunction flat = [](const Vector2&, double) { return 0.0; };
   const double h = 0.2;
@@ -70,7 +70,7 @@ TEST(FollowDrive, LeansOutwardAndDivesOnBraking) {
 }
 
 TEST(FollowDrive, StandsOnTheSlopeOfTheGround) {
-  const Case c;
+  const BentStreet c;
   const Drive drive(c.path, c.limits, {}, 2.5);
   const HeightFunction slope = [](const Vector2& p, double) { return 0.1 * p.x() + 0.05 * p.y(); };
   const auto knots = FollowDrive(c.path, drive, slope, {}, 0.2, 5.0);

@@ -14,13 +14,12 @@ namespace {
 constexpr std::uint64_t kSeed = 5;
 
 using Walk = test::SimulatedLog;
-using Outcome = test::RunOutcome;
 
 test::DriveSpec CampusWalk(const std::vector<Fault>& faults_of_the_world = {}) {
   return {"campus", "vlp16", 14.0, kSeed, faults_of_the_world};
 }
 
-Outcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
+test::RunOutcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
   std::vector<Fault> faults;
   for (const std::string& text : fault_texts) faults.push_back(ParseFault(text));
   const FaultInjector injector(faults, kSeed, walk.truth.front().stamp);
@@ -47,21 +46,21 @@ class FaultSurvival : public ::testing::TestWithParam<Expectation> {
  protected:
   static void SetUpTestSuite() {
     walk_ = new Walk(CampusWalk());
-    clean_ = new Outcome(Replay(*walk_, {}));
+    clean_ = new test::RunOutcome(Replay(*walk_, {}));
   }
   static void TearDownTestSuite() {
     delete clean_;
     delete walk_;
   }
   static const Walk* walk_;
-  static const Outcome* clean_;  // outcome without a fault
+  static const test::RunOutcome* clean_;  // outcome without a fault
 };
 const Walk* FaultSurvival::walk_ = nullptr;
-const Outcome* FaultSurvival::clean_ = nullptr;
+const test::RunOutcome* FaultSurvival::clean_ = nullptr;
 
 TEST_P(FaultSurvival, IsCountedAndTheWalkGoesOn) {
   const Expectation& expected = GetParam();
-  const Outcome outcome = Replay(*walk_, {expected.fault});
+  const test::RunOutcome outcome = Replay(*walk_, {expected.fault});
   for (const auto counter : expected.counted) {
     EXPECT_GT(outcome.counters.*counter, clean_->counters.*counter);
   }
@@ -135,7 +134,7 @@ TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {
 
 TEST_F(FaultSurvival, DustIsSeenThrough) {
   const Walk dusty(CampusWalk({ParseFault("dust:start=6,duration=4,density=0.05")}));
-  const Outcome outcome = Replay(dusty, {});
+  const test::RunOutcome outcome = Replay(dusty, {});
   EXPECT_LE(outcome.status, TrackingStatus::kDegenerate);
   EXPECT_LT(outcome.end_error_m, 0.3);
 }

@@ -12,7 +12,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kGravity = 9.8;
+constexpr double kRoundGravity_mps2 = 9.8;
 
 // Only what the effects ask of the model: no other error.
 ImuModel ModelOf(const std::string& name) {
@@ -39,7 +39,7 @@ std::vector<Errors> ErrorsOn(const Trajectory& trajectory, double begin_s, const
   for (int i = 0; i < static_cast<int>(seconds / period_s); ++i) {
     const SimulatedImu at = imu.Sample(std::llround(1e9 * (begin_s + period_s * i)));
     const Vector3 f = at.truth.T_world_imu.rotation.conjugate() *
-                      (at.truth.a_world_mps2 + Vector3(0, 0, kGravity));
+                      (at.truth.a_world_mps2 + Vector3(0, 0, kRoundGravity_mps2));
     errors.push_back({at.truth.v_world_mps.norm(), at.sample.w_imu_radps - at.truth.w_imu_radps,
                       at.sample.f_imu_mps2 - f});
   }
@@ -48,7 +48,7 @@ std::vector<Errors> ErrorsOn(const Trajectory& trajectory, double begin_s, const
 
 std::vector<Errors> ErrorsInTheStreet(const std::string& model, const ImuEffects& effects) {
   const Scenario street = MakeScenario("street", {1, 20.0, true});
-  const ImuSetup setup{ModelOf(model), ImuVariant::kNormal, kGravity, effects, 1};
+  const ImuSetup setup{ModelOf(model), ImuVariant::kNormal, kRoundGravity_mps2, effects, 1};
   return ErrorsOn(*street.trajectory, street.begin_s, setup, 15.0);
 }
 
@@ -59,7 +59,7 @@ Errors SpreadAtRest(const std::string& model, const ImuEffects& effects, double 
   const Trajectory still(plan);
   Errors spread{0.0, Vector3::Zero(), Vector3::Zero()};
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    ImuSetup setup{ModelOf(model), ImuVariant::kNormal, kGravity, effects, seed};
+    ImuSetup setup{ModelOf(model), ImuVariant::kNormal, kRoundGravity_mps2, effects, seed};
     setup.model.rate_hz = 1.0;
     const Errors last = ErrorsOn(still, 0.0, setup, seconds).back();
     spread.gyro_radps += last.gyro_radps.cwiseAbs2() / 100.0;

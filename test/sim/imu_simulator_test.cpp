@@ -12,9 +12,9 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kGravity = 9.788;
+constexpr double kLocalGravity_mps2 = 9.788;
 
-Trajectory Still() {
+Trajectory StillTilted() {
   MotionPlan plan;
   plan.knots.resize(4);
   plan.T_body_imu.rotation = ExpSo3({0.2, -0.1, 0.5});
@@ -25,7 +25,7 @@ ImuSetup SetupOf(const std::string& model, double rate_hz) {
   ImuSetup setup;
   setup.model = LoadImuModel(model);
   setup.model.rate_hz = rate_hz;
-  setup.gravity_mps2 = kGravity;
+  setup.gravity_mps2 = kLocalGravity_mps2;
   setup.seed = 3;
   return setup;
 }
@@ -56,7 +56,7 @@ struct Slope {
 
 Slope SlopeOf(const State& s, const ImuSample& imu) {
   const Quaternion w(0.0, imu.w_imu_radps.x(), imu.w_imu_radps.y(), imu.w_imu_radps.z());
-  return {s.velocity, s.rotation.normalized() * imu.f_imu_mps2 - Vector3(0, 0, kGravity),
+  return {s.velocity, s.rotation.normalized() * imu.f_imu_mps2 - Vector3(0, 0, kLocalGravity_mps2),
           0.5 * (s.rotation * w).coeffs()};
 }
 
@@ -102,12 +102,12 @@ Drift StrapdownDrift(const std::vector<SimulatedImu>& samples) {
   return drift;
 }
 
-struct Case {
+struct RatedScenario {
   const char* scenario;
   double rate_hz;
 };
 
-class Strapdown : public ::testing::TestWithParam<Case> {};
+class Strapdown : public ::testing::TestWithParam<RatedScenario> {};
 
 TEST_P(Strapdown, OfTheIdealImuStaysWithinACentimetreAndAHundredthOfADegreeAfterAMinute) {
   ScenarioOptions options;
@@ -120,32 +120,33 @@ TEST_P(Strapdown, OfTheIdealImuStaysWithinACentimetreAndAHundredthOfADegreeAfter
   EXPECT_LT(drift.rotation_deg, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Strapdown,
-                         ::testing::Values(Case{"street", 200.0}, Case{"street", 1000.0},
-                                           Case{"tunnel", 200.0}, Case{"garage", 1000.0},
-                                           Case{"campus", 1000.0}, Case{"hall", 1000.0},
-                                           Case{"office", 1000.0}),
-                         [](const auto& test) {
-                           return std::string(test.param.scenario) + "_" +
-                                  std::to_string(static_cast<int>(test.param.rate_hz)) + "_hz";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenarios, Strapdown,
+    ::testing::Values(RatedScenario{"street", 200.0}, RatedScenario{"street", 1000.0},
+                      RatedScenario{"tunnel", 200.0}, RatedScenario{"garage", 1000.0},
+                      RatedScenario{"campus", 1000.0}, RatedScenario{"hall", 1000.0},
+                      RatedScenario{"office", 1000.0}),
+    [](const auto& test) {
+      return std::string(test.param.scenario) + "_" +
+             std::to_string(static_cast<int>(test.param.rate_hz)) + "_hz";
+    });
 
 TEST(ImuSimulator, AtRestReadsGravityUpwardAndNoRate) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   const SimulatedImu imu = Samples(SetupOf("ideal", 200.0), trajectory, 0.1).back();
-  const Vector3 up = imu.truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+  const Vector3 up = imu.truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kLocalGravity_mps2);
   EXPECT_LT((imu.sample.f_imu_mps2 - up).norm(), 1e-9);
   EXPECT_LT(imu.sample.w_imu_radps.norm(), 1e-12);
 }
 
 TEST(ImuSimulator, VariantsRemoveGravityOrReadInG) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   ImuSetup setup = SetupOf("ideal", 200.0);
   setup.variant = ImuVariant::kGravityRemoved;
   EXPECT_LT(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(), 1e-9);
   setup.variant = ImuVariant::kInG;
-  EXPECT_NEAR(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(), kGravity / 9.80665,
-              1e-9);
+  EXPECT_NEAR(Samples(setup, trajectory, 0.1).back().sample.f_imu_mps2.norm(),
+              kLocalGravity_mps2 / 9.80665, 1e-9);
 }
 
 TEST(ImuSimulator, VariantsAreWhatTheEstimatorReadsThemAs) {
@@ -195,9 +196,9 @@ void KeepWhiteNoiseOnly(InertialModel& model) {
 }
 
 TEST(ImuSimulator, PresetsHaveTheirNoiseDensityAtAnyRateByAllanDeviation) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   const Vector3 gravity =
-      trajectory.At(0.0).T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+      trajectory.At(0.0).T_world_imu.rotation.conjugate() * Vector3(0, 0, kLocalGravity_mps2);
   for (const char* preset : {"xsens_mti10", "consumer_mems"}) {
     for (const double rate_hz : {100.0, 1000.0}) {
       ImuSetup setup = SetupOf(preset, rate_hz);
@@ -226,7 +227,7 @@ TEST(ImuSimulator, PresetsHaveTheirNoiseDensityAtAnyRateByAllanDeviation) {
 }
 
 TEST(ImuSimulator, BiasesWalkWithTheirDensityFromTheTurnOnBias) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   double walk_sq = 0.0;
   double turn_on_sq = 0.0;
   constexpr int kRuns = 60;
@@ -248,7 +249,7 @@ TEST(ImuSimulator, BiasesWalkWithTheirDensityFromTheTurnOnBias) {
 }
 
 TEST(ImuSimulator, BiasInstabilityKeepsItsSpreadAndForgetsInItsTime) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   double product = 0.0;
   double start_sq = 0.0;
   double end_sq = 0.0;
@@ -269,7 +270,7 @@ TEST(ImuSimulator, BiasInstabilityKeepsItsSpreadAndForgetsInItsTime) {
 }
 
 TEST(ImuSimulator, SaturatesAndQuantises) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   ImuSetup setup = SetupOf("ideal", 200.0);
   setup.model.accel.full_scale = 5.0;
   setup.model.accel.step = 0.25;
@@ -282,12 +283,13 @@ TEST(ImuSimulator, SaturatesAndQuantises) {
 }
 
 TEST(ImuSimulator, ScaleAndMisalignmentActOnTheTruth) {
-  const Trajectory trajectory = Still();
+  const Trajectory trajectory = StillTilted();
   ImuSetup setup = SetupOf("ideal", 200.0);
   setup.model.accel.scale_std_ratio = 0.01;
   setup.model.accel.misalignment_std_rad = 0.01;
   const auto samples = Samples(setup, trajectory, 0.1);
-  const Vector3 truth = samples[0].truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kGravity);
+  const Vector3 truth =
+      samples[0].truth.T_world_imu.rotation.conjugate() * Vector3(0, 0, kLocalGravity_mps2);
   const double error = (samples[0].sample.f_imu_mps2 - truth).norm();
   EXPECT_GT(error, 0.01);
   EXPECT_LT(error, 0.6);

@@ -11,11 +11,15 @@
 #include "lio/convert/kitti_files.hpp"
 #include "lio/convert/kitti_raw.hpp"
 #include "lio/sim/random.hpp"
+#include "sim/closed_room.hpp"
+#include "sim/spread.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using test::Room;
+using test::Spread;
+using test::Still;
 
 // The scene is a room of 40 x 30 x 9 m around the origin: every return lies on one of six known
 // planes.
@@ -27,12 +31,6 @@ const std::vector<Plane>& RoomPlanes() {
   static const std::vector<Plane> planes = {{{1, 0, 0}, 20},  {{-1, 0, 0}, 20}, {{0, 1, 0}, 15},
                                             {{0, -1, 0}, 15}, {{0, 0, 1}, 7},   {{0, 0, -1}, 2}};
   return planes;
-}
-
-World Room(Material material = Material::kPlaster) {
-  World world;
-  AddBox(world.fixed, UprightPose({0.0, 0.0, -2.0}, 0.0), {40.0, 30.0, 9.0}, material);
-  return world;
 }
 
 // The sensor is swung about and carried through the room.
@@ -49,12 +47,6 @@ Trajectory Swinging() {
     plan.knots.push_back(knot);
   }
   plan.T_body_imu = {ExpSo3({0.1, 0.2, -0.4}), {0.1, 0.0, 0.2}};
-  return Trajectory(plan);
-}
-
-Trajectory Still() {
-  MotionPlan plan;
-  plan.knots.resize(4);
   return Trajectory(plan);
 }
 
@@ -80,11 +72,6 @@ double RangeError(const Pose& T_world_lidar, const LidarPoint& point) {
   }
   return p.norm() - range_m;
 }
-
-struct Spread {
-  double mean = 0.0;
-  double std = 0.0;
-};
 
 // Returns the spread over all returns of ten sweeps, posed at their own instants or at their
 // sweep's begin.
@@ -194,7 +181,7 @@ TEST(LidarSimulator, Hdl64SweepsInKittiOrderHaveTheConvertersRingsAndTimes) {
   std::vector<LidarPoint> points = sweep.points;
   const auto around = [](const LidarPoint& p) {
     const double azimuth = std::atan2(double{p.y_m}, double{p.x_m});
-    return azimuth < 0.0 ? azimuth + 2.0 * kPi : azimuth;
+    return azimuth < 0.0 ? azimuth + 2.0 * std::numbers::pi : azimuth;
   };
   std::stable_sort(points.begin(), points.end(), [&](const LidarPoint& a, const LidarPoint& b) {
     return a.ring != b.ring ? a.ring > b.ring : around(a) < around(b);
@@ -209,8 +196,8 @@ TEST(LidarSimulator, Hdl64SweepsInKittiOrderHaveTheConvertersRingsAndTimes) {
     const double offset_rad = setup.model.beams[points[i].ring].azimuth_offset_rad;
     const double from_azimuth_s =
         1e-9 * static_cast<double>(KittiPointInstant(points[i], middle, turn) - sweep.begin_ns);
-    double late_s =
-        1e-9 * points[i].t_offset_ns - from_azimuth_s - offset_rad / (2.0 * kPi) * turn.Seconds();
+    double late_s = 1e-9 * points[i].t_offset_ns - from_azimuth_s -
+                    offset_rad / (2.0 * std::numbers::pi) * turn.Seconds();
     late_s =
         std::remainder(late_s, turn.Seconds());  // the offset may cross the cut behind the sensor
     ASSERT_NEAR(late_s, 0.0, 6e-5) << "point " << i;

@@ -18,7 +18,6 @@ using test::ExpectSound;
 using test::Extent;
 using test::ExtentOf;
 
-constexpr double kPi = std::numbers::pi;
 const Pose kOrigin;
 
 TEST(Mesh, BoxHasItsSizeAndStandsOnItsOrigin) {
@@ -88,7 +87,8 @@ TEST(Mesh, BarIsRoundAndClosedAtItsFarEnd) {
   const Vector3 to = from + 5.0 * Vector3(2, -1, 2).normalized();
   AddBar(mesh, from, to, 0.1, 0.1, 6, Material::kMetal);
   ExpectSound(mesh);
-  EXPECT_NEAR(AreaOf(mesh), 6.0 * 0.1 * 5.0 + 6.0 * 0.5 * 0.01 * std::sin(kPi / 3.0), 1e-4);
+  EXPECT_NEAR(AreaOf(mesh), 6.0 * 0.1 * 5.0 + 6.0 * 0.5 * 0.01 * std::sin(std::numbers::pi / 3.0),
+              1e-4);
   const Vector3 axis = (to - from).normalized();
   for (const Vector3f& vertex : mesh.vertices_m) {
     const Vector3 offset = vertex.cast<double>() - from;
@@ -112,7 +112,7 @@ TEST(Mesh, PartsAreAppendedWhereTheirPosePutsThem) {
   AddTriangle(part, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, Material::kRetro);
   Mesh mesh;
   AddTriangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Material::kGrass);
-  AddMesh(mesh, part, UprightPose({10, 20, 30}, 0.5 * kPi));  // x goes to y
+  AddMesh(mesh, part, UprightPose({10, 20, 30}, 0.5 * std::numbers::pi));  // x goes to y
   ExpectSound(mesh);
   ASSERT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{3, 4, 5}));
@@ -123,7 +123,7 @@ TEST(Mesh, PartsAreAppendedWhereTheirPosePutsThem) {
 }
 
 TEST(Mesh, UprightPosesLookAlongTheirHeading) {
-  const Pose pose = UprightPose({1, 2, 3}, kPi / 6.0);
+  const Pose pose = UprightPose({1, 2, 3}, std::numbers::pi / 6.0);
   EXPECT_LT((pose * Vector3::UnitX() - Vector3(1 + std::sqrt(0.75), 2.5, 3)).norm(), 1e-12);
   EXPECT_LT((pose.rotation * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 1e-12);
 }

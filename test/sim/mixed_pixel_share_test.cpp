@@ -93,14 +93,14 @@ void Print(const std::string& name, const Tallies& tallies) {
   std::printf("\n");
 }
 
-struct Case {
+struct PlaceAndLidar {
   const char* place;
   const char* lidar;
   double least_found;  // share of the mixed pixels
   double most_lost;    // share of the good points
 };
 
-class MixedPixelShare : public ::testing::TestWithParam<Case> {};
+class MixedPixelShare : public ::testing::TestWithParam<PlaceAndLidar> {};
 
 TEST_P(MixedPixelShare, FoundAndGoodPointsLostAreAsTheDocsSay) {
   const Tallies tallies = TallyOf(GetParam().place, GetParam().lidar);
@@ -109,12 +109,16 @@ TEST_P(MixedPixelShare, FoundAndGoodPointsLostAreAsTheDocsSay) {
   EXPECT_LT(tallies.Of(EchoKind::kSurface).share_found(), GetParam().most_lost);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, MixedPixelShare,
-    ::testing::Values(Case{"street", "hdl32e", 0.35, 0.008}, Case{"street", "vlp16", 0.35, 0.015},
-                      Case{"street", "os1_64", 0.3, 0.03}, Case{"garage", "hdl32e", 0.25, 0.004},
-                      Case{"garage", "vlp16", 0.25, 0.005}, Case{"garage", "os1_64", 0.25, 0.01}),
-    [](const auto& test) { return std::string(test.param.place) + "_" + test.param.lidar; });
+INSTANTIATE_TEST_SUITE_P(All, MixedPixelShare,
+                         ::testing::Values(PlaceAndLidar{"street", "hdl32e", 0.35, 0.008},
+                                           PlaceAndLidar{"street", "vlp16", 0.35, 0.015},
+                                           PlaceAndLidar{"street", "os1_64", 0.3, 0.03},
+                                           PlaceAndLidar{"garage", "hdl32e", 0.25, 0.004},
+                                           PlaceAndLidar{"garage", "vlp16", 0.25, 0.005},
+                                           PlaceAndLidar{"garage", "os1_64", 0.25, 0.01}),
+                         [](const auto& test) {
+                           return std::string(test.param.place) + "_" + test.param.lidar;
+                         });
 
 }  // namespace
 }  // namespace lio::sim

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mover_speed.hpp"
+
 namespace lio::sim {
 namespace {
 
-double SpeedOf(const Mover& mover, double t_s) {
-  return (mover.T_world_mover(t_s + 0.01).translation - mover.T_world_mover(t_s).translation)
-             .norm() /
-         0.01;
-}
+using test::SpeedOf;
 
 // The nose points up where the ground rises by a tenth.
 TEST(Movers, VehiclesFollowTheirPathOnTheGround) {

@@ -12,9 +12,12 @@
 #include <sstream>
 
 #include "lio/sim/scenario.hpp"
+#include "sim/closed_room.hpp"
 
 namespace lio::sim {
 namespace {
+
+using test::Room;
 
 RecordOptions OptionsOf(Realism realism, const std::vector<std::string>& without = {}) {
   RecordOptions options;
@@ -37,13 +40,6 @@ RecordOptions Only(const std::string& effect) {
   return options;
 }
 
-// A closed room of 40 x 30 x 9 m around a sensor at rest.
-World Room() {
-  World world;
-  AddBox(world.fixed, UprightPose({0.0, 0.0, -2.0}, 0.0), {40.0, 30.0, 9.0}, Material::kPlaster);
-  return world;
-}
-
 SimulatedSweep SweepIn(const World& world, const RecordOptions& options) {
   MotionPlan plan;
   plan.knots.resize(4);
@@ -55,7 +51,7 @@ SimulatedSweep SweepIn(const World& world, const RecordOptions& options) {
 }
 
 // The range of a point less that of the room's surface along the same beam.
-double RangeError(const LidarPoint& point) {
+double RoomError(const LidarPoint& point) {
   const Vector3 p(point.x_m, point.y_m, point.z_m);
   const double height_m = p.z() > 0.0 ? 7.0 : 2.0;
   const double of_the_way =
@@ -66,7 +62,7 @@ double RangeError(const LidarPoint& point) {
 TEST(Realism, IdealSensorsHaveNoErrors) {
   const RecordOptions options = OptionsOf(Realism::kIdeal);
   for (const LidarPoint& point : SweepIn(Room(), options).points) {
-    ASSERT_NEAR(RangeError(point), 0.0, 1e-4);
+    ASSERT_NEAR(RoomError(point), 0.0, 1e-4);
   }
   EXPECT_EQ(options.imu.accel.noise_density, 0.0);
   EXPECT_EQ(options.imu.gyro.turn_on_bias_std, 0.0);
@@ -133,7 +129,7 @@ TEST(Realism, AnEffectIsAddedToIdealSensors) {
 TEST(Realism, EachLaserHasItsOwnBias) {
   std::map<std::uint16_t, std::vector<double>> errors;
   for (const LidarPoint& point : SweepIn(Room(), Only("laser-bias")).points) {
-    errors[point.ring].push_back(RangeError(point));
+    errors[point.ring].push_back(RoomError(point));
   }
   double sum_sq = 0.0;
   for (const auto& [ring, of_ring] : errors) {
@@ -150,7 +146,7 @@ TEST(Realism, RangesGrowAtGrazingIncidence) {
   double largest = 0.0;
   for (const LidarPoint& point : points) {
     const Vector3 p(point.x_m, point.y_m, point.z_m);
-    const double error = RangeError(point);
+    const double error = RoomError(point);
     const bool is_floor = std::abs(p.x()) < 18.0 && std::abs(p.y()) < 13.0 && p.z() < -1.9;
     if (is_floor) {
       const double cos_incidence = -p.z() / p.norm();

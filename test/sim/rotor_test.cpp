@@ -7,15 +7,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/spread.hpp"
+
 namespace lio::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using test::Spread;
 
-struct Spread {
-  double mean = 0.0;
-  double std = 0.0;
-};
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 template <typename F>
 Spread SpreadOf(int num, const F& value_of) {

@@ -13,7 +13,6 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStorey_m = 3.3;
 
 class Office : public ::testing::Test {
@@ -57,8 +56,8 @@ TEST_F(Office, TheSensorIsTurnedLikeAHead) {
     for (double t = 0.0; t < scenario.duration_s; t += 0.02) {
       fastest_radps = std::max(fastest_radps, scenario.trajectory->At(t).w_imu_radps.norm());
     }
-    EXPECT_GT(fastest_radps * 180.0 / kPi, 110.0) << seed;
-    EXPECT_LT(fastest_radps * 180.0 / kPi, 150.0) << seed;
+    EXPECT_GT(fastest_radps * 180.0 / std::numbers::pi, 110.0) << seed;
+    EXPECT_LT(fastest_radps * 180.0 / std::numbers::pi, 150.0) << seed;
   }
 }
 
@@ -68,7 +67,7 @@ TEST_F(Office, TheWalkerTouchesNothing) {
   for (double t = 0.5; t < scenario_.duration_s; t += 0.2) {
     const auto interval = scene_.During(t - 0.01, t + 0.01);
     for (int i = 0; i < 36; ++i) {
-      const double angle = 2.0 * kPi * i / 12.0;
+      const double angle = 2.0 * std::numbers::pi * i / 12.0;
       const Vector3 from = GroundAt(t) + Vector3(0.0, 0.0, 0.5 + 0.5 * (i / 12));
       const Vector3 direction(std::cos(angle), std::sin(angle), 0.0);
       const Ray ray{from.cast<float>(), direction.cast<float>(), 0.5f};

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/closed_room.hpp"
+
 namespace lio::sim {
 namespace {
 
-Trajectory Still() {
-  MotionPlan plan;
-  plan.knots.resize(4);
-  return Trajectory(plan);
-}
+using test::Still;
 
 // One beam that is level, and ten columns a degree.
 LidarSetup Level() {

@@ -8,10 +8,12 @@
 #include <functional>
 
 #include "sim/mesh_checks.hpp"
+#include "sim/mover_speed.hpp"
 
 namespace lio::sim {
 namespace {
 
+using test::SpeedOf;
 using test::StillScene;
 
 // The town has a straight road of 200 m along x, 8 m wide, on flat ground.
@@ -192,12 +194,6 @@ TEST_F(TownTest, OneSeedMakesOneTown) {
 }
 
 // --- what moves
-
-double SpeedOf(const Mover& mover, double t_s) {
-  return (mover.T_world_mover(t_s + 0.01).translation - mover.T_world_mover(t_s).translation)
-             .norm() /
-         0.01;
-}
 
 TEST_F(TownTest, WalkersKeepToTheirWayAndWalk) {
   town_.AddWalkers(road_, Beside(6.0, false), 5);

@@ -9,6 +9,7 @@
 namespace lio {
 namespace {
 
+using test::kRounding_s;
 using test::LargestStep_s;
 using test::SecondsOf;
 using test::Sensor;
@@ -17,8 +18,6 @@ using test::Sensors;
 using test::Silenced;
 using test::Stepped;
 using test::StreamRun;
-
-constexpr double kRounding_s = 1e-6;
 
 TEST(SensorStreamLoneClock, ImuClockThatStepsAloneIsShifted) {
   for (const double step_s : {-3.0, -0.503, 0.4, 1.5, 3.0}) {

@@ -13,6 +13,7 @@ namespace {
 
 using Step = ImuPreprocessor::Step;
 using test::ImuAt;
+using test::kRounding_s;
 using test::LargestStep_s;
 using test::Lines;
 using test::SecondsOf;
@@ -24,8 +25,6 @@ using test::StampAt;
 using test::Stepped;
 using test::StreamRun;
 using Texts = std::vector<std::string>;
-
-constexpr double kRounding_s = 1e-6;
 
 // Both sensors are silent from 2.0 s on until 3.5 s.
 SensorMessages GapOfBoth(double to_s) {

@@ -10,10 +10,15 @@
 #include <vector>
 
 #include "lio/base/time.hpp"
+#include "lio/io/lcm_codec.hpp"
 
 namespace lio::test {
 
 inline constexpr std::uint32_t kSensorAddress = 0xc0a801c9;  // 192.168.1.201
+
+inline ByteView ViewOf(const std::string& bytes) {
+  return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+}
 
 class PacketBytes {
  public:

@@ -20,11 +20,6 @@ inline Motion RestThenDrive() {
   return WindingDrive(kRest_s);
 }
 
-// The clock starts 4 s into the drive, at 8 m/s and turning.
-inline Motion Driving() {
-  return [](double t_s) { return WindingDrive(0.0)(t_s + 4.0); };
-}
-
 inline const Messages& StaticStartDrive() {
   static const Messages kMessages = [] {
     DriveOptions options;

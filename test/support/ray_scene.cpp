@@ -86,9 +86,9 @@ Hit RayScene::Cast(const Vector3& origin, const Vector3& direction) const {
   return best;
 }
 
-CastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
-                   const std::function<Pose(double)>& T_world_lidar, std::uint32_t seed) {
-  CastSweep result;
+RayCastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
+                      const std::function<Pose(double)>& T_world_lidar, std::uint32_t seed) {
+  RayCastSweep result;
   result.sweep.end = result.sweep.start + lidar.turn;
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.0);

@@ -79,18 +79,18 @@ struct SpinningLidar {
   }
 };
 
-struct CastSweep {
+struct RayCastSweep {
   Sweep sweep;
   std::vector<Hit> hits;  // one per point
 };
 
 // Casts one turn in the order of firing, column by column. `T_world_lidar` gives the sensor's pose
 // at a share 0..1 of the turn. Beams without a return give no point.
-CastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
-                   const std::function<Pose(double)>& T_world_lidar, std::uint32_t seed = 1);
+RayCastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
+                      const std::function<Pose(double)>& T_world_lidar, std::uint32_t seed = 1);
 
-inline CastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
-                          const Pose& T_world_lidar, std::uint32_t seed = 1) {
+inline RayCastSweep CastTurn(const RayScene& scene, const SpinningLidar& lidar,
+                             const Pose& T_world_lidar, std::uint32_t seed = 1) {
   return CastTurn(
       scene, lidar, [&](double) { return T_world_lidar; }, seed);
 }

@@ -17,6 +17,15 @@ struct sqlite3;
 
 namespace lio::test {
 
+// When a bag's messages came, where it does not matter.
+inline constexpr Timestamp kReceived{1'600'000'000'000'000'000};
+
+// Tells how a message is laid out in bytes.
+struct RosForm {
+  RosEncoding encoding;
+  bool big_endian;
+};
+
 // Serialises values in order.
 class RosBytes {
  public:

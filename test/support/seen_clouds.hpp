@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@
 
 namespace lio::test {
 
+inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 inline constexpr Timestamp kBegin{1'556'268'000'000'000'000};
 
 struct SeenCloud {

@@ -21,6 +21,11 @@ struct Message {
 };
 using Messages = std::vector<Message>;  // in order of arrival
 
+// The clock starts 4 s into the drive, at 8 m/s and turning.
+inline Motion Driving() {
+  return [](double t_s) { return WindingDrive(0.0)(t_s + 4.0); };
+}
+
 struct DriveOptions {
   Motion motion;
   double imu_from_s = 0.0;

@@ -11,6 +11,7 @@
 
 #include "lio/base/pose.hpp"
 #include "lio/sensor/imu_sample.hpp"
+#include "support/stamp_from_zero.hpp"
 
 namespace lio::test {
 
@@ -94,7 +95,7 @@ inline std::vector<ImuSample> ReadImu(const SmoothMotion& motion, double from_s,
     const double t = i / rate_hz;
     const MotionPoint point = motion.At(t);
     ImuSample sample;
-    sample.stamp = Timestamp{} + Duration::FromSeconds(t);
+    sample.stamp = StampFromZero(t);
     sample.w_imu_radps =
         point.w_imu + errors.gyro_bias + NormalVector(random, errors.gyro_density * to_sample);
     sample.f_imu_mps2 =

@@ -5,7 +5,10 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <random>
 #include <vector>
+
+#include "lio/base/pose.hpp"
 
 namespace lio::test {
 
@@ -39,6 +42,21 @@ inline void AddColumn(const Eigen::Vector2f& place, Points& points) {
       points.emplace_back(at.x(), at.y(), -1.8f + 0.1f * static_cast<float>(i));
     }
   }
+}
+
+// Returns posts at random places, as a body at the pose sees them.
+inline Points PostsSeenFrom(const Pose& T_map_imu) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
+  Points points;
+  for (int i = 0; i < 80; ++i) {
+    const double x = coordinate(random);
+    const double y = coordinate(random);
+    for (double z = -1.8; z < 0.6; z += 0.3) {
+      points.push_back((T_map_imu.Inverse() * Vector3(x, y, z)).cast<float>());
+    }
+  }
+  return points;
 }
 
 }  // namespace lio::test

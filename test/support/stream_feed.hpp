@@ -43,6 +43,9 @@ SensorMessages Stepped(SensorMessages messages, Sensor sensor, double from_s, do
 std::string Line(const StreamEvent& event);
 std::vector<std::string> Lines(const std::vector<StreamEvent>& events);
 
+// Seconds that are counted from kEpoch and summed differ by less.
+inline constexpr double kRounding_s = 1e-6;
+
 // The largest difference between neighbours, to either side.
 double LargestStep_s(const std::vector<Timestamp>& stamps);
 

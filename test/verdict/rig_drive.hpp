@@ -23,6 +23,7 @@ struct RigDrive {
 };
 
 inline constexpr double kScanPeriod_s = 0.1;
+inline constexpr double kAccelBiasStd_mps2 = 0.05;
 
 // Matching measures this at the stamp t: the lidar's pose, as the rig makes it one of imu.
 inline Pose MatchedPose(const RigDrive& drive, const Motion& motion, double t_s,
@@ -51,6 +52,11 @@ inline MotionRecord RecordDrive(const RigDrive& drive, const Motion& motion = Tu
 
 inline Pose ExamplePose() {
   return {ExpSo3(Vector3(0.02, -0.01, 0.4)), Vector3(0.3, -0.1, 0.5)};
+}
+
+// The rig is as it is configured.
+inline RigDrive RightDrive() {
+  return {.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()};
 }
 
 }  // namespace lio::test

@@ -16,10 +16,6 @@ RigFindings FindingsOf(const RigDrive& drive, const Motion& motion = Tumble()) {
   return FindRigErrors(record, rig, ConventionOf(ImuUnits::kSi));
 }
 
-RigDrive RightDrive() {
-  return {.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()};
-}
-
 TEST(RigFindings, RightRigIsCheckedAndNamesNothing) {
   const RigFindings findings = FindingsOf(RightDrive());
   EXPECT_TRUE(findings.is_checked);

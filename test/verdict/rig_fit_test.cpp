@@ -11,8 +11,6 @@
 namespace lio::test {
 namespace {
 
-constexpr double kAccelBiasStd_mps2 = 0.05;
-
 RigFitResult Fitted(const RigDrive& drive) {
   const MotionRecord record = RecordDrive(drive);
   RigFit fit(record, kAccelBiasStd_mps2);

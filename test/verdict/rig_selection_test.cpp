@@ -13,16 +13,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr double kAccelBiasStd_mps2 = 0.05;
-
 RigSelection Selected(const RigDrive& drive) {
   const MotionRecord record = RecordDrive(drive);
   RigFit fit(record, kAccelBiasStd_mps2);
   return {fit, fit.AlignTurns()};
-}
-
-RigDrive RightDrive() {
-  return {.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()};
 }
 
 TEST(SureSigmas, AreStudentsQuantiles) {

@@ -7,23 +7,23 @@
 namespace lio {
 namespace {
 
-const std::string kToken = "0123456789abcdef";
+const std::string kShortToken = "0123456789abcdef";
 
 TEST(Access, OnlyTheWholeTokenIsTheToken) {
-  EXPECT_TRUE(IsToken(kToken, kToken));
-  EXPECT_FALSE(IsToken(kToken, ""));
+  EXPECT_TRUE(IsToken(kShortToken, kShortToken));
+  EXPECT_FALSE(IsToken(kShortToken, ""));
   EXPECT_FALSE(IsToken("", ""));
   EXPECT_FALSE(IsToken("", "x"));
-  EXPECT_FALSE(IsToken(kToken, kToken.substr(1)));
-  EXPECT_FALSE(IsToken(kToken, kToken + kToken));
-  EXPECT_FALSE(IsToken(kToken, "0123456789abcdeF"));
+  EXPECT_FALSE(IsToken(kShortToken, kShortToken.substr(1)));
+  EXPECT_FALSE(IsToken(kShortToken, kShortToken + kShortToken));
+  EXPECT_FALSE(IsToken(kShortToken, "0123456789abcdeF"));
 }
 
 TEST(Access, ATokenIsLongEnoughAndStandsInAnAddress) {
-  EXPECT_EQ(WhyNoToken(kToken), "");
+  EXPECT_EQ(WhyNoToken(kShortToken), "");
   EXPECT_EQ(WhyNoToken(RandomToken()), "");
   EXPECT_NE(WhyNoToken("short"), "");
-  EXPECT_NE(WhyNoToken(kToken + "&a=b"), "");
+  EXPECT_NE(WhyNoToken(kShortToken + "&a=b"), "");
   EXPECT_NE(WhyNoToken(std::string(129, 'a')), "");
 }
 
@@ -58,13 +58,14 @@ TEST(Access, AnotherSitesPageIsTurnedAway) {
   for (const char* origin : {"http://evil.example", "http://localhost:9090", "null", "http://"}) {
     EXPECT_FALSE(MaySee({"localhost:8080", origin, ""}, "")) << origin;
   }
-  EXPECT_FALSE(MaySee({"localhost:8080", "http://evil.example", kToken}, kToken));
+  EXPECT_FALSE(MaySee({"localhost:8080", "http://evil.example", kShortToken}, kShortToken));
 }
 
 TEST(Access, WithATokenItDecides) {
-  EXPECT_TRUE(MaySee({"robot.example:8080", "http://robot.example:8080", kToken}, kToken));
-  EXPECT_FALSE(MaySee({"robot.example:8080", "", ""}, kToken));
-  EXPECT_FALSE(MaySee({"localhost:8080", "", ""}, kToken));
+  EXPECT_TRUE(
+      MaySee({"robot.example:8080", "http://robot.example:8080", kShortToken}, kShortToken));
+  EXPECT_FALSE(MaySee({"robot.example:8080", "", ""}, kShortToken));
+  EXPECT_FALSE(MaySee({"localhost:8080", "", ""}, kShortToken));
 }
 
 }  // namespace

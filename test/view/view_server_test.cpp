@@ -28,7 +28,7 @@ namespace http = beast::http;
 using asio::ip::tcp;
 using ::testing::HasSubstr;
 
-const std::string kToken = "0123456789abcdef0123";
+const std::string kServerToken = "0123456789abcdef0123";
 
 class ViewServerTest : public ::testing::Test {
  protected:
@@ -160,14 +160,14 @@ TEST_F(ViewServerTest, OthersPagesAndOthersNamesGetNoData) {
 }
 
 TEST_F(ViewServerTest, WithATokenNobodyElseGetsData) {
-  Start(kToken);
+  Start(kServerToken);
   EXPECT_THAT(Get("/allowed"), HasSubstr("401"));
-  EXPECT_THAT(Get("/allowed?token=" + kToken + "0"), HasSubstr("401"));
-  EXPECT_THAT(Get("/allowed?token=" + kToken), HasSubstr("204"));
+  EXPECT_THAT(Get("/allowed?token=" + kServerToken + "0"), HasSubstr("401"));
+  EXPECT_THAT(Get("/allowed?token=" + kServerToken), HasSubstr("204"));
   EXPECT_THROW(Open(), boost::system::system_error);
-  const Bytes frame = ReadFrame(*Open("/data?token=" + kToken));
+  const Bytes frame = ReadFrame(*Open("/data?token=" + kServerToken));
   EXPECT_EQ(test::Sections(frame).count(Section::kHello), 1U);
-  EXPECT_THAT(server_->Url(), HasSubstr("?token=" + kToken));
+  EXPECT_THAT(server_->Url(), HasSubstr("?token=" + kServerToken));
 }
 
 TEST_F(ViewServerTest, HostileRequestsAreSurvived) {
