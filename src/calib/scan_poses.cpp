@@ -10,8 +10,8 @@
 namespace lio {
 namespace {
 
-constexpr ScanPosesParameters kParameters = kCalibrationParameters.scan_poses;
-constexpr Duration kWait = Duration::FromSeconds(kParameters.wait_s);
+constexpr ScanPosesParameters kScanPoses = kCalibrationParameters.scan_poses;
+constexpr Duration kWait = Duration::FromSeconds(kScanPoses.wait_s);
 
 Options LidarAsBody(Options options) {
   options.rig.T_imu_lidar = Pose::Identity();
@@ -55,7 +55,7 @@ MatchJob ScanPoses::JobByTracker(std::shared_ptr<const Sweep> sweep) {
   job.refines_deskew = true;
   if (last_found_) {
     job.prior.since_last_fix_s =
-        std::max(kParameters.min_since_last_s, SecondsBetween(*last_found_, sweep->middle()));
+        std::max(kScanPoses.min_since_last_s, SecondsBetween(*last_found_, sweep->middle()));
   }
   job.sweep = std::move(sweep);
   return job;
@@ -65,8 +65,8 @@ MatchJob ScanPoses::JobAlongPath(std::shared_ptr<const Sweep> sweep) const {
   MatchJob job;
   job.T_any_imu = path_->Between(sweep->start, sweep->end);
   job.prior.T_map_imu = path_->At(sweep->middle());
-  job.prior.cov.diagonal() << Vector3::Constant(kParameters.path_std_m * kParameters.path_std_m),
-      Vector3::Constant(kParameters.path_std_rad * kParameters.path_std_rad);
+  job.prior.cov.diagonal() << Vector3::Constant(kScanPoses.path_std_m * kScanPoses.path_std_m),
+      Vector3::Constant(kScanPoses.path_std_rad * kScanPoses.path_std_rad);
   job.sweep = std::move(sweep);
   return job;
 }

@@ -17,7 +17,7 @@
 namespace lio {
 namespace {
 
-constexpr TurnFitParameters kParameters = kCalibrationParameters.fit;
+constexpr TurnFitParameters kTurnFit = kCalibrationParameters.fit;
 
 // The common unknowns of all turns, as changes of the state of the round: offset [s], rotation
 // [rad, right], gyro bias [rad/s].
@@ -113,7 +113,7 @@ void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>&
   for (const Vector3& residual : residuals) sizes.push_back(residual.norm());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  const double limit = kParameters.max_residual_ratio * *middle;
+  const double limit = kTurnFit.max_residual_ratio * *middle;
   double square = 0.0, product = 0.0;
   int num = 0, num_pairs = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
@@ -128,10 +128,10 @@ void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>&
   square /= std::max(1, num);
   const double sweep_var =
       num_pairs > 0 ? std::clamp(-product / num_pairs, 0.0, 0.5 * square) : 0.0;
-  state.sweep_std_rad = std::max(kParameters.min_std_rad, std::sqrt(sweep_var));
+  state.sweep_std_rad = std::max(kTurnFit.min_std_rad, std::sqrt(sweep_var));
   state.turn_std_rad =
-      std::max({kParameters.min_std_rad, std::sqrt(std::max(0.0, square - 2.0 * sweep_var)),
-                kParameters.min_turn_share * state.sweep_std_rad});
+      std::max({kTurnFit.min_std_rad, std::sqrt(std::max(0.0, square - 2.0 * sweep_var)),
+                kTurnFit.min_turn_share * state.sweep_std_rad});
 }
 
 // One least squares problem, linearized at the state of the round.
@@ -142,15 +142,15 @@ class Round {
     for (const SweepTurn& turn : turns) {
       auto* cost = new ceres::AutoDiffCostFunction<TurnError, 3, kNumCommon, 3, 3>(
           new TurnError(turn, TurnByGyro(samples, turn, state), state));
-      problem_.AddResidualBlock(cost, new ceres::HuberLoss(kParameters.huber_sigmas),
-                                common_.data(), Own(turn.first, state), Own(turn.first + 1, state));
+      problem_.AddResidualBlock(cost, new ceres::HuberLoss(kTurnFit.huber_sigmas), common_.data(),
+                                Own(turn.first, state), Own(turn.first + 1, state));
     }
   }
 
   [[nodiscard]] bool Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = kParameters.max_iterations;
+    options.max_num_iterations = kTurnFit.max_iterations;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
@@ -168,8 +168,7 @@ class Round {
     const auto own = static_cast<double>(own_.size());
     state.residual_ratio =
         std::sqrt(2.0 * cost_ / std::max(1.0, num_residuals_ - 3.0 * own - kNumCommon));
-    return std::abs(common_[0]) < kParameters.converged_s &&
-           turn.norm() < kParameters.converged_rad;
+    return std::abs(common_[0]) < kTurnFit.converged_s && turn.norm() < kTurnFit.converged_rad;
   }
 
   [[nodiscard]] bool FillCovariance(RotationCalibration& state) {
@@ -210,11 +209,11 @@ class Round {
 bool FitTurns(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
               RotationCalibration& state) {
   state.num_turns = static_cast<int>(turns.size());
-  for (int i = 0; i < kParameters.max_rounds; ++i) {
-    if (i < kParameters.noise_rounds) EstimateNoise(turns, Residuals(samples, turns, state), state);
+  for (int i = 0; i < kTurnFit.max_rounds; ++i) {
+    if (i < kTurnFit.noise_rounds) EstimateNoise(turns, Residuals(samples, turns, state), state);
     Round round(samples, turns, state);
     if (!round.Solve()) return false;
-    if (round.Apply(state) && i + 1 >= kParameters.noise_rounds) return round.FillCovariance(state);
+    if (round.Apply(state) && i + 1 >= kTurnFit.noise_rounds) return round.FillCovariance(state);
   }
   return false;
 }

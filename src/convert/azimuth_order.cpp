@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "lio/base/angle.hpp"
+
 namespace lio {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Counts steps of azimuth by sign; tiny ones (two returns of one beam) and jumps are not counted.
 struct Steps {
@@ -40,7 +40,7 @@ OrderVote JudgeWithRings(const CloudPoints& points, std::span<const std::uint16_
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double azimuth = Azimuth(points, i);
     auto& before = last[rings[i]];
-    if (before) steps.Add(WrappedAngle(azimuth - *before), 20.0 * kDegree);
+    if (before) steps.Add(WrappedAngle(azimuth - *before), 20.0 * kRadPerDeg);
     before = azimuth;
     if (i > 0 && rings[i] == rings[i - 1]) ++num_same_ring;
   }
@@ -58,7 +58,7 @@ OrderVote JudgeWithoutRings(const CloudPoints& points) {
   Steps steps;
   for (std::size_t i = lag; i < points.size(); ++i) {
     const double step = WrappedAngle(Azimuth(points, i) - Azimuth(points, i - lag));
-    if (std::abs(step) > 0.5 * kDegree) steps.Add(step, 30.0 * kDegree);
+    if (std::abs(step) > 0.5 * kRadPerDeg) steps.Add(step, 30.0 * kRadPerDeg);
   }
   constexpr double kAgreement = 0.8;
   const bool ordered = steps.agreement() > kAgreement && steps.num() > points.size() / 2;
@@ -75,7 +75,7 @@ OrderVote JudgeOrder(const CloudPoints& points, std::span<const std::uint16_t> r
 double CoverageOfCircle(const CloudPoints& points) {
   std::array<bool, 36> seen{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double turn = PositiveTurn(Azimuth(points, i)) / (2.0 * std::numbers::pi);
+    const double turn = PositiveTurn(Azimuth(points, i)) / kTurn_rad;
     seen[std::min<std::size_t>(35, static_cast<std::size_t>(turn * 36.0))] = true;
   }
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / 36.0;

@@ -7,19 +7,18 @@
 #include <numbers>
 
 #include "azimuth_order.hpp"
+#include "lio/base/angle.hpp"
 #include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kDegree = std::numbers::pi / 180.0;
 // The front follows the points slowly, so that outliers do not carry it away.
 constexpr double kFrontGain = 0.02;
-constexpr double kMaxFrontStep = 1.0 * kDegree;
+constexpr double kMaxFrontStep = 1.0 * kRadPerDeg;
 // First and last point are accepted when they are near the median of their neighbours.
 constexpr std::size_t kMaxNeighbours = 64;
-constexpr double kNearNeighbours = 2.0 * kDegree;
+constexpr double kNearNeighbours = 2.0 * kRadPerDeg;
 
 std::size_t NumNeighbours(std::size_t num_points) {
   return std::min(std::clamp<std::size_t>(num_points / 400, 5, kMaxNeighbours), num_points);
@@ -117,7 +116,7 @@ UnwrappedSweep UnwrapUnordered(const SpinModel& model, const CloudPoints& points
     const double azimuth = HeadAzimuth(model, points, rings, i);
     sweep.turned_rad[i] = PositiveTurn(model.direction * (azimuth - sweep.first_azimuth_rad));
   }
-  sweep.last_turned_rad = kTurn;
+  sweep.last_turned_rad = kTurn_rad;
   return sweep;
 }
 

@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kBlockBytes = 64 * 1024;
+constexpr std::size_t kRefillBytes = 64 * 1024;
 constexpr std::size_t kGrowBytes = 1u << 20;
 constexpr int kMaxZstdWindowLog = 27;  // 128 MiB, the limit of the command zstd, too
 
@@ -33,7 +33,7 @@ class Refill {
 
  private:
   std::unique_ptr<ByteSource> source_;
-  std::array<std::uint8_t, kBlockBytes> block_;
+  std::array<std::uint8_t, kRefillBytes> block_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
 };

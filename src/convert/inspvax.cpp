@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr std::int64_t kGpsEpochUnix = 315'964'800;  // 1980-01-06 00:00:00 UTC
 constexpr std::int64_t kWeekSeconds = 604'800;
 
@@ -141,12 +141,12 @@ std::optional<InspvaxRow> ToInspvaxRow(const RosNumbers& numbers, Timestamp rece
   InspvaxRow row;
   row.stamp = *stamp;
   row.ins_status = *status < 1e6 ? static_cast<int>(*status) : -1;
-  row.latitude_rad = *latitude * kRadians;
-  row.longitude_rad = *longitude * kRadians;
+  row.latitude_rad = *latitude * kRadPerDeg;
+  row.longitude_rad = *longitude * kRadPerDeg;
   row.ellipsoid_height_m = *height + Find(numbers, {"undulation"}).value_or(0.0);
-  row.roll_rad = *roll * kRadians;
-  row.pitch_rad = *pitch * kRadians;
-  row.azimuth_rad = *azimuth * kRadians;
+  row.roll_rad = *roll * kRadPerDeg;
+  row.pitch_rad = *pitch * kRadPerDeg;
+  row.azimuth_rad = *azimuth * kRadPerDeg;
   return row;
 }
 

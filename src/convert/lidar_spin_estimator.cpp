@@ -7,18 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "azimuth_order.hpp"
+#include "lio/base/angle.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kOffsetBin = 2.0 * kBackwardSlack / LidarSpinEstimator::kNumOffsetBins;
 constexpr double kMinHz = 1.0;
 constexpr double kMaxHz = 100.0;
@@ -133,7 +131,7 @@ SpinModel LidarSpinEstimator::Decide(const std::optional<BeamTable>& table) cons
                       (detected ? ""
                        : table  ? " (as the model)"
                                 : " (assumed)") +
-                      " at " + fmt::format("{:.4f}", model.rate_radps / kTurn) + " Hz" + how;
+                      " at " + fmt::format("{:.4f}", model.rate_radps / kTurn_rad) + " Hz" + how;
   return model;
 }
 
@@ -150,7 +148,7 @@ std::vector<double> LidarSpinEstimator::RingOffsets() const {
     offsets.push_back(bins * kOffsetBin - kBackwardSlack);
     largest = std::max(largest, std::abs(offsets.back()));
   }
-  constexpr double kClear = 0.6 * kDegree;
+  constexpr double kClear = 0.6 * kRadPerDeg;
   return largest > kClear ? offsets : std::vector<double>();
 }
 
@@ -165,7 +163,7 @@ double LidarSpinEstimator::Rate(double direction, PointOrder order, double fallb
     if (dt <= 0.0 || !in_order) continue;
     const double turn =
         order == PointOrder::kNone
-            ? kTurn
+            ? kTurn_rad
             : TurnBetween(seen_[k - 1].first_azimuth_rad, seen_[k].first_azimuth_rad,
                           seen_[k - 1].covered_rad, direction);
     turned.push_back(turn);
@@ -173,9 +171,9 @@ double LidarSpinEstimator::Rate(double direction, PointOrder order, double fallb
     rates.push_back(turn / dt);
   }
   const double typical = UpperMedian(rates);
-  if (!(typical > kMinHz * kTurn) || typical > kMaxHz * kTurn) {
+  if (!(typical > kMinHz * kTurn_rad) || typical > kMaxHz * kTurn_rad) {
     how = " (assumed: the stamps do not determine the rate)";
-    return fallback_hz * kTurn;
+    return fallback_hz * kTurn_rad;
   }
   double sum_turned = 0.0;
   double sum_seconds = 0.0;

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "lio/base/angle.hpp"
 #include "lio/convert/byte_order.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr std::size_t kPixelBytes = 12;
 constexpr std::size_t kHeaderBytes = 32;        // of a RNG19 packet
 constexpr std::size_t kColumnHeaderBytes = 12;  // of RNG19
@@ -20,10 +19,7 @@ constexpr std::size_t kLegacyHeaderBytes = 16;
 constexpr std::size_t kLegacyStatusBytes = 4;
 constexpr std::uint32_t kLegacyValid = 0xffffffff;
 constexpr std::uint32_t kLegacyRangeMask = 0xfffff, kRangeMask = 0x7ffff;
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kStandardGravity_mps2 = 9.80665;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kWholeTurn = 0.9;
 
 template <typename T>
 T At(ByteView bytes, std::size_t at) {

@@ -4,8 +4,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {
@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::size_t kMaxBeams = 256, kMaxColumns = 4096, kMaxPerPacket = 64;
 
 // Finds a key in any of the sections: files of different ages nest it differently.

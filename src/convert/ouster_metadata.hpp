@@ -11,6 +11,9 @@
 
 namespace lio {
 
+// Lengths are in mm, here and in packets.
+inline constexpr double kMetresPerMillimetre = 1e-3;
+
 enum class OusterProfile { kLegacy, kRng19 };
 
 struct OusterMetadata {

@@ -14,6 +14,8 @@
 
 namespace lio {
 
+inline constexpr double kWholeTurn = 0.9;  // share of a turn that makes it a whole one
+
 struct Turn {
   std::vector<LidarPoint> points;
   std::vector<std::int64_t> instants_ns;  // one a point

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr int kMaxDepth = 16;  // nested messages; ROS itself has none that deep
+constexpr int kMaxNesting = 16;  // nested messages; ROS itself has none that deep
 constexpr int kMaxNamedElements = 16;
 constexpr int kMaxFixedCount = 1 << 20;
 constexpr int kMaxValues = 1 << 22;  // values of one message
@@ -161,7 +161,7 @@ std::optional<RosNumbers> RosSchema::Read(ByteView bytes, RosEncoding encoding) 
 }
 
 bool RosSchema::ReadMessage(Walk& walk, std::size_t message, const std::string& prefix) const {
-  if (++walk.depth > kMaxDepth) return false;
+  if (++walk.depth > kMaxNesting) return false;
   for (const Field& field : messages_[message].fields) {
     const std::string name = prefix.empty() && message != 0 ? "" : prefix + field.name;
     if (field.fixed_count < 0 && !field.is_sequence) {

@@ -12,7 +12,7 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kMinTransformBytes = 3 * 4 + 7 * sizeof(double);
-constexpr std::size_t kMaxDepth = 100;  // a chain of frames that is longer is a loop
+constexpr std::size_t kMaxChain = 100;  // a chain of frames that is longer is a loop
 constexpr double kSearchSeconds = 60.0;
 
 // tf of ROS 1 allowed a slash before a frame's name.
@@ -60,7 +60,7 @@ void FrameTree::Add(const FrameLink& link) {
 
 std::vector<FrameTree::Ancestor> FrameTree::AncestorsOf(const std::string& frame) const {
   std::vector<Ancestor> ancestors = {{frame, Pose::Identity()}};
-  while (ancestors.size() < kMaxDepth) {
+  while (ancestors.size() < kMaxChain) {
     const auto up = links_.find(ancestors.back().frame);
     if (up == links_.end()) break;
     ancestors.push_back(

@@ -3,14 +3,13 @@
 #include "velodyne_decoder.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/convert/byte_order.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr std::size_t kPacketBytes = 1206;
 constexpr std::size_t kBlockBytes = 100;
 constexpr std::size_t kBlockHeaderBytes = 4;  // flag and azimuth
@@ -26,7 +25,6 @@ constexpr std::int64_t kNsPerHour = 3'600'000'000'000;
 constexpr std::uint32_t kMicrosecondsPerHour = 3'600'000'000;
 constexpr double kMaxRate_radps = kTurn_rad * 35.0;  // the sensors turn at most 20 times a second
 constexpr double kLongestTurn_s = 0.4;               // a head that stands does not fill the memory
-constexpr double kWholeTurn = 0.9;                   // share of a turn
 
 std::uint16_t At16(ByteView payload, std::size_t at) {
   return LoadAs<std::uint16_t>(payload.data() + at, false);

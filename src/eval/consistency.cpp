@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kSparseTruth_s = 0.05;
+constexpr double kLongTruthPeriod_s = 0.05;
 constexpr int kNisDof = 6;
 
 // Returns the NEES of the entries `begin` .. `begin + kSize - 1` of the error.
@@ -104,7 +104,7 @@ void NoteRuns(const std::vector<RunErrors>& runs, Consistency& result) {
     result.notes.push_back(
         fmt::format("{} rows have a singular covariance and are left out", num_singular));
   }
-  if (period_s > kSparseTruth_s) {
+  if (period_s > kLongTruthPeriod_s) {
     result.notes.push_back(fmt::format(
         "the truth has one pose every {:.2g} s: its interpolation adds an error of up to "
         "acceleration x {:.2g} s^2",

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kSparseTruth_s = 0.25;
 constexpr double kSameAxes_deg = 5.0;
 constexpr double kMinHeading_m = 2.0;

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kMaxStepIntervals = 1.5;
 constexpr double kDriftStart_s = 1.0;
 constexpr std::size_t kDriftStartRows = 10;

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "lio/base/angle.hpp"
 #include "lio/eval/report.hpp"
 
 namespace lio {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::string Row(const std::string& name, const char* unit, const ErrorStats& stats) {
   return fmt::format("{:<26}{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f}\n", name, unit,

@@ -4,15 +4,14 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "lio/eval/alignment.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kMinDetected_deg = 1.0;
 constexpr double kMinRemoved_deg = 5.0;
 constexpr double kMinSigmas = 4.0;

@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-constexpr ClockOffsetParameters kParameters = kFilterParameters.clock_offset;
+constexpr ClockOffsetParameters kClockOffset = kFilterParameters.clock_offset;
 
 Preintegration Gyro(std::span<const ImuSample> samples, Timestamp from, Timestamp to,
                     const Vector3& bias, double density) {
@@ -33,9 +33,9 @@ bool AreSparse(std::span<const ImuSample> samples) {
 
 // The mean over the time by which the stamp may be wrong: noise and vibration average out.
 Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vector3& bias) {
-  const Duration half = Duration::FromSeconds(0.5 * kParameters.rate_span_s);
+  const Duration half = Duration::FromSeconds(0.5 * kClockOffset.rate_span_s);
   const Quaternion turn = Gyro(samples, stamp - half, stamp + half, bias, 0.0).rotation;
-  return LogSo3(turn) / kParameters.rate_span_s;
+  return LogSo3(turn) / kClockOffset.rate_span_s;
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
 void ClockOffset::Update(const Scan& scan) {
   const double span_s = SecondsBetween(last_->stamp, scan.stamp);
   var_s2_ =
-      std::min(var_s2_ + kParameters.walk_s_per_sqrt_s * kParameters.walk_s_per_sqrt_s * span_s,
-               kParameters.max_std_s * kParameters.max_std_s);
+      std::min(var_s2_ + kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s,
+               kClockOffset.max_std_s * kClockOffset.max_std_s);
   if (scan.stamp - last_->stamp > kScanGap.unrelated || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
   if (AreSparse(samples)) return;
@@ -77,7 +77,7 @@ void ClockOffset::Update(const Scan& scan) {
       gyro.rotation.conjugate() * MeanRate(samples, last_->stamp, scan.gyro_bias);
   Turn turn;
   turn.rate_change_radps = w - w_last;
-  turn.rate_change_std_radps = std::sqrt(2.0 / kParameters.rate_span_s) * scan.gyro_density;
+  turn.rate_change_std_radps = std::sqrt(2.0 / kClockOffset.rate_span_s) * scan.gyro_density;
   turn.innovation_rad = residual + w * scan.moved_by_s - w_last * last_->moved_by_s -
                         turn.rate_change_radps * offset_s_;
   turn.claimed_var =
@@ -92,8 +92,8 @@ void ClockOffset::Fuse(const Turn& turn) {
   const Vector3 weighted = S.inverse() * turn.innovation_rad;
   LearnUnclaimed(turn);
   if (turn.innovation_rad.dot(weighted) > kChiSquare3At999) return;
-  if (h.norm() < std::max(kParameters.min_rate_change_radps,
-                          kParameters.min_rate_change_sigmas * turn.rate_change_std_radps)) {
+  if (h.norm() < std::max(kClockOffset.min_rate_change_radps,
+                          kClockOffset.min_rate_change_sigmas * turn.rate_change_std_radps)) {
     return;
   }
   offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
@@ -107,18 +107,19 @@ void ClockOffset::LearnUnclaimed(const Turn& turn) {
   const Vector3 along = turn.rate_change_radps.stableNormalized();
   const Vector3 across = turn.innovation_rad - along * along.dot(turn.innovation_rad);
   const double var = 0.5 * across.squaredNorm();
-  const double limit = kParameters.max_scatter_ratio * (turn.claimed_var + unclaimed_var_);
-  unclaimed_var_ +=
-      (std::min(var, limit) - turn.claimed_var - unclaimed_var_) / kParameters.num_turns_remembered;
+  const double limit = kClockOffset.max_scatter_ratio * (turn.claimed_var + unclaimed_var_);
+  unclaimed_var_ += (std::min(var, limit) - turn.claimed_var - unclaimed_var_) /
+                    kClockOffset.num_turns_remembered;
   unclaimed_var_ = std::max(unclaimed_var_, 0.0);
 }
 
 void ClockOffset::Follow() {
-  const bool is_known = std_s() <= kParameters.known_std_s;
-  const bool is_off = std::abs(offset_s_ - move_by_s_) > kParameters.sure_sigmas * std_s();
-  is_found_ |= num_turns_ >= kParameters.min_turns && (is_known || is_off);
+  const bool is_known = std_s() <= kClockOffset.known_std_s;
+  const bool is_off = std::abs(offset_s_ - move_by_s_) > kClockOffset.sure_sigmas * std_s();
+  is_found_ |= num_turns_ >= kClockOffset.min_turns && (is_known || is_off);
   if (!is_found_) return;
-  move_by_s_ += std::clamp(offset_s_ - move_by_s_, -kParameters.max_step_s, kParameters.max_step_s);
+  move_by_s_ +=
+      std::clamp(offset_s_ - move_by_s_, -kClockOffset.max_step_s, kClockOffset.max_step_s);
 }
 
 }  // namespace lio

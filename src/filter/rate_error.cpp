@@ -8,15 +8,15 @@
 namespace lio {
 namespace {
 
-constexpr RateErrorParameters kParameters;
-constexpr double kPriorTurnSq = kParameters.prior_turn_rad * kParameters.prior_turn_rad;
+constexpr RateErrorParameters kRateError;
+constexpr double kPriorTurnSq = kRateError.prior_turn_rad * kRateError.prior_turn_rad;
 constexpr double kPriorWeight = kPriorTurnSq * kPriorTurnSq;
-constexpr double kMaxVar = kParameters.max_std_ratio * kParameters.max_std_ratio;
+constexpr double kMaxVar = kRateError.max_std_ratio * kRateError.max_std_ratio;
 
 }  // namespace
 
 double RateError::std_ratio() const {
-  constexpr double kPriorVar = kParameters.prior_std_ratio * kParameters.prior_std_ratio;
+  constexpr double kPriorVar = kRateError.prior_std_ratio * kRateError.prior_std_ratio;
   const double var = (kPriorWeight * kPriorVar + product_sum_) / (kPriorWeight + weight_sum_);
   return std::sqrt(std::clamp(var, 0.0, kMaxVar));
 }
@@ -38,7 +38,7 @@ void RateError::AddPose(const Vector3& residual_rad, const Matrix3& cov) {
   const double error_sq = std::min(residual_rad.squaredNorm() / 3.0 - without, kMaxVar * turn_sq);
   weight_sum_ += turn_sq * turn_sq;
   product_sum_ += turn_sq * error_sq;
-  const double excess = weight_sum_ / (kParameters.num_turns_remembered * kPriorWeight);
+  const double excess = weight_sum_ / (kRateError.num_turns_remembered * kPriorWeight);
   if (excess > 1.0) {
     weight_sum_ /= excess;
     product_sum_ /= excess;

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr AlignmentParameters kParameters = kInitializationParameters.alignment;
+constexpr AlignmentParameters kAlignment = kInitializationParameters.alignment;
 
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;
@@ -155,7 +155,7 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
                        nullptr, x.Rotation(i), x.Position(i), x.Velocity(i), x.Rotation(i + 1),
                        x.Position(i + 1), x.Velocity(i + 1), x.BiasBlock(), x.Up());
     problem.pose_terms.push_back(c.AddResidualBlock(new PoseCost(new PoseTerm(terms.poses[i])),
-                                                    new ceres::HuberLoss(kParameters.huber_sigmas),
+                                                    new ceres::HuberLoss(kAlignment.huber_sigmas),
                                                     x.Rotation(i + 1), x.Position(i + 1)));
   }
   c.AddResidualBlock(
@@ -203,8 +203,8 @@ AlignmentResult Align(const AlignmentTerms& terms, const Alignment& guess) {
   AddTerms(terms, x, problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = kParameters.max_iterations;
-  options.function_tolerance = kParameters.function_tolerance;
+  options.max_num_iterations = kAlignment.max_iterations;
+  options.function_tolerance = kAlignment.function_tolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

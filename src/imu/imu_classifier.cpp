@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr ImuClassifierParameters kParameters = kImuConventionParameters.classifier;
+constexpr ImuClassifierParameters kClassifier = kImuConventionParameters.classifier;
 
 // The score of the forces with gravity or without, whichever is smaller.
 double LeastForceScore(std::span<const MotionEvidence::Bend> bends, const ImuConvention& convention,
@@ -55,7 +55,7 @@ std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
 void ImuClassifier::ScoreForces(const ImuConvention& rates, Bends bends,
                                 std::vector<Scored>& all) const {
   const double rate_score = evidence_.RateScore(rates.R_imu_sent, rates.rate_scale());
-  const double leaning = kParameters.lean_score * std::max(0.0, Lean(rates) - Lean(expected_));
+  const double leaning = kClassifier.lean_score * std::max(0.0, Lean(rates) - Lean(expected_));
   for (const bool is_in_g : {false, true}) {
     if (keeps_force_unit_ && is_in_g != expected_.is_in_g) continue;
     const ImuConvention convention{is_in_g, rates.is_in_deg, rates.R_imu_sent};
@@ -94,15 +94,15 @@ std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> 
 bool ImuClassifier::IsGyroHeard(const ImuConvention& convention) const {
   return evidence_.RateScore(convention.R_imu_sent, 0.0) >
          evidence_.RateScore(convention.R_imu_sent, convention.rate_scale()) +
-             kParameters.refuted_score;
+             kClassifier.refuted_score;
 }
 
 // The least score of the expected convention over the clock offsets that are possible.
 double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   double least = std::numeric_limits<double>::infinity();
-  for (double num_steps = -kParameters.max_clock_shift_steps;
-       num_steps <= kParameters.max_clock_shift_steps;
-       num_steps += kParameters.clock_shift_grid_steps) {
+  for (double num_steps = -kClassifier.max_clock_shift_steps;
+       num_steps <= kClassifier.max_clock_shift_steps;
+       num_steps += kClassifier.clock_shift_grid_steps) {
     const MotionEvidence shifted = evidence_.Shifted(num_steps);
     if (shifted.steps().empty()) continue;
     const std::vector<MotionEvidence::Bend> bends = shifted.FindBends();
@@ -130,23 +130,23 @@ ImuClassifier::Ranking ImuClassifier::Rank(Bends bends) const {
 }
 
 bool ImuClassifier::FavoursAnother() const {
-  if (evidence_.steps().size() < kParameters.min_steps) return false;
+  if (evidence_.steps().size() < kClassifier.min_steps) return false;
   const Ranking ranking = Rank(evidence_.FindBends());
-  return ranking.expected > ranking.best + kParameters.favoured_score * ranking.scale;
+  return ranking.expected > ranking.best + kClassifier.favoured_score * ranking.scale;
 }
 
 ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   using Finding = ImuVerdict::Finding;
   ImuVerdict verdict;
   verdict.convention = expected_;
-  if (evidence_.steps().size() < kParameters.min_steps) return verdict;
+  if (evidence_.steps().size() < kClassifier.min_steps) return verdict;
   const std::vector<MotionEvidence::Bend> bends = evidence_.FindBends();
   Ranking ranking = Rank(bends);
-  if (ranking.scale > kParameters.max_residual_ratio_sq) return verdict;
+  if (ranking.scale > kClassifier.max_residual_ratio_sq) return verdict;
   const auto within = [&](double margin) { return ranking.best + ranking.scale * margin; };
   std::vector<Scored>& likely = ranking.all;
   std::erase_if(likely,
-                [&](const Scored& s) { return s.score > within(kParameters.refuted_score); });
+                [&](const Scored& s) { return s.score > within(kClassifier.refuted_score); });
 
   const bool has_gravity = likely.front().has_gravity;
   const auto all_agree = [&likely](const auto& is_so) {
@@ -158,7 +158,7 @@ ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   if (all_agree([&](const Scored& s) { return s.convention == expected_; })) {
     verdict.finding = Finding::kAsExpected;
   } else if (const double limit =
-                 within(in_doubt ? kParameters.refuted_score : kParameters.given_up_score);
+                 within(in_doubt ? kClassifier.refuted_score : kClassifier.given_up_score);
              ranking.expected > limit && ExpectedScoreOfOtherClocks() > limit) {
     verdict.finding = Finding::kNotExpected;
     const std::optional<ImuConvention> found = LeastChange(likely);
@@ -177,8 +177,8 @@ bool ImuClassifier::IsGyroAbsurd() const {
   const auto num_absurd =
       std::count_if(steps.end() - MotionEvidence::kRecentSteps, steps.end(), [&](const auto& step) {
         const double read_rad = expected_.rate_scale() * step.span_s() * step.w_sent.norm();
-        return read_rad > kParameters.absurd_turn_rad &&
-               read_rad > kParameters.absurd_ratio * step.turn_rad.norm();
+        return read_rad > kClassifier.absurd_turn_rad &&
+               read_rad > kClassifier.absurd_ratio * step.turn_rad.norm();
       });
   return 2 * num_absurd >= MotionEvidence::kRecentSteps;
 }
@@ -201,9 +201,9 @@ std::string ImuClassifier::Describe(const ImuConvention& found, Bends bends) con
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2) {
   const double in_metric = mean_f_sent.norm() / gravity_mps2;
   const double in_g = ImuConvention{true, false}.force_scale() * in_metric;
-  if (std::abs(in_metric - 1.0) < kParameters.force_tolerance) return ForceAtRest::kMetric;
-  if (std::abs(in_g - 1.0) < kParameters.force_tolerance) return ForceAtRest::kInG;
-  if (in_g < kParameters.max_force_without_gravity) return ForceAtRest::kWithoutGravity;
+  if (std::abs(in_metric - 1.0) < kClassifier.force_tolerance) return ForceAtRest::kMetric;
+  if (std::abs(in_g - 1.0) < kClassifier.force_tolerance) return ForceAtRest::kInG;
+  if (in_g < kClassifier.max_force_without_gravity) return ForceAtRest::kWithoutGravity;
   return ForceAtRest::kUnclear;
 }
 
@@ -221,12 +221,12 @@ double RateNoise(std::span<const ImuSample> samples) {
 
 bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu) {
   const double noise_radps = RateNoise(samples);
-  if (noise_radps < kParameters.min_noise_radps) return false;
+  if (noise_radps < kClassifier.min_noise_radps) return false;
   const double span_s = SecondsBetween(samples.front().stamp, samples.back().stamp);
   const double rate_hz = static_cast<double>(samples.size() - 1) / span_s;
   const double noise_if_deg_radps = ImuConvention{false, true}.rate_scale() * noise_radps;
   return noise_if_deg_radps >
-         kParameters.min_noise_share * imu.gyro_noise_density * std::sqrt(rate_hz);
+         kClassifier.min_noise_share * imu.gyro_noise_density * std::sqrt(rate_hz);
 }
 
 }  // namespace lio

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lio/imu/imu_convention.hpp"
 
-#include <numbers>
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;  // 1 g by definition (CGPM 1901)
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // "x -y -z": the axes of the messages along imu's x, y and z.
 std::string AxisNames(const Matrix3& R_imu_sent) {

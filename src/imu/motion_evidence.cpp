@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr MotionEvidenceParameters kParameters = kImuConventionParameters.evidence;
+constexpr MotionEvidenceParameters kEvidence = kImuConventionParameters.evidence;
 
 double Square(double x) {
   return x * x;
@@ -24,7 +24,7 @@ ImuSample MeanWithoutSpikes(std::span<const ImuSample> sent) {
   for (const ImuSample& sample : sent) rates.push_back(sample.w_imu_radps.norm());
   const auto middle = rates.begin() + std::ssize(rates) / 2;
   std::nth_element(rates.begin(), middle, rates.end());
-  const double limit = std::max(kMaxGyroRate_radps, kParameters.spike_ratio * *middle);
+  const double limit = std::max(kMaxGyroRate_radps, kEvidence.spike_ratio * *middle);
   ImuSample mean;
   double num = 0.0;
   for (const ImuSample& sample : sent) {
@@ -75,7 +75,7 @@ void MotionEvidence::AddPose(const StampedPose& T_map_imu, std::span<const ImuSa
   step.w_sent = mean.w_imu_radps;
   step.f_sent = mean.f_imu_mps2;
   step.R_map_imu = R_from.slerp(0.5, R_to).toRotationMatrix();
-  if (steps_.size() >= kParameters.max_steps) steps_.erase(steps_.begin());
+  if (steps_.size() >= kEvidence.max_steps) steps_.erase(steps_.begin());
   steps_.push_back(step);
 }
 
@@ -112,15 +112,14 @@ std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) con
   };
   std::size_t first = k;
   while (first > 0 && is_joined(first - 1) &&
-         before_s(first) < kParameters.second_difference_span_s) {
+         before_s(first) < kEvidence.second_difference_span_s) {
     --first;
   }
   std::size_t last = k;
-  while (is_joined(last + 1) && after_s(last) < kParameters.second_difference_span_s) ++last;
+  while (is_joined(last + 1) && after_s(last) < kEvidence.second_difference_span_s) ++last;
   const double rise_s = before_s(first);
   const double fall_s = after_s(last);
-  if (std::min(rise_s, fall_s) <
-      kParameters.min_span_share * kParameters.second_difference_span_s) {
+  if (std::min(rise_s, fall_s) < kEvidence.min_span_share * kEvidence.second_difference_span_s) {
     return std::nullopt;
   }
 
@@ -155,8 +154,8 @@ bool MotionEvidence::HasMoved() const {
   if (std::ssize(steps_) < kRecentSteps) return false;
   const Step& first = *(steps_.end() - kRecentSteps);
   const Pose motion = first.from.pose.Inverse() * steps_.back().to.pose;
-  return motion.translation.norm() > kParameters.min_motion_m ||
-         LogSo3(motion.rotation).norm() > kParameters.min_motion_rad;
+  return motion.translation.norm() > kEvidence.min_motion_m ||
+         LogSo3(motion.rotation).norm() > kEvidence.min_motion_rad;
 }
 
 // Minimum over the gyro bias, whose prior has zero mean.
@@ -170,8 +169,8 @@ double MotionEvidence::RateScore(const Matrix3& R_imu_sent, double rate_scale) c
     by_time += step.span_s() * off;
     times_sq += Square(step.span_s());
   }
-  const double prior = Square(kParameters.turn_std_rad / kParameters.gyro_bias_std_radps);
-  return (sum_sq - by_time.squaredNorm() / (times_sq + prior)) / Square(kParameters.turn_std_rad);
+  const double prior = Square(kEvidence.turn_std_rad / kEvidence.gyro_bias_std_radps);
+  return (sum_sq - by_time.squaredNorm() / (times_sq + prior)) / Square(kEvidence.turn_std_rad);
 }
 
 double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_imu_sent,
@@ -189,11 +188,10 @@ double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_
       sum_sq += bends[i].weight * g_map.squaredNorm();
     }
     const Vector3 mean = sum / weights;
-    score +=
-        (sum_sq - weights * mean.squaredNorm()) / Square(kParameters.second_difference_std_mps2);
+    score += (sum_sq - weights * mean.squaredNorm()) / Square(kEvidence.second_difference_std_mps2);
     score += Square(mean.norm() - gravity_mps2) /
-             (Square(kParameters.gravity_std_mps2) +
-              Square(kParameters.second_difference_std_mps2) / weights);
+             (Square(kEvidence.gravity_std_mps2) +
+              Square(kEvidence.second_difference_std_mps2) / weights);
   }
   return score;
 }
@@ -201,13 +199,13 @@ double MotionEvidence::ForceScore(std::span<const Bend> bends, const Matrix3& R_
 double MotionEvidence::RateError_radps(double score) const {
   double times_sq = 0.0;
   for (const Step& step : steps_) times_sq += Square(step.span_s());
-  return kParameters.turn_std_rad * std::sqrt(score / times_sq);
+  return kEvidence.turn_std_rad * std::sqrt(score / times_sq);
 }
 
 double MotionEvidence::ForceError_mps2(std::span<const Bend> bends, double score) {
   double weights = 0.0;
   for (const Bend& bend : bends) weights += bend.weight;
-  return kParameters.second_difference_std_mps2 * std::sqrt(score / std::max(1.0, weights));
+  return kEvidence.second_difference_std_mps2 * std::sqrt(score / std::max(1.0, weights));
 }
 
 }  // namespace lio

@@ -14,17 +14,17 @@
 namespace lio {
 namespace {
 
-constexpr MovingStartParameters kParameters = kInitializationParameters.in_motion;
+constexpr MovingStartParameters kMovingStart = kInitializationParameters.in_motion;
 
 std::string DataProblem(std::span<const ImuSample> samples, std::span<const MatchedPose> poses,
                         Timestamp from) {
-  if (poses.size() < kParameters.min_poses) {
+  if (poses.size() < kMovingStart.min_poses) {
     return fmt::format("only {} scans were matched, {} are needed", poses.size(),
-                       kParameters.min_poses);
+                       kMovingStart.min_poses);
   }
   const double span_s = SecondsBetween(from, poses.back().stamp);
-  if (span_s < kParameters.min_span_s) {
-    return fmt::format("{:.2f} s of motion, {:.2f} needed", span_s, kParameters.min_span_s);
+  if (span_s < kMovingStart.min_span_s) {
+    return fmt::format("{:.2f} s of motion, {:.2f} needed", span_s, kMovingStart.min_span_s);
   }
   Timestamp last = from;
   Duration gap;
@@ -43,8 +43,8 @@ std::string DataProblem(std::span<const ImuSample> samples, std::span<const Matc
 // The poses with the error of scan matching that their covariances do not contain.
 std::vector<MatchedPose> Widened(std::span<const MatchedPose> poses) {
   Vector6 floor;
-  floor << Vector3::Constant(kParameters.pose_std_m * kParameters.pose_std_m),
-      Vector3::Constant(kParameters.pose_std_rad * kParameters.pose_std_rad);
+  floor << Vector3::Constant(kMovingStart.pose_std_m * kMovingStart.pose_std_m),
+      Vector3::Constant(kMovingStart.pose_std_rad * kMovingStart.pose_std_rad);
   std::vector<MatchedPose> widened(poses.begin(), poses.end());
   for (MatchedPose& pose : widened) pose.cov.diagonal() += floor;
   return widened;
@@ -153,18 +153,18 @@ std::string DisagreementProblem(const AlignmentResult& aligned, double residual_
 
 std::string EstimateProblem(const Estimate& estimate, const Rig& rig) {
   const double tilt_std = std::sqrt(estimate.cov.block<3, 3>(kRot, kRot).diagonal().maxCoeff());
-  if (!(tilt_std < kParameters.max_tilt_std_rad)) {
+  if (!(tilt_std < kMovingStart.max_tilt_std_rad)) {
     return fmt::format("roll and pitch stay unsure by {:.1f} deg", tilt_std * 180.0 / M_PI);
   }
   const double gyro = estimate.state.gyro_bias.cwiseAbs().maxCoeff();
-  if (gyro > kParameters.max_bias_sigmas * rig.imu.gyro_bias_std_radps) {
+  if (gyro > kMovingStart.max_bias_sigmas * rig.imu.gyro_bias_std_radps) {
     return fmt::format(
         "a gyro bias of {:.3f} rad/s is far beyond rig.imu.gyro_bias_std_radps ({:.3f}): are "
         "its rates in rad/s, its axes those of rig.T_imu_lidar?",
         gyro, rig.imu.gyro_bias_std_radps);
   }
   const double accel = estimate.state.accel_bias.cwiseAbs().maxCoeff();
-  if (accel > kParameters.max_bias_sigmas * rig.imu.accel_bias_std_mps2) {
+  if (accel > kMovingStart.max_bias_sigmas * rig.imu.accel_bias_std_mps2) {
     return fmt::format(
         "an accelerometer bias of {:.2f} m/s^2 is far beyond rig.imu.accel_bias_std_mps2 "
         "({:.2f}): is gravity in its reading, and in m/s^2?",
@@ -185,7 +185,7 @@ MovingStart StartMoving(std::span<const ImuSample> samples, std::span<const Matc
       MakeTerms(samples, widened, from, rig, has_gravity ? rig.gravity_mps2 : 0.0);
   const AlignmentResult aligned = Align(terms, Guess(terms, from));
   result.residual_ratio = ResidualRatio(aligned.pose_residual_sq);
-  if (!aligned.converged || !(result.residual_ratio < kParameters.max_residual_ratio)) {
+  if (!aligned.converged || !(result.residual_ratio < kMovingStart.max_residual_ratio)) {
     result.why_not = DisagreementProblem(aligned, result.residual_ratio);
     return result;
   }

@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-constexpr RestStartParameters kParameters = kInitializationParameters.at_rest;
+constexpr RestStartParameters kRestStart = kInitializationParameters.at_rest;
 
 Estimate PriorEstimate(Timestamp stamp, const Rig& rig, double velocity_std_mps) {
   Estimate estimate;
@@ -46,9 +46,9 @@ void FuseMeanForce(Estimate& estimate, const Vector3& mean_f, double noise_var,
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
   H.middleCols<3>(kRot) = Hat(predicted);
   H.middleCols<3>(kAccelBias) = Matrix3::Identity();
-  const Matrix3 noise = noise_var * Matrix3::Identity() + kParameters.gravity_std_mps2 *
-                                                              kParameters.gravity_std_mps2 *
-                                                              up_imu * up_imu.transpose();
+  const Matrix3 noise = noise_var * Matrix3::Identity() + kRestStart.gravity_std_mps2 *
+                                                              kRestStart.gravity_std_mps2 * up_imu *
+                                                              up_imu.transpose();
   FuseLinear(estimate, H, mean_f - predicted - estimate.state.accel_bias, noise);
 }
 
@@ -95,7 +95,7 @@ Quaternion LevelledRotation(const Vector3& up_imu) {
 }
 
 double CoastedSince_s(const LastFix& earlier, Timestamp now) {
-  return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kParameters.max_coast_s);
+  return std::clamp(SecondsBetween(earlier.stamp, now), 0.0, kRestStart.max_coast_s);
 }
 
 void Level(const Quaternion& R_level_imu, LastFix& point) {
@@ -138,7 +138,7 @@ bool GravityPresent(const ImuStatistics& statistics, const Rig& rig) {
   if (rig.imu.gravity != GravityInput::kAutomatic) {
     return rig.imu.gravity == GravityInput::kPresent;
   }
-  return statistics.mean_f_mps2.norm() > kParameters.min_gravity_share * rig.gravity_mps2;
+  return statistics.mean_f_mps2.norm() > kRestStart.min_gravity_share * rig.gravity_mps2;
 }
 
 StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig) {
@@ -146,7 +146,7 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   const ImuStatistics statistics = Summarise(samples);
   const bool has_gravity = GravityPresent(statistics, rig);
   StartState start;
-  start.estimate = PriorEstimate(stamp, rig, kParameters.velocity_std_mps);
+  start.estimate = PriorEstimate(stamp, rig, kRestStart.velocity_std_mps);
   FuseMeanRate(start.estimate, statistics.mean_w_radps,
                MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics));
   const double force_var =
@@ -154,7 +154,7 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   if (has_gravity) {
     start.g_world = Vector3(0, 0, -rig.gravity_mps2);
     start.estimate.state.T_world_imu.rotation = LevelledRotation(statistics.mean_f_mps2);
-    FreeTilt(start.estimate, kParameters.unknown_tilt_std_rad);
+    FreeTilt(start.estimate, kRestStart.unknown_tilt_std_rad);
   }
   FuseMeanForce(start.estimate, statistics.mean_f_mps2, force_var, start.g_world);
   AnchorMap(start.estimate);

@@ -49,7 +49,7 @@ TextCheck NumberThat(const std::string& is_what, Accept accept) {
   };
 }
 
-std::string Text(double number) {
+std::string ShortText(double number) {
   std::ostringstream stream;
   stream << number;
   return stream.str();
@@ -58,7 +58,7 @@ std::string Text(double number) {
 }  // namespace
 
 TextCheck NumberWithin(double least, double most) {
-  return NumberThat("within " + Text(least) + " .. " + Text(most),
+  return NumberThat("within " + ShortText(least) + " .. " + ShortText(most),
                     [=](double value) { return value >= least && value <= most; });
 }
 

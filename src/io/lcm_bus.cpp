@@ -20,7 +20,7 @@ namespace lio {
 namespace {
 
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667";
-constexpr std::size_t kMaxChannelBytes = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
+constexpr std::size_t kMaxLcmChannelBytes = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
 // liblcm takes subscriptions as regular expressions.
 std::string Literally(const std::string& channel) {
@@ -66,7 +66,7 @@ class LcmBus final : public Bus {
   LcmBus& operator=(const LcmBus&) = delete;
 
   void Subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
-    if (channel.empty() || channel.size() > kMaxChannelBytes) {
+    if (channel.empty() || channel.size() > kMaxLcmChannelBytes) {
       throw std::invalid_argument("channel name '" + channel + "' must have 1 to 63 characters");
     }
     subscribers_.push_back(std::make_unique<Subscriber>(*this, std::move(handler)));

@@ -25,9 +25,6 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kImuBytes = 8 + 8 + 8 + 4 + 4 + 7 * 8;
 constexpr std::size_t kScanFixedBytes = 8 + 8 + 8 + 4 + 2 + 2 + 1 + 1 + 2 + 4 + 4;
 
-// Half of the largest number of nanoseconds, so that no difference or offset of stamps overflows.
-constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
-
 bool ReadStamp(FieldReader& reader, Timestamp& stamp) {
   const auto utime = reader.Read<std::int64_t>();
   if (utime < 0 || utime > kMaxUtime) return false;

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Helpers of the codecs: lcm_codec.cpp, status_codec.cpp and output_decoder.cpp.
+// Helpers of the codecs, and the latest stamp that they accept.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
 #include "lio/io/lcm_codec.hpp"
 
 namespace lio {
+
+// us. Half of the largest number of nanoseconds, so that no difference or offset of stamps
+// overflows.
+inline constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
 
 // Reads big-endian fields one after another. The caller has checked the size.
 class FieldReader {

@@ -26,7 +26,7 @@ std::string Join(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-struct Key {
+struct KnownKey {
   std::function<std::string(const YAML::Node&)> parse;  // null for a group of keys
   std::vector<std::string> sets;  // the paths of the fields that it sets, usually its own
 };
@@ -50,7 +50,7 @@ class KeyTable {
     path_ = outer;
   }
 
-  const Key* Find(const std::string& path) const {
+  const KnownKey* Find(const std::string& path) const {
     const auto found = keys_.find(path);
     return found == keys_.end() ? nullptr : &found->second;
   }
@@ -101,7 +101,7 @@ class KeyTable {
         {Join(path_, "translation_m"), rotation}};
   }
 
-  std::map<std::string, Key> keys_;
+  std::map<std::string, KnownKey> keys_;
   std::string path_;
 };
 
@@ -192,7 +192,7 @@ void Loader::CheckGivenOnce(const YAML::Node& map, const std::string& path) {
   for (const auto& pair : map) {
     if (!pair.first.IsScalar()) continue;
     const std::string full = Join(path, pair.first.Scalar());
-    const Key* key = keys_.Find(full);
+    const KnownKey* key = keys_.Find(full);
     if (key == nullptr) continue;
     for (const std::string& field : key->sets) {
       const auto [earlier, is_new] = setters.emplace(field, full);
@@ -209,7 +209,7 @@ void Loader::ApplyKey(const YAML::Node& key, const YAML::Node& value, const std:
     return;
   }
   const std::string full = Join(path, key.Scalar());
-  const Key* known = keys_.Find(full);
+  const KnownKey* known = keys_.Find(full);
   if (known == nullptr) {
     Fault(Where(key), full + ": unknown key; did you mean " + keys_.Nearest(full) + "?");
     return;

@@ -7,7 +7,7 @@
 namespace lio {
 namespace {
 
-std::string Verdict(std::int64_t rest, const char* if_positive, const char* if_negative) {
+std::string WhetherCloses(std::int64_t rest, const char* if_positive, const char* if_negative) {
   if (rest == 0) return "closes";
   return fmt::format("does not close by {}: {}", rest, rest > 0 ? if_positive : if_negative);
 }
@@ -44,9 +44,9 @@ std::string OutputAccount::Text() const {
         "{} dropped from the queue: {}\n",
         at_status_.num_inputs, c.num_imu + c.num_chunks, status_->num_refused,
         status_->num_queue_dropped,
-        Verdict(at_status_.num_inputs - num_received,
-                "messages were on the way, lost before liod, or sent before its start",
-                "the recorder lost messages or began later than liod"));
+        WhetherCloses(at_status_.num_inputs - num_received,
+                      "messages were on the way, lost before liod, or sent before its start",
+                      "the recorder lost messages or began later than liod"));
   }
   const std::int64_t num_lost =
       c.num_scans_empty + c.num_scans_dropped + c.num_scans_late + c.num_scans_without_imu;
@@ -55,9 +55,9 @@ std::string OutputAccount::Text() const {
       "samples: {}\n",
       c.num_scans, at_status_.num_rows, c.num_scans_empty, c.num_scans_dropped, c.num_scans_late,
       c.num_scans_without_imu,
-      Verdict(c.num_scans - at_status_.num_rows - num_lost,
-              "scans were before the start or wait for their match",
-              "the recorder began later than liod, or scans were counted twice"));
+      WhetherCloses(c.num_scans - at_status_.num_rows - num_lost,
+                    "scans were before the start or wait for their match",
+                    "the recorder began later than liod, or scans were counted twice"));
   return text;
 }
 

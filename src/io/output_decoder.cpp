@@ -3,7 +3,6 @@
 #include "lio/io/output_decoder.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "lcm_wire.hpp"
 #include "lio/base/counters_fields.hpp"
@@ -18,7 +17,6 @@ constexpr std::size_t kFilterStateFixedBytes = 212;
 constexpr std::size_t kRegistrationBytes = 134;
 constexpr std::size_t kStatusFixedBytes = 426;  // with the NUL of an empty note
 constexpr int kMaxDim = 64;                     // states of a filter; liod has 21
-constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
 
 // Reads fields and remembers whether all of them were values that can be.
 class SoundReader {

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/cloud_header.hpp"
+
 namespace lio {
 namespace {
 
@@ -21,8 +23,6 @@ using Words = std::vector<std::string>;
 constexpr std::uint64_t kMaxPoints = 1'000'000'000;
 constexpr std::uint64_t kMaxStepBytes = 4096;  // of a point
 constexpr std::uint64_t kMaxRatio = 100;       // LZF packs 264 bytes into 3 at best
-constexpr std::size_t kMaxLineBytes = 4096;
-constexpr int kMaxHeaderLines = 100;
 
 std::optional<std::uint64_t> Number(const std::string& word) {
   if (word.empty() || word.size() > 10 ||
@@ -81,8 +81,8 @@ std::optional<Header> ReadHeader(std::istream& file) {
   Header header;
   std::size_t num_passed = 0;  // keys that may not come any more
   std::string line;
-  for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
-    if (line.size() > kMaxLineBytes) return std::nullopt;
+  for (int i = 0; i < kMaxPcdHeaderLines && std::getline(file, line); ++i) {
+    if (line.size() > kMaxHeaderLineBytes) return std::nullopt;
     std::istringstream stream(line);
     std::string word;
     if (!(stream >> word) || word.front() == '#') continue;

@@ -10,11 +10,11 @@
 #include <string>
 #include <string_view>
 
+#include "io/cloud_header.hpp"
+
 namespace lio {
 namespace {
 
-constexpr std::size_t kMaxLineBytes = 4096;
-constexpr int kMaxHeaderLines = 1000;
 constexpr std::size_t kMaxDigits = 10;
 constexpr std::array<std::string_view, 5> kWords{"format", "comment", "obj_info", "element",
                                                  "property"};
@@ -28,7 +28,7 @@ std::uint64_t NumElements(const std::string& line) {
   if (word != "element") return 0;
   const bool is_number = !count.empty() && count.size() <= kMaxDigits &&
                          count.find_first_not_of("0123456789") == std::string::npos;
-  return is_number ? std::stoull(count) : UINT64_MAX / kMaxHeaderLines;
+  return is_number ? std::stoull(count) : UINT64_MAX / kMaxPlyHeaderLines;
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ bool IsSoundPly(const std::filesystem::path& path) {
   std::uint64_t num_elements = 0;
   std::string line;
   std::getline(file, line);  // "ply", by which the file was found to be one
-  for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
-    if (line.size() > kMaxLineBytes) return false;
+  for (int i = 0; i < kMaxPlyHeaderLines && std::getline(file, line); ++i) {
+    if (line.size() > kMaxHeaderLineBytes) return false;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line == "end_header") {
       const auto num_rest =

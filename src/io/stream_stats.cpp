@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "lcm_wire.hpp"
 
 namespace lio {
 namespace {
 
 constexpr std::size_t kNumFirst = 400;
 constexpr double kGapRatio = 3.0;  // a gap is longer than so many typical periods
-
-// Half of what a stamp can hold, in microseconds.
-constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
 
 }  // namespace
 

@@ -23,7 +23,7 @@ constexpr std::size_t kKittiColumns = 12;
 constexpr double kMaxPosition_m = 1e12;     // more is a damaged number; squares of less stay finite
 constexpr double kMaxRotationError = 1e-2;  // so that files with three decimals are accepted
 
-std::vector<std::string_view> Words(std::string_view line) {
+std::vector<std::string_view> SplitWords(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r\v\f";
   std::vector<std::string_view> words;
   for (std::size_t begin = line.find_first_not_of(kBlanks); begin != line.npos;) {
@@ -49,7 +49,7 @@ class Reader {
 
   void Add(std::string_view line) {
     ++line_number_;
-    const std::vector<std::string_view> words = Words(line);
+    const std::vector<std::string_view> words = SplitWords(line);
     if (words.empty() || words[0].starts_with('#')) return;
     if (num_columns_ == 0) DecideFormat(words.size());
     if (words.size() != num_columns_) {

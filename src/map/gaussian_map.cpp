@@ -13,8 +13,6 @@
 namespace lio {
 namespace {
 
-using Parameters = GaussianMapParameters;
-
 // Is a point, given from the voxel's centre, within three standard deviations of the plane?
 bool IsOn(const SurfacePatch& patch, const Eigen::Vector3f& local) {
   const float off = patch.normal.dot(local - patch.mean);
@@ -56,9 +54,11 @@ GaussianMap::Hit GaussianMap::Find(const Vector3& point_map) const {
 }
 
 void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hits) const {
-  std::array<Place, Parameters::kPrefetchDistance> places;
-  for (std::size_t begin = 0; begin < points_map.size(); begin += Parameters::kPrefetchDistance) {
-    const std::size_t count = std::min(Parameters::kPrefetchDistance, points_map.size() - begin);
+  std::array<Place, GaussianMapParameters::kPrefetchDistance> places;
+  for (std::size_t begin = 0; begin < points_map.size();
+       begin += GaussianMapParameters::kPrefetchDistance) {
+    const std::size_t count =
+        std::min(GaussianMapParameters::kPrefetchDistance, points_map.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       places[i] = PlaceOf(points_map[begin + i]);
       voxels_.Prefetch(places[i].key);
@@ -80,9 +80,9 @@ void GaussianMap::Remove(std::int32_t cell) {
 // instead of freezing; otherwise a cell filled by single rings while parked would stay a line for
 // ever.
 void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const {
-  const int most = sums.is_known
-                       ? options_.max_cell_points
-                       : std::min(options_.max_cell_points, Parameters::kUnknownMemory_points);
+  const int most = sums.is_known ? options_.max_cell_points
+                                 : std::min(options_.max_cell_points,
+                                            GaussianMapParameters::kUnknownMemory_points);
   if (sums.num_points >= most) {
     const double keep = 1.0 - 1.0 / sums.num_points;
     for (double* sum : {&sums.xx, &sums.xy, &sums.xz, &sums.yy, &sums.yz, &sums.zz}) *sum *= keep;
@@ -105,8 +105,8 @@ void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector
 void GaussianMap::FindCells() {
   cells_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (i + Parameters::kPrefetchDistance < places_.size())
-      voxels_.Prefetch(places_[i + Parameters::kPrefetchDistance].key);
+    if (i + GaussianMapParameters::kPrefetchDistance < places_.size())
+      voxels_.Prefetch(places_[i + GaussianMapParameters::kPrefetchDistance].key);
     const VoxelKey key = places_[i].key;
     cells_.push_back(key == kNoVoxel ? kNoCell : voxels_.FindOrAdd(key).voxel);
   }
@@ -128,7 +128,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
 void GaussianMap::InsertKept(std::span<const Vector3> points_map,
                              std::span<const Eigen::Vector3f> sides, const Workers& workers) {
   const Eigen::Vector3f first =
-      (up_map_ + Parameters::kLevelShare * up_map_.unitOrthogonal()).cast<float>();
+      (up_map_ + GaussianMapParameters::kLevelShare * up_map_.unitOrthogonal()).cast<float>();
   std::array<std::vector<std::size_t>, 3> groups;
   for (std::size_t i = 0; i < points_map.size(); ++i) {
     const float towards = sides[i].dot(first);
@@ -147,7 +147,8 @@ void GaussianMap::InsertKept(std::span<const Vector3> points_map,
     Sums& sums = voxels_.Of<Sums>(cell);
     if (!std::exchange(sums.is_kept, true)) ++num_kept_;
     // Its side is that which half of its points have.
-    voxels_.Of<SurfacePatch>(cell).is_two_sided = sums.view.norm() < Parameters::kMinView;
+    voxels_.Of<SurfacePatch>(cell).is_two_sided =
+        sums.view.norm() < GaussianMapParameters::kMinView;
   }
 }
 
@@ -178,8 +179,8 @@ void GaussianMap::AddPoints(const ViewOf& view_of) {
   ++scan_number_;
   touched_cells_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (i + Parameters::kPrefetchDistance < cells_.size())
-      Prefetch(cells_[i + Parameters::kPrefetchDistance]);
+    if (i + GaussianMapParameters::kPrefetchDistance < cells_.size())
+      Prefetch(cells_[i + GaussianMapParameters::kPrefetchDistance]);
     const std::int32_t cell = cells_[i];
     if (cell == kNoCell) continue;
     Sums& sums = voxels_.Of<Sums>(cell);
@@ -222,7 +223,7 @@ void GaussianMap::DropOldCells() {
 
 void GaussianMap::DropFarCells(const Vector3& sensor_map) {
   if (cell_capacity() == 0) return;
-  const std::size_t num_to_visit = cell_capacity() / Parameters::kFarCellsWalk_scans + 1;
+  const std::size_t num_to_visit = cell_capacity() / GaussianMapParameters::kFarCellsWalk_scans + 1;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::size_t i = 0; i < num_to_visit; ++i) {
     if (++sweep_position_ >= cell_capacity()) sweep_position_ = 0;

@@ -11,15 +11,13 @@
 
 namespace lio {
 
-using Parameters = GaussianMapParameters;
-
 void GaussianMap::UpdatePatch(std::int32_t cell) {
   Sums& sums = voxels_.Of<Sums>(cell);
   SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
   patch.mean = sums.mean.cast<float>();
   patch.num_points = static_cast<float>(sums.num_points);
   if (sums.num_points < options_.min_cell_points) return;
-  if (sums.num_points < Parameters::kRefitGrowth * sums.fitted_at) return;
+  if (sums.num_points < GaussianMapParameters::kRefitGrowth * sums.fitted_at) return;
   sums.fitted_at = sums.num_points;
 
   Matrix3 cov;
@@ -35,13 +33,14 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
   const Vector3 variance = eigen.eigenvalues();  // ascending
   const double thickness =
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
-  const double min_width = Parameters::kMinWidthPerVoxel * options_.voxel_m;
+  const double min_width = GaussianMapParameters::kMinWidthPerVoxel * options_.voxel_m;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
   const bool is_view_known = !sums.view.isZero(0.f);
   const bool is_plane = variance[1] > min_width * min_width &&
-                        variance[0] < Parameters::kMaxThicknessRatio * variance[1] &&
-                        thickness < Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad *
-                                        sums.num_points * variance[1] &&
+                        variance[0] < GaussianMapParameters::kMaxThicknessRatio * variance[1] &&
+                        thickness < GaussianMapParameters::kMaxNormalStd_rad *
+                                        GaussianMapParameters::kMaxNormalStd_rad * sums.num_points *
+                                        variance[1] &&
                         !(is_view_known && IsGrazing(normal, sums.view));
   if (!is_plane) return false;
   if (!sums.is_kept) patch.is_two_sided = !is_view_known;
@@ -56,7 +55,7 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
 // A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
 // It must be narrow: one that fills the cell is cut off by the cell's sides.
 bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
-  const double min_height = Parameters::kMinHeightPerVoxel * options_.voxel_m;
+  const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
   if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
   const Vector3 level1 = up_map_.unitOrthogonal();
   const Vector3 level2 = up_map_.cross(level1);
@@ -64,10 +63,10 @@ bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   level << level1, level2;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
   eigen.computeDirect(level.transpose() * cov * level);
-  const double max_width = Parameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
+  const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
   if (eigen.eigenvalues()[1] > max_width * max_width) return false;
-  const Eigen::Vector2d variance =
-      eigen.eigenvalues().cwiseMax(Parameters::kMinVerticalStd_m * Parameters::kMinVerticalStd_m);
+  const Eigen::Vector2d variance = eigen.eigenvalues().cwiseMax(
+      GaussianMapParameters::kMinVerticalStd_m * GaussianMapParameters::kMinVerticalStd_m);
   const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
   patch.kind = SurfacePatch::Kind::kVertical;
   patch.thickness_var = static_cast<float>(variance[0]);

@@ -12,8 +12,6 @@
 namespace lio {
 namespace {
 
-using Parameters = KeyframeMapParameters;
-
 std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
   if (free.empty()) return static_cast<std::int32_t>(next_new);
   const std::int32_t taken = free.back();
@@ -23,14 +21,14 @@ std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
 
 double DistanceSq(const Vector3& a, const Vector3& b) {
   const Vector3 d = a - b;
-  constexpr double kFactor = Parameters::kHeightFactor;
+  constexpr double kFactor = KeyframeMapParameters::kHeightFactor;
   return d.head<2>().squaredNorm() + kFactor * kFactor * d.z() * d.z();
 }
 
 }  // namespace
 
 KeyframeMap::KeyframeMap(const KeyframeMapOptions& options)
-    : options_(options), blocks_(options.voxel_m, Parameters::kMaxSearch_voxels) {
+    : options_(options), blocks_(options.voxel_m, KeyframeMapParameters::kMaxSearch_voxels) {
   if (!(options.voxel_m > 0) || options.max_points < 1 || !(options.max_distance_m > 0) ||
       options.num_near < 1 || options.num_hull < 0) {
     throw std::invalid_argument("KeyframeMap: an option is out of range");

@@ -9,17 +9,12 @@
 #include "lio/map/map_parameters.hpp"
 
 namespace lio {
-namespace {
-
-constexpr int kMaxSearch_voxels = KeyframeMapParameters::kMaxSearch_voxels;
-
-}  // namespace
 
 struct KeyframeMap::Search {
   Vector3 query;
   VoxelCell voxel;
   // Squared distance from the query to the voxels `offset` away along an axis [m^2].
-  std::array<std::array<float, 2 * kMaxSearch_voxels + 1>, 3> gap_sq;
+  std::array<std::array<float, 2 * KeyframeMapParameters::kMaxSearch_voxels + 1>, 3> gap_sq;
   float best_sq;
   Hit best;
 };
@@ -54,7 +49,8 @@ void KeyframeMap::SearchAround(Search& search, int radius_voxels) const {
     high[i] = search.voxel[i] + radius_voxels;
   }
   const auto gap_sq = [&](std::size_t axis, std::int32_t voxel) {
-    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] + kMaxSearch_voxels)];
+    return search.gap_sq[axis][ToIndex(voxel - search.voxel[axis] +
+                                       KeyframeMapParameters::kMaxSearch_voxels)];
   };
   const auto is_outside = [&](std::size_t axis, std::int32_t voxel) {
     return voxel < low[axis] || voxel > high[axis];
@@ -93,14 +89,15 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
     const double at =
         blocks_.Scaled(query_map[static_cast<Eigen::Index>(axis)]) - search.voxel[axis];
     nearest_side = std::min({nearest_side, at, 1.0 - at});
-    for (int offset = -kMaxSearch_voxels; offset <= kMaxSearch_voxels; ++offset) {
+    for (int offset = -KeyframeMapParameters::kMaxSearch_voxels;
+         offset <= KeyframeMapParameters::kMaxSearch_voxels; ++offset) {
       const double gap = offset > 0 ? offset - at : (offset < 0 ? at - offset - 1.0 : 0.0);
-      search.gap_sq[axis][ToIndex(offset + kMaxSearch_voxels)] =
+      search.gap_sq[axis][ToIndex(offset + KeyframeMapParameters::kMaxSearch_voxels)] =
           static_cast<float>(gap * gap * options_.voxel_m * options_.voxel_m);
     }
   }
-  const int radius_voxels =
-      std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))), kMaxSearch_voxels);
+  const int radius_voxels = std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))),
+                                     KeyframeMapParameters::kMaxSearch_voxels);
   for (const int shells : {0, 1, radius_voxels}) {  // a near hit makes the rest of the search short
     SearchAround(search, std::min(shells, radius_voxels));
     const double searched_m = options_.voxel_m * (shells + nearest_side);

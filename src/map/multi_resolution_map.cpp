@@ -12,8 +12,6 @@
 namespace lio {
 namespace {
 
-using Parameters = MultiResolutionParameters;
-
 // Cells of half the size are four times as many on the same surfaces.
 int ShareOfCells(int level, const NdtOptions& options) {
   double sum = 0.0;
@@ -35,8 +33,8 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer)
     const bool is_coarsest = level + 1 == num_levels;
     at_level.max_cells = ShareOfCells(std::max(0, level - num_finer), options);
     if (!is_coarsest) {
-      at_level.max_distance_m =
-          std::min(options.max_distance_m, Parameters::kMaxDistance_edges * at_level.voxel_m);
+      at_level.max_distance_m = std::min(
+          options.max_distance_m, MultiResolutionParameters::kMaxDistance_edges * at_level.voxel_m);
     }
     levels_.emplace_back(at_level, is_coarsest);
     edges_m_.push_back(at_level.voxel_m);
@@ -45,7 +43,10 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer)
 
 std::size_t MultiResolutionMap::LevelFor(double std_m) const {
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && std_m > Parameters::kMaxOff_edges * edges_m_[level]) ++level;
+  while (level + 1 < levels_.size() &&
+         std_m > MultiResolutionParameters::kMaxOff_edges * edges_m_[level]) {
+    ++level;
+  }
   return level;
 }
 

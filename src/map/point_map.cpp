@@ -34,8 +34,6 @@ struct AxisMasks {
 };
 constexpr AxisMasks kAxisMasks;
 
-constexpr int kMaxSearch_voxels = PointMapParameters::kMaxSearch_voxels;
-
 }  // namespace
 
 struct PointMap::Search {
@@ -63,7 +61,7 @@ struct PointMap::Search {
 };
 
 PointMap::PointMap(const PointMapOptions& options)
-    : options_(options), blocks_(options.voxel_m, kMaxSearch_voxels) {
+    : options_(options), blocks_(options.voxel_m, PointMapParameters::kMaxSearch_voxels) {
   if (!(options.voxel_m > 0) || options.max_voxel_points < 1 || options.max_voxels < 1 ||
       !(options.max_distance_m > 0)) {
     throw std::invalid_argument("PointMap: an option is out of range");
@@ -104,8 +102,8 @@ PointMap::Neighbours PointMap::FindNearest(const Vector3& query_map, int wanted,
                 {}};
   if (!blocks_.IsInRange(search.voxel)) return search.found;
   SearchAround(search, 1);
-  const int radius_voxels =
-      std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))), kMaxSearch_voxels);
+  const int radius_voxels = std::min(static_cast<int>(std::ceil(blocks_.Scaled(radius_m))),
+                                     PointMapParameters::kMaxSearch_voxels);
   if (search.found.count < search.wanted && radius_voxels > 1) SearchAround(search, radius_voxels);
   return search.found;
 }

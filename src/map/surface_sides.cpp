@@ -13,13 +13,11 @@
 namespace lio {
 namespace {
 
-using Parameters = SurfaceSidesParameters;
-
-VoxelCell CellOf(const Eigen::Vector3f& point, float edge_m = Parameters::kRadius_m) {
+VoxelCell CellOf(const Eigen::Vector3f& point, float edge_m = SurfaceSidesParameters::kRadius_m) {
   return VoxelOf((point / edge_m).cast<double>());
 }
 
-VoxelKey KeyOf(const Eigen::Vector3f& point, float edge_m = Parameters::kRadius_m) {
+VoxelKey KeyOf(const Eigen::Vector3f& point, float edge_m = SurfaceSidesParameters::kRadius_m) {
   const VoxelCell at = CellOf(point, edge_m);
   return PackVoxel(at[0], at[1], at[2]);
 }
@@ -34,7 +32,7 @@ struct Representatives {
     VoxelIndex voxels;
     of.reserve(cloud.size());
     for (const Eigen::Vector3f& point : cloud) {
-      const auto found = voxels.FindOrAdd(KeyOf(point, Parameters::kSpacing_m));
+      const auto found = voxels.FindOrAdd(KeyOf(point, SurfaceSidesParameters::kSpacing_m));
       if (found.is_new) points.push_back(point);
       of.push_back(static_cast<std::size_t>(found.voxel));
     }
@@ -74,7 +72,8 @@ class Neighbourhoods {
                    const Range& range = voxels_.Of<Range>(voxel);
                    for (std::size_t i = range.begin; i < range.begin + range.num; ++i) {
                      const Eigen::Vector3f offset = sorted_[i] - point;
-                     if (offset.squaredNorm() < Parameters::kRadius_m * Parameters::kRadius_m) {
+                     if (offset.squaredNorm() <
+                         SurfaceSidesParameters::kRadius_m * SurfaceSidesParameters::kRadius_m) {
                        offsets.push_back(offset);
                      }
                    }
@@ -113,34 +112,35 @@ struct Side {
 
   void Add(float distance_m) {
     ++num;
-    num_near += distance_m < Parameters::kGap_m ? 1 : 0;
+    num_near += distance_m < SurfaceSidesParameters::kGap_m ? 1 : 0;
     sum += distance_m;
     sum_sq += distance_m * distance_m;
   }
   // Do they lie on another sheet, or on a ceiling with beams, beyond a gap? A wall on a floor
   // spreads over all distances.
   [[nodiscard]] bool IsSheet() const {
-    if (num < Parameters::kMinPoints) return false;
-    const auto most_in_gap = Parameters::kMaxShareInGap * static_cast<float>(num);
+    if (num < SurfaceSidesParameters::kMinPoints) return false;
+    const auto most_in_gap = SurfaceSidesParameters::kMaxShareInGap * static_cast<float>(num);
     if (static_cast<float>(num_near) <= most_in_gap) return true;
     const float mean = sum / static_cast<float>(num);
     const float variance = sum_sq / static_cast<float>(num) - mean * mean;
-    return variance < Parameters::kMaxSheetStd_m * Parameters::kMaxSheetStd_m;
+    return variance <
+           SurfaceSidesParameters::kMaxSheetStd_m * SurfaceSidesParameters::kMaxSheetStd_m;
   }
 };
 
 Eigen::Vector3f SideOf(std::span<const Eigen::Vector3f> offsets) {
-  if (offsets.size() < 2 * Parameters::kMinPoints) return Eigen::Vector3f::Zero();
+  if (offsets.size() < 2 * SurfaceSidesParameters::kMinPoints) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f normal = NormalOf(offsets);
   Side before;
   Side behind;
   for (const Eigen::Vector3f& offset : offsets) {
     const float distance_m = normal.dot(offset);
-    if (std::abs(distance_m) < Parameters::kOwnSheet_m) continue;
+    if (std::abs(distance_m) < SurfaceSidesParameters::kOwnSheet_m) continue;
     (distance_m > 0.f ? before : behind).Add(std::abs(distance_m));
   }
-  if (behind.IsSheet() && before.num < Parameters::kMinPoints) return normal;
-  if (before.IsSheet() && behind.num < Parameters::kMinPoints) return -normal;
+  if (behind.IsSheet() && before.num < SurfaceSidesParameters::kMinPoints) return normal;
+  if (before.IsSheet() && behind.num < SurfaceSidesParameters::kMinPoints) return -normal;
   return Eigen::Vector3f::Zero();
 }
 
@@ -165,7 +165,7 @@ void ForgetFewSides(std::span<const Eigen::Vector3f> points, std::span<Eigen::Ve
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (sides[i].isZero(0.f)) continue;
     const Counts& counts = voxels.Of<Counts>(voxels.Find(KeyOf(points[i])));
-    if (counts.num_along[axis_of(sides[i])] < Parameters::kMinShare * counts.num) {
+    if (counts.num_along[axis_of(sides[i])] < SurfaceSidesParameters::kMinShare * counts.num) {
       sides[i].setZero();
     }
   }

@@ -15,10 +15,8 @@
 namespace lio {
 namespace {
 
-using Parameters = GicpParameters;
 using Correspondence = CorrespondenceParameters;
 
-constexpr int kMinMatched = MatchParameters::kMinMatched;
 // A point's last neighbour where there is none: not sought yet, or none within the first search.
 constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
@@ -56,7 +54,7 @@ void GicpMatcher::UpdateOpenness(std::span<const Eigen::Vector3f> points_imu) {
   const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
   std::nth_element(ranges.begin(), middle, ranges.end());
   const auto median = static_cast<double>(*middle);
-  constexpr double kKeep = Parameters::kOpennessKeep;
+  constexpr double kKeep = GicpParameters::kOpennessKeep;
   openness_m_ = openness_m_ == 0.0 ? median : kKeep * openness_m_ + (1.0 - kKeep) * median;
 }
 
@@ -93,7 +91,7 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
   const Pose motion = sought_at_.Inverse() * T_map_imu;
   if (!is_first &&
       motion.translation.norm() + Correspondence::kLever_m * LogSo3(motion.rotation).norm() <
-          Parameters::kKeepPairs_m) {
+          GicpParameters::kKeepPairs_m) {
     MovePairs(T_map_imu);
     return;
   }
@@ -105,8 +103,9 @@ void GicpMatcher::Associate(const Pose& T_map_imu, const SearchRadius& radius) {
     if (near_[i] == kNowhere) continue;
     const Vector3 point_imu = source_[i].position.cast<double>();
     const double range = point_imu.norm();
-    const double search = Correspondence::kSearchSigmas * radius.StdAt(range) +
-                          std::max(Parameters::kMinSearch_m, Parameters::kSearchPerRange * range);
+    const double search =
+        Correspondence::kSearchSigmas * radius.StdAt(range) +
+        std::max(GicpParameters::kMinSearch_m, GicpParameters::kSearchPerRange * range);
     const KeyframeMap::Hit hit =
         map_.FindNearest(rotation * point_imu + T_map_imu.translation, search, near_[i]);
     near_[i] = hit.point;
@@ -130,15 +129,15 @@ GicpMatcher::Term GicpMatcher::TermOf(const Pair& pair, const Eigen::Matrix3f& r
     const Eigen::Vector3f normal = rotation * source.normal;
     const float cosine = normal.dot(target.normal);
     const float aligned = std::abs(cosine);
-    if (aligned < Parameters::kMinCosine) return term;
+    if (aligned < GicpParameters::kMinCosine) return term;
     term.direction = (target.normal + std::copysign(1.f, cosine) * normal).normalized();
     variance += 0.5f * (1.f + aligned) * (source.thickness_var + target.thickness_var) +
-                (1.f - aligned) * Parameters::kTangentVar_m2;
+                (1.f - aligned) * GicpParameters::kTangentVar_m2;
     term.tilt_var = 0.25f * (source.normal_var + target.normal_var);
     bend_var = 2.f * (source.bend_var + target.bend_var);  // the same way, at worst
   } else {
     term.direction = target.normal;
-    variance += target.thickness_var + Parameters::kNoNormalVar_m2;
+    variance += target.thickness_var + GicpParameters::kNoNormalVar_m2;
     term.tilt_var = target.normal_var;
     bend_var = target.bend_var;
   }
@@ -156,8 +155,8 @@ MatchSums GicpMatcher::Linearize(const Pose& T_map_imu, const SearchRadius& radi
                                  MatchScores* scores) {
   uses_rank_deficient_ = false;
   const MatchSums sums = SumTerms(T_map_imu, radius, scores);
-  const bool is_observable =
-      sums.num_matched >= kMinMatched && SplitDirections(sums).degenerate_mask == 0;
+  const bool is_observable = sums.num_matched >= MatchParameters::kMinMatched &&
+                             SplitDirections(sums).degenerate_mask == 0;
   if (is_observable || !has_rank_deficient_) return sums;
   uses_rank_deficient_ = true;
   return SumTerms(T_map_imu, radius, scores);
@@ -184,7 +183,7 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
     }
     ++sums.num_matched;
     if (scores == nullptr) continue;
-    const Vector3 place = (T_map_imu * point.cast<double>()) / Parameters::kClusterVoxel_m;
+    const Vector3 place = (T_map_imu * point.cast<double>()) / GicpParameters::kClusterVoxel_m;
     const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v)); };
     const VoxelKey key = PackVoxel(cell(place.x()), cell(place.y()), cell(place.z()));
     scores->Add(clusters.FindOrAdd(key).voxel, point, score);
@@ -224,7 +223,7 @@ void GicpMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
   const MatchSums sums = Linearize(T_map_imu, none, &scores_);
   result.T_map_imu = T_map_imu;
   result.new_content_share = NewContentShare(input, T_map_imu);
-  FinishMatch(sums, scores_, sums.num_matched >= kMinMatched, result);
+  FinishMatch(sums, scores_, sums.num_matched >= MatchParameters::kMinMatched, result);
 }
 
 MatchResult GicpMatcher::Match(const MatchInput& input) {
@@ -249,11 +248,11 @@ MatchResult GicpMatcher::Match(const MatchInput& input) {
   const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
     Associate(pose, radius);
     const MatchSums sums = Linearize(pose, radius, nullptr);
-    if (sums.num_matched < kMinMatched) return std::nullopt;
+    if (sums.num_matched < MatchParameters::kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{
-      options_.max_iterations * (input.is_far_off ? Parameters::kFarOffIterationFactor : 1),
+      options_.max_iterations * (input.is_far_off ? GicpParameters::kFarOffIterationFactor : 1),
       options_.converged_step_m, options_.converged_step_rad};
   if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_map_imu, result)) {
     Finish(input, T_map_imu, result);

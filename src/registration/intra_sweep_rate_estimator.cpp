@@ -7,7 +7,6 @@
 #include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
-using Parameters = IntraSweepRateParameters;
 
 void IntraSweepRateEstimator::Reset(std::size_t num_parts) {
   information_.setZero();
@@ -27,8 +26,9 @@ void IntraSweepRateEstimator::Add(std::int32_t part, const PoseScores::Score& ro
 
 TurnRate IntraSweepRateEstimator::Solve(double curvature_ratio) const {
   Eigen::Matrix<double, kDims, 1> prior_std;
-  prior_std << Vector3::Constant(Parameters::kPoseStd_m),
-      Vector3::Constant(Parameters::kPoseStd_rad), Vector3::Constant(Parameters::kRateStd_radps);
+  prior_std << Vector3::Constant(IntraSweepRateParameters::kPoseStd_m),
+      Vector3::Constant(IntraSweepRateParameters::kPoseStd_rad),
+      Vector3::Constant(IntraSweepRateParameters::kRateStd_radps);
   const Eigen::Matrix<double, kDims, 1> prior = prior_std.cwiseAbs2().cwiseInverse();
   Eigen::Matrix<double, kDims, kDims> information = information_;
   information.diagonal() += prior;

@@ -13,9 +13,7 @@
 namespace lio {
 namespace {
 
-using Parameters = LoamParameters;
-
-constexpr std::size_t kMinMatched = MatchParameters::kMinMatched;
+constexpr std::size_t kMinTerms = MatchParameters::kMinMatched;
 
 PointMapOptions MapOptions(const LoamOptions& options, double leaf_m) {
   return {leaf_m, options.max_leaf_points, options.max_leaves, options.max_distance_m};
@@ -67,19 +65,21 @@ void LoamMatcher::Associate(const MatchInput& input, const Pose& T_map_imu,
         CorrespondenceParameters::kSearchSigmas * radius.StdAt(point_imu.norm());
     const auto number = static_cast<std::int32_t>(i);
     if (input.tags[i].IsEdge()) {
-      const double search = search_radius + Parameters::kLeavesPerSearch * options_.edge_leaf_m;
+      const double search = search_radius + LoamParameters::kLeavesPerSearch * options_.edge_leaf_m;
       const PointMap::Neighbours near = edge_map_.FindNearest(point, wanted, search);
       const std::optional<LineFit> line = FitLine(near, options_);
-      if (!line || line->direction.cross(line->centre).norm() > search_radius + Parameters::kGate_m)
+      if (!line ||
+          line->direction.cross(line->centre).norm() > search_radius + LoamParameters::kGate_m)
         continue;
       terms_->Add(EdgeTerm{number, first_edge_block + near.list[0].block, point + line->centre,
                            line->direction, line->direction_var});
     } else {
-      const double search = search_radius + Parameters::kLeavesPerSearch * options_.surface_leaf_m;
+      const double search =
+          search_radius + LoamParameters::kLeavesPerSearch * options_.surface_leaf_m;
       const PointMap::Neighbours near = surface_map_.FindNearest(point, wanted, search);
       const std::optional<PlaneFit> plane = FitPlane(near, options_);
       if (!plane ||
-          std::abs(plane->normal.dot(plane->centre)) > search_radius + Parameters::kGate_m)
+          std::abs(plane->normal.dot(plane->centre)) > search_radius + LoamParameters::kGate_m)
         continue;
       terms_->Add(PlaneTerm{number, near.list[0].block, point + plane->centre, plane->axes,
                             plane->normal_var});
@@ -109,7 +109,7 @@ void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
   const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
   result.T_map_imu = T_map_imu;
   result.new_content_share = NewContentShare(input, T_map_imu);
-  FinishMatch(sums, scores_, terms_->size() >= kMinMatched, result);
+  FinishMatch(sums, scores_, terms_->size() >= kMinTerms, result);
 }
 
 MatchResult LoamMatcher::Match(const MatchInput& input) {
@@ -120,12 +120,12 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
     throw std::invalid_argument("LoamMatcher: every point needs a tag");
   }
   Pose T_map_imu = input.T_map_imu_guess;
-  const int factor = input.is_far_off ? Parameters::kFarOffRoundFactor : 1;
+  const int factor = input.is_far_off ? LoamParameters::kFarOffRoundFactor : 1;
   const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
     Associate(input, pose, radius);
-    if (terms_->size() < kMinMatched) return std::nullopt;
+    if (terms_->size() < kMinTerms) return std::nullopt;
     const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
-    const double share = result.iterations > factor * Parameters::kFullRounds ? 0.5 : 1.0;
+    const double share = result.iterations > factor * LoamParameters::kFullRounds ? 0.5 : 1.0;
     return share * StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,

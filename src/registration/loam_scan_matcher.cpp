@@ -14,9 +14,6 @@
 namespace lio {
 namespace {
 
-using Parameters = LoamScanParameters;
-constexpr std::size_t kMinMatched = Parameters::kMinMatched;
-
 Pose PartOf(const Pose& motion, double ratio) {
   return ratio == 1.0 ? motion : Interpolate(Pose::Identity(), motion, ratio);
 }
@@ -54,7 +51,8 @@ void LoamScanMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
 }
 
 void LoamScanMatcher::AddEdge(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
-  const RingGrid::Found found = edges_->Search(place, search_m, {0.f, Parameters::kMinAcross_m});
+  const RingGrid::Found found =
+      edges_->Search(place, search_m, {0.f, LoamScanParameters::kMinAcross_m});
   if (found.nearest < 0 || found.other_ring < 0) return;
   const Vector3 a = edges_->point(found.nearest).cast<double>();
   const Vector3 b = edges_->point(found.other_ring).cast<double>();
@@ -66,14 +64,14 @@ void LoamScanMatcher::AddEdge(std::int32_t number, const Eigen::Vector3f& place,
 }
 
 void LoamScanMatcher::AddPlane(std::int32_t number, const Eigen::Vector3f& place, float search_m) {
-  const RingGrid::Found found =
-      surfaces_->Search(place, search_m, {Parameters::kMinBaseline_m, Parameters::kMinAcross_m});
+  const RingGrid::Found found = surfaces_->Search(
+      place, search_m, {LoamScanParameters::kMinBaseline_m, LoamScanParameters::kMinAcross_m});
   if (found.nearest < 0 || found.same_ring < 0 || found.other_ring < 0) return;
   const Vector3 a = surfaces_->point(found.nearest).cast<double>();
   const Vector3 along = surfaces_->point(found.same_ring).cast<double>() - a;
   const Vector3 up = surfaces_->point(found.other_ring).cast<double>() - a;
   const Vector3 area = along.cross(up);
-  if (area.norm() < Parameters::kMinTriangle * along.norm() * up.norm()) return;
+  if (area.norm() < LoamScanParameters::kMinTriangle * along.norm() * up.norm()) return;
   PlaneTerm term;
   term.point = number;
   term.part = found.part;
@@ -98,10 +96,10 @@ void LoamScanMatcher::Associate(const MatchInput& input, std::span<const float> 
     const Vector3 point_imu = input.points_imu[i].cast<double>();
     const Vector3 place = PartOf(T_last_imu, ratio) * point_imu;
     const double range = point_imu.norm();
-    const double search =
-        std::min(CorrespondenceParameters::kSearchSigmas * radius.StdAt(range) +
-                     std::max(Parameters::kMinSearch_m, Parameters::kSearchPerRange * range),
-                 Parameters::kMaxSearch_m);
+    const double search = std::min(
+        CorrespondenceParameters::kSearchSigmas * radius.StdAt(range) +
+            std::max(LoamScanParameters::kMinSearch_m, LoamScanParameters::kSearchPerRange * range),
+        LoamScanParameters::kMaxSearch_m);
     const auto add =
         kind == FeatureKind::kSharp ? &LoamScanMatcher::AddEdge : &LoamScanMatcher::AddPlane;
     (this->*add)(static_cast<std::int32_t>(i), place.cast<float>(), static_cast<float>(search));
@@ -118,7 +116,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
   result.T_map_imu = T_map_last_ * T_last_imu;
   result.num_matched = static_cast<int>(terms_->size());
   result.new_content_share = 1.0;  // nothing of the scan before is kept
-  if (terms_->size() < kMinMatched) {
+  if (terms_->size() < LoamScanParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
@@ -151,7 +149,7 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
   Pose T_last_imu = T_map_last_.Inverse() * input.T_map_imu_guess;
   const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
     Associate(input, sweep_ratios, pose, radius);
-    if (terms_->size() < kMinMatched) return std::nullopt;
+    if (terms_->size() < LoamScanParameters::kMinMatched) return std::nullopt;
     const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, pose);
     const Vector6 step = LogSe3(pose.Inverse() * solved);
     if (!sweep_ratios.empty()) return step;

@@ -18,22 +18,19 @@
 namespace lio {
 namespace {
 
-using Parameters = NdtParameters;
-
-constexpr int kMinMatched = MatchParameters::kMinMatched;
 constexpr double kLever_m = CorrespondenceParameters::kLever_m;
 
 // Fixed odd rotation between the map's axes and the voxel grid's.
 const Pose& GridFromMap() {
-  static const Pose kPose{ExpSo3(Vector3(Parameters::kGridRotation_rad.data())),
-                          Vector3(Parameters::kGridTranslation_m.data())};
+  static const Pose kPose{ExpSo3(Vector3(NdtParameters::kGridRotation_rad.data())),
+                          Vector3(NdtParameters::kGridTranslation_m.data())};
   return kPose;
 }
 
 bool HasMoved(const Pose& from, const Pose& to) {
   const Pose motion = from.Inverse() * to;
   return motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() >
-         Parameters::kCountsHold_m;
+         NdtParameters::kCountsHold_m;
 }
 
 }  // namespace
@@ -184,7 +181,7 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
                          const Eigen::Vector3f& point, float share, const Eigen::Matrix3f& to_imu,
                          MatchSums& sums, PointScore* score) {
   if (patch.kind == SurfacePatch::Kind::kPlane) {
-    constexpr float kAlikeVar_m2 = Parameters::kAlikeStd_m * Parameters::kAlikeStd_m;
+    constexpr float kAlikeVar_m2 = NdtParameters::kAlikeStd_m * NdtParameters::kAlikeStd_m;
     const float noise_information =
         term.rows[0].weight * (patch.thickness_var / patch.num_points + kAlikeVar_m2);
     sums.noise_information.Add(JacobianRow(point, to_imu * patch.tangent1_per_std),
@@ -232,7 +229,7 @@ Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {
       if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, row.weight * row.jacobian);
     }
   }
-  constexpr double kSharedStd_m = Parameters::kSharedVerticalStd_m;
+  constexpr double kSharedStd_m = NdtParameters::kSharedVerticalStd_m;
   const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
   return gradients_.by_part.Covariance() + kSharedStd_m * kSharedStd_m * sides;
 }
@@ -267,7 +264,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
         return pair.cell != GaussianMap::kNoCell;
       }));
   result.new_content_share = NewContentShare();
-  if (sums.num_matched < kMinMatched) {
+  if (sums.num_matched < MatchParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
@@ -293,7 +290,7 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
     const MatchInput& bent = scan_at(pose);
     Associate(bent, pose, radius.std_m());
     const MatchSums sums = Linearize(bent, pose, radius.variance(), {});
-    if (sums.num_matched < kMinMatched) return std::nullopt;
+    if (sums.num_matched < MatchParameters::kMinMatched) return std::nullopt;
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations, options_.converged_step_m,

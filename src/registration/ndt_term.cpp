@@ -9,8 +9,8 @@
 namespace lio {
 namespace {
 
-NdtTerm PlaneTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                  float radius_var) {
+NdtTerm TermOfPlane(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                    float radius_var) {
   const float a1 = patch.tangent1_per_std.dot(from_mean);
   const float a2 = patch.tangent2_per_std.dot(from_mean);
   constexpr float kMaxLeverSq = NdtParameters::kMaxLeverSq;
@@ -27,8 +27,8 @@ NdtTerm PlaneTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, f
   return term;
 }
 
-NdtTerm VerticalTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
-                     float radius_var) {
+NdtTerm TermOfVertical(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
+                       float radius_var) {
   const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
   const float across_std = 1.f / patch.tangent1_per_std.norm();
   NdtTerm term;
@@ -52,8 +52,8 @@ NdtTerm VerticalTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean
 NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
                     float radius_var) {
   return patch.kind == SurfacePatch::Kind::kPlane
-             ? PlaneTerm(patch, from_mean, num_here, radius_var)
-             : VerticalTerm(patch, from_mean, num_here, radius_var);
+             ? TermOfPlane(patch, from_mean, num_here, radius_var)
+             : TermOfVertical(patch, from_mean, num_here, radius_var);
 }
 
 }  // namespace lio

@@ -11,8 +11,6 @@
 namespace lio {
 namespace {
 
-using Parameters = LoamParameters;
-
 struct Moments {
   Vector3 mean = Vector3::Zero();
   Vector3 variance;  // ascending
@@ -53,7 +51,7 @@ std::optional<LineFit> FitLine(const PointMap::Neighbours& neighbours, const Loa
   if (neighbours.count < options.num_neighbours) return std::nullopt;
   const Moments moments = MomentsOf(neighbours);
   if (moments.variance[2] < options.min_line_ratio * moments.variance[1]) return std::nullopt;
-  const double min_length = Parameters::kMinWidthPerLeaf * options.edge_leaf_m;
+  const double min_length = LoamParameters::kMinWidthPerLeaf * options.edge_leaf_m;
   if (moments.variance[2] < min_length * min_length) return std::nullopt;
   const double across_var = std::max(moments.variance[1], NoiseVar(moments, options));
   return LineFit{moments.mean, moments.axes.col(2),
@@ -64,7 +62,7 @@ std::optional<PlaneFit> FitPlane(const PointMap::Neighbours& neighbours,
                                  const LoamOptions& options) {
   if (neighbours.count < options.num_neighbours) return std::nullopt;
   const Moments moments = MomentsOf(neighbours);
-  const double min_width = Parameters::kMinWidthPerLeaf * options.surface_leaf_m;
+  const double min_width = LoamParameters::kMinWidthPerLeaf * options.surface_leaf_m;
   if (moments.variance[1] < min_width * min_width) return std::nullopt;
   const double thickness_var = std::max(moments.variance[0], NoiseVar(moments, options));
   PlaneFit plane{moments.mean,
@@ -72,7 +70,7 @@ std::optional<PlaneFit> FitPlane(const PointMap::Neighbours& neighbours,
                  moments.axes,
                  {thickness_var / (moments.count * moments.variance[1]),
                   thickness_var / (moments.count * moments.variance[2])}};
-  constexpr double kMaxStd_rad = Parameters::kMaxNormalStd_rad;
+  constexpr double kMaxStd_rad = LoamParameters::kMaxNormalStd_rad;
   if (plane.normal_var[0] > kMaxStd_rad * kMaxStd_rad) return std::nullopt;
   for (std::size_t i = 0; i < static_cast<std::size_t>(neighbours.count); ++i) {
     const Vector3 d = neighbours.list[i].from_query.cast<double>() - moments.mean;

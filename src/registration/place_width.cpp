@@ -10,8 +10,6 @@
 namespace lio {
 namespace {
 
-using Parameters = PlaceWidthParameters;
-
 double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
   std::unordered_set<VoxelKey> cells;
   for (const Eigen::Vector3f& point : points) {
@@ -19,7 +17,7 @@ double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
     if (!IsVoxel(scaled)) continue;
     const VoxelCell cell = VoxelOf(scaled);
     cells.insert(PackVoxel(cell[0], cell[1], cell[2]));
-    if (cells.size() >= Parameters::kMaxCounted) break;
+    if (cells.size() >= PlaceWidthParameters::kMaxCounted) break;
   }
   return static_cast<double>(cells.size());
 }
@@ -27,12 +25,13 @@ double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
 }  // namespace
 
 void PlaceWidth::Add(std::span<const Eigen::Vector3f> points_imu, double edge_m) {
-  if (points_imu.size() < Parameters::kMaxCounted) return;
+  if (points_imu.size() < PlaceWidthParameters::kMaxCounted) return;
   const double num_cells = NumCells(points_imu, edge_m);
-  mean_cells_ =
-      mean_cells_ ? *mean_cells_ + Parameters::kRate * (num_cells - *mean_cells_) : num_cells;
-  if (*mean_cells_ < Parameters::kNarrowBelow) is_narrow_ = true;
-  if (*mean_cells_ > Parameters::kWideAbove) is_narrow_ = false;
+  mean_cells_ = mean_cells_
+                    ? *mean_cells_ + PlaceWidthParameters::kRate * (num_cells - *mean_cells_)
+                    : num_cells;
+  if (*mean_cells_ < PlaceWidthParameters::kNarrowBelow) is_narrow_ = true;
+  if (*mean_cells_ > PlaceWidthParameters::kWideAbove) is_narrow_ = false;
 }
 
 }  // namespace lio

@@ -11,8 +11,6 @@
 namespace lio {
 namespace {
 
-using Parameters = ScanNormalParameters;
-
 VoxelCell CellAt(const Eigen::Vector3f& point, float inverse_voxel) {
   return {FloorToInt(point.x() * inverse_voxel), FloorToInt(point.y() * inverse_voxel),
           FloorToInt(point.z() * inverse_voxel)};
@@ -55,7 +53,7 @@ void ScanNormals::SetScan(std::span<const Eigen::Vector3f> points) {
     const float range = point.norm();
     const std::size_t at = LevelOf(range);
     AddTo(levels_[at], point);
-    const float overlap = Parameters::kOverlap_voxels * levels_[at].voxel_m;
+    const float overlap = ScanNormalParameters::kOverlap_voxels * levels_[at].voxel_m;
     if (at + 1 < kNumLevels && range + overlap > levels_[at].max_range_m) {
       AddTo(levels_[at + 1], point);
     }
@@ -86,7 +84,7 @@ PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
   };
   ForEachVoxel({centre[0] - 1, centre[1] - 1, centre[2] - 1},
                {centre[0] + 1, centre[1] + 1, centre[2] + 1}, add);
-  if (sum.count < Parameters::kMinPoints) return result;
+  if (sum.count < ScanNormalParameters::kMinPoints) return result;
   const Vector3 mean = Vector3(sum.x, sum.y, sum.z) / sum.count;
   Matrix3 cov;
   cov << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
@@ -94,20 +92,23 @@ PointWithNormal ScanNormals::At(const Eigen::Vector3f& point) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
-  const double min_width = Parameters::kMinWidthPerVoxel * level.voxel_m;
+  const double min_width = ScanNormalParameters::kMinWidthPerVoxel * level.voxel_m;
   if (variance[1] < min_width * min_width) return result;
-  if (variance[0] > Parameters::kMaxThicknessRatio * variance[1]) return result;
+  if (variance[0] > ScanNormalParameters::kMaxThicknessRatio * variance[1]) return result;
   const double thickness_var =
       std::max(variance[0], options_.surface_std_m * options_.surface_std_m);
   const double normal_var = thickness_var / (sum.count * variance[1]);
-  if (normal_var > Parameters::kMaxNormalStd_rad * Parameters::kMaxNormalStd_rad) return result;
+  if (normal_var >
+      ScanNormalParameters::kMaxNormalStd_rad * ScanNormalParameters::kMaxNormalStd_rad) {
+    return result;
+  }
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
   if (IsGrazing(normal, point)) return result;
   result.normal = normal;
   result.thickness_var = static_cast<float>(thickness_var);
   result.normal_var = static_cast<float>(normal_var);
   result.bend_var =
-      static_cast<float>(Parameters::kBend * thickness_var / (variance[1] * variance[1]));
+      static_cast<float>(ScanNormalParameters::kBend * thickness_var / (variance[1] * variance[1]));
   return result;
 }
 

@@ -13,8 +13,6 @@
 namespace lio {
 namespace {
 
-constexpr ShiftSearchParameters kShift = kRelocalization.shift;
-
 // A linear (Kalman) update of the imu's position along the level axes' x and y.
 void HoldAt(const FoundShift& found, const Quaternion& R_level_map, MatchResult& match) {
   const Matrix3 R_level_imu = (R_level_map * match.T_map_imu.rotation).toRotationMatrix();
@@ -36,8 +34,9 @@ Eigen::Vector2f PositionOf(const MatchResult& match, const Quaternion& R_level_m
 float SearchRange_m(const MatchResult& match) {
   const double std_m =
       std::sqrt(std::max(0.0, match.cov.topLeftCorner<3, 3>().diagonal().maxCoeff()));
-  return static_cast<float>(
-      std::clamp(kShift.range_sigmas * std_m, kShift.min_range_m, kShift.max_range_m));
+  return static_cast<float>(std::clamp(kRelocalization.shift.range_sigmas * std_m,
+                                       kRelocalization.shift.min_range_m,
+                                       kRelocalization.shift.max_range_m));
 }
 
 }  // namespace
@@ -45,8 +44,8 @@ float SearchRange_m(const MatchResult& match) {
 void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quaternion& R_level_map,
                          MatchResult& match) {
   const Eigen::Vector2f matched_m = PositionOf(match, R_level_map);
-  const bool is_apart =
-      views_.empty() || (matched_m - views_.back().position_m).norm() >= kShift.view_spacing_m;
+  const bool is_apart = views_.empty() || (matched_m - views_.back().position_m).norm() >=
+                                              kRelocalization.shift.view_spacing_m;
   if (match.degenerate_mask == 0 && !is_apart) return;
   BirdsEyeView view(Levelled(points_imu, R_level_map * match.T_map_imu.rotation));
   if (match.degenerate_mask != 0 && !views_.empty()) {
@@ -55,7 +54,7 @@ void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quat
     }
   }
   if (!is_apart) return;
-  if (views_.size() == kShift.max_views) views_.erase(views_.begin());
+  if (views_.size() == kRelocalization.shift.max_views) views_.erase(views_.begin());
   views_.push_back({PositionOf(match, R_level_map), std::move(view)});
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr PlaceSearchParameters kPlace = kRelocalization.place;
 
-struct Scored {
+struct ScoredPose {
   PlanarPose pose;
   int score = 0;
 };
@@ -33,7 +33,7 @@ PlanarGrid GridAround(const PlanarPose& middle, const PlanarRange& range, float 
           step_rad};
 }
 
-bool IsBetter(const Scored& a, const Scored& b) {
+bool IsBetter(const ScoredPose& a, const ScoredPose& b) {
   return a.score > b.score;
 }
 
@@ -41,16 +41,16 @@ bool IsBetter(const Scored& a, const Scored& b) {
 class Best {
  public:
   explicit Best(std::size_t max) : max_(max) {}
-  void Take(const Scored& scored) {
+  void Take(const ScoredPose& scored) {
     if (best_.size() == max_ && scored.score <= best_.back().score) return;
     best_.insert(std::upper_bound(best_.begin(), best_.end(), scored, IsBetter), scored);
     if (best_.size() > max_) best_.pop_back();
   }
-  const std::vector<Scored>& all() const { return best_; }
+  const std::vector<ScoredPose>& all() const { return best_; }
 
  private:
   std::size_t max_;
-  std::vector<Scored> best_;
+  std::vector<ScoredPose> best_;
 };
 
 bool IsSame(const PlanarPose& a, const PlanarPose& b) {
@@ -72,7 +72,7 @@ std::vector<PlanarPose> FindPlaces(const BirdsEyeView& earlier, const BirdsEyeVi
   Best fine(kPlace.max_refined);
   const PlanarRange around{Eigen::Vector2f::Constant(0.5f * kPlace.coarse_step_m),
                            0.5f * kPlace.coarse_step_rad};
-  for (const Scored& scored : rough.all()) {
+  for (const ScoredPose& scored : rough.all()) {
     Best one(1);
     ForEachPose(later.structures(),
                 GridAround(scored.pose, around, kPlace.fine_step_m, kPlace.fine_step_rad),
@@ -82,7 +82,7 @@ std::vector<PlanarPose> FindPlaces(const BirdsEyeView& earlier, const BirdsEyeVi
     fine.Take(one.all().front());
   }
   std::vector<PlanarPose> found;
-  for (const Scored& scored : fine.all()) {
+  for (const ScoredPose& scored : fine.all()) {
     const auto is_same = [&](const PlanarPose& other) { return IsSame(scored.pose, other); };
     if (std::any_of(found.begin(), found.end(), is_same)) continue;
     found.push_back(scored.pose);

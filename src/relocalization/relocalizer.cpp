@@ -14,7 +14,7 @@ namespace {
 
 // How much speaks for a coarse match: the number of points on surfaces times their share of those
 // that come to one. Ground gives many points anywhere, so that the number alone does not tell.
-double SupportOf(const MatchResult& match) {
+double CoarseSupportOf(const MatchResult& match) {
   const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
   if (!may_be_there) return 0.0;
   const double share =
@@ -32,7 +32,7 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
   std::vector<Candidate> candidates;
   for (const Pose& guess : guesses) {
     const MatchResult coarse = match_coarsely(guess, CandidateCov());
-    const double support = SupportOf(coarse);
+    const double support = CoarseSupportOf(coarse);
     candidates.push_back({support > 0.0 ? coarse.T_map_imu : guess, support});
   }
   std::stable_sort(candidates.begin(), candidates.end(),

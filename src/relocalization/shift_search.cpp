@@ -13,7 +13,7 @@ namespace {
 
 constexpr ShiftSearchParameters kShift = kRelocalization.shift;
 
-struct Scored {
+struct ScoredShift {
   Eigen::Vector2f position_m;
   int score = 0;
 };
@@ -36,10 +36,10 @@ int ScoreOfPattern(std::span<const PlacedView> earlier, const BirdsEyeView& now)
   return score;
 }
 
-std::vector<Scored> ScoreAll(std::span<const PlacedView> earlier, const BirdsEyeView& now,
-                             const Eigen::Vector2f& guess_m, float range_m) {
+std::vector<ScoredShift> ScoreAll(std::span<const PlacedView> earlier, const BirdsEyeView& now,
+                                  const Eigen::Vector2f& guess_m, float range_m) {
   const int num_steps = static_cast<int>(std::ceil(range_m / kShift.step_m));
-  std::vector<Scored> scored;
+  std::vector<ScoredShift> scored;
   for (int y = -num_steps; y <= num_steps; ++y) {
     for (int x = -num_steps; x <= num_steps; ++x) {
       const Eigen::Vector2f steps(static_cast<float>(x), static_cast<float>(y));
@@ -51,12 +51,12 @@ std::vector<Scored> ScoreAll(std::span<const PlacedView> earlier, const BirdsEye
 }
 
 // Mean and covariance over all positions, each weighted by its likelihood (Olson 2009, eq. 10).
-FoundShift Summarise(const std::vector<Scored>& scored, int peak, double chance) {
+FoundShift Summarise(const std::vector<ScoredShift>& scored, int peak, double chance) {
   double weight_sum = 0.0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   const Eigen::Vector2f origin_m = scored.front().position_m;
-  for (const Scored& one : scored) {
+  for (const ScoredShift& one : scored) {
     const double weight = std::exp(kShift.log_odds * (one.score - peak) / chance);
     const Eigen::Vector2d offset_m = (one.position_m - origin_m).cast<double>();
     weight_sum += weight;
@@ -74,8 +74,8 @@ FoundShift Summarise(const std::vector<Scored>& scored, int peak, double chance)
 std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier, const BirdsEyeView& now,
                                     const Eigen::Vector2f& guess_m, float range_m) {
   if (earlier.empty() || !now.HasEnoughStructures()) return {};
-  const std::vector<Scored> scored = ScoreAll(earlier, now, guess_m, range_m);
-  const Scored best = *std::max_element(
+  const std::vector<ScoredShift> scored = ScoreAll(earlier, now, guess_m, range_m);
+  const ScoredShift best = *std::max_element(
       scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
   const int peak = best.score;
   // A best position at the border of the range may have a better one beyond it.

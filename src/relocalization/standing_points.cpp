@@ -22,7 +22,7 @@ struct Heights {
   }
 };
 
-struct Column {
+struct ColumnSum {
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   int num = 0;
 };
@@ -55,17 +55,17 @@ std::vector<Eigen::Vector2f> StandingPoints(std::span<const Eigen::Vector3f> poi
 }
 
 std::vector<Eigen::Vector2f> ColumnMeans(std::span<const Eigen::Vector2f> points) {
-  VoxelMap<Column> columns;
+  VoxelMap<ColumnSum> columns;
   for (const Eigen::Vector2f& point : points) {
     const Eigen::Vector3f on_ground(point.x(), point.y(), 0.f);
-    Column& column =
-        columns.Of<Column>(columns.FindOrAdd(KeyOf(on_ground, kStanding.column_m)).voxel);
+    ColumnSum& column =
+        columns.Of<ColumnSum>(columns.FindOrAdd(KeyOf(on_ground, kStanding.column_m)).voxel);
     column.sum += point;
     ++column.num;
   }
   std::vector<Eigen::Vector2f> means;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Column& column = columns.Of<Column>(static_cast<std::int32_t>(i));
+    const ColumnSum& column = columns.Of<ColumnSum>(static_cast<std::int32_t>(i));
     means.push_back(column.sum / static_cast<float>(column.num));
   }
   return means;

@@ -11,8 +11,6 @@
 namespace lio {
 namespace {
 
-constexpr MapSearchParameters kSearch = kRelocalization.map_search;
-
 using Grid = std::vector<std::uint8_t>;
 
 std::size_t IndexOf(int x, int y, const Eigen::Vector2i& size) {
@@ -63,12 +61,14 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  const Eigen::Vector2f extent_m = high - low + Eigen::Vector2f::Constant(2.f * kSearch.margin_m);
-  if (!(extent_m.maxCoeff() < kSearch.cell_m * kSearch.max_cells_per_side)) {
+  const Eigen::Vector2f extent_m =
+      high - low + Eigen::Vector2f::Constant(2.f * kRelocalization.map_search.margin_m);
+  if (!(extent_m.maxCoeff() <
+        kRelocalization.map_search.cell_m * kRelocalization.map_search.max_cells_per_side)) {
     throw std::invalid_argument("StructurePyramid: the points spread over more than 4 km");
   }
-  corner_m_ = low - Eigen::Vector2f::Constant(kSearch.margin_m);
-  size_ = (extent_m / kSearch.cell_m).array().ceil().cast<int>() + 1;
+  corner_m_ = low - Eigen::Vector2f::Constant(kRelocalization.map_search.margin_m);
+  size_ = (extent_m / kRelocalization.map_search.cell_m).array().ceil().cast<int>() + 1;
   Grid marked(IndexOf(0, size_.y(), size_), 0);
   for (const Eigen::Vector2f& point : points) {
     const Eigen::Vector2i at = CellOf(point);
@@ -81,7 +81,7 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
     marked[IndexOf(at.x(), at.y(), size_)] = kThing;
   }
   Eigen::Vector2i marked_size = size_;
-  for (int level = 0; level < kSearch.num_levels; ++level) {
+  for (int level = 0; level < kRelocalization.map_search.num_levels; ++level) {
     Level& added = levels_.emplace_back();
     added.shift = std::max(0, level - 2);
     if (added.shift > 0) {
@@ -97,11 +97,12 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
 }
 
 Eigen::Vector2i StructurePyramid::CellOf(const Eigen::Vector2f& point) const {
-  return ((point - corner_m_) / kSearch.cell_m).array().floor().cast<int>();
+  return ((point - corner_m_) / kRelocalization.map_search.cell_m).array().floor().cast<int>();
 }
 
 Eigen::Vector2f StructurePyramid::CentreOf(const Eigen::Vector2i& cell) const {
-  return corner_m_ + kSearch.cell_m * (cell.cast<float>().array() + 0.5f).matrix();
+  return corner_m_ +
+         kRelocalization.map_search.cell_m * (cell.cast<float>().array() + 0.5f).matrix();
 }
 
 }  // namespace lio

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "columns.hpp"
+#include "lio/base/angle.hpp"
 #include "lio/eval/report.hpp"
 #include "lio/eval/run_errors.hpp"
 #include "lio/io/trajectory_file.hpp"
@@ -17,8 +18,6 @@ namespace lio {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 Json PathJson(const Evaluation& evaluation, Timestamp begin) {
   const Pose T_estimate_truth = evaluation.alignment.T_truth_estimate.Inverse();

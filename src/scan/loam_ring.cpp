@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr LoamFeatureParameters kParameters = kScanParameters.loam;
+constexpr LoamFeatureParameters kLoamFeatures = kScanParameters.loam;
 
 float Radians(double degrees) {
   return static_cast<float>(degrees * std::numbers::pi / 180.0);
@@ -57,7 +57,7 @@ void LoamRing::Process(std::span<const LidarPoint> points, std::span<const std::
 // times turned angle against the change of range, over four steps. A change of range that is mostly
 // one step is a jump, not a slope.
 void LoamRing::MarkGrazed() {
-  constexpr std::size_t k = kParameters.slope_half_window;
+  constexpr std::size_t k = kLoamFeatures.slope_half_window;
   for (std::size_t i = k; i + k < size(); ++i) {
     const float rise = std::abs(range_m_[i + k] - range_m_[i - k]);
     const float chord = Chord(i - k, i + k);
@@ -66,7 +66,7 @@ void LoamRing::MarkGrazed() {
     for (std::size_t j = i - k; j < i + k; ++j) {
       max_step = std::max(max_step, std::abs(range_m_[j + 1] - range_m_[j]));
     }
-    if (max_step > kParameters.max_step_share * rise) continue;
+    if (max_step > kLoamFeatures.max_step_share * rise) continue;
     label_[i] = Label::kGrazed;
     is_taken_[i] = 1;
   }
@@ -85,7 +85,7 @@ void LoamRing::MarkOccluded() {
     if (Chord(i, i + 1) > max_chord_) continue;
     const bool far_is_behind = step < 0.f;  // the far point is before the jump
     const float min_far_range = std::min(range_m_[i], range_m_[i + 1]) + min_jump;
-    for (std::size_t k = 0; k < kParameters.shadow_points; ++k) {
+    for (std::size_t k = 0; k < kLoamFeatures.shadow_points; ++k) {
       if (far_is_behind ? k > i : i + 1 + k >= size()) break;
       const std::size_t j = far_is_behind ? i - k : i + 1 + k;
       if (range_m_[j] < min_far_range) break;

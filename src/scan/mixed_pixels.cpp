@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-constexpr MixedPixelParameters kParameters = kScanParameters.mixed_pixels;
+constexpr MixedPixelParameters kMixedPixels = kScanParameters.mixed_pixels;
 
 Eigen::Vector3f PositionOf(const LidarPoint& point) {
   return {point.x_m, point.y_m, point.z_m};
@@ -48,7 +48,7 @@ bool MixedPixelFinder::LinkAsSent() {
     if (before == kNone) continue;
     const std::uint32_t now_ns = points[i].t_offset_ns;
     const std::uint32_t before_ns = points[before].t_offset_ns;
-    if (now_ns == before_ns || now_ns + kParameters.max_jitter_ns < before_ns) return false;
+    if (now_ns == before_ns || now_ns + kMixedPixels.max_jitter_ns < before_ns) return false;
     neighbours_[before].after = i;
   }
   return true;
@@ -73,7 +73,7 @@ float MixedPixelFinder::RangeBeside(const Eigen::Vector3f& direction, std::uint3
   if (index == kNone) return 0.f;
   const Eigen::Vector3f position = PositionOf((*points_)[index]);
   const float range_m = position.norm();
-  return position.dot(direction) > kParameters.min_cos * range_m ? range_m : 0.f;
+  return position.dot(direction) > kMixedPixels.min_cos * range_m ? range_m : 0.f;
 }
 
 bool MixedPixelFinder::IsMixed(std::uint32_t index) const {
@@ -85,7 +85,7 @@ bool MixedPixelFinder::IsMixed(std::uint32_t index) const {
   const float before_m = RangeBeside(direction, beside.before);
   const float after_m = RangeBeside(direction, beside.after);
   if (before_m <= 0.f || after_m <= 0.f) return false;
-  const float tolerance_m = kParameters.tolerance_m + kParameters.tolerance_per_range * range_m;
+  const float tolerance_m = kMixedPixels.tolerance_m + kMixedPixels.tolerance_per_range * range_m;
   if (std::min(before_m, after_m) + tolerance_m > range_m ||
       std::max(before_m, after_m) - tolerance_m < range_m) {
     return false;

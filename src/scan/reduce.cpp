@@ -12,7 +12,7 @@ namespace lio {
 namespace {
 
 constexpr std::uint32_t kBitsPerWord = 64;
-constexpr ThinningParameters kParameters = kScanParameters.thinning;
+constexpr ThinningParameters kThinning = kScanParameters.thinning;
 
 struct Voxel {
   VoxelKey key;
@@ -42,7 +42,7 @@ ScanReducer::ScanReducer(const ReduceOptions& options, const LidarRig& rig)
     : options_(options),
       filter_(rig),
       voxel_m_(static_cast<float>(options.voxel_m)),
-      choices_(kParameters.initial_slots) {}
+      choices_(kThinning.initial_slots) {}
 
 // Nothing branches on whether a point is used, because branch prediction would fail.
 void ScanReducer::FindCandidates(const Sweep& sweep, int& num_nonfinite) {
@@ -147,7 +147,7 @@ float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_
   // Points lie on surfaces, so their number is proportional to the inverse square of the edge.
   const double ratio = std::sqrt(static_cast<double>(num_kept) / options.target_points);
   const double wanted =
-      voxel_m * std::clamp(ratio, kParameters.min_edge_ratio, kParameters.max_edge_ratio);
+      voxel_m * std::clamp(ratio, kThinning.min_edge_ratio, kThinning.max_edge_ratio);
   return static_cast<float>(std::clamp(wanted, options.min_voxel_m, options.max_voxel_m));
 }
 

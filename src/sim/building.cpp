@@ -11,7 +11,7 @@ namespace {
 constexpr double kFoot_m = -3.0;  // depth to which walls reach into a slope
 
 // A wall has its own coordinates: along it, up, and depth into the building.
-struct Wall {
+struct FacadeWall {
   Vector3 origin;
   Vector3 along;  // unit vector, to the right seen from inside
   Vector3 inward;
@@ -22,21 +22,22 @@ struct Wall {
   }
 };
 
-struct Opening {
+struct WallRectangle {
   double left = 0.0;
   double right = 0.0;
   double low = 0.0;
   double high = 0.0;
 };
 
-void AddRectangle(Mesh& mesh, const Wall& wall, const Opening& r, double depth, Material material) {
+void AddRectangle(Mesh& mesh, const FacadeWall& wall, const WallRectangle& r, double depth,
+                  Material material) {
   AddQuad(mesh, wall.At(r.left, r.low, depth), wall.At(r.right, r.low, depth),
           wall.At(r.right, r.high, depth), wall.At(r.left, r.high, depth), material);
 }
 
 // Adds a field of wall with a recessed opening in it.
-void AddBay(Mesh& mesh, const Wall& wall, const Opening& bay, const Opening& hole, double recess,
-            Material material, Material pane) {
+void AddBay(Mesh& mesh, const FacadeWall& wall, const WallRectangle& bay, const WallRectangle& hole,
+            double recess, Material material, Material pane) {
   AddRectangle(mesh, wall, {bay.left, hole.left, bay.low, bay.high}, 0.0, material);
   AddRectangle(mesh, wall, {hole.right, bay.right, bay.low, bay.high}, 0.0, material);
   AddRectangle(mesh, wall, {hole.left, hole.right, bay.low, hole.low}, 0.0, material);
@@ -53,8 +54,8 @@ void AddBay(Mesh& mesh, const Wall& wall, const Opening& bay, const Opening& hol
 }
 
 // Adds a block that stands out of a wall (depth < 0) or is set into it.
-void AddBlock(Mesh& mesh, const Wall& wall, const Opening& r, double from_depth, double to_depth,
-              Material material) {
+void AddBlock(Mesh& mesh, const FacadeWall& wall, const WallRectangle& r, double from_depth,
+              double to_depth, Material material) {
   AddRectangle(mesh, wall, r, from_depth, material);
   const auto side = [&](double x0, double z0, double x1, double z1) {
     AddQuad(mesh, wall.At(x0, z0, from_depth), wall.At(x1, z1, from_depth),
@@ -66,7 +67,7 @@ void AddBlock(Mesh& mesh, const Wall& wall, const Opening& r, double from_depth,
   side(r.left, r.high, r.right, r.high);
 }
 
-void AddBalcony(Mesh& mesh, const Wall& wall, const Opening& bay) {
+void AddBalcony(Mesh& mesh, const FacadeWall& wall, const WallRectangle& bay) {
   const double out = -1.1;
   AddBlock(mesh, wall, {bay.left + 0.2, bay.right - 0.2, bay.low - 0.1, bay.low + 0.08}, out, 0.0,
            Material::kConcrete);
@@ -78,8 +79,8 @@ void AddBalcony(Mesh& mesh, const Wall& wall, const Opening& bay) {
 }
 
 // Adds one window bay, or a door if it has a balcony.
-void AddUpperBay(Mesh& mesh, const Wall& wall, const Opening& bay, const FacadeStyle& style,
-                 bool balcony, Random& random) {
+void AddUpperBay(Mesh& mesh, const FacadeWall& wall, const WallRectangle& bay,
+                 const FacadeStyle& style, bool balcony, Random& random) {
   const double middle = 0.5 * (bay.left + bay.right);
   const double half = 0.5 * std::min(style.window_width_m, 0.8 * (bay.right - bay.left));
   const double low = bay.low + (balcony ? 0.1 : style.sill_m);
@@ -94,15 +95,15 @@ void AddUpperBay(Mesh& mesh, const Wall& wall, const Opening& bay, const FacadeS
   }
 }
 
-void AddGroundBay(Mesh& mesh, const Wall& wall, const Opening& bay, const FacadeStyle& style,
-                  Random& random) {
+void AddGroundBay(Mesh& mesh, const FacadeWall& wall, const WallRectangle& bay,
+                  const FacadeStyle& style, Random& random) {
   const bool door = random.Chance(0.25);
   const double margin = style.has_shops && !door ? 0.25 : 0.5 * (bay.right - bay.left) - 0.65;
   const double low = door ? 0.02 : (style.has_shops ? 0.35 : style.sill_m);
   const double high = std::min(
       style.has_shops ? bay.high - 0.9 : low + style.window_height_m + (door ? style.sill_m : 0.0),
       bay.high - 0.3);
-  const Opening hole{bay.left + margin, bay.right - margin, low, high};
+  const WallRectangle hole{bay.left + margin, bay.right - margin, low, high};
   const double recess = style.has_shops || door ? 0.45 : style.recess_m;
   AddBay(mesh, wall, bay, hole, recess, style.wall, door ? Material::kWood : Material::kGlass);
   if (style.has_shops && !door && random.Chance(0.6)) {  // sign above the shop, some with awning
@@ -117,7 +118,7 @@ void AddGroundBay(Mesh& mesh, const Wall& wall, const Opening& bay, const Facade
   }
 }
 
-void AddFacade(Mesh& mesh, const Wall& wall, const BuildingPlan& plan, Random& random) {
+void AddFacade(Mesh& mesh, const FacadeWall& wall, const BuildingPlan& plan, Random& random) {
   const FacadeStyle& style = plan.facade;
   const int num_bays = std::max(1, static_cast<int>(wall.length_m / style.bay_m));
   const double bay_m = wall.length_m / num_bays;
@@ -129,7 +130,7 @@ void AddFacade(Mesh& mesh, const Wall& wall, const BuildingPlan& plan, Random& r
   for (int storey = 0; storey < plan.num_storeys; ++storey) {
     const double height = storey == 0 ? style.ground_storey_m : style.storey_m;
     for (int b = 0; b < num_bays; ++b) {
-      const Opening bay{b * bay_m, (b + 1) * bay_m, floor, floor + height};
+      const WallRectangle bay{b * bay_m, (b + 1) * bay_m, floor, floor + height};
       if (storey == 0) {
         AddGroundBay(mesh, wall, bay, style, random);
       } else {
@@ -211,10 +212,11 @@ Mesh MakeBuilding(const BuildingPlan& plan, Random& random) {
   Mesh mesh;
   const double w = plan.size_m.x();
   const double d = plan.size_m.y();
-  const std::array<Wall, 4> walls = {Wall{{0, 0, 0}, Vector3::UnitX(), Vector3::UnitY(), w},
-                                     Wall{{w, 0, 0}, Vector3::UnitY(), -Vector3::UnitX(), d},
-                                     Wall{{w, d, 0}, -Vector3::UnitX(), -Vector3::UnitY(), w},
-                                     Wall{{0, d, 0}, -Vector3::UnitY(), Vector3::UnitX(), d}};
+  const std::array<FacadeWall, 4> walls = {
+      FacadeWall{{0, 0, 0}, Vector3::UnitX(), Vector3::UnitY(), w},
+      FacadeWall{{w, 0, 0}, Vector3::UnitY(), -Vector3::UnitX(), d},
+      FacadeWall{{w, d, 0}, -Vector3::UnitX(), -Vector3::UnitY(), w},
+      FacadeWall{{0, d, 0}, -Vector3::UnitY(), Vector3::UnitX(), d}};
   const double h = HeightOf(plan);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (i > 0 && plan.has_plain_rear) {

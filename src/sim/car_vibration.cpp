@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/sim/random.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMoving_mps = 0.1;
 constexpr double kLook_s = 0.1;
 constexpr double kMinRevs_hz = 1400.0 / 60.0;  // a driver changes up when the next gear has this
@@ -45,7 +44,7 @@ CarVibration::CarVibration(const Trajectory& trajectory, std::uint64_t seed) {
   direction_ = UnitVector(random);
   axis_ = UnitVector(random);
   for (std::size_t i = 0; i < kNumWheels; ++i) {
-    wheel_phase_rad_[i] = random.Uniform(0.0, kTurn);
+    wheel_phase_rad_[i] = random.Uniform(0.0, kTurn_rad);
     wheel_scale_[i] = random.Uniform(0.3, 1.7);
     wheel_rate_[i] = 1.0 + 0.005 * random.Gaussian();
   }
@@ -72,7 +71,7 @@ bool CarVibration::EngineRunsAt(double t_s) const {
 
 CarVibration::Shake CarVibration::Tone(double amplitude_mps2, double frequency_hz,
                                        double phase_rad) const {
-  const double rate_radps = amplitude_mps2 / (kTurn * frequency_hz * kCarVibration.lever_m);
+  const double rate_radps = amplitude_mps2 / (kTurn_rad * frequency_hz * kCarVibration.lever_m);
   return {amplitude_mps2 * std::sin(phase_rad) * direction_,
           rate_radps * std::cos(phase_rad) * axis_};
 }
@@ -81,7 +80,7 @@ CarVibration::Shake CarVibration::Engine(double t_s, double speed_mps, double dt
   const CarVibrationParameters& p = kCarVibration;
   if (!EngineRunsAt(t_s)) return {};
   const double frequency_hz = FiringRate(speed_mps);
-  engine_phase_rad_ = std::fmod(engine_phase_rad_ + kTurn * frequency_hz * dt_s, kTurn);
+  engine_phase_rad_ = std::fmod(engine_phase_rad_ + kTurn_rad * frequency_hz * dt_s, kTurn_rad);
   const bool is_idle = speed_mps < kMoving_mps;
   const double amplitude =
       is_idle ? p.idle_mps2 : p.running_mps2 + p.running_mps2_per_mps * speed_mps;
@@ -96,7 +95,7 @@ CarVibration::Shake CarVibration::Rock(double t_s) const {
     const double since_s = t_s - event_s;
     if (since_s < 0.0 || since_s > 8.0 * p.start_decay_s) return;
     const double left = amplitude * std::exp(-since_s / p.start_decay_s);
-    Add(sum, Tone(left, p.crank_hz, kTurn * p.crank_hz * since_s));
+    Add(sum, Tone(left, p.crank_hz, kTurn_rad * p.crank_hz * since_s));
   };
   for (const Span& span : engine_) {
     add(span.begin_s, p.start_mps2);
@@ -111,8 +110,9 @@ CarVibration::Shake CarVibration::Wheels(double speed_mps, double dt_s) {
   if (speed_mps < kMoving_mps) return sum;
   const double relative = speed_mps / 10.0;
   for (std::size_t i = 0; i < kNumWheels; ++i) {
-    const double frequency_hz = wheel_rate_[i] * speed_mps / (kTurn * p.wheel_radius_m);
-    wheel_phase_rad_[i] = std::fmod(wheel_phase_rad_[i] + kTurn * frequency_hz * dt_s, kTurn);
+    const double frequency_hz = wheel_rate_[i] * speed_mps / (kTurn_rad * p.wheel_radius_m);
+    wheel_phase_rad_[i] =
+        std::fmod(wheel_phase_rad_[i] + kTurn_rad * frequency_hz * dt_s, kTurn_rad);
     const double ratio = frequency_hz / p.wheel_hop_hz;
     const double gain = 1.0 / std::hypot(1.0 - ratio * ratio, ratio / p.wheel_hop_quality);
     const double amplitude = gain * wheel_scale_[i] * p.wheel_mps2_at_10_mps * relative * relative;

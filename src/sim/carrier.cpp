@@ -7,11 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
+
 namespace lio::sim {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kKnot_s = 0.1;
 
 BodyResponse ResponseOf(Carrier carrier) {
   BodyResponse response;
@@ -42,7 +41,7 @@ std::vector<Oscillation> Waves(std::uint64_t seed, const std::vector<Band>& band
   for (const Band& band : bands) {
     const double amplitude = band.amplitude * random.Uniform(0.7, 1.3);
     const double frequency_hz = random.Uniform(band.low_hz, band.high_hz);
-    waves.push_back({band.axis, amplitude, frequency_hz, random.Uniform(0.0, 2.0 * kPi)});
+    waves.push_back({band.axis, amplitude, frequency_hz, random.Uniform(0.0, kTurn_rad)});
   }
   return waves;
 }
@@ -78,7 +77,7 @@ HeightFunction FlightAbove(const HeightFunction& floor, double flight_m) {
   return [=](const Vector2& p_m, double along_m) {
     const double climbed = std::clamp(along_m / kClimb_m, 0.0, 1.0);
     const double eased = climbed * climbed * (3.0 - 2.0 * climbed);
-    const double wave = 1.0 + std::sin(2.0 * kPi * along_m / kWave_m) / 6.0;
+    const double wave = 1.0 + std::sin(kTurn_rad * along_m / kWave_m) / 6.0;
     return floor(p_m, along_m) + flight_m * eased * wave;
   };
 }
@@ -104,12 +103,13 @@ void AddGlances(std::vector<BodyKnot>& knots, double knot_interval_s, double fas
   while (begin_s < end_s) {
     const double length_s = random.Uniform(1.1, 1.5);
     const double sign = random.Chance(0.5) ? 1.0 : -1.0;
-    const double turn_rad = sign * random.Uniform(0.6, 1.0) * fastest_radps * length_s / kPi;
+    const double turn_rad =
+        sign * random.Uniform(0.6, 1.0) * fastest_radps * length_s / std::numbers::pi;
     const double tilt_rad = random.Uniform(-0.3, 0.3);
     for (std::size_t i = 0; i < knots.size(); ++i) {
       const double share = (knot_interval_s * static_cast<double>(i) - begin_s) / length_s;
       if (share <= 0.0 || share >= 1.0) continue;
-      const double wave = std::sin(kPi * share);
+      const double wave = std::sin(std::numbers::pi * share);
       knots[i].yaw_rad += turn_rad * wave * wave * knots[i].liveliness;
       knots[i].pitch_rad += tilt_rad * wave * wave * knots[i].liveliness;
     }
@@ -122,13 +122,13 @@ void CarryAlong(Scenario& scenario, Carrier carrier, const Path& way, const Heig
   const Drive drive(way, LimitsOf(carrier), {}, kStartRest_s);
   const bool flies = carrier == Carrier::kDrone;
   MotionPlan plan;
-  plan.knot_interval_s = kKnot_s;
+  plan.knot_interval_s = kCarrierKnot_s;
   plan.knots = FollowDrive(way, drive, flies ? FlightAbove(floor, flight_m) : floor,
-                           ResponseOf(carrier), kKnot_s, PlannedSeconds(scenario, options));
+                           ResponseOf(carrier), kCarrierKnot_s, PlannedSeconds(scenario, options));
   plan.oscillations = OscillationsOf(carrier, options.seed);
   Random motion(options.seed, Purpose::kMotion, 4);
-  if (carrier == Carrier::kPerson) AddGlances(plan.knots, kKnot_s, 1.2, motion);
-  if (flies) AddGlances(plan.knots, kKnot_s, 2.6, motion);
+  if (carrier == Carrier::kPerson) AddGlances(plan.knots, kCarrierKnot_s, 1.2, motion);
+  if (flies) AddGlances(plan.knots, kCarrierKnot_s, 2.6, motion);
   switch (carrier) {
     case Carrier::kPerson:
       return MountOnPerson(scenario, std::move(plan));

@@ -9,6 +9,8 @@
 
 namespace lio::sim {
 
+inline constexpr double kCarrierKnot_s = 0.1;
+
 [[nodiscard]] DriveLimits LimitsOf(Carrier carrier);
 
 // Fills in trajectory, mount and shaking. `floor` gives the height of the ground along the way; a

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "lio/sim/random.hpp"
 
 namespace lio::sim {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 bool IsImu(const Message& message) {
   return std::holds_alternative<ImuMessage>(message.body);
@@ -173,9 +171,9 @@ Pose ClaimedExtrinsic(const std::vector<Fault>& faults, const Pose& T_imu_lidar)
   Pose claimed = T_imu_lidar;
   for (const Fault& fault : faults) {
     if (fault.kind != FaultKind::kWrongExtrinsic) continue;
-    const Quaternion turn(Eigen::AngleAxisd(kRadians * fault.Get("yaw_deg"), Vector3::UnitZ()) *
-                          Eigen::AngleAxisd(kRadians * fault.Get("pitch_deg"), Vector3::UnitY()) *
-                          Eigen::AngleAxisd(kRadians * fault.Get("roll_deg"), Vector3::UnitX()));
+    const Quaternion turn(Eigen::AngleAxisd(kRadPerDeg * fault.Get("yaw_deg"), Vector3::UnitZ()) *
+                          Eigen::AngleAxisd(kRadPerDeg * fault.Get("pitch_deg"), Vector3::UnitY()) *
+                          Eigen::AngleAxisd(kRadPerDeg * fault.Get("roll_deg"), Vector3::UnitX()));
     const Vector3 shift(fault.Get("x"), fault.Get("y"), fault.Get("z"));
     claimed = {(turn * claimed.rotation).normalized(), claimed.translation + shift};
   }

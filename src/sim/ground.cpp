@@ -43,7 +43,7 @@ Bounds BoundsOf(const RoadNetwork& network, double reach_m) {
 }
 
 // Holds a corner of the lattice.
-struct Corner {
+struct GroundCorner {
   Vector2 p;
   double distance = 0.0;  // signed, to the road's edge
   double height = 0.0;    // height of the terrain
@@ -54,24 +54,24 @@ class GroundWriter {
  public:
   GroundWriter(Mesh& mesh, const GroundOptions& options) : mesh_(mesh), options_(options) {}
 
-  void AddCell(const std::array<Corner, 4>& corners) {
-    std::vector<Corner> road;
-    std::vector<Corner> verge;
-    std::vector<Corner> edge;
+  void AddCell(const std::array<GroundCorner, 4>& corners) {
+    std::vector<GroundCorner> road;
+    std::vector<GroundCorner> verge;
+    std::vector<GroundCorner> edge;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Corner& a = corners[i];
-      const Corner& b = corners[(i + 1) % 4];
+      const GroundCorner& a = corners[i];
+      const GroundCorner& b = corners[(i + 1) % 4];
       (a.distance < 0.0 ? road : verge).push_back(a);
       if ((a.distance < 0.0) == (b.distance < 0.0)) continue;
       const double t = a.distance / (a.distance - b.distance);
-      const Corner cut{a.p + t * (b.p - a.p), 0.0, a.height + t * (b.height - a.height)};
+      const GroundCorner cut{a.p + t * (b.p - a.p), 0.0, a.height + t * (b.height - a.height)};
       road.push_back(cut);
       verge.push_back(cut);
       edge.push_back(cut);
     }
     AddFan(road, 0.0, options_.road);
     double middle = 0.0;
-    for (const Corner& c : corners) middle += 0.25 * c.distance;
+    for (const GroundCorner& c : corners) middle += 0.25 * c.distance;
     AddFan(verge, options_.kerb_m,
            middle < options_.pavement_m ? options_.pavement : options_.beyond);
     for (std::size_t i = 0; i + 1 < edge.size() && options_.kerb_m > 0.0; i += 2) {
@@ -81,8 +81,10 @@ class GroundWriter {
   }
 
  private:
-  static Vector3 At(const Corner& c, double raise) { return {c.p.x(), c.p.y(), c.height + raise}; }
-  void AddFan(const std::vector<Corner>& polygon, double raise, Material material) {
+  static Vector3 At(const GroundCorner& c, double raise) {
+    return {c.p.x(), c.p.y(), c.height + raise};
+  }
+  void AddFan(const std::vector<GroundCorner>& polygon, double raise, Material material) {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       AddTriangle(mesh_, At(polygon[0], raise), At(polygon[i], raise), At(polygon[i + 1], raise),
                   material);
@@ -101,22 +103,22 @@ void ForEachCell(const Terrain& terrain, const RoadNetwork& network, double cell
   const auto nx = static_cast<std::size_t>((bounds.high.x() - bounds.low.x()) / cell_m) + 1;
   const auto ny = static_cast<std::size_t>((bounds.high.y() - bounds.low.y()) / cell_m) + 1;
   const auto make_row = [&](std::size_t iy) {
-    std::vector<Corner> row(nx + 1);
+    std::vector<GroundCorner> row(nx + 1);
     for (std::size_t ix = 0; ix <= nx; ++ix) {
-      Corner& c = row[ix];
+      GroundCorner& c = row[ix];
       c.p = bounds.low + cell_m * Vector2(static_cast<double>(ix), static_cast<double>(iy));
       c.distance = network.SignedDistance(c.p);
       c.height = c.distance < reach_m ? terrain.Height(c.p) : 0.0;
     }
     return row;
   };
-  std::vector<Corner> below = make_row(0);
+  std::vector<GroundCorner> below = make_row(0);
   for (std::size_t iy = 0; iy < ny; ++iy) {
-    std::vector<Corner> above = make_row(iy + 1);
+    std::vector<GroundCorner> above = make_row(iy + 1);
     for (std::size_t ix = 0; ix < nx; ++ix) {
-      const std::array<Corner, 4> cell = {below[ix], below[ix + 1], above[ix + 1], above[ix]};
+      const std::array<GroundCorner, 4> cell = {below[ix], below[ix + 1], above[ix + 1], above[ix]};
       const bool near = std::all_of(cell.begin(), cell.end(),
-                                    [&](const Corner& c) { return c.distance < reach_m; });
+                                    [&](const GroundCorner& c) { return c.distance < reach_m; });
       if (near) add(cell);
     }
     below = std::move(above);
@@ -167,11 +169,11 @@ void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
                const GroundOptions& options) {
   GroundWriter writer(mesh, options);
   ForEachCell(terrain, network, options.cell_m, options.reach_m,
-              [&](const std::array<Corner, 4>& cell) { writer.AddCell(cell); });
-  const auto far = [&](std::array<Corner, 4> cell) {
+              [&](const std::array<GroundCorner, 4>& cell) { writer.AddCell(cell); });
+  const auto far = [&](std::array<GroundCorner, 4> cell) {
     const double inner = options.reach_m - 2.0 * kCoarseCell_m;
     if (std::all_of(cell.begin(), cell.end(),
-                    [&](const Corner& c) { return c.distance < inner; })) {
+                    [&](const GroundCorner& c) { return c.distance < inner; })) {
       return;
     }
     std::array<Vector3, 4> p;

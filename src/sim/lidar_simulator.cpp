@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "lio/sim/random.hpp"
 #include "sim/polished.hpp"
 #include "sweep_caster.hpp"
@@ -15,8 +15,6 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr float kEdge_m = 0.12f;  // a larger step in range is an edge, not a slope
 constexpr double kMaxGrazingBias_m = 0.04;
 
 // Holds two numbers made from one word.
@@ -32,7 +30,7 @@ Pair Halves(std::uint64_t bits) {
 float GaussianFrom(std::uint64_t bits) {
   const Pair u = Halves(bits);
   return std::sqrt(-2.0f * std::log(static_cast<float>(u.a))) *
-         std::cos(static_cast<float>(kTurn * u.b));
+         std::cos(static_cast<float>(kTurn_rad * u.b));
 }
 
 Vector3 Direction(double elevation_rad, double azimuth_rad) {
@@ -50,7 +48,7 @@ LidarPoint PointAt(double range_m, const Vector3& direction) {
 
 bool IsInView(const LidarModel& model, const Vector3& direction) {
   const double azimuth_rad = std::atan2(direction.y(), direction.x()) - model.view_azimuth_rad;
-  return std::abs(std::remainder(azimuth_rad, kTurn)) <= 0.5 * model.view_rad;
+  return std::abs(std::remainder(azimuth_rad, kTurn_rad)) <= 0.5 * model.view_rad;
 }
 
 const Dust* DustAt(const std::vector<Dust>& clouds, double t_s) {
@@ -75,7 +73,8 @@ LidarSimulator::LidarSimulator(LidarSetup setup, const Scene& scene, const Traje
   const LidarModel& model = setup_.model;
   Random random(setup_.seed, Purpose::kLaser);
   for (const Beam& beam : model.beams) {
-    const double azimuth = beam.azimuth_offset_rad - kTurn * model.rotation_hz * beam.fire_time_s;
+    const double azimuth =
+        beam.azimuth_offset_rad - kTurn_rad * model.rotation_hz * beam.fire_time_s;
     const double off_elevation = setup_.errors.beam_table_std_rad * random.Gaussian();
     const double off_azimuth = setup_.errors.beam_table_std_rad * random.Gaussian();
     table_directions_.push_back(Direction(beam.elevation_rad, azimuth));
@@ -128,12 +127,12 @@ Echo LidarSimulator::GuessStraddling(const Cast& cast, std::size_t index, std::u
   if (!std::isfinite(other.range_m)) return unmixed;
   // 0: the edge is here, 1: it is at the other.
   const double edge_at = across.a < 0.5 ? 2.0 * across.a : 2.0 * across.a - 1.0;
-  const double spacing_rad = kTurn * model.rotation_hz * model.column_period_s;
+  const double spacing_rad = kTurn_rad * model.rotation_hz * model.column_period_s;
   const double depth = 0.5 * model.beam_width_horizontal_rad / spacing_rad;
   const float gap = other.range_m - hit.range_m;
   const float slope =
       hit.range_m * static_cast<float>(spacing_rad) / std::max(0.1f, hit.cos_incidence);
-  if (edge_at > depth || std::abs(gap) < kEdge_m + 2.0f * slope) return unmixed;
+  if (edge_at > depth || std::abs(gap) < kRangeEdge_m + 2.0f * slope) return unmixed;
   const float share = 0.5f * static_cast<float>(1.0 - edge_at / depth);
   const InBetween& rule = setup_.errors.in_between;
   if (std::abs(gap) < kMergedEchoes_m || (std::abs(gap) < rule.reach_m && across.b < rule.chance)) {

@@ -3,25 +3,21 @@
 #include "sim/movers.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
+
 namespace lio::sim {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
 
 void AddWalker(World& world, Random& random, double speed_mps,
                const std::function<Pose(double t_s)>& body) {
   world.shapes.push_back(MakeTorso(random));
   world.movers.push_back({world.shapes.size() - 1, body});
   world.shapes.push_back(MakeLeg());
-  const double phase = random.Uniform(0.0, 2.0 * kPi);
+  const double phase = random.Uniform(0.0, kTurn_rad);
   for (const double side : {-1.0, 1.0}) {
     const auto leg = [=](double t_s) {
-      const double swing = 0.45 * side * std::sin(2.0 * kPi * (speed_mps / 1.5) * t_s + phase);
+      const double swing = 0.45 * side * std::sin(kTurn_rad * (speed_mps / 1.5) * t_s + phase);
       const Pose T_body_leg{Quaternion(Eigen::AngleAxisd(swing, Vector3::UnitY())),
                             {0.0, 0.1 * side, kHipHeight_m}};
       return body(t_s) * T_body_leg;

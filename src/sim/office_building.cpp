@@ -7,12 +7,13 @@
 #include <numbers>
 #include <span>
 
+#include "sim/unturned_pose.hpp"
+
 namespace lio::sim {
 namespace {
 
 using Shape = OfficeShape;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kClear_m = Shape::kStorey_m - Shape::kSlab_m;
 constexpr double kOuterWall_m = 0.3;
 constexpr double kStairWall_m = 0.2;
@@ -32,10 +33,6 @@ constexpr std::array<Rooms, 2> kRooms = {{
     {1.0, {Shape::kLowDoor_m, 10.5, 16.5, 22.0}, {7.5, 13.5, 19.5, Shape::kLength_m}},
     {-1.0, {Shape::kHighDoor_m, 12.0, 18.0, 22.5}, {9.0, 15.0, 21.0, Shape::kLength_m}},
 }};
-
-Pose At(double x, double y, double z) {
-  return UprightPose({x, y, z}, 0.0);
-}
 
 // An opening in a wall: its extent along the wall and its height.
 struct Opening {
@@ -84,7 +81,7 @@ void AddWall(Mesh& mesh, const Wall& wall, std::span<const Opening> openings) {
 // Adds the leaf of a door that nobody walks through: every third one stands open.
 void AddLeaf(Mesh& mesh, const Rooms& rooms, std::size_t index, double z) {
   const double hinge_m = rooms.doors_m[index] - 0.5 * Shape::kDoorWidth_m;
-  const double heading = index % 3 == 1 ? rooms.side * 0.55 * kPi : 0.0;
+  const double heading = index % 3 == 1 ? rooms.side * 0.55 * std::numbers::pi : 0.0;
   AddMesh(mesh, MakeDoorLeaf(), UprightPose({hinge_m, rooms.side * kRoomWall_m, z}, heading));
 }
 
@@ -133,7 +130,7 @@ void AddDesk(Mesh& mesh, const Pose& desk, Random& random) {
 void AddFurniture(Mesh& mesh, const Rooms& rooms, std::size_t index, double z, Random& random) {
   const double begin_m = (index == 0 ? 0.0 : rooms.ends_m[index - 1]) + 0.3;
   const double end_m = rooms.ends_m[index] - 0.3;
-  const double heading = rooms.side > 0.0 ? 0.0 : kPi;
+  const double heading = rooms.side > 0.0 ? 0.0 : std::numbers::pi;
   for (double x = begin_m + 0.9; x + 0.9 < end_m; x += random.Uniform(1.8, 2.6)) {
     AddDesk(mesh, UprightPose({x, rooms.side * (kRoomFar_m - 0.55), z}, heading), random);
   }

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lio/base/angle.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/sim/random.hpp"
 #include "lio/sim/scene.hpp"
@@ -18,7 +19,6 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr float kFar_m = 4000.0f;
 constexpr float kOff_m = 0.03f;     // secondary rays start this far off the surface
 constexpr float kOpenSky_m = 6.0f;  // surfaces nearer than this shade others from the sky
@@ -71,8 +71,8 @@ double Extent(const std::vector<Vector3>& way) {
 Camera MakeCamera(const Scenario& scenario, const std::vector<Vector3>& way,
                   const PictureOptions& options) {
   Camera camera;
-  const double azimuth = kRadians * options.azimuth_deg;
-  const double elevation = kRadians * options.elevation_deg;
+  const double azimuth = kRadPerDeg * options.azimuth_deg;
+  const double elevation = kRadPerDeg * options.elevation_deg;
   const Vector3 out(std::cos(elevation) * std::cos(azimuth),
                     std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   camera.into = -out;

@@ -3,14 +3,12 @@
 #include "sim/props.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
+#include "sim/unturned_pose.hpp"
 
 namespace lio::sim {
 namespace {
-
-Pose At(double x, double y, double z) {
-  return {Quaternion::Identity(), {x, y, z}};
-}
 
 // Adds a tapering bar of square section, such as a person's limb.
 void AddLimb(Mesh& mesh, const Vector3& from, const Vector3& to, double from_radius,
@@ -20,7 +18,7 @@ void AddLimb(Mesh& mesh, const Vector3& from, const Vector3& to, double from_rad
 
 Vector3 RandomDirection(Random& random) {
   const double z = random.Uniform(-1.0, 1.0);
-  const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
+  const double angle = random.Uniform(0.0, kTurn_rad);
   const double r = std::sqrt(1.0 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
@@ -88,7 +86,7 @@ Mesh MakeTree(double height_m, Random& random) {
   const double width = crown * random.Uniform(0.75, 1.1);
   const int num_boughs = random.Integer(4, 6);
   for (int i = 0; i < num_boughs; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + random.Uniform(0.0, 0.7)) / num_boughs;
+    const double angle = kTurn_rad * (i + random.Uniform(0.0, 0.7)) / num_boughs;
     const Vector3 tip = fork + Vector3(0.7 * width * std::cos(angle), 0.7 * width * std::sin(angle),
                                        crown * random.Uniform(0.5, 1.2));
     AddBar(mesh, fork, tip, 0.6 * radius, 0.15 * radius, 5, Material::kBark);

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/sim/random.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // The controller hunts slowly, and disturbances pass within a few turns. Chosen.
 constexpr std::array<std::array<double, 2>, 2> kWobble_hz = {{{0.2, 0.6}, {1.0, 3.0}}};
 
@@ -23,8 +23,8 @@ Matrix3 DeflectedBy(const Rosette& rosette, double middle_rad, double t_s) {
   double left_rad = middle_rad;
   double up_rad = 0.0;
   for (const double prism_hz : rosette.prism_hz) {
-    left_rad += rosette.deflection_rad * std::cos(kTurn * prism_hz * t_s);
-    up_rad += rosette.deflection_rad * std::sin(kTurn * prism_hz * t_s);
+    left_rad += rosette.deflection_rad * std::cos(kTurn_rad * prism_hz * t_s);
+    up_rad += rosette.deflection_rad * std::sin(kTurn_rad * prism_hz * t_s);
   }
   return AboutZ(left_rad) * Eigen::AngleAxisd(-up_rad, Vector3::UnitY()).toRotationMatrix();
 }
@@ -43,12 +43,12 @@ Rotor::Rotor(const LidarModel& model, const RotorErrors& errors, std::uint64_t s
   for (std::size_t i = 0; i < waves_.size(); ++i) {
     Wave& wave = waves_[i];
     wave.frequency_hz = random.Uniform(kWobble_hz[i][0], kWobble_hz[i][1]);
-    wave.phase_rad = random.Uniform(0.0, kTurn);
+    wave.phase_rad = random.Uniform(0.0, kTurn_rad);
     // Two waves of this amplitude in speed have that spread together.
-    wave.amplitude_turns = errors.speed_std_ratio * rotation_hz_ / (kTurn * wave.frequency_hz);
+    wave.amplitude_turns = errors.speed_std_ratio * rotation_hz_ / (kTurn_rad * wave.frequency_hz);
   }
   encoder_rad_ = std::numbers::sqrt2 * errors.encoder_std_rad;
-  encoder_phase_rad_ = random.Uniform(0.0, kTurn);
+  encoder_phase_rad_ = random.Uniform(0.0, kTurn_rad);
 }
 
 double Rotor::ColumnTime(std::int64_t column) const {
@@ -59,7 +59,7 @@ double Rotor::TurnsAt(double t_s) const {
   double turns = (t_s - begin_s_) * rotation_hz_;
   if (!wobbles_) return turns;
   for (const Wave& wave : waves_) {
-    const double angle = kTurn * wave.frequency_hz * (t_s - begin_s_) + wave.phase_rad;
+    const double angle = kTurn_rad * wave.frequency_hz * (t_s - begin_s_) + wave.phase_rad;
     turns += wave.amplitude_turns * (std::sin(angle) - std::sin(wave.phase_rad));
   }
   return turns;
@@ -67,7 +67,7 @@ double Rotor::TurnsAt(double t_s) const {
 
 double Rotor::HeadingAt(double t_s) const {
   const double turns = TurnsAt(t_s);
-  return cut_azimuth_rad_ - kTurn * (turns - std::floor(turns));
+  return cut_azimuth_rad_ - kTurn_rad * (turns - std::floor(turns));
 }
 
 double Rotor::ReportedHeadingAt(double t_s) const {

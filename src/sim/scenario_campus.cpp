@@ -10,27 +10,27 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfWay_m = 1.9;  // half the footpath's width
-constexpr double kLength_m = 62.0;  // length of the way around the lawn
-constexpr double kWidth_m = 38.0;
-constexpr double kKnot_s = 0.2;
+constexpr double kHalfWay_m = 1.9;      // half the footpath's width
+constexpr double kLawnLength_m = 62.0;  // length of the way around the lawn
+constexpr double kLawnWidth_m = 38.0;
+constexpr double kCampusKnot_s = 0.2;
 
 Path WayAroundLawn() {
   return Path::Rounded({{0.0, 0.0},
-                        {0.5 * kLength_m, 0.0},
-                        {0.5 * kLength_m, 0.42 * kWidth_m},
-                        {0.5 * kLength_m - 9.0, 0.6 * kWidth_m},
-                        {0.5 * kLength_m - 9.0, kWidth_m},
-                        {-0.5 * kLength_m, kWidth_m},
-                        {-0.5 * kLength_m, 0.0}},
+                        {0.5 * kLawnLength_m, 0.0},
+                        {0.5 * kLawnLength_m, 0.42 * kLawnWidth_m},
+                        {0.5 * kLawnLength_m - 9.0, 0.6 * kLawnWidth_m},
+                        {0.5 * kLawnLength_m - 9.0, kLawnWidth_m},
+                        {-0.5 * kLawnLength_m, kLawnWidth_m},
+                        {-0.5 * kLawnLength_m, 0.0}},
                        2.6, true);
 }
 
 // Adds columns and a roof over the northern side of the way.
 void AddArcade(World& world, const Town& town) {
-  const double y = kWidth_m;
-  const double from = -0.5 * kLength_m + 6.0;
-  const double to = 0.5 * kLength_m - 16.0;
+  const double y = kLawnWidth_m;
+  const double from = -0.5 * kLawnLength_m + 6.0;
+  const double to = 0.5 * kLawnLength_m - 16.0;
   const double floor = town.GroundHeight({0.5 * (from + to), y});
   for (double x = from; x <= to; x += 3.6) {
     for (const double side : {-2.1, 2.1}) {
@@ -66,13 +66,13 @@ void AddBicycles(Town& town, const Vector2& at, int num) {
 
 void AddLawn(World& world, Town& town) {
   Random& random = town.random();
-  const Vector2 middle(-4.0, 0.5 * kWidth_m);
+  const Vector2 middle(-4.0, 0.5 * kLawnWidth_m);
   Mesh basin;  // a fountain
   AddBar(basin, {0, 0, -0.2}, {0, 0, 0.55}, 3.0, 3.0, 24, Material::kConcrete);
   AddBar(basin, {0, 0, 0.5}, {0, 0, 2.2}, 0.5, 0.25, 12, Material::kConcrete);
   if (town.Reserve(middle, 0.0, {6.2, 6.2}, 1.0)) town.Place(basin, middle, 0.0);
   for (int i = 0; i < 26; ++i) {
-    const Vector2 p(random.Uniform(-26.0, 22.0), random.Uniform(5.0, kWidth_m - 5.0));
+    const Vector2 p(random.Uniform(-26.0, 22.0), random.Uniform(5.0, kLawnWidth_m - 5.0));
     const Mesh tree = MakeTree(random.Uniform(6.0, 11.0), random);
     const Mesh person = MakePerson(random);
     if (i % 3 == 0) {
@@ -144,8 +144,8 @@ Scenario MakeCampus(const ScenarioOptions& options) {
   response.half_wheelbase_m = 0.0;
   response.lively_speed_mps = 1.2;
   MotionPlan plan;
-  plan.knot_interval_s = kKnot_s;
-  plan.knots = FollowDrive(way, drive, HeightOf(terrain), response, kKnot_s, planned_s);
+  plan.knot_interval_s = kCampusKnot_s;
+  plan.knots = FollowDrive(way, drive, HeightOf(terrain), response, kCampusKnot_s, planned_s);
   plan.oscillations = WalkOscillations(options.seed);
   MountOnPerson(scenario, std::move(plan));
   scenario.ceiling_m = 1e9;

@@ -7,12 +7,13 @@
 #include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "scenario_parts.hpp"
+#include "sim/unturned_pose.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStraight_m =
     56.0;                          // length of the aisles, which begin at x = 0 at y = 0 and y = 18
 constexpr double kRadius_m = 9.0;  // radius of the turns; the western one climbs
@@ -23,16 +24,16 @@ constexpr double kEast_m = kStraight_m + kRadius_m + 4.0;
 constexpr double kSouth_m = -9.0;
 constexpr double kNorth_m = 2.0 * kRadius_m + 9.0;
 constexpr double kStart_m = 6.0;  // start of the drive on the first aisle
-constexpr double kLap_m = 2.0 * kStraight_m + 2.0 * kPi * kRadius_m;
-constexpr double kRampFrom_m = 2.0 * kStraight_m + kPi * kRadius_m;
+constexpr double kLap_m = 2.0 * kStraight_m + kTurn_rad * kRadius_m;
+constexpr double kRampFrom_m = 2.0 * kStraight_m + std::numbers::pi * kRadius_m;
 
 Path Aisles(int num_laps) {
   Path path({0.0, 0.0}, 0.0);
   for (int i = 0; i < num_laps; ++i) {
     path.AddStraight(kStraight_m);
-    path.AddArc(kRadius_m, kPi);
+    path.AddArc(kRadius_m, std::numbers::pi);
     path.AddStraight(kStraight_m);
-    path.AddArc(kRadius_m, kPi);
+    path.AddArc(kRadius_m, std::numbers::pi);
   }
   return path.Cut(kStart_m, path.length_m());
 }
@@ -41,18 +42,15 @@ double HeightAlong(double along_m) {
   const double laps = (along_m + kStart_m) / kLap_m;
   const double whole = std::floor(laps);
   const double in_lap_m = (laps - whole) * kLap_m;
-  return kStorey_m * (whole + std::clamp((in_lap_m - kRampFrom_m) / (kPi * kRadius_m), 0.0, 1.0));
-}
-
-Pose At(double x, double y, double z) {
-  return UprightPose({x, y, z}, 0.0);
+  return kStorey_m *
+         (whole + std::clamp((in_lap_m - kRampFrom_m) / (std::numbers::pi * kRadius_m), 0.0, 1.0));
 }
 
 // Adds the curved ramp up from a storey: its surface, underside and parapets.
 void AddRamp(Mesh& mesh, double z) {
   constexpr int kPieces = 28;
   const auto at = [&](int i, double radius, double up) {
-    const double angle = kPi * (0.5 + static_cast<double>(i) / kPieces);
+    const double angle = std::numbers::pi * (0.5 + static_cast<double>(i) / kPieces);
     return Vector3(radius * std::cos(angle), kRadius_m + radius * std::sin(angle),
                    z + kStorey_m * i / kPieces + up);
   };
@@ -74,7 +72,8 @@ void AddParkedRow(Mesh& mesh, double y, double z, double heading, Random& random
   for (double x = 5.0; x < kStraight_m + 2.0; x += 2.6) {
     const VehicleKind kind = random.Chance(0.1) ? VehicleKind::kVan : VehicleKind::kCar;
     const Mesh car = MakeVehicle(kind, random);
-    const double turned = heading + (random.Chance(0.4) ? kPi : 0.0) + 0.02 * random.Gaussian();
+    const double turned =
+        heading + (random.Chance(0.4) ? std::numbers::pi : 0.0) + 0.02 * random.Gaussian();
     const double in_bay = y + random.Uniform(-0.25, 0.25);
     if (std::fmod(x, 8.0) < 1.2 || !random.Chance(0.62))
       continue;  // a column stands here, or the place is free
@@ -127,7 +126,7 @@ void AddStorey(World& world, int storey, bool has_ceiling, Random& random) {
   }
   AddStructure(mesh, z, has_ceiling, random);
   for (const double y : {-6.2, 6.4, 11.6, 24.2}) {
-    AddParkedRow(mesh, y, z, 0.5 * kPi, random);
+    AddParkedRow(mesh, y, z, 0.5 * std::numbers::pi, random);
     for (double x = 3.7; x < kStraight_m + 3.0; x += 2.6) {
       AddBox(mesh, At(x, y, z - 0.002), {0.09, 4.6, 0.006}, Material::kMarking);
     }
@@ -142,7 +141,7 @@ void AddStorey(World& world, int storey, bool has_ceiling, Random& random) {
       const double round_m = std::fmod(speed_mps * t_s, 4.0 * reach_m);
       const bool back = round_m > 2.0 * reach_m;
       const double at_m = back ? 4.0 * reach_m - round_m : round_m;
-      return UprightPose({x - reach_m + at_m, y, z}, back ? kPi : 0.0);
+      return UprightPose({x - reach_m + at_m, y, z}, back ? std::numbers::pi : 0.0);
     });
   }
 }

@@ -11,10 +11,9 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kLength_m = 224.0;  // length of the block between road middles
-constexpr double kWidth_m = 132.0;
-constexpr double kHalfRoad_m = 5.4;
-constexpr double kLane_m = 1.7;
+constexpr double kBlockLength_m = 224.0;  // length of the block between road middles
+constexpr double kBlockWidth_m = 132.0;
+constexpr double kHalfBlockRoad_m = 5.4;
 constexpr double kBeyond_m = 90.0;  // length of the streets beyond the crossings
 constexpr double kEndRest_s = 2.0;
 
@@ -22,21 +21,21 @@ constexpr double kEndRest_s = 2.0;
 // of a long side.
 Path BlockPath() {
   return Path::Rounded({{0.0, 0.0},
-                        {0.5 * kLength_m, 0.0},
-                        {0.5 * kLength_m, -kWidth_m},
-                        {-0.5 * kLength_m, -kWidth_m},
-                        {-0.5 * kLength_m, 0.0}},
+                        {0.5 * kBlockLength_m, 0.0},
+                        {0.5 * kBlockLength_m, -kBlockWidth_m},
+                        {-0.5 * kBlockLength_m, -kBlockWidth_m},
+                        {-0.5 * kBlockLength_m, 0.0}},
                        9.2, true);
 }
 
 std::vector<Road> BlockRoads() {
-  const double x = 0.5 * kLength_m;
+  const double x = 0.5 * kBlockLength_m;
   const double x_end = x + kBeyond_m;
-  const double y_end = kWidth_m + kBeyond_m;
-  return {{{{-x_end, 0.0}, {x_end, 0.0}}, kHalfRoad_m},
-          {{{-x_end, -kWidth_m}, {x_end, -kWidth_m}}, kHalfRoad_m},
-          {{{-x, kBeyond_m}, {-x, -y_end}}, kHalfRoad_m},
-          {{{x, kBeyond_m}, {x, -y_end}}, kHalfRoad_m}};
+  const double y_end = kBlockWidth_m + kBeyond_m;
+  return {{{{-x_end, 0.0}, {x_end, 0.0}}, kHalfBlockRoad_m},
+          {{{-x_end, -kBlockWidth_m}, {x_end, -kBlockWidth_m}}, kHalfBlockRoad_m},
+          {{{-x, kBeyond_m}, {-x, -y_end}}, kHalfBlockRoad_m},
+          {{{x, kBeyond_m}, {x, -y_end}}, kHalfBlockRoad_m}};
 }
 
 void AddSide(Town& town, const Road& road, int character) {
@@ -51,7 +50,7 @@ void AddSide(Town& town, const Road& road, int character) {
   row.gap_chance = character == 2 ? 0.3 : 0.1;
   for (const bool left : {true, false}) {
     const auto frontage = [&](double offset_m) {
-      return Frontage{6.0, path.length_m() - 6.0, kHalfRoad_m + offset_m, left};
+      return Frontage{6.0, path.length_m() - 6.0, kHalfBlockRoad_m + offset_m, left};
     };
     town.AddLamps(path, frontage(0.6), 30.0);
     if (character != 1) town.AddTrees(path, frontage(1.0), character == 2 ? 10.0 : 19.0, 7.5);
@@ -73,7 +72,7 @@ void AddCourtyard(Town& town) {
 
 // Adds cars that go round and round in the oncoming lane.
 void AddOncoming(World& world, const Path& block, const HeightFunction& height, Random& random) {
-  const Path lane = block.Shifted(kLane_m).Reversed();
+  const Path lane = block.Shifted(kTownLane_m).Reversed();
   const double lap_m = lane.length_m();
   for (double start_m = 20.0; start_m < lap_m - 12.0; start_m += random.Uniform(35.0, 90.0)) {
     const VehicleKind kind = random.Chance(0.2) ? VehicleKind::kVan : VehicleKind::kCar;
@@ -89,8 +88,8 @@ Drive PlanLaps(const Path& lap, int num_laps) {
   std::vector<Stop> stops;
   for (int i = 0; i < num_laps; ++i) {
     const double from_m = i * lap.length_m();
-    stops.push_back({from_m + 0.5 * kLength_m - 16.0, 3.0});
-    stops.push_back({from_m + 1.5 * kLength_m + kWidth_m - 22.0, 2.0});
+    stops.push_back({from_m + 0.5 * kBlockLength_m - 16.0, 3.0});
+    stops.push_back({from_m + 1.5 * kBlockLength_m + kBlockWidth_m - 22.0, 2.0});
   }
   return Drive(lap.Repeated(num_laps), limits, stops, kStartRest_s);
 }
@@ -107,11 +106,11 @@ Scenario MakeLoop(const ScenarioOptions& options) {
   const Terrain terrain(shape, random);
   const std::vector<Road> roads = BlockRoads();
   Town town(scenario.world, terrain, RoadNetwork(roads), {}, options.seed);
-  for (const double lane_m : {-kLane_m, kLane_m}) town.KeepClear(block.Shifted(lane_m), 2.3);
+  for (const double side : {-1.0, 1.0}) town.KeepClear(block.Shifted(side * kTownLane_m), 2.3);
   for (std::size_t i = 0; i < roads.size(); ++i) AddSide(town, roads[i], static_cast<int>(i));
   AddCourtyard(town);
 
-  const Path lap = block.Shifted(-kLane_m);
+  const Path lap = block.Shifted(-kTownLane_m);
   int num_laps = 1;
   auto drive = std::make_shared<const Drive>(PlanLaps(lap, num_laps));
   scenario.duration_s = options.duration_s.value_or(drive->duration_s() + kEndRest_s);

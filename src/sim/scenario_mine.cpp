@@ -4,18 +4,17 @@
 // with blind drifts on both sides and dust in the air.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "carrier.hpp"
 #include "isosurface.hpp"
+#include "lio/base/angle.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHalfWidth_m = 1.7;
-constexpr double kHeight_m = 2.9;
+constexpr double kHalfGallery_m = 1.7;
+constexpr double kGalleryHeight_m = 2.9;
 constexpr double kRounding_m = 0.9;  // of the corners between walls, roof and floor
 constexpr double kCell_m = 0.22;
 
@@ -34,8 +33,8 @@ class Roughness {
       const double length_m = 0.5 * std::pow(10.0, static_cast<double>(i) / (kWaves - 1));
       const Vector3 direction =
           Vector3(random.Gaussian(), random.Gaussian(), random.Gaussian()).normalized();
-      waves_.push_back({2.0 * kPi / length_m * direction, 0.035 * std::pow(length_m, 0.7),
-                        random.Uniform(0.0, 2.0 * kPi)});
+      waves_.push_back({kTurn_rad / length_m * direction, 0.035 * std::pow(length_m, 0.7),
+                        random.Uniform(0.0, kTurn_rad)});
     }
   }
   double At(const Vector3& p_m) const {
@@ -97,8 +96,8 @@ class Galleries {
  private:
   // Returns the distance from a rounded rectangle that stands on z = 0.
   static double Section(double beside_m, double z_m) {
-    const double x = beside_m - kHalfWidth_m + kRounding_m;
-    const double z = std::abs(z_m - 0.5 * kHeight_m) - 0.5 * kHeight_m + kRounding_m;
+    const double x = beside_m - kHalfGallery_m + kRounding_m;
+    const double z = std::abs(z_m - 0.5 * kGalleryHeight_m) - 0.5 * kGalleryHeight_m + kRounding_m;
     const double outside_m = std::hypot(std::max(x, 0.0), std::max(z, 0.0));
     return outside_m + std::min(std::max(x, z), 0.0) - kRounding_m;
   }
@@ -120,7 +119,7 @@ Path Way(double length_m, Random& random) {
 }
 
 double LevelAt(double along_m) {
-  return 1.1 * std::sin(2.0 * kPi * along_m / 75.0);
+  return 1.1 * std::sin(kTurn_rad * along_m / 75.0);
 }
 
 void AddGallery(Galleries& galleries, const Path& way) {

@@ -12,22 +12,22 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 16.0;  // half the width of both carriageways
+constexpr double kHalfMotorway_m = 16.0;  // half the width of both carriageways
 constexpr double kShoulder_m =
     -14.2;  // this and the next are offsets to the left of the road's middle
 constexpr double kSlowLane_m = -11.0;
 constexpr double kOwnLane_m = -7.4;
 constexpr double kFastLane_m = -3.8;
-constexpr double kBefore_m = 150.0;
-constexpr double kSpeed_mps = 28.0;
+constexpr double kMotorwayBefore_m = 150.0;
+constexpr double kMotorwaySpeed_mps = 28.0;
 constexpr double kMergeFrom_m = 90.0;  // begin of the lane change from the shoulder, along the way
 constexpr double kMergeTo_m = 330.0;
 
 Path Carriageway(double length_m, Random& random) {
-  Path path({-kBefore_m, 0.0}, 0.0);
-  path.AddStraight(kBefore_m + 200.0);
+  Path path({-kMotorwayBefore_m, 0.0}, 0.0);
+  path.AddStraight(kMotorwayBefore_m + 200.0);
   double turn = random.Chance(0.5) ? 1.0 : -1.0;
-  while (path.length_m() < length_m + 2.0 * kBefore_m) {
+  while (path.length_m() < length_m + 2.0 * kMotorwayBefore_m) {
     path.AddArc(random.Uniform(600.0, 900.0), turn * random.Uniform(0.15, 0.35));
     path.AddStraight(random.Uniform(80.0, 250.0));
     turn = -turn;
@@ -93,11 +93,11 @@ void AddFurniture(World& world, Town& town, const Path& road) {
     town.Place(MakeStreetLamp(11.0, 2.5), p.position_m, p.heading_rad + 1.5708);
     town.Place(MakeStreetLamp(11.0, 2.5), p.position_m, p.heading_rad - 1.5708);
   }
-  for (double s = kBefore_m + 260.0; s < end_m; s += random.Uniform(350.0, 550.0)) {
+  for (double s = kMotorwayBefore_m + 260.0; s < end_m; s += random.Uniform(350.0, 550.0)) {
     const PathPoint p = road.At(s);
     AddBridge(world.fixed, p, town.GroundHeight(p.position_m));
   }
-  for (double s = kBefore_m + 120.0; s < end_m; s += random.Uniform(400.0, 700.0)) {
+  for (double s = kMotorwayBefore_m + 120.0; s < end_m; s += random.Uniform(400.0, 700.0)) {
     const PathPoint p = road.At(s);
     AddGantry(world.fixed, p, town.GroundHeight(p.position_m));
   }
@@ -142,7 +142,7 @@ void AddTraffic(World& world, const Path& road, const Drive& drive, double durat
     for (double t_s = 0.0; t_s < duration_s; t_s += 0.25) {
       const double own_m = drive.DistanceAt(t_s);
       if (own_m < kMergeFrom_m - 30.0 || own_m > kMergeTo_m + 30.0) continue;
-      if (std::abs(start_m + 23.0 * t_s - kBefore_m - own_m) < 25.0) return false;
+      if (std::abs(start_m + 23.0 * t_s - kMotorwayBefore_m - own_m) < 25.0) return false;
     }
     return true;
   };
@@ -165,7 +165,7 @@ Scenario MakeMotorway(const ScenarioOptions& options) {
   scenario.duration_s = options.duration_s.value_or(60.0);
   const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 6);
-  const Path road = Carriageway(kSpeed_mps * planned_s, random);
+  const Path road = Carriageway(kMotorwaySpeed_mps * planned_s, random);
   Terrain::Shape shape;
   shape.slope_ratio = {random.Uniform(-0.01, 0.01), random.Uniform(-0.01, 0.01)};
   shape.hill_m = 1.5;
@@ -177,14 +177,14 @@ Scenario MakeMotorway(const ScenarioOptions& options) {
   ground.far_reach_m = 200.0;
   ground.kerb_m = 0.0;
   ground.pavement_m = 0.0;
-  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(20.0), kHalfRoad_m}}), ground,
+  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(20.0), kHalfMotorway_m}}), ground,
             options.seed);
   AddFurniture(scenario.world, town, road);
 
   const HeightFunction height = HeightOf(terrain);
-  const Path shoulder = road.Shifted(kShoulder_m).Cut(kBefore_m, 1e9);
+  const Path shoulder = road.Shifted(kShoulder_m).Cut(kMotorwayBefore_m, 1e9);
   DriveLimits limits;
-  limits.speed_mps = kSpeed_mps;
+  limits.speed_mps = kMotorwaySpeed_mps;
   limits.accel_mps2 = 2.2;
   const Drive drive(shoulder, limits, {}, kStartRest_s);
   MotionPlan plan;

@@ -17,21 +17,22 @@ namespace {
 
 using Shape = OfficeShape;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kKnot_s = 0.1;
-constexpr double kLane_m = 0.7;  // |y| of the walk on the stairs
+constexpr double kStairLane_m = 0.7;  // |y| of the walk on the stairs
 constexpr double kCorner_m = 0.6;
 
 // Returns the way from the room below to the middle of the room above.
 std::vector<Vector2> WayUp() {
   constexpr double kTurn_m = -5.0;  // x of the turns on half-landings
-  std::vector<Vector2> way = {
-      {6.6, 3.0}, {Shape::kLowDoor_m, 3.0}, {Shape::kLowDoor_m, 0.0}, {0.2, 0.0}, {-1.6, -kLane_m}};
+  std::vector<Vector2> way = {{6.6, 3.0},
+                              {Shape::kLowDoor_m, 3.0},
+                              {Shape::kLowDoor_m, 0.0},
+                              {0.2, 0.0},
+                              {-1.6, -kStairLane_m}};
   for (int storey = 0; storey + 1 < Shape::kNumStoreys; ++storey) {
-    if (storey > 0) way.insert(way.end(), {{-1.0, kLane_m}, {-1.0, -kLane_m}});
-    way.insert(way.end(), {{kTurn_m, -kLane_m}, {kTurn_m, kLane_m}});
+    if (storey > 0) way.insert(way.end(), {{-1.0, kStairLane_m}, {-1.0, -kStairLane_m}});
+    way.insert(way.end(), {{kTurn_m, -kStairLane_m}, {kTurn_m, kStairLane_m}});
   }
-  way.insert(way.end(), {{-1.6, kLane_m}, {0.2, 0.0}, {Shape::kHighDoor_m, 0.0}});
+  way.insert(way.end(), {{-1.6, kStairLane_m}, {0.2, 0.0}, {Shape::kHighDoor_m, 0.0}});
   return way;
 }
 
@@ -120,9 +121,11 @@ void AddDoors(World& world, const std::shared_ptr<const Drive>& drive,
   constexpr double y = Shape::kHalfCorridor_m + 0.5 * Shape::kWall_m;
   constexpr double kTop_m = (Shape::kNumStoreys - 1) * Shape::kStorey_m;
   constexpr double kHalf_m = 0.5 * Shape::kDoorWidth_m;
-  constexpr double kRoomOpen_rad = 0.56 * kPi;
-  constexpr double kStairOpen_rad = 0.5 * kPi;
-  const auto stair_door = [=](double z) { return UprightPose({0.0, kHalf_m, z}, -0.5 * kPi); };
+  constexpr double kRoomOpen_rad = 0.56 * std::numbers::pi;
+  constexpr double kStairOpen_rad = 0.5 * std::numbers::pi;
+  const auto stair_door = [=](double z) {
+    return UprightPose({0.0, kHalf_m, z}, -0.5 * std::numbers::pi);
+  };
   AddDoor(world, {UprightPose({Shape::kLowDoor_m - kHalf_m, y, 0.0}, 0.0), kRoomOpen_rad, {0, 7}},
           drive, floor);
   AddDoor(world, {stair_door(0.0), kStairOpen_rad, {1, 6}}, drive, floor);
@@ -157,12 +160,12 @@ Scenario MakeOffice(const ScenarioOptions& options) {
   response.half_wheelbase_m = 0.0;
   response.lively_speed_mps = 0.9;
   MotionPlan plan;
-  plan.knot_interval_s = kKnot_s;
+  plan.knot_interval_s = kCarrierKnot_s;
   plan.knots = FollowDrive(
       way, *drive, [&](const Vector2&, double along_m) { return floor->HeightAt(along_m); },
-      response, kKnot_s, planned_s);
+      response, kCarrierKnot_s, planned_s);
   Random motion(options.seed, Purpose::kMotion, 4);
-  AddGlances(plan.knots, kKnot_s, 1.2, motion);
+  AddGlances(plan.knots, kCarrierKnot_s, 1.2, motion);
   plan.oscillations = WalkOscillations(options.seed);
   MountOnPerson(scenario, std::move(plan));
   scenario.lidar_model = "vlp16";

@@ -11,7 +11,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 6.4;
+constexpr double kHalfCrossingRoad_m = 6.4;
 constexpr double kReach_m = 150.0;       // length of the streets from the crossing
 constexpr double kIdleVibration = 0.02;  // share of the body's motion when driving
 constexpr double kParkedAt_m = -1.1;     // from the kerb toward the road
@@ -19,7 +19,7 @@ constexpr double kParkedAt_m = -1.1;     // from the kerb toward the road
 void AddStreet(Town& town, const Path& path) {
   for (const bool left : {true, false}) {
     const auto frontage = [&](double offset_m) {
-      return Frontage{5.0, path.length_m() - 5.0, kHalfRoad_m + offset_m, left};
+      return Frontage{5.0, path.length_m() - 5.0, kHalfCrossingRoad_m + offset_m, left};
     };
     town.AddLamps(path, frontage(0.6), 27.0);
     town.AddTrees(path, frontage(1.1), 15.0, 8.0);
@@ -62,10 +62,10 @@ Scenario MakeParked(const ScenarioOptions& options) {
   Terrain::Shape shape;
   shape.slope_ratio = {random.Uniform(-0.03, 0.03), random.Uniform(-0.02, 0.02)};
   const Terrain terrain(shape, random);
-  const std::vector<Road> roads = {{along.Sampled(50.0), kHalfRoad_m},
-                                   {across.Sampled(50.0), kHalfRoad_m}};
+  const std::vector<Road> roads = {{along.Sampled(50.0), kHalfCrossingRoad_m},
+                                   {across.Sampled(50.0), kHalfCrossingRoad_m}};
   Town town(scenario.world, terrain, RoadNetwork(roads), {}, options.seed);
-  const Path ego = along.Shifted(-kHalfRoad_m - kParkedAt_m).Cut(kReach_m, 2.0 * kReach_m);
+  const Path ego = along.Shifted(-kHalfCrossingRoad_m - kParkedAt_m).Cut(kReach_m, 2.0 * kReach_m);
   town.Reserve(ego.At(0.0).position_m, 0.0, {7.0, 2.4}, -1e9);  // our own place at the kerb
   town.AddLaneMarks(along, {0.0, along.length_m(), 0.0, true}, 3.0, 4.5);
   AddStreet(town, along);

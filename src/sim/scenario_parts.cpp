@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "scenario_parts.hpp"
 
-#include <numbers>
 #include <utility>
+
+#include "lio/base/angle.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
-
 Quaternion FromDegrees(double yaw, double pitch, double roll) {
-  return Quaternion(Eigen::AngleAxisd(kRadians * yaw, Vector3::UnitZ()) *
-                    Eigen::AngleAxisd(kRadians * pitch, Vector3::UnitY()) *
-                    Eigen::AngleAxisd(kRadians * roll, Vector3::UnitX()));
+  return Quaternion(Eigen::AngleAxisd(kRadPerDeg * yaw, Vector3::UnitZ()) *
+                    Eigen::AngleAxisd(kRadPerDeg * pitch, Vector3::UnitY()) *
+                    Eigen::AngleAxisd(kRadPerDeg * roll, Vector3::UnitX()));
 }
 
 // Returns the smallest box in the lidar's frame around a box in the body's frame.

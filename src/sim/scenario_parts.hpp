@@ -11,6 +11,7 @@ namespace lio::sim {
 
 inline constexpr double kStartRest_s = 2.5;
 inline constexpr double kCarKnot_s = 0.2;
+inline constexpr double kTownLane_m = 1.7;  // from a road's middle to the middle of a lane
 
 // Mounts the sensors on the roof of a car: the lidar is turned by 90 degrees and 0.3 m above the
 // IMU. Adds the car itself to the world.

@@ -10,18 +10,17 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 5.6;  // two lanes and parked cars
-constexpr double kLane_m = 1.7;      // distance of the lanes' middles from the road's middle
-constexpr double kBefore_m =
+constexpr double kHalfStreet_m = 5.6;  // two lanes and parked cars
+constexpr double kStreetBefore_m =
     120.0;  // the street begins this much before the start and ends this much after the end
 constexpr double kSideStreet_m = 130.0;  // distance from one side street to the next
-constexpr double kSpeed_mps = 10.0;
+constexpr double kStreetSpeed_mps = 10.0;
 
 Path StreetPath(double length_m, Random& random) {
-  Path path({-kBefore_m, 0.0}, 0.0);
-  path.AddStraight(kBefore_m + 50.0);
+  Path path({-kStreetBefore_m, 0.0}, 0.0);
+  path.AddStraight(kStreetBefore_m + 50.0);
   double turn = random.Chance(0.5) ? 1.0 : -1.0;
-  while (path.length_m() < length_m + 2.0 * kBefore_m) {
+  while (path.length_m() < length_m + 2.0 * kStreetBefore_m) {
     const double radius_m = random.Uniform(90.0, 160.0);
     path.AddArc(radius_m, turn * random.Uniform(0.2, 0.45));
     path.AddStraight(random.Uniform(50.0, 110.0));
@@ -31,7 +30,7 @@ Path StreetPath(double length_m, Random& random) {
 }
 
 std::vector<Road> StreetRoads(const Path& path) {
-  std::vector<Road> roads = {{path.Sampled(4.0), kHalfRoad_m}};
+  std::vector<Road> roads = {{path.Sampled(4.0), kHalfStreet_m}};
   for (double s = kSideStreet_m; s < path.length_m(); s += kSideStreet_m) {
     const PathPoint p = path.At(s);
     roads.push_back({{p.position_m - 70.0 * p.Left(), p.position_m + 70.0 * p.Left()}, 3.6});
@@ -43,7 +42,7 @@ void AddSides(Town& town, const Path& path) {
   town.AddLaneMarks(path, {0.0, path.length_m(), 0.0, true}, 3.0, 4.5);
   for (const bool left : {true, false}) {
     const auto frontage = [&](double offset_m) {
-      return Frontage{4.0, path.length_m(), kHalfRoad_m + offset_m, left};
+      return Frontage{4.0, path.length_m(), kHalfStreet_m + offset_m, left};
     };
     HouseRow row;
     row.max_storeys = 9;
@@ -109,7 +108,7 @@ Scenario MakeStreet(const ScenarioOptions& options) {
   scenario.duration_s = duration_s;
   Random random(options.seed, Purpose::kWorld, 1);
   const double planned_s = PlannedSeconds(scenario, options) + 20.0;
-  const Path road = StreetPath(kSpeed_mps * planned_s, random);
+  const Path road = StreetPath(kStreetSpeed_mps * planned_s, random);
   const std::vector<Road> roads = StreetRoads(road);
   Terrain::Shape shape;
   shape.slope_ratio = {random.Uniform(-0.02, 0.02), random.Uniform(-0.01, 0.01)};
@@ -118,11 +117,12 @@ Scenario MakeStreet(const ScenarioOptions& options) {
   AddSides(town, road);
   AddSideStreets(town, roads);
 
-  const Path ego = road.Shifted(-kLane_m).Cut(kBefore_m, 1e9);
-  const Path oncoming = road.Shifted(kLane_m).Reversed();
+  const Path ego = road.Shifted(-kTownLane_m).Cut(kStreetBefore_m, 1e9);
+  const Path oncoming = road.Shifted(kTownLane_m).Reversed();
   DriveLimits limits;
-  limits.speed_mps = kSpeed_mps;
-  const double light_m = 2.0 * kSideStreet_m - kBefore_m - 9.0;  // before the second side street
+  limits.speed_mps = kStreetSpeed_mps;
+  const double light_m =
+      2.0 * kSideStreet_m - kStreetBefore_m - 9.0;  // before the second side street
   const auto drive =
       std::make_shared<Drive>(ego, limits, std::vector<Stop>{{light_m, 4.0}}, kStartRest_s);
   const HeightFunction height = HeightOf(terrain);

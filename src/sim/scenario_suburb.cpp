@@ -11,15 +11,15 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kHalfRoad_m = 4.8;  // two lanes and a few parked cars
-constexpr double kBefore_m = 80.0;
-constexpr double kSpeed_mps = 11.0;
+constexpr double kHalfSuburbRoad_m = 4.8;  // two lanes and a few parked cars
+constexpr double kSuburbBefore_m = 80.0;
+constexpr double kSuburbSpeed_mps = 11.0;
 
 Path WindingRoad(double length_m, Random& random) {
-  Path path({-kBefore_m, 0.0}, 0.0);
-  path.AddStraight(kBefore_m + 35.0);
+  Path path({-kSuburbBefore_m, 0.0}, 0.0);
+  path.AddStraight(kSuburbBefore_m + 35.0);
   double heading = 0.0;
-  while (path.length_m() < length_m + 2.0 * kBefore_m) {
+  while (path.length_m() < length_m + 2.0 * kSuburbBefore_m) {
     double turn = random.Uniform(0.35, 1.0) * (random.Chance(0.5) ? 1.0 : -1.0);
     if (std::abs(heading + turn) > 0.9) turn = -turn;  // the road never turns back on itself
     path.AddArc(random.Uniform(35.0, 80.0), turn);
@@ -33,7 +33,7 @@ void AddDrives(Town& town, const Path& road, bool left) {
   Random& random = town.random();
   for (double s = 5.0; s < road.length_m(); s += random.Uniform(14.0, 32.0)) {
     const Mesh car = MakeVehicle(VehicleKind::kCar, random);
-    const double offset_m = kHalfRoad_m + random.Uniform(5.2, 6.5);
+    const double offset_m = kHalfSuburbRoad_m + random.Uniform(5.2, 6.5);
     const PathPoint p = road.Beside(s, left ? offset_m : -offset_m);
     const double heading = p.heading_rad + (random.Chance(0.5) ? 0.5 : -0.5) * std::numbers::pi;
     if (town.Reserve(p.position_m, heading, {5.2, 2.4}, 1.2)) {
@@ -57,7 +57,7 @@ void AddGardens(Town& town, const Path& road) {
   row.has_plain_rear = false;
   for (const bool left : {true, false}) {
     const auto frontage = [&](double offset_m) {
-      return Frontage{2.0, road.length_m(), kHalfRoad_m + offset_m, left};
+      return Frontage{2.0, road.length_m(), kHalfSuburbRoad_m + offset_m, left};
     };
     town.AddLamps(road, frontage(0.5), 42.0);
     town.AddHouses(road, frontage(9.0), row);
@@ -79,7 +79,7 @@ Scenario MakeSuburb(const ScenarioOptions& options) {
   scenario.duration_s = options.duration_s.value_or(70.0);
   const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 5);
-  const Path road = WindingRoad(kSpeed_mps * planned_s, random);
+  const Path road = WindingRoad(kSuburbSpeed_mps * planned_s, random);
   Terrain::Shape shape;
   shape.slope_ratio = {random.Uniform(-0.015, 0.015), 0.0};
   shape.hill_m = 5.0;
@@ -89,14 +89,14 @@ Scenario MakeSuburb(const ScenarioOptions& options) {
   ground.pavement_m = 2.0;
   ground.kerb_m = 0.09;
   ground.far_reach_m = 200.0;
-  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(4.0), kHalfRoad_m}}), ground,
+  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(4.0), kHalfSuburbRoad_m}}), ground,
             options.seed);
   AddGardens(town, road);
 
   const HeightFunction height = HeightOf(terrain);
-  const Path ego = road.Shifted(-1.6).Cut(kBefore_m, 1e9);
+  const Path ego = road.Shifted(-1.6).Cut(kSuburbBefore_m, 1e9);
   DriveLimits limits;
-  limits.speed_mps = kSpeed_mps;
+  limits.speed_mps = kSuburbSpeed_mps;
   const auto drive =
       std::make_shared<const Drive>(ego, limits, std::vector<Stop>{{210.0, 2.5}}, kStartRest_s);
   MotionPlan plan;

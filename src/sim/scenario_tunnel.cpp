@@ -11,12 +11,12 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kBefore_m = 90.0;  // from the start to the portal
-constexpr double kAfter_m = 160.0;  // length of open road beyond the far portal
-constexpr double kHalfRoad_m = 4.2;
+constexpr double kToPortal_m = 90.0;  // from the start to the portal
+constexpr double kAfter_m = 160.0;    // length of open road beyond the far portal
+constexpr double kHalfTunnelRoad_m = 4.2;
 constexpr double kHalfTunnel_m = 5.4;
 constexpr double kWall_m = 3.2;  // height at which the vault begins
-constexpr double kSpeed_mps = 15.0;
+constexpr double kTunnelSpeed_mps = 15.0;
 constexpr double kSlope_ratio = 0.012;
 
 double RoadHeight(double x_m) {
@@ -101,9 +101,10 @@ void AddOutside(World& world, Town& town, const Path& road, double from_m, doubl
   for (double x = from_m + 10.0; x < to_m - 10.0; x += 45.0) AddGantry(world.fixed, x);
   const double offset_m = road.At(0.0).position_m.x();
   for (const bool left : {true, false}) {
-    const Frontage side{from_m - offset_m + 4.0, to_m - offset_m - 3.0, kHalfRoad_m + 1.6, left};
+    const Frontage side{from_m - offset_m + 4.0, to_m - offset_m - 3.0, kHalfTunnelRoad_m + 1.6,
+                        left};
     town.AddLamps(road, side, 30.0);
-    town.AddStreetThings(road, {side.from_m, side.to_m, kHalfRoad_m + 2.4, left}, 22.0);
+    town.AddStreetThings(road, {side.from_m, side.to_m, kHalfTunnelRoad_m + 2.4, left}, 22.0);
   }
 }
 
@@ -114,10 +115,10 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   scenario.duration_s = options.duration_s.value_or(60.0);
   Random random(options.seed, Purpose::kWorld, 4);
   // The tunnel is as long as the log has time for, and the last 8 s are outside again.
-  const double way_m = kSpeed_mps * std::max(20.0, scenario.duration_s - 7.0 - kStartRest_s);
-  const double far_m = std::max(100.0, way_m - 8.0 * kSpeed_mps);
-  Path road({-kBefore_m - 100.0, 0.0}, 0.0);
-  road.AddStraight(kBefore_m + 100.0 + far_m + kAfter_m + 60.0);
+  const double way_m = kTunnelSpeed_mps * std::max(20.0, scenario.duration_s - 7.0 - kStartRest_s);
+  const double far_m = std::max(100.0, way_m - 8.0 * kTunnelSpeed_mps);
+  Path road({-kToPortal_m - 100.0, 0.0}, 0.0);
+  road.AddStraight(kToPortal_m + 100.0 + far_m + kAfter_m + 60.0);
   Terrain::Shape shape;
   shape.slope_ratio = {kSlope_ratio, 0.0};
   shape.hill_m = 0.0;
@@ -128,8 +129,8 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   ground.reach_m = 8.0;
   ground.far_reach_m = 0.0;
   ground.pavement_m = 2.0;
-  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(1000.0), kHalfRoad_m}}), ground,
-            options.seed);
+  Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(1000.0), kHalfTunnelRoad_m}}),
+            ground, options.seed);
   AddTube(scenario.world.fixed, 0.0, far_m);
   AddOutside(scenario.world, town, road, road.At(0.0).position_m.x(), 0.0);
   AddOutside(scenario.world, town, road, far_m, road.At(road.length_m()).position_m.x());
@@ -137,7 +138,7 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   const HeightFunction height = HeightOf(terrain);
   const Path ego = road.Shifted(-1.9).Cut(100.0, 1e9);
   DriveLimits limits;
-  limits.speed_mps = kSpeed_mps;
+  limits.speed_mps = kTunnelSpeed_mps;
   limits.accel_mps2 = 2.0;
   const auto drive = std::make_shared<const Drive>(ego, limits, std::vector<Stop>{}, kStartRest_s);
   MotionPlan plan;

@@ -23,8 +23,8 @@ constexpr double kAisle_m = 3.0;
 constexpr double kPitch_m = kDepth_m + kAisle_m;
 constexpr double kRow_m = kBays * kBay_m;
 constexpr double kEnd_m = 6.0;  // from the racks to the hall's ends
-constexpr double kHeight_m = 9.5;
-constexpr double kHalfWidth_m = 0.5 * (kRows + 1) * kPitch_m;
+constexpr double kWarehouseHeight_m = 9.5;
+constexpr double kHalfWarehouse_m = 0.5 * (kRows + 1) * kPitch_m;
 
 double RackMiddle(int row) {
   return (row - 0.5 * (kRows - 1)) * kPitch_m;
@@ -37,19 +37,21 @@ double AisleMiddle(int aisle) {
 void AddHall(Mesh& mesh) {
   const double low_x = -kEnd_m;
   const double high_x = kRow_m + kEnd_m;
-  const double y = kHalfWidth_m;
+  const double y = kHalfWarehouse_m;
   AddQuad(mesh, {low_x, -y, 0}, {high_x, -y, 0}, {high_x, y, 0}, {low_x, y, 0},
           Material::kConcrete);
-  AddQuad(mesh, {low_x, -y, kHeight_m}, {high_x, -y, kHeight_m}, {high_x, y, kHeight_m},
-          {low_x, y, kHeight_m}, Material::kMetal);
+  AddQuad(mesh, {low_x, -y, kWarehouseHeight_m}, {high_x, -y, kWarehouseHeight_m},
+          {high_x, y, kWarehouseHeight_m}, {low_x, y, kWarehouseHeight_m}, Material::kMetal);
   for (const double side : {-1.0, 1.0}) {
-    AddQuad(mesh, {low_x, side * y, 0}, {high_x, side * y, 0}, {high_x, side * y, kHeight_m},
-            {low_x, side * y, kHeight_m}, Material::kMetal);
+    AddQuad(mesh, {low_x, side * y, 0}, {high_x, side * y, 0},
+            {high_x, side * y, kWarehouseHeight_m}, {low_x, side * y, kWarehouseHeight_m},
+            Material::kMetal);
     const double x = side < 0.0 ? low_x : high_x;
-    AddQuad(mesh, {x, -y, 0}, {x, y, 0}, {x, y, kHeight_m}, {x, -y, kHeight_m}, Material::kBrick);
+    AddQuad(mesh, {x, -y, 0}, {x, y, 0}, {x, y, kWarehouseHeight_m}, {x, -y, kWarehouseHeight_m},
+            Material::kBrick);
   }
   for (double x = low_x + 6.0; x < high_x; x += 12.0) {  // roof girders
-    AddBox(mesh, UprightPose({x, 0.0, kHeight_m - 0.8}, 0.0), {0.3, 2.0 * y, 0.5},
+    AddBox(mesh, UprightPose({x, 0.0, kWarehouseHeight_m - 0.8}, 0.0), {0.3, 2.0 * y, 0.5},
            Material::kMetal);
   }
   for (double gate_m = -y + 5.0; gate_m < y - 4.0; gate_m += 9.0) {  // loading gates
@@ -130,10 +132,10 @@ void AddTraffic(World& world, Random& random) {
   for (const double x : {-kEnd_m + 1.6, kRow_m + kEnd_m - 1.6}) {
     world.shapes.push_back(MakeForkLift());
     const double phase = random.Uniform(0.0, 2.0);
-    world.movers.push_back(
-        {world.shapes.size() - 1, [=](double t_s) {
-           return Shuttle({x, -kHalfWidth_m + 2.5}, {x, kHalfWidth_m - 2.5}, 2.2, phase, t_s);
-         }});
+    world.movers.push_back({world.shapes.size() - 1, [=](double t_s) {
+                              return Shuttle({x, -kHalfWarehouse_m + 2.5},
+                                             {x, kHalfWarehouse_m - 2.5}, 2.2, phase, t_s);
+                            }});
   }
 }
 

@@ -4,17 +4,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
+#include "lio/base/angle.hpp"
 #include "lio/sim/data_file.hpp"
 #include "lio/sim/imu_model.hpp"
 #include "lio/sim/lidar_model.hpp"
 
 namespace lio::sim {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 // Reads the values of one file; errors name the file and the key.
 class Reader {
@@ -84,7 +82,7 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
   model.name = file.Get<std::string>("", "model");
   model.rotation_hz = file.Number("rotation_hz");
   model.column_period_s = 1e-6 * file.Number("column_period_us");
-  model.cut_azimuth_rad = kRadians * file.Number("cut_azimuth_deg");
+  model.cut_azimuth_rad = kRadPerDeg * file.Number("cut_azimuth_deg");
   model.min_range_m = file.Number("min_range_m");
   model.max_range_m = file.Number("max_range_m");
   model.range_std_m = file.Number("range_std_m");
@@ -92,12 +90,12 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
   model.beam_width_horizontal_rad = 1e-3 * file.Number("beam_width_horizontal_mrad");
   model.beam_width_vertical_rad = 1e-3 * file.Number("beam_width_vertical_mrad");
   model.range_at_10_percent_m = file.Number("range_at_10_percent_m");
-  model.view_rad = kRadians * file.NumberOr("", "view_deg", 360.0);
+  model.view_rad = kRadPerDeg * file.NumberOr("", "view_deg", 360.0);
   if (file.Has("rosette")) {
     const auto prism_hz = file.Get<std::vector<double>>("rosette", "prism_hz");
     if (prism_hz.size() != 2) file.Fail("'rosette.prism_hz' must have the rates of two prisms");
     model.rosette = Rosette{{prism_hz[0], prism_hz[1]},
-                            kRadians * file.Get<double>("rosette", "deflection_deg")};
+                            kRadPerDeg * file.Get<double>("rosette", "deflection_deg")};
   }
   const auto elevation = file.Get<std::vector<double>>("beams", "elevation_deg");
   const auto fire_time = file.Get<std::vector<double>>("beams", "fire_time_us");
@@ -110,7 +108,8 @@ LidarModel LoadLidarModel(const std::string& name_or_path) {
     file.Fail("'beams.elevation_deg' must ascend");
   }
   for (std::size_t i = 0; i < elevation.size(); ++i) {
-    model.beams.push_back({kRadians * elevation[i], 1e-6 * fire_time[i], kRadians * azimuth[i]});
+    model.beams.push_back(
+        {kRadPerDeg * elevation[i], 1e-6 * fire_time[i], kRadPerDeg * azimuth[i]});
   }
   return model;
 }

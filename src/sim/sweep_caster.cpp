@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kTileColumns =
     8;  // neighbours in azimuth see almost the same, which makes ray packets fast
-constexpr float kEdge_m = 0.12f;         // a larger step in range is an edge, not a slope
 constexpr float kOffPlane_m = 0.04f;     // neighbours nearer to a hit's plane lie on its surface
 constexpr float kOffPlaneRatio = 0.02f;  // and this much of their distance more: uneven ground
 constexpr float kOffSurface_m = 1e-3f;   // a reflected ray begins this far in front of its mirror
@@ -144,7 +143,7 @@ bool Caster::IsBeyondEdge(const Hit& centre, const Ray& ray, const Hit& hit,
   const float straight = centre.normal.dot(ray.direction);
   const float continued_m = centre.range_m * straight / slope;
   if (!(continued_m > 0.0f) || !std::isfinite(continued_m)) return true;
-  return std::abs(hit.range_m - continued_m) > kEdge_m;
+  return std::abs(hit.range_m - continued_m) > kRangeEdge_m;
 }
 
 void Caster::CastRims() {

@@ -15,6 +15,8 @@
 
 namespace lio::sim {
 
+inline constexpr float kRangeEdge_m = 0.12f;  // a larger step in range is an edge, not a slope
+
 // The arrays are column-major, with one entry per ray.
 struct SweepHits {
   static constexpr std::int32_t kNone = -1;

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "sim/movers.hpp"
 
 namespace lio::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHouseSearch_m = 1.5;  // distance to the next try when a house does not fit
 
 PathPoint OnFrontage(const Path& path, const Frontage& f, double along_m, double extra_m = 0.0) {
@@ -21,7 +21,7 @@ PathPoint OnFrontage(const Path& path, const Frontage& f, double along_m, double
 
 // Returns the heading from the frontage toward the path.
 double FacingPath(const PathPoint& point, const Frontage& f) {
-  return point.heading_rad + (f.on_left ? -0.5 : 0.5) * kPi;
+  return point.heading_rad + (f.on_left ? -0.5 : 0.5) * std::numbers::pi;
 }
 
 BuildingPlan PlanHouse(const HouseRow& row, double width_m, Random& random) {
@@ -106,7 +106,7 @@ void Town::AddHouses(const Path& path, const Frontage& f, const HouseRow& row) {
     const double setback_m = random_.Uniform(0.0, row.max_setback_m);
     const PathPoint front = OnFrontage(path, f, along_m + 0.5 * width_m, setback_m);
     // The building's y axis points away from the path.
-    const double heading = FacingPath(front, f) + 0.5 * kPi;
+    const double heading = FacingPath(front, f) + 0.5 * std::numbers::pi;
     const Vector2 x_axis(std::cos(heading), std::sin(heading));
     const Vector2 y_axis(-x_axis.y(), x_axis.x());
     const Vector2 centre = front.position_m + 0.5 * plan.size_m.y() * y_axis;
@@ -126,7 +126,7 @@ void Town::AddTrees(const Path& path, const Frontage& f, double spacing_m, doubl
        along_m += spacing_m * random_.Uniform(0.8, 1.2)) {
     const Mesh tree = MakeTree(height_m * random_.Uniform(0.75, 1.25), random_);
     const Vector2 p = OnFrontage(path, f, along_m, random_.Uniform(-0.2, 0.2)).position_m;
-    if (Reserve(p, 0.0, {0.5, 0.5}, 0.3)) Place(tree, p, random_.Uniform(0.0, 2.0 * kPi));
+    if (Reserve(p, 0.0, {0.5, 0.5}, 0.3)) Place(tree, p, random_.Uniform(0.0, kTurn_rad));
   }
 }
 
@@ -150,7 +150,7 @@ void Town::AddStreetThings(const Path& path, const Frontage& f, double spacing_m
     const Mesh sign = MakeSign(2.6, random_);
     if (!Reserve(place, facing, size, 0.2)) continue;
     if (kind < 3) {
-      Place(sign, place, point.heading_rad + (f.on_left ? 0.0 : kPi));
+      Place(sign, place, point.heading_rad + (f.on_left ? 0.0 : std::numbers::pi));
     } else if (kind < 5) {
       Place(MakeBin(), place, facing);
     } else if (kind < 7) {
@@ -172,7 +172,8 @@ void Town::AddParkedCars(const Path& path, const Frontage& f, double share) {
     const bool taken = random_.Chance(share);
     const PathPoint point =
         OnFrontage(path, f, along_m + 0.5 * place_m, random_.Uniform(-0.12, 0.12));
-    const double heading = point.heading_rad + (f.on_left ? kPi : 0.0) + 0.02 * random_.Gaussian();
+    const double heading =
+        point.heading_rad + (f.on_left ? std::numbers::pi : 0.0) + 0.02 * random_.Gaussian();
     along_m += place_m;
     // Cars are parked on the road by the kerb, and not in a crossing.
     const double edge_m = roads_.SignedDistance(point.position_m);
@@ -236,7 +237,7 @@ void Town::AddStandingPeople(const Path& path, const Frontage& f, int num) {
   for (int i = 0; i < num; ++i) {
     const Mesh person = MakePerson(random_);
     const Vector2 p = OnFrontage(path, f, random_.Uniform(f.from_m, f.to_m)).position_m;
-    const double heading = random_.Uniform(0.0, 2.0 * kPi);
+    const double heading = random_.Uniform(0.0, kTurn_rad);
     if (Reserve(p, 0.0, {0.6, 0.6}, 0.1)) Place(person, p, heading);
   }
 }
@@ -261,7 +262,7 @@ void Town::AddWalkers(const Path& path, const Frontage& f, int num) {
       const PathPoint p = path.Beside(along_m, left_m);
       const double z = terrain.Height(p.position_m) + kerb_m;
       return UprightPose({p.position_m.x(), p.position_m.y(), z},
-                         p.heading_rad + (back ? kPi : 0.0));
+                         p.heading_rad + (back ? std::numbers::pi : 0.0));
     };
     AddWalker(world_, random_, speed_mps, body);
   }

@@ -3,13 +3,10 @@
 #include <cmath>
 
 #include "sim/props.hpp"
+#include "sim/unturned_pose.hpp"
 
 namespace lio::sim {
 namespace {
-
-Pose At(double x, double y, double z) {
-  return {Quaternion::Identity(), {x, y, z}};
-}
 
 Material Paint(Random& random) {
   constexpr std::array<Material, 8> kPaints = {Material::kCarPaint,     Material::kCarPaint,

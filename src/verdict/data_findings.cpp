@@ -12,8 +12,6 @@
 namespace lio {
 namespace {
 
-constexpr DataFindingParameters kParameters = kDataFindings;
-
 double Share(std::int64_t part, std::int64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -25,7 +23,7 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
         {CauseKind::kNoScans, Trust::kNo, 0.0,
          fmt::format("{} chunks came, no sweep with points was put together", counters.num_chunks),
          ""});
-  } else if (tally.WithoutSweeps_s() > kParameters.max_without_s) {
+  } else if (tally.WithoutSweeps_s() > kDataFindings.max_without_s) {
     causes.push_back(
         {CauseKind::kNoScans, Trust::kDoubtful, 0.0,
          fmt::format("the IMU goes on for {:.1f} s after the last sweep", tally.WithoutSweeps_s()),
@@ -35,7 +33,7 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       "no inertial sample came: the path is the lidar's alone",
                       "pipeline:\n  use_imu: false\n"});
-  } else if (uses_imu && tally.WithoutImu_s() > kParameters.max_without_s) {
+  } else if (uses_imu && tally.WithoutImu_s() > kDataFindings.max_without_s) {
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       fmt::format("sweeps go on for {:.1f} s after the last inertial sample",
                                   tally.WithoutImu_s()),
@@ -46,7 +44,7 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
 void FindDoubled(const Counters& counters, std::vector<Cause>& causes) {
   const double imu = Share(counters.num_imu_duplicate + counters.num_imu_late, counters.num_imu);
   const double chunks = Share(counters.num_chunks_duplicate, counters.num_chunks);
-  if (std::max(imu, chunks) <= kParameters.max_doubled_share) return;
+  if (std::max(imu, chunks) <= kDataFindings.max_doubled_share) return;
   causes.push_back({CauseKind::kTwoSenders, Trust::kDoubtful, 0.0,
                     fmt::format("{:.0f} % of the inertial samples came twice or late, {:.0f} % of "
                                 "the chunks twice: do two programs send on these channels?",
@@ -61,7 +59,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
   FindMissing(counters, tally, uses_imu, causes);
   FindDoubled(counters, causes);
   if (const double bad = Share(counters.num_chunks_bad, counters.num_chunks);
-      bad > kParameters.max_bad_chunk_share) {
+      bad > kDataFindings.max_bad_chunk_share) {
     causes.push_back({CauseKind::kPointTime, Trust::kDoubtful, 0.0,
                       fmt::format("{:.0f} % of the chunks are refused: index, count or time span "
                                   "of their points are inconsistent",
@@ -69,14 +67,14 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                       ""});
   }
   if (const double clipped = Share(counters.num_imu_clipped, counters.num_imu);
-      clipped > kParameters.max_clipped_share) {
+      clipped > kDataFindings.max_clipped_share) {
     causes.push_back({CauseKind::kSaturation, Trust::kDoubtful, 0.0,
                       fmt::format("{:.1f} % of the inertial samples are at the end of their range",
                                   100.0 * clipped),
                       ""});
   }
   if (const ImuNoiseRatios noise = tally.MedianNoise();
-      std::max(noise.gyro, noise.accel) >= kParameters.max_noise_ratio) {
+      std::max(noise.gyro, noise.accel) >= kDataFindings.max_noise_ratio) {
     causes.push_back({CauseKind::kImuNoise, Trust::kDoubtful, 0.0,
                       fmt::format("the gyro's noise is {:.0f} times, the accelerometer's {:.0f} "
                                   "times that of the rig, most of the time",

@@ -6,25 +6,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lio/base/angle.hpp"
 #include "verdict/rig_selection.hpp"
 
 namespace lio {
 namespace {
 
-constexpr RigFindingParameters kParameters = kRigFindings;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
 double InTolerances(const Vector3& turn_rad, const Vector3& lever_m) {
-  return std::hypot(kDegPerRad * turn_rad.norm() / kParameters.rotation_tolerance_deg,
-                    lever_m.norm() / kParameters.lever_tolerance_m);
+  return std::hypot(kDegPerRad * turn_rad.norm() / kRigFindings.rotation_tolerance_deg,
+                    lever_m.norm() / kRigFindings.lever_tolerance_m);
 }
 
 std::optional<Cause> JudgeUnits(const RigFit::TurnAlignment& turns) {
   const auto is_near = [&](double scale) {
-    return std::abs(turns.ratio / scale - 1.0) < kParameters.unit_scale_tolerance;
+    return std::abs(turns.ratio / scale - 1.0) < kRigFindings.unit_scale_tolerance;
   };
   const bool is_in_deg = is_near(1.0 / kDegPerRad);
   if (!is_in_deg && !is_near(kDegPerRad)) return std::nullopt;
@@ -88,7 +85,7 @@ class Naming {
   }
 
   std::optional<Pose> Bettered() const {
-    const double sigmas = SureSigmas(all_.num_clusters, kParameters.better_probability);
+    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.better_probability);
     const auto is_off = [&](const Vector3& value, int at) {
       return SurePart(value, all_.cov.block<3, 3>(at, at), sigmas) > 0.0;
     };
@@ -97,7 +94,7 @@ class Naming {
   }
 
   RigBounds Bounds() const {
-    const double sigmas = SureSigmas(all_.num_clusters, kParameters.better_probability);
+    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.better_probability);
     const RigVector margin = sigmas * all_.cov.diagonal().cwiseSqrt();
     const RigErrors& errors = all_.errors;
     return {LogSo3(errors.rotation).cwiseAbs() + margin.segment<3>(kRigRotation),
@@ -111,7 +108,8 @@ class Naming {
     const Pose T = T_configured();
     const Quaternion rotation = T.rotation * T.rotation;
     const Vector3 lever = -(T.rotation * T.translation) - T.translation;
-    const bool differs = InTolerances(LogSo3(rotation), lever) > kParameters.tolerances_to_distrust;
+    const bool differs =
+        InTolerances(LogSo3(rotation), lever) > kRigFindings.tolerances_to_distrust;
     const bool is_suspect = !selection_.selected().empty() || AngleDeg(R_imu_sent_) > 1.0;
     if (!differs || !is_suspect) return;
     const Quaternion found = all_.errors.rotation * R_imu_sent_;
@@ -119,9 +117,9 @@ class Naming {
     const Vector3 lever_off = all_.errors.lever_m - lever;
     const Matrix3 turn_cov = all_.cov.block<3, 3>(kRigRotation, kRigRotation);
     const Matrix3 lever_cov = all_.cov.block<3, 3>(kRigLever, kRigLever);
-    const double sigmas_off = kParameters.inverted_sigmas;
-    if (kDegPerRad * SurePart(turn_off, turn_cov, sigmas_off) > kParameters.inverted_within_deg ||
-        SurePart(lever_off, lever_cov, sigmas_off) > kParameters.inverted_within_m ||
+    const double sigmas_off = kRigFindings.inverted_sigmas;
+    if (kDegPerRad * SurePart(turn_off, turn_cov, sigmas_off) > kRigFindings.inverted_within_deg ||
+        SurePart(lever_off, lever_cov, sigmas_off) > kRigFindings.inverted_within_m ||
         2.0 * InTolerances(turn_off, lever_off) >
             InTolerances(LogSo3(found), all_.errors.lever_m)) {
       return;  // not near, or the rig as it stands is about as near
@@ -140,7 +138,7 @@ class Naming {
   Cause MakeCause(CauseKind kind) const {
     const RigSelection::Suspect suspect = selection_.Judge(kind);
     Cause cause{kind, Trust::kDoubtful, suspect.sigmas, "", ""};
-    if (suspect.in_tolerances > kParameters.tolerances_to_distrust) cause.leaves = Trust::kNo;
+    if (suspect.in_tolerances > kRigFindings.tolerances_to_distrust) cause.leaves = Trust::kNo;
     const auto std_of = [&](int at) { return std::sqrt(solution_.cov(at, at)); };
     const auto axes = [&](const Vector3& value, int at, double scale) {
       return fmt::format("[{:.3g}, {:.3g}, {:.3g}] +- [{:.2g}, {:.2g}, {:.2g}]", scale * value.x(),
@@ -154,7 +152,7 @@ class Naming {
           "turns agree when {:.1f} +- {:.1f} ms are added to the lidar's "
           "stamps",
           1e3 * errors.offset_s, 1e3 * std_of(kRigOffset));
-      if (std::abs(errors.offset_s - clock_correction_s_) < kParameters.offset_tolerance_s) {
+      if (std::abs(errors.offset_s - clock_correction_s_) < kRigFindings.offset_tolerance_s) {
         cause.leaves = Trust::kDoubtful;  // poses before that are late
         cause.evidence += ", as they are since the offset was found on the way";
       }
@@ -179,7 +177,7 @@ class Naming {
     const auto is_quarter_turn = [](const Quaternion& rotation) {
       return std::ranges::any_of(QuarterTurns(), [&](const Matrix3& turn) {
         return turn != Matrix3::Identity() &&
-               AngleDeg(rotation.conjugate() * Quaternion(turn)) < kParameters.large_rotation_deg;
+               AngleDeg(rotation.conjugate() * Quaternion(turn)) < kRigFindings.large_rotation_deg;
       });
     };
     if (!is_quarter_turn(R_rig_sent())) return;
@@ -216,7 +214,7 @@ RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
   RigFit fit(record, rig.imu.accel_bias_std_mps2);
   if (!fit.HasEnough()) return {};
   const RigFit::TurnAlignment turns = fit.AlignTurns();
-  if (turns.correlation < kParameters.min_correlation) return {};
+  if (turns.correlation < kRigFindings.min_correlation) return {};
   if (auto units = JudgeUnits(turns)) {
     RigFindings findings;
     findings.is_checked = true;

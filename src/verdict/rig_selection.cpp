@@ -6,16 +6,13 @@
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "lio/base/angle.hpp"
 #include "lio/verdict/rig_findings.hpp"
 
 namespace lio {
 namespace {
-
-constexpr RigFindingParameters kParameters = kRigFindings;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 constexpr std::array kSuspects = {CauseKind::kExtrinsicRotation, CauseKind::kClockOffset,
                                   CauseKind::kLeverArm};
@@ -61,7 +58,7 @@ bool RigSelection::IsSelected(CauseKind kind) const {
 
 void RigSelection::FitAll(RigFit& fit, const RigFit::TurnAlignment& turns) {
   RigFitResult first = fit.Solve(fit.StartAt(Quaternion::Identity()), {});
-  if (AngleDeg(turns.rotation) > kParameters.large_rotation_deg) {
+  if (AngleDeg(turns.rotation) > kRigFindings.large_rotation_deg) {
     const RigFitResult other = fit.Solve(fit.StartAt(turns.rotation), {});
     if (other.cost < first.cost) first = other;
   }
@@ -70,7 +67,7 @@ void RigSelection::FitAll(RigFit& fit, const RigFit::TurnAlignment& turns) {
   start = fit.Solve(start, {}).errors;
   fit.SetNoiseFrom(start);
   all_ = fit.Solve(start, {});
-  sure_sigmas_ = SureSigmas(all_.num_clusters, kParameters.false_alarm_probability);
+  sure_sigmas_ = SureSigmas(all_.num_clusters, kRigFindings.false_alarm_probability);
 }
 
 // The full fit says this of one error.
@@ -82,12 +79,12 @@ RigSelection::Suspect RigSelection::Judge(CauseKind kind) const {
   switch (kind) {
     case CauseKind::kExtrinsicRotation:
       return judge(LogSo3(all_.errors.rotation), kRigRotation,
-                   kParameters.rotation_tolerance_deg / kDegPerRad);
+                   kRigFindings.rotation_tolerance_deg / kDegPerRad);
     case CauseKind::kClockOffset:
       return judge(Eigen::VectorXd::Constant(1, all_.errors.offset_s), kRigOffset,
-                   kParameters.offset_tolerance_s);
+                   kRigFindings.offset_tolerance_s);
     default:
-      return judge(all_.errors.lever_m, kRigLever, kParameters.lever_tolerance_m);
+      return judge(all_.errors.lever_m, kRigLever, kRigFindings.lever_tolerance_m);
   }
 }
 
@@ -124,7 +121,7 @@ void RigSelection::Select(const RigFit& fit) {
       best_result = result;
     }
     const double gain = solution_.cost - best_result.cost;
-    if (!best || gain < kParameters.min_share_of_first * first_gain) return;
+    if (!best || gain < kRigFindings.min_share_of_first * first_gain) return;
     first_gain = std::max(first_gain, gain);
     selected_.push_back(*best);
     solution_ = best_result;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
+
+#include "lio/base/angle.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 std::size_t BinOf(double ratio) {
   const double bin = std::floor(std::log2(std::max(ratio, 1.0)));
   return std::min(static_cast<std::size_t>(bin), RunTallyParameters::kNumNoiseBins - 1);

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 constexpr int kQueueCapacity = 1024;       // clouds in chunks: forty sweeps
 constexpr milliseconds kPollInterval(50);  // after which a wish to stop is noticed
-constexpr milliseconds kRetryInterval(1000);
+constexpr milliseconds kReopenInterval(1000);
 
 // A full cloud comes in a burst, which the kernel's usual buffer does not hold. Without a larger
 // one the viewer lacks points, and nothing else.
@@ -62,7 +62,7 @@ void LiveFeed::OpenAgain() {
 void LiveFeed::Run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (bus_->Receive(kPollInterval) != ReceiveResult::kClosed) continue;
-    for (milliseconds waited{0}; waited < kRetryInterval && !stop.stop_requested();
+    for (milliseconds waited{0}; waited < kReopenInterval && !stop.stop_requested();
          waited += kPollInterval) {
       std::this_thread::sleep_for(kPollInterval);
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr int kMaxMessagesAtOnce = 2000;
 constexpr std::int64_t kMaxUtime = std::int64_t{1} << 52;  // in the year 2112
 
-struct Entry {
+struct IndexEntry {
   std::int64_t t_us = 0;  // after the first
   std::int64_t position_bytes = 0;
 };
@@ -59,7 +59,7 @@ struct LogPlayer::Impl {
   EventLogReader reader;
   MessageFeed feed;
   ViewHub& hub;
-  std::vector<Entry> entries;
+  std::vector<IndexEntry> entries;
   std::int64_t first_utime = 0;
   double duration_s = 0.0;
   LogEvent event;

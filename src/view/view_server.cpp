@@ -22,7 +22,7 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-constexpr std::chrono::milliseconds kRetryInterval(100);  // when no file descriptor is left
+constexpr std::chrono::milliseconds kAcceptRetryInterval(100);  // when no file descriptor is left
 
 }  // namespace
 
@@ -82,7 +82,7 @@ void ViewServer::Impl::Accept() {
       Accept();
       return;
     }
-    retry.expires_after(kRetryInterval);
+    retry.expires_after(kAcceptRetryInterval);
     retry.async_wait([this](boost::system::error_code stopped) {
       if (!stopped) Accept();
     });
