@@ -8,7 +8,6 @@
 #include <numbers>
 #include <span>
 
-#include "lio/base/angle.hpp"
 #include "lio/convert/azimuth_time.hpp"
 
 namespace lio {
@@ -18,11 +17,13 @@ inline constexpr double kBackwardSlack = std::numbers::pi / 6.0;
 
 // Wraps an angle into [-pi, pi).
 [[nodiscard]] inline double WrappedAngle(double angle) {
-  return angle - kTurn_rad * std::floor(angle / kTurn_rad + 0.5);
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return angle - kTurn * std::floor(angle / kTurn + 0.5);
 }
 // Wraps an angle into [0, 2 pi).
 [[nodiscard]] inline double PositiveTurn(double angle) {
-  return angle - kTurn_rad * std::floor(angle / kTurn_rad);
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return angle - kTurn * std::floor(angle / kTurn);
 }
 
 struct OrderVote {

@@ -12,7 +12,6 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kPixelBytes = 12;
 constexpr std::size_t kHeaderBytes = 32;        // of a RNG19 packet
 constexpr std::size_t kColumnHeaderBytes = 12;  // of RNG19
 constexpr std::size_t kLegacyHeaderBytes = 16;
@@ -58,7 +57,7 @@ void OusterDecoder::Add(ByteView payload, Timestamp received) {
 }
 
 OusterDecoder::Column OusterDecoder::ReadColumn(ByteView payload, std::size_t index) const {
-  const std::size_t pixels = kPixelBytes * metadata_.elevation_rad.size();
+  const std::size_t pixels = kOusterPixelBytes * metadata_.elevation_rad.size();
   Column column;
   if (metadata_.profile == OusterProfile::kLegacy) {
     const ByteView at = payload.subspan(index * (kLegacyHeaderBytes + pixels + kLegacyStatusBytes));
@@ -93,7 +92,7 @@ void OusterDecoder::AddColumn(const Column& column, Timestamp received) {
 // A beam leaves at `beam_origin_m` from the axis, in the direction of the column, and is turned by
 // its own offset: ranges are measured from the axis along both legs.
 void OusterDecoder::AddPixel(const Column& column, std::size_t beam) {
-  const ByteView pixel = column.pixels.subspan(kPixelBytes * beam, kPixelBytes);
+  const ByteView pixel = column.pixels.subspan(kOusterPixelBytes * beam, kOusterPixelBytes);
   const bool is_legacy = metadata_.profile == OusterProfile::kLegacy;
   const std::uint32_t range_mm =
       At<std::uint32_t>(pixel, 0) & (is_legacy ? kLegacyRangeMask : kRangeMask);

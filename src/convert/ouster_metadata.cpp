@@ -85,8 +85,7 @@ OusterMetadata Parse(const Json& all) {
 }  // namespace
 
 std::size_t OusterMetadata::PacketBytes() const {
-  constexpr std::size_t kPixelBytes = 12;
-  const std::size_t pixels = kPixelBytes * elevation_rad.size();
+  const std::size_t pixels = kOusterPixelBytes * elevation_rad.size();
   return profile == OusterProfile::kLegacy ? columns_per_packet * (16 + pixels + 4)
                                            : 32 + columns_per_packet * (12 + pixels) + 32;
 }

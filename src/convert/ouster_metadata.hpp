@@ -4,6 +4,7 @@
 // which its packets cannot be read: the beams' angles, and how a packet is laid out.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace lio {
 
 // Lengths are in mm, here and in packets.
 inline constexpr double kMetresPerMillimetre = 1e-3;
+inline constexpr std::size_t kOusterPixelBytes = 12;  // of one beam in a packet
 
 enum class OusterProfile { kLegacy, kRng19 };
 

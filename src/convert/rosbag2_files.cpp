@@ -90,13 +90,13 @@ Rosbag2Files FindFiles(const fs::path& path) {
 }  // namespace
 
 bool IsZstdFile(const fs::path& path) {
-  constexpr std::array<char, 4> kMagic = {'\x28', '\xB5', '\x2F', '\xFD'};
+  constexpr std::array<char, 4> kZstdMagic = {'\x28', '\xB5', '\x2F', '\xFD'};
   if (path.extension() != kZstdEnding && path.extension() != ".zst") return false;
   const std::string inner = path.stem().extension();
   if (inner != ".mcap" && inner != ".db3" && inner != ".bag") return false;
   std::array<char, 4> bytes{};
   std::ifstream file(path, std::ios::binary);
-  return file.read(bytes.data(), bytes.size()) && bytes == kMagic;
+  return file.read(bytes.data(), bytes.size()) && bytes == kZstdMagic;
 }
 
 Rosbag2Files FindRosbag2Files(const fs::path& path) {

@@ -7,11 +7,6 @@
 #include <cmath>
 
 namespace lio {
-namespace {
-
-constexpr ClockOffsetParameters kParameters = kFilterParameters.clock_offset;
-
-}  // namespace
 
 ClockOffsetFollower::ClockOffsetFollower(const Options& options) : options_(&options) {
   if (options.pipeline.use_imu) Restart();
@@ -49,8 +44,9 @@ std::optional<std::string> ClockOffsetFollower::AddScan(const MatchOutcome& outc
                 options_->filter.registration_cov_scale * rotation_cov.trace() / 3.0,
                 history.At(sweep.middle()).state.gyro_bias, gyro_density},
                samples);
-  const bool matters = std::abs(offset_->offset_s()) > kParameters.min_announced_s;
-  if (is_announced_ || offset_->std_s() > kParameters.announced_std_s || !matters)
+  constexpr ClockOffsetParameters kClockOffset = kFilterParameters.clock_offset;
+  const bool matters = std::abs(offset_->offset_s()) > kClockOffset.min_announced_s;
+  if (is_announced_ || offset_->std_s() > kClockOffset.announced_std_s || !matters)
     return std::nullopt;
   is_announced_ = true;
   return fmt::format(

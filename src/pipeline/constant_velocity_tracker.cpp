@@ -157,12 +157,11 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
 
 void ConstantVelocityTracker::NoteTurnError(double error_rad, double since_s) {
   if (!follows_turns_) return;
-  constexpr ConstantVelocityParameters kParameters = kConstantVelocity;
   const double var = error_rad * error_rad / (since_s * since_s * since_s);
-  turn_error_var_ += kParameters.turn_error_rate * (var - turn_error_var_);
-  history_options_.noise.gyro_bias_walk_density =
-      std::clamp(kParameters.density_per_error * std::sqrt(turn_error_var_),
-                 kParameters.min_turn_accel_density, kParameters.max_turn_accel_density);
+  turn_error_var_ += kConstantVelocity.turn_error_rate * (var - turn_error_var_);
+  history_options_.noise.gyro_bias_walk_density = std::clamp(
+      kConstantVelocity.density_per_error * std::sqrt(turn_error_var_),
+      kConstantVelocity.min_turn_accel_density, kConstantVelocity.max_turn_accel_density);
   history_.SetBiasWalk(history_options_.noise.gyro_bias_walk_density);
 }
 

@@ -8,7 +8,7 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kFoot_m = -3.0;  // depth to which walls reach into a slope
+constexpr double kWallFoot_m = -3.0;  // depth to which walls reach into a slope
 
 // A wall has its own coordinates: along it, up, and depth into the building.
 struct FacadeWall {
@@ -122,7 +122,7 @@ void AddFacade(Mesh& mesh, const FacadeWall& wall, const BuildingPlan& plan, Ran
   const FacadeStyle& style = plan.facade;
   const int num_bays = std::max(1, static_cast<int>(wall.length_m / style.bay_m));
   const double bay_m = wall.length_m / num_bays;
-  AddRectangle(mesh, wall, {0.0, wall.length_m, kFoot_m, 0.0}, 0.0, Material::kConcrete);
+  AddRectangle(mesh, wall, {0.0, wall.length_m, kWallFoot_m, 0.0}, 0.0, Material::kConcrete);
   std::vector<bool> balconies(static_cast<std::size_t>(num_bays));
   std::generate(balconies.begin(), balconies.end(),
                 [&] { return random.Chance(style.balcony_chance); });
@@ -220,7 +220,7 @@ Mesh MakeBuilding(const BuildingPlan& plan, Random& random) {
   const double h = HeightOf(plan);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (i > 0 && plan.has_plain_rear) {
-      AddRectangle(mesh, walls[i], {0.0, walls[i].length_m, kFoot_m, h}, 0.0, plan.facade.wall);
+      AddRectangle(mesh, walls[i], {0.0, walls[i].length_m, kWallFoot_m, h}, 0.0, plan.facade.wall);
     } else {
       AddFacade(mesh, walls[i], plan, random);
     }

@@ -21,7 +21,7 @@ constexpr double kHalfStairDoor_m = 0.5 * Shape::kDoorWidth_m;
 constexpr double kRoomWall_m = Shape::kHalfCorridor_m + 0.5 * Shape::kWall_m;  // |y| of its middle
 constexpr double kRoomFar_m = Shape::kHalfCorridor_m + Shape::kWall_m + Shape::kRoomDepth_m;
 constexpr double kOuter_m = kRoomFar_m + 0.5 * kOuterWall_m;
-constexpr double kTop_m = Shape::kNumStoreys * Shape::kStorey_m;
+constexpr double kRoof_m = Shape::kNumStoreys * Shape::kStorey_m;
 
 // The rooms of one side of the corridor, by their doors and their walls to the east.
 struct Rooms {
@@ -235,7 +235,7 @@ void AddStairwell(Mesh& mesh) {
   for (const double y : {-side_m, side_m}) {
     AddWall(
         mesh,
-        {{Shape::kStairEnd_m, y}, {-kStairWall_m, y}, 0.0, kTop_m - Shape::kSlab_m, kStairWall_m},
+        {{Shape::kStairEnd_m, y}, {-kStairWall_m, y}, 0.0, kRoof_m - Shape::kSlab_m, kStairWall_m},
         {});
   }
   for (int storey = 0; storey < Shape::kNumStoreys; ++storey) {
@@ -261,7 +261,7 @@ void AddStairwell(Mesh& mesh) {
            {{Shape::kStairEnd_m - 0.5 * kStairWall_m, -side_m},
             {Shape::kStairEnd_m - 0.5 * kStairWall_m, side_m}},
            {0.0, 2.0 * side_m, 0.0, 1.0}, kStairWall_m, Material::kPlaster);
-  const double top_m = kTop_m - Shape::kStorey_m;  // the guard where no flight leads up any more
+  const double top_m = kRoof_m - Shape::kStorey_m;  // the guard where no flight leads up any more
   for (const double up : {0.15, 0.55, 1.0}) {
     AddBar(mesh, {Shape::kLandingEnd_m, -Shape::kHalfStair_m, top_m + up},
            {Shape::kLandingEnd_m, -Shape::kHalfGap_m, top_m + up}, 0.025, 0.025, 8,

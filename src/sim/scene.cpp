@@ -11,10 +11,8 @@
 #include <utility>
 
 namespace lio::sim {
-namespace {
 
-constexpr int kLanes = 8;
-
+// A class has members of these types, which therefore are not in the unnamed namespace.
 struct DeviceDeleter {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
@@ -23,6 +21,10 @@ struct SceneDeleter {
 };
 using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
+
+namespace {
+
+constexpr int kLanes = 8;
 
 ScenePtr MakeMeshScene(RTCDevice device, const Mesh& mesh) {
   ScenePtr scene(rtcNewScene(device));

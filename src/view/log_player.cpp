@@ -18,11 +18,6 @@ namespace {
 constexpr int kMaxMessagesAtOnce = 2000;
 constexpr std::int64_t kMaxUtime = std::int64_t{1} << 52;  // in the year 2112
 
-struct IndexEntry {
-  std::int64_t t_us = 0;  // after the first
-  std::int64_t position_bytes = 0;
-};
-
 double Seconds(std::int64_t t_us) {
   return 1e-6 * static_cast<double>(t_us);
 }
@@ -49,6 +44,11 @@ class TrustedTime {
 }  // namespace
 
 struct LogPlayer::Impl {
+  struct Entry {
+    std::int64_t t_us = 0;  // after the first
+    std::int64_t position_bytes = 0;
+  };
+
   Impl(const std::filesystem::path& log, const std::string& prefix, ViewHub& to)
       : reader(log), feed(Channels(prefix), to), hub(to) {}
 
@@ -59,7 +59,7 @@ struct LogPlayer::Impl {
   EventLogReader reader;
   MessageFeed feed;
   ViewHub& hub;
-  std::vector<IndexEntry> entries;
+  std::vector<Entry> entries;
   std::int64_t first_utime = 0;
   double duration_s = 0.0;
   LogEvent event;

@@ -13,12 +13,12 @@ constexpr std::string_view kCss = "text/css; charset=utf-8";
 constexpr std::string_view kScript = "text/javascript; charset=utf-8";
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
-struct ServedFile {
+struct Entry {
   std::string_view path;
   WebFile file;
 };
 
-constexpr auto kFiles = std::to_array<ServedFile>({
+constexpr auto kFiles = std::to_array<Entry>({
     {"/", {kHtml, kViewHtml}},
     {"/view.css", {kCss, kViewCss}},
     {"/main.js", {kScript, kViewMainJs}},
@@ -41,7 +41,7 @@ constexpr auto kFiles = std::to_array<ServedFile>({
 }  // namespace
 
 std::optional<WebFile> FindWebFile(std::string_view path) {
-  for (const ServedFile& entry : kFiles) {
+  for (const Entry& entry : kFiles) {
     if (entry.path == path) return entry.file;
   }
   return std::nullopt;
