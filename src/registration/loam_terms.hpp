@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The correspondences of one round of LOAM and what is done with them: linearised for the step and
-// for what is reported, or, with sweep ratios, solved by Ceres. Target frame: the one that T_target_imu leads to.
+// for what is reported, or, with sweep ratios, solved by Ceres. Target frame: the one that
+// T_target_imu leads to.
 #pragma once
 
 #include <span>

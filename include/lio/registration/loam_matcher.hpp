@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // LOAM's scan-to-map matching: edge points against lines through their neighbours on an edge map,
-// surface points against planes through theirs on a surface map, with Huber's loss. Each round seeks
-// the correspondences anew and makes one Gauss-Newton step, until the pose stands still.
+// surface points against planes through theirs on a surface map, with Huber's loss. Each round
+// seeks the correspondences anew and makes one Gauss-Newton step, until the pose stands still.
 //
 // It needs points with tags (scan/feature_tag.hpp). Correspondences are sought as far as the guess
 // may be off and the maps are coarse. The cost is in units of the surface points' variance.
