@@ -4,9 +4,9 @@
 """Reads every source under src/ with clang-tidy, on all cores; exits 1 when it finds a fault.
 
 It reads what the compiler reads: with LIO_UNITY a dozen sources of a folder together, which takes a
-quarter of the time, else one by one. What passed is not read again until it, a file that it
-includes or .clang-tidy changes: the build folder's own list of dependencies tells. Needs a finished
-build in build/.
+quarter of the time, else one by one. A source that passed is not read again until it, a file that
+it includes or .clang-tidy changes: the build folder's own list of dependencies tells. Needs a
+finished build in build/.
 """
 import concurrent.futures
 import json
