@@ -112,6 +112,18 @@ void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchRe
   FinishMatch(sums, scores_, terms_->size() >= kMinTerms, result);
 }
 
+Pose LoamMatcher::SolveRound(const MatchInput& input, Pose T_map_imu) {
+  const StopRule rule{options_.max_iterations, options_.converged_step_m,
+                      options_.converged_step_rad};
+  for (int i = 0; i < rule.max_steps; ++i) {
+    const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+    const Vector6 step = StepInObservableDirections(SplitDirections(sums), sums.gradient);
+    T_map_imu = T_map_imu * ExpSe3(step);
+    if (rule.IsSmall(step)) break;
+  }
+  return T_map_imu;
+}
+
 MatchResult LoamMatcher::Match(const MatchInput& input) {
   MatchResult result;
   result.T_map_imu = input.T_map_imu_guess;
@@ -121,15 +133,15 @@ MatchResult LoamMatcher::Match(const MatchInput& input) {
   }
   Pose T_map_imu = input.T_map_imu_guess;
   const int factor = input.is_far_off ? LoamParameters::kFarOffRoundFactor : 1;
+  const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,
+                      options_.converged_step_rad};
   const auto step_at = [&](const Pose& pose, const SearchRadius& radius) -> std::optional<Vector6> {
     Associate(input, pose, radius);
     if (terms_->size() < kMinTerms) return std::nullopt;
-    const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
+    const Pose solved = SolveRound(input, pose);
     const double share = result.iterations > factor * LoamParameters::kFullRounds ? 0.5 : 1.0;
-    return share * StepInObservableDirections(SplitDirections(sums), sums.gradient);
+    return share * LogSe3(pose.Inverse() * solved);
   };
-  const StopRule rule{factor * options_.max_rounds, options_.converged_step_m,
-                      options_.converged_step_rad};
   if (StepUntilStill(rule, SearchRadius(input.guess_cov), step_at, T_map_imu, result)) {
     Finish(input, T_map_imu, result);
   }

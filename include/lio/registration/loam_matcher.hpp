@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // LOAM's scan-to-map matching: edge points against lines through their neighbours on an edge map,
 // surface points against planes through theirs on a surface map, with Huber's loss. Each round
-// seeks the correspondences anew and makes one Gauss-Newton step, until the pose stands still.
+// seeks the correspondences anew and makes Gauss-Newton steps, until the pose stands still.
 //
 // It needs points with tags (scan/feature_tag.hpp). Correspondences are sought as far as the guess
 // may be off and the maps are coarse. The cost is in units of the surface points' variance.
@@ -38,6 +38,8 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
 
  private:
   void Associate(const MatchInput& input, const Pose& T_map_imu, const SearchRadius& radius);
+  // The pose after Gauss-Newton steps with the correspondences of one round.
+  Pose SolveRound(const MatchInput& input, Pose T_map_imu);
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);
 
