@@ -211,8 +211,7 @@ void VisitFields(Visitor& visit, MaybeConst<LoamOptions> auto& o) {
   visit("edge_std_m", o.edge_std_m, "how well an edge point tells where the edge is [m]",
         Range{1e-4, 10});
   visit("surface_std_m", o.surface_std_m, "the same of a surface point [m]", Range{1e-4, 10});
-  visit("max_iterations", o.max_iterations, "target scan: most iterations of Ceres in one round",
-        Range{1, 1000});
+  visit("max_iterations", o.max_iterations, "most iterations in one round", Range{1, 1000});
   visit("max_rounds", o.max_rounds, "correspondences are sought anew in each; A-LOAM always 2",
         Range{1, 1000});
   visit("converged_step_m", o.converged_step_m, "a smaller step ends the match, if also [m]",
