@@ -24,9 +24,9 @@ if(LIO_SANITIZE)
   add_link_options(-fsanitize=${LIO_SANITIZE})
 endif()
 
-# lio_unite(TARGET): compiles the sources of one folder together, a dozen at a time, which takes a
-# half the time: Eigen's and GoogleTest's templates cost more than our own lines. Only with LIO_UNITY:
-# a build after a small change does better without. Names in the anonymous namespaces of a folder
+# lio_unite(TARGET): compiles the sources of one folder together, a dozen at a time, which takes half
+# the time: Eigen's and GoogleTest's templates cost more than our own lines. Only with LIO_UNITY: a
+# build after a small change does better without. Names in the anonymous namespaces of a folder
 # must therefore differ.
 function(lio_unite target)
   if(NOT LIO_UNITY)

@@ -11,6 +11,7 @@
 #include "calib/calibration_parameters.hpp"
 #include "calib/rate_search.hpp"
 #include "calib/turn_fit.hpp"
+#include "lio/base/angle.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/sensor/gap.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 
 constexpr TurnSelectionParameters kSelection = kCalibrationParameters.turns;
 constexpr CalibrationAcceptance kAcceptance = kCalibrationParameters.acceptance;
-constexpr double kRadToDeg = 180.0 / M_PI;
 
 // The turns between neighbouring sweeps; none across a missing sweep.
 std::vector<SweepTurn> MakeTurns(std::span<const SweepRotation> sweeps) {
@@ -109,7 +109,7 @@ std::string FitProblem(const RotationCalibration& found,
         "too little motion: the rotation about the lidar's axis ({:.2f} {:.2f} {:.2f}) stays "
         "unsure "
         "by {:.2f} deg; turn the sensors about others",
-        axis.x(), axis.y(), axis.z(), std_rad * kRadToDeg);
+        axis.x(), axis.y(), axis.z(), std_rad * kDegPerRad);
   }
   return {};
 }

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/io/input_error.hpp"
 
 namespace lio {
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<double> Radians(const YAML::Node& degrees) {
   auto values = degrees.as<std::vector<double>>();
-  for (double& value : values) value *= std::numbers::pi / 180.0;
+  for (double& value : values) value *= kRadPerDeg;
   return values;
 }
 

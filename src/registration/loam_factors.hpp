@@ -9,8 +9,8 @@
 //   point         r = p - a  (3)
 // Three components for the edge, not their norm: on the line the norm has no derivative. A line
 // shorter than 1 cm, and three points that span no plane, are refused with a null pointer.
-// The analytic ones (s = 1) are what matching uses; the automatic ones serve the scan-to-scan mode
-// with s and check the analytic ones.
+// Matches against the last scan use them: the analytic ones where s = 1; the automatic ones serve
+// s < 1 and check the analytic ones.
 // Source: Zhang and Singh, "LOAM", RSS 2014, eqs. (2) and (3).
 #pragma once
 

@@ -106,7 +106,7 @@ double LoamMatcher::NewContentShare(const MatchInput& input, const Pose& T_map_i
 
 void LoamMatcher::Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result) {
   Associate(input, T_map_imu, SearchRadius(Matrix6::Zero()));
-  const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+  const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, &scores_);
   result.T_map_imu = T_map_imu;
   result.new_content_share = NewContentShare(input, T_map_imu);
   FinishMatch(sums, scores_, terms_->size() >= kMinTerms, result);
@@ -116,7 +116,7 @@ Pose LoamMatcher::SolveRound(const MatchInput& input, Pose T_map_imu) {
   const StopRule rule{options_.max_iterations, options_.converged_step_m,
                       options_.converged_step_rad};
   for (int i = 0; i < rule.max_steps; ++i) {
-    const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, scores_);
+    const MatchSums sums = terms_->Linearize(input.points_imu, T_map_imu, nullptr);
     const Vector6 step = StepInObservableDirections(SplitDirections(sums), sums.gradient);
     T_map_imu = T_map_imu * ExpSe3(step);
     if (rule.IsSmall(step)) break;

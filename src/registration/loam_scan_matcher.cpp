@@ -128,7 +128,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
       points[i] = (part * points[i].cast<double>()).cast<float>();
     }
   }
-  const MatchSums sums = terms_->Linearize(points, T_last_imu, scores_);
+  const MatchSums sums = terms_->Linearize(points, T_last_imu, &scores_);
   const Vector6 last_step = Summarise(sums, scores_.by_part.Covariance(), result);
   if (sweep_ratios.empty()) TakeLastStep(last_step, result);
 }
@@ -153,7 +153,7 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
     const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, pose);
     const Vector6 step = LogSe3(pose.Inverse() * solved);
     if (!sweep_ratios.empty()) return step;
-    const MatchSums sums = terms_->Linearize(input.points_imu, pose, scores_);
+    const MatchSums sums = terms_->Linearize(input.points_imu, pose, &scores_);
     const DirectionSplit split = SplitDirections(sums);
     return KeepObservableDirections(split, step);
   };

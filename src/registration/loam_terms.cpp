@@ -53,7 +53,7 @@ Pose LoamTerms::Solve(std::span<const Eigen::Vector3f> points_imu,
 }
 
 MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
-                               const Pose& T_target_imu, MatchScores& scores) {
+                               const Pose& T_target_imu, MatchScores* scores) {
   MatchSums sums;
   const Matrix3 to_imu = T_target_imu.rotation.conjugate().toRotationMatrix();
   const auto row = [&](const Eigen::Vector3f& point, const Vector3& direction) {
@@ -61,7 +61,8 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
   };
   const auto add_score = [&](const auto& term, const Vector6f& score) {
     sums.gradient += score.cast<double>();
-    scores.Add(term.part, points_imu[static_cast<std::size_t>(term.point)], score);
+    if (scores == nullptr) return;
+    scores->Add(term.part, points_imu[static_cast<std::size_t>(term.point)], score);
   };
   for (PlaneTerm& term : planes_) {
     const Eigen::Vector3f& point = points_imu[static_cast<std::size_t>(term.point)];

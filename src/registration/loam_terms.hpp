@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correspondences of one round of LOAM and what is done with them: linearised for the step and
-// for what is reported, or, with sweep ratios, solved by Ceres. Target frame: the one that
-// T_target_imu leads to.
+// The correspondences of one round of LOAM and what is done with them: linearised for a step and
+// for what is reported, or solved by Ceres. Target frame: the one that T_target_imu leads to.
 #pragma once
 
 #include <span>
@@ -49,9 +48,10 @@ class LoamTerms {
   // loam_factors.hpp; empty: all 1.
   Pose Solve(std::span<const Eigen::Vector3f> points_imu, std::span<const float> sweep_ratios,
              const Pose& T_target_imu);
-  // Sets the terms' weights. Information in units of 1 / surface variance.
+  // Sets the terms' weights. Information in units of 1 / surface variance. Adds the terms' scores
+  // where a place for them is given.
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
-                      MatchScores& scores);
+                      MatchScores* scores);
   // The cost with the weights of the last Linearize.
   double FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
                                  const Pose& T_target_imu) const;

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "lio/base/angle.hpp"
 
 namespace lio::sim {
 namespace {
@@ -19,7 +20,7 @@ void Disguise(ImuVariant variant, const Vector3& g_imu, ImuSample& sample) {
   const bool is_in_deg = variant == ImuVariant::kInDeg || variant == ImuVariant::kInGAndDeg;
   if (variant == ImuVariant::kGravityRemoved) f += g_imu;
   if (is_in_g) f /= kStandardGravity_mps2;
-  if (is_in_deg) w *= 180.0 / std::numbers::pi;
+  if (is_in_deg) w *= kDegPerRad;
   if (variant == ImuVariant::kZDown) {
     w = Vector3(w.x(), -w.y(), -w.z());
     f = Vector3(f.x(), -f.y(), -f.z());

@@ -4,26 +4,26 @@
 
 #include <gtest/gtest.h>
 
-#include "registration/example_pose.hpp"
+#include "support/guess_cov.hpp"
 
 namespace lio {
 namespace {
 
-using test::IsotropicCov;
+using test::GuessCov;
 
 TEST(CommonRadius, IsThatOfAPointAtTheLever) {
   constexpr double kLever_m = CorrespondenceParameters::kLever_m;
-  const CommonRadius radius(IsotropicCov(0.1, 0.1 / kLever_m));
+  const CommonRadius radius(GuessCov(0.1, 0.1 / kLever_m));
   EXPECT_NEAR(radius.std_m(), std::sqrt(0.02), 1e-12);
   EXPECT_NEAR(radius.variance(), 0.02f, 1e-8f);
 }
 
 TEST(CommonRadius, HasABound) {
-  EXPECT_EQ(CommonRadius(IsotropicCov(100.0, 1.0)).std_m(), CorrespondenceParameters::kMaxStd_m);
+  EXPECT_EQ(CommonRadius(GuessCov(100.0, 1.0)).std_m(), CorrespondenceParameters::kMaxStd_m);
 }
 
 TEST(CommonRadius, ShrinksToNothing) {
-  CommonRadius radius(IsotropicCov(0.5, 0.05));
+  CommonRadius radius(GuessCov(0.5, 0.05));
   int num_steps = 0;
   while (!radius.IsExhausted()) {
     const double before_m = radius.std_m();

@@ -56,7 +56,7 @@ class LoamTermsTest : public ::testing::Test {
   }
   MatchSums LinearizeAt(const Pose& pose) {
     scores_.Reset(12, Pose::Identity());
-    return terms_.Linearize(points_, pose, scores_);
+    return terms_.Linearize(points_, pose, &scores_);
   }
 
   LoamOptions options_;
@@ -95,7 +95,7 @@ TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
   }
   scores_.Reset(1, Pose::Identity());
   const MatchSums of_one =
-      one.Linearize(points_, kLoamTruth * ExpSe3(0.01 * Vector6::Ones()), scores_);
+      one.Linearize(points_, kLoamTruth * ExpSe3(0.01 * Vector6::Ones()), &scores_);
   const Matrix6 square = of_one.gradient * of_one.gradient.transpose();
   EXPECT_LT((scores_.by_part.SumOfSquares() - square).norm(), 1e-4 * square.norm());
 }

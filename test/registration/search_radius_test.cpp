@@ -4,22 +4,22 @@
 
 #include <gtest/gtest.h>
 
-#include "registration/example_pose.hpp"
+#include "support/guess_cov.hpp"
 
 namespace lio {
 namespace {
 
-using test::IsotropicCov;
+using test::GuessCov;
 
 TEST(SearchRadius, GrowsWithTheGuessAndTheRange) {
-  const SearchRadius radius(IsotropicCov(0.1, 0.01));
+  const SearchRadius radius(GuessCov(0.1, 0.01));
   EXPECT_NEAR(radius.StdAt(0.0), 0.1, 1e-12);
   EXPECT_NEAR(radius.StdAt(10.0), std::sqrt(0.02), 1e-12);
   EXPECT_GT(radius.StdAt(50.0), 0.5);
 }
 
 TEST(SearchRadius, ShrinksToNothing) {
-  SearchRadius radius(IsotropicCov(0.5, 0.05));
+  SearchRadius radius(GuessCov(0.5, 0.05));
   double before = radius.StdAt(20.0);
   int num_steps = 0;
   while (!radius.IsExhausted()) {
@@ -39,7 +39,7 @@ TEST(SearchRadius, AnExactGuessNeedsNone) {
 }
 
 TEST(SearchRadius, IsBoundedHoweverPoorTheGuess) {
-  const SearchRadius radius(IsotropicCov(1000.0, 10.0));
+  const SearchRadius radius(GuessCov(1000.0, 10.0));
   EXPECT_LE(radius.StdAt(100.0), 2.0);
 }
 

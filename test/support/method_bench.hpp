@@ -11,6 +11,7 @@
 
 #include "lio/pipeline/match_method.hpp"
 #include "lio/registration/match_diagnostics.hpp"
+#include "support/guess_cov.hpp"
 #include "support/street_scene.hpp"
 
 namespace lio::test {
@@ -76,13 +77,6 @@ inline MethodScan Moved(MethodScan scan, const Pose& T_old_new) {
     for (Eigen::Vector3f& point : *points) point = (T_new_old * point.cast<double>()).cast<float>();
   }
   return scan;
-}
-
-inline Matrix6 GuessCov(double translation_std_m, double rotation_std_rad) {
-  Vector6 variance;
-  variance << Vector3::Constant(translation_std_m * translation_std_m),
-      Vector3::Constant(rotation_std_rad * rotation_std_rad);
-  return variance.asDiagonal();
 }
 
 }  // namespace lio::test
