@@ -21,6 +21,11 @@ if(LIO_SANITIZE)
   if(LIO_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize-recover=all)
   endif()
+  # The address sanitizer reports the same accesses as these two checks, which a quarter of the
+  # time to compile goes into.
+  if(LIO_SANITIZE MATCHES "address.*undefined")
+    add_compile_options(-fno-sanitize=object-size,null)
+  endif()
   add_link_options(-fsanitize=${LIO_SANITIZE})
 endif()
 

@@ -24,13 +24,14 @@ struct Column {
   int num = 0;
 };
 
-bool IsInView(const Eigen::Vector2f& point) {
-  return point.cwiseAbs().maxCoeff() < kView.half_width_m;
+// A search looks at millions of points, so coordinates are plain numbers here.
+bool IsInView(float x, float y) {
+  return std::abs(x) < kView.half_width_m && std::abs(y) < kView.half_width_m;
 }
 
-// The cell of a coordinate that is in view.
+// The cell of a coordinate that is in view; the conversion rounds down, since no sum is negative.
 int CellOf(float coordinate) {
-  return static_cast<int>(std::floor((coordinate + kView.half_width_m) / kView.cell_m));
+  return static_cast<int>((coordinate + kView.half_width_m) / kView.cell_m);
 }
 
 bool IsInside(int x, int y, int side) {
@@ -54,7 +55,7 @@ void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) 
 std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
   std::map<std::pair<int, int>, Column> columns;
   for (const Eigen::Vector3f& point : points) {
-    if (!IsInView(point.head<2>())) continue;
+    if (!IsInView(point.x(), point.y())) continue;
     const std::pair at(static_cast<int>(std::floor(point.x() / kView.column_m)),
                        static_cast<int>(std::floor(point.y() / kView.column_m)));
     Column& column = columns.try_emplace(at, Column{point.z(), point.z()}).first->second;
@@ -64,6 +65,20 @@ std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f>
     ++column.num;
   }
   return columns;
+}
+
+// How many of the structures, moved by `shift`, satisfy the predicate of x and y.
+template <typename Predicate>
+int CountShifted(std::span<const Eigen::Vector2f> structures, const Eigen::Vector2f& shift,
+                 Predicate is_counted) {
+  const float shift_x = shift.x();
+  const float shift_y = shift.y();
+  int num = 0;
+  for (const Eigen::Vector2f& structure : structures) {
+    const float* const xy = structure.data();
+    num += is_counted(xy[0] + shift_x, xy[1] + shift_y) ? 1 : 0;
+  }
+  return num;
 }
 
 }  // namespace
@@ -89,11 +104,18 @@ BirdsEyeView::BirdsEyeView(std::span<const Eigen::Vector3f> points)
                              kView.max_structures);
 }
 
-inline bool BirdsEyeView::IsNear(const Eigen::Vector2f& structure) const {
-  if (!IsInView(structure)) return false;
-  const int x = CellOf(structure.x());
-  const int y = CellOf(structure.y());
-  return IsInside(x, y, kSide) && near_[IndexOf(x, y, kSide)] != 0;
+inline bool BirdsEyeView::IsNear(float x, float y) const {
+  if (!IsInView(x, y)) return false;
+  const int column = CellOf(x);
+  const int row = CellOf(y);
+  return IsInside(column, row, kSide) && near_[IndexOf(column, row, kSide)] != 0;
+}
+
+inline bool BirdsEyeView::IsRoughlyNear(float x, float y) const {
+  if (!IsInView(x, y)) return false;
+  const int column = CellOf(x) / kView.coarse_cell;
+  const int row = CellOf(y) / kView.coarse_cell;
+  return IsInside(column, row, kRoughSide) && roughly_near_[IndexOf(column, row, kRoughSide)] != 0;
 }
 
 bool BirdsEyeView::IsOnLine(const Eigen::Vector2f& structure) const {
@@ -101,10 +123,13 @@ bool BirdsEyeView::IsOnLine(const Eigen::Vector2f& structure) const {
     const float angle_rad =
         static_cast<float>(i) * std::numbers::pi_v<float> / kView.num_line_directions;
     const Eigen::Vector2f metre(std::cos(angle_rad), std::sin(angle_rad));
+    const auto is_near = [&](int distance_m) {
+      const Eigen::Vector2f at = structure + distance_m * metre;
+      return IsNear(at.x(), at.y());
+    };
     int half_length_m = 0;
-    while (half_length_m < kView.line_half_length_m &&
-           IsNear(structure + (half_length_m + 1) * metre) &&
-           IsNear(structure - (half_length_m + 1) * metre)) {
+    while (half_length_m < kView.line_half_length_m && is_near(half_length_m + 1) &&
+           is_near(-half_length_m - 1)) {
       ++half_length_m;
     }
     if (half_length_m == kView.line_half_length_m) return true;
@@ -114,22 +139,12 @@ bool BirdsEyeView::IsOnLine(const Eigen::Vector2f& structure) const {
 
 int BirdsEyeView::NumNear(std::span<const Eigen::Vector2f> structures,
                           const Eigen::Vector2f& shift) const {
-  int num = 0;
-  for (const Eigen::Vector2f& structure : structures) num += IsNear(structure + shift) ? 1 : 0;
-  return num;
+  return CountShifted(structures, shift, [this](float x, float y) { return IsNear(x, y); });
 }
 
 int BirdsEyeView::NumRoughlyNear(std::span<const Eigen::Vector2f> structures,
                                  const Eigen::Vector2f& shift) const {
-  int num = 0;
-  for (const Eigen::Vector2f& unmoved : structures) {
-    const Eigen::Vector2f structure = unmoved + shift;
-    if (!IsInView(structure)) continue;
-    const int x = CellOf(structure.x()) / kView.coarse_cell;
-    const int y = CellOf(structure.y()) / kView.coarse_cell;
-    num += IsInside(x, y, kRoughSide) && roughly_near_[IndexOf(x, y, kRoughSide)] != 0 ? 1 : 0;
-  }
-  return num;
+  return CountShifted(structures, shift, [this](float x, float y) { return IsRoughlyNear(x, y); });
 }
 
 bool BirdsEyeView::HasEnoughStructures() const {

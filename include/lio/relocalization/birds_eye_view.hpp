@@ -32,7 +32,8 @@ class BirdsEyeView {
   [[nodiscard]] bool HasEnoughStructures() const;
 
  private:
-  bool IsNear(const Eigen::Vector2f& point) const;
+  bool IsNear(float x, float y) const;
+  bool IsRoughlyNear(float x, float y) const;
   // Do structures stand in a row to both sides of there?
   bool IsOnLine(const Eigen::Vector2f& point) const;
 

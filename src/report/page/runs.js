@@ -62,7 +62,7 @@ function useOneClock() {
   return isOwn;
 }
 
-// Each run has a map of its own. Where the truth tells how they lie, all are moved into that of the
+// Each run has a map of its own. If the truth tells how they lie, all are moved into that of the
 // first: p_first = T_first_truth * inverse(T_run_truth) * p_run, all of them turns about z.
 function useOneFrame() {
   const joinOf = run => run.truth && run.truth.joined;

@@ -1,4 +1,4 @@
-// What the page says in words: verdicts, causes, figures, assumptions, notices and options.
+// The texts of the page: verdicts, causes, figures, assumptions, notices and options.
 const lastPart = run => run.input.split("/").filter(part => part).pop() || "run";
 
 // The last part of the path, where no other run has the same.
