@@ -8,11 +8,11 @@ usage() {
   cat <<'USAGE'
 Usage: tools/test.sh [--fast | --asan | --tsan] [CTEST_ARGUMENT...]
 Sets up, with what only tests need, and runs all tests by ctest; then those of fuzz, io, app and
-core under the address and undefined-behaviour sanitizers, without the slowest of core, and those of
-app under the thread sanitizer. Tests that need the real data look for it in LIO_DATA, else in
-../shared/data, and are reported as skipped without it.
+core under the address and undefined-behaviour sanitizers, and those of app under the thread
+sanitizer. Tests that need the real data look for it in LIO_DATA, else in ../shared/data, and are
+reported as skipped without it.
   --fast  without the sanitizers
-  --asan  only the tests under the first two, with the slowest of core (build-asan/)
+  --asan  only the tests under the first two (build-asan/)
   --tsan  only the tests of app, under the thread sanitizer (build-tsan/)
 The sanitizers build with clang++, a second compiler beside g++.
 Environment: LIO_JOBS      parallel compilers and tests (one a core)
@@ -66,10 +66,6 @@ sanitized() {
   return $failed
 }
 
-# Tests of core that take 40 minutes of processor time and more under ASan: drives through a map and
-# at many delays.
-slowest_of_core='InitialMapEntry.*:OdometryImuConvention.*'
-slowest_of_core+=':Odometry.SameBytesWheneverJobsAreFinished:Odometry.StepsOneAfterTheOther*'
 run_asan() {
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
   sanitized asan "$@"
@@ -88,8 +84,7 @@ else
 fi
 case $part in
   all)
-    GTEST_FILTER=${GTEST_FILTER:--$slowest_of_core} \
-      run_asan lio_fuzz_test lio_io_test lio_app_test lio_core_test
+    run_asan lio_fuzz_test lio_io_test lio_app_test lio_core_test
     run_tsan
     ;;
   asan) run_asan lio_fuzz_test lio_io_test lio_app_test lio_core_test ;;

@@ -20,9 +20,11 @@ Trust LeastOf(const std::vector<Cause>& causes, Trust least) {
   return least;
 }
 
-Trust TrustIn(double coverage) {
+Trust TrustIn(double coverage, const ClaimedAccuracy& claimed) {
   if (coverage < kRigExaminer.least_coverage) return Trust::kNo;
-  return coverage < kRigExaminer.doubtful_coverage ? Trust::kDoubtful : Trust::kYes;
+  const bool is_vague =
+      claimed.position_std_m_per_100m.value_or(0.0) > kRigExaminer.doubtful_claim_m;
+  return is_vague || coverage < kRigExaminer.doubtful_coverage ? Trust::kDoubtful : Trust::kYes;
 }
 
 Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention) {
@@ -89,7 +91,7 @@ Verdict RigExaminer::Judge(const Counters& counters) const {
   if (contradictions_.empty()) append(FindDataFaults(counters, tally_, uses_imu_));
   // Equal ones stay in their order: rigs are more often wrong than data.
   std::ranges::stable_sort(verdict.causes, std::greater<>{}, &Cause::leaves);
-  verdict.trust = LeastOf(verdict.causes, TrustIn(verdict.coverage));
+  verdict.trust = LeastOf(verdict.causes, TrustIn(verdict.coverage, verdict.claimed));
   return verdict;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <tuple>
 
 #include "support/motion.hpp"
 #include "support/random_state.hpp"
@@ -236,7 +237,7 @@ TEST(Level, TurnsAPointsWorldAndLeavesYawPositionAndMap) {
 }
 
 TEST(StartState, RefusesToStartWithoutSamples) {
-  EXPECT_THROW(StartAtRest({}, StampAt(0.0), Rig{}), std::invalid_argument);
+  EXPECT_THROW(std::ignore = StartAtRest({}, StampAt(0.0), Rig{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -104,7 +104,6 @@ TEST(PlaceSeeker, FindsNothingOutsideTheMap) {
   for (int i = 0; i < 60; ++i) {
     const Pose T_map_imu{Quaternion::Identity(), Vector3(0.2 * i, 0, 0)};
     const MatchResult match = Located(T_map_imu);
-    Counts counts;
     const PlaceMatching matching{
         [](std::span<const Eigen::Vector3f>, const Pose& guess, const Matrix6&) {
           MatchResult result = Located(guess);

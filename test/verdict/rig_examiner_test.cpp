@@ -16,8 +16,8 @@ Counters CleanRun() {
   return counters;
 }
 
-// Poses for every sweep up to `posed_s` of 40 s.
-void AddRows(double posed_s, RigExaminer& examiner) {
+// Poses for every sweep up to `posed_s` of 40 s, each known to `position_std_m` in each axis.
+void AddRows(double posed_s, RigExaminer& examiner, double position_std_m = 0.0) {
   const Motion motion = WindingDrive(0.0);
   for (int i = 0; i <= 400; ++i) {
     const double t_s = 0.1 * i;
@@ -28,6 +28,7 @@ void AddRows(double posed_s, RigExaminer& examiner) {
     row.stamp = StampAt(t_s);
     row.is_located = true;
     row.T_map_imu = motion(t_s);
+    row.position_cov = position_std_m * position_std_m * Matrix3::Identity();
     examiner.tally().AddRow(row);
   }
 }
@@ -59,6 +60,14 @@ TEST(RigExaminer, CoverageLimitsTrust) {
     RigExaminer examiner(rig, true);
     AddRows(posed_s, examiner);
     EXPECT_EQ(examiner.Judge(CleanRun()).trust, trust) << posed_s;
+  }
+}
+
+TEST(RigExaminer, VagueClaimLimitsTrust) {
+  for (const auto& [std_m, trust] : {std::pair(0.1, Trust::kYes), {100.0, Trust::kDoubtful}}) {
+    RigExaminer examiner(ExampleRig(), true);
+    AddRows(40.0, examiner, std_m);
+    EXPECT_EQ(examiner.Judge(CleanRun()).trust, trust) << std_m;
   }
 }
 

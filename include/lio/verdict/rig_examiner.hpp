@@ -24,6 +24,9 @@ struct RigExaminerParameters {
   // of the time was an outage; with half of it missing the path is a guess.
   double doubtful_coverage = 0.9;
   double least_coverage = 0.5;
+  // m per 100 m (1 sigma). A result whose own covariance claims more is doubtful. Chosen: several
+  // times the 1 to 2 % that a vehicle's wheels drift.
+  double doubtful_claim_m = 5.0;
   // s. The rig is looked at so long after the first pose, and again each time the drive is longer
   // by this factor: a look costs some ten milliseconds. Chosen: a walker has then shown an
   // extrinsic that is off by degrees.
