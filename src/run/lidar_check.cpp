@@ -84,9 +84,9 @@ void LidarCheck::Add(const ScanChunk& chunk) {
 }
 
 void LidarCheck::AddNear(const ScanChunk& chunk, const LidarPoint& point) {
-  const float range_m = std::hypot(point.x_m, point.y_m, point.z_m);
-  if (!(range_m < kNear_m) || range_m < static_cast<float>(rig_.min_range_m)) return;
   const Vector3 p(point.x_m, point.y_m, point.z_m);
+  const double range_m = p.norm();
+  if (!(range_m < kNear_m) || range_m < rig_.min_range_m) return;
   const auto& box = rig_.own_vehicle_box;
   const bool is_in_box =
       box && (p.array() >= box->min_m.array()).all() && (p.array() <= box->max_m.array()).all();
@@ -96,7 +96,7 @@ void LidarCheck::AddNear(const ScanChunk& chunk, const LidarPoint& point) {
   cell.last_scan = chunk.scan_seq;
   ++cell.num_points;
   cell.sum_m += range_m;
-  cell.sum_sq_m2 += double{range_m} * range_m;
+  cell.sum_sq_m2 += range_m * range_m;
 }
 
 std::vector<Cause> LidarCheck::Find(double path_m) const {

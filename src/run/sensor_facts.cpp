@@ -32,11 +32,11 @@ double LargestError(std::span<const double> elevations_rad, const BeamTable& tab
 
 void RingElevations::Add(const LidarPoint& point) {
   if (point.ring >= kMaxRings) return;
+  if (point.ring < by_ring_.size() && by_ring_[point.ring].size() >= kMaxPointsARing) return;
   const float horizontal_m = std::hypot(point.x_m, point.y_m);
   if (!(std::hypot(horizontal_m, point.z_m) > kMinRange_m)) return;
   if (by_ring_.size() <= point.ring) by_ring_.resize(std::size_t{point.ring} + 1);
-  std::vector<float>& ring = by_ring_[point.ring];
-  if (ring.size() < kMaxPointsARing) ring.push_back(std::atan2(point.z_m, horizontal_m));
+  by_ring_[point.ring].push_back(std::atan2(point.z_m, horizontal_m));
 }
 
 std::vector<double> RingElevations::Medians() const {

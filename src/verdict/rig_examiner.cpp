@@ -41,6 +41,7 @@ void RigExaminer::SetConvention(const ImuConvention& convention) {
   convention_ = convention;
   record_.Clear();
   bounds_.reset();
+  told_.reset();
 }
 
 std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
@@ -54,16 +55,17 @@ std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
 }
 
 std::optional<std::string> RigExaminer::News(const RigFindings& findings) {
-  if (has_told_ || LeastOf(findings.causes, Trust::kYes) != Trust::kNo) return std::nullopt;
-  has_told_ = true;
-  const Cause& cause = findings.causes.front();
-  return fmt::format("the result cannot be trusted: {}: {}", Name(cause.kind), cause.evidence);
+  const auto worst = std::ranges::find(findings.causes, Trust::kNo, &Cause::leaves);
+  if (told_ || worst == findings.causes.end()) return std::nullopt;
+  told_ = *worst;
+  return fmt::format("the result cannot be trusted: {}: {}", Name(told_->kind), told_->evidence);
 }
 
 void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar,
                                const Pose& T_old_new) {
   rig_.T_imu_lidar = T_imu_lidar;
   bounds_.reset();
+  told_.reset();
   if (findings.T_imu_lidar) {
     std::ranges::copy_if(findings.causes, std::back_inserter(corrected_), IsOfExtrinsic);
     record_.Clear();  // sweeps were deskewed wrongly
@@ -88,6 +90,9 @@ Verdict RigExaminer::Judge(const Counters& counters) const {
   };
   append(corrected_);
   append(FindRigErrors(record_, rig_, convention_).causes);
+  if (told_ && !std::ranges::count(verdict.causes, told_->kind, &Cause::kind)) {
+    verdict.causes.push_back(*told_);
+  }
   if (contradictions_.empty()) append(FindDataFaults(counters, tally_, uses_imu_));
   // Equal ones stay in their order: rigs are more often wrong than data.
   std::ranges::stable_sort(verdict.causes, std::greater<>{}, &Cause::leaves);

@@ -125,6 +125,20 @@ TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
   EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kNo);
 }
 
+TEST(RigExaminer, CauseThatWasToldStaysInTheVerdict) {
+  RigExaminer examiner = ExaminerOfWrongRig();
+  std::optional<std::string> news;
+  for (int t_s = 0; t_s < 100 && !news; ++t_s) {
+    if (const auto findings = examiner.Look(StampAt(t_s))) news = examiner.News(*findings);
+  }
+  ASSERT_TRUE(news);
+  examiner.record().Clear();
+  const Verdict verdict = examiner.Judge(CleanRun());
+  EXPECT_EQ(verdict.trust, Trust::kNo);
+  ASSERT_FALSE(verdict.causes.empty());
+  EXPECT_EQ(verdict.causes.front().kind, CauseKind::kLeverArm);
+}
+
 TEST(RigExaminer, AnExtrinsicThatIsCorrectedLeavesDoubtAndItsFix) {
   RigExaminer examiner = ExaminerOfWrongRig();
   EXPECT_FALSE(examiner.Look(StampAt(0.0)));

@@ -43,8 +43,8 @@ def simulate(scenario, seed, folder, *words):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     subprocess.run([BIN / "lio-sim", "--scenario", scenario, "--seed", str(seed), "--lidar",
-                    "vlp16", "--imu", IMUS.get(scenario, "xsens_mti10"), "--duration", str(DURATION_S), "--threads",
-                    "2", *words, "--out", folder],
+                    "vlp16", "--imu", IMUS.get(scenario, "xsens_mti10"), "--duration",
+                    str(DURATION_S), "--threads", "2", *words, "--out", folder],
                    check=True, capture_output=True)
     (folder / "complete").write_text("")
 

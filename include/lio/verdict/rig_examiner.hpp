@@ -49,7 +49,8 @@ class RigExaminer {
 
   // To be called for each scan with a pose: looks at the rig now and then.
   [[nodiscard]] std::optional<RigFindings> Look(Timestamp stamp);
-  // Tells once when a look is sure that the result cannot be trusted.
+  // Tells once when a look is sure that the result cannot be trusted. Judge() then keeps the cause,
+  // even if later looks see too little to find it again, until rig or convention change.
   [[nodiscard]] std::optional<std::string> News(const RigFindings& findings);
   // The extrinsic is another one from here on, since a look has found the rig's wrong, or has
   // bettered what an earlier one found. T_old_new: MotionRecord::SetImu.
@@ -70,7 +71,7 @@ class RigExaminer {
   std::vector<Cause> corrected_;  // causes that are no longer there
   std::optional<Timestamp> first_stamp_;
   double next_look_s_ = kRigExaminer.first_look_s;
-  bool has_told_ = false;
+  std::optional<Cause> told_;  // that the result cannot be trusted, on the way
   Trust trust_ = Trust::kYes;
   std::optional<RigBounds> bounds_;
 };
