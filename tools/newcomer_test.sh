@@ -41,7 +41,7 @@ in_liod() { in_root bash -c 'cd /root/liod && exec "$@"' bash "$@"; }
 start=$SECONDS
 echo "newcomer: tools/demo.sh, with all that it installs and builds"
 in_liod tools/demo.sh >"$folder/demo.log" 2>&1 || { tail -n 20 "$folder/demo.log" >&2 && exit 1; }
-grep 'APE position' "$folder/demo.log"
+grep 'position error (APE' "$folder/demo.log"
 echo "newcomer: the demo has ended after $((SECONDS - start)) s"
 
 failed=0
@@ -50,7 +50,7 @@ for recording in "${recordings[@]}"; do
   start=$SECONDS code=0
   in_liod tools/demo.sh "/root/$(basename "$recording")" >"$folder/demo.log" 2>&1 || code=$?
   spent_s=$((SECONDS - start))
-  grep -E '^trust:|^ +[a-z_]+:|APE position' "$folder/demo.log" || true
+  grep -E '^trust:|^ +[a-z_]+:|position error\|APE position' "$folder/demo.log" || true
   echo "newcomer: $(basename "$recording"): exit code $code, $spent_s s to the report"
   if [[ ! -s $root/root/liod/out/demo/report.html ]] || ((spent_s > 60)); then
     cat "$folder/demo.log" >&2
