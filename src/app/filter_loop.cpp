@@ -33,8 +33,15 @@ FilterLoop::FilterLoop(const Options& options, StartIn start_in, bool publishes_
                        const Neighbours& neighbours)
     : to_(neighbours),
       odometry_(options, ThreadCpuNs, start_in),
+      lidar_check_(options),
       publishes_features_(options.pipeline.publish_features),
       publishes_full_cloud_(publishes_full_cloud) {}
+
+Verdict FilterLoop::Judge() const {
+  Verdict verdict = odometry_.Judge();
+  lidar_check_.AddTo(verdict);
+  return verdict;
+}
 
 double FilterLoop::input_duration_s() const {
   return static_cast<double>(last_utime_ - first_utime_) * 1e-6;
@@ -79,6 +86,7 @@ void FilterLoop::Handle(Arrival<ImuSample>& arrival) {
 void FilterLoop::Handle(Arrival<ScanChunk>& arrival) {
   NoteArrival(arrival.recv_utime, arrival.data.stamp);
   timings_.Of(arrival.data.scan_seq).arrived_utime = arrival.recv_utime;
+  lidar_check_.Add(arrival.data);
   odometry_.AddChunk(std::move(arrival.data), std::exchange(decode_ns_, 0) + arrival.decode_ns);
   odometry_.ShedLoad();
   HandOutJob();

@@ -20,6 +20,7 @@
 #include "app/publisher.hpp"
 #include "app/scan_timings.hpp"
 #include "app/status_board.hpp"
+#include "lio/io/lidar_check.hpp"
 
 namespace lio {
 
@@ -53,7 +54,7 @@ class FilterLoop {
 
   // After Run, or on the filter thread.
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
-  [[nodiscard]] Verdict Judge() const { return odometry_.Judge(); }
+  [[nodiscard]] Verdict Judge() const;
   [[nodiscard]] Ledgers ledgers() const { return odometry_.ledgers(); }
   // Messages that were not looked at after CutShort.
   [[nodiscard]] const FilterInbox::Losses& given_up() const { return given_up_; }
@@ -82,6 +83,7 @@ class FilterLoop {
 
   Neighbours to_;
   Odometry odometry_;
+  LidarCheck lidar_check_;
   const bool publishes_features_;
   std::atomic<bool> publishes_full_cloud_;
   std::atomic<bool> is_cut_short_ = false;

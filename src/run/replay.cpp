@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -12,7 +11,6 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/progress_bar.hpp"
-#include "run/lidar_check.hpp"
 
 namespace lio {
 
@@ -22,13 +20,11 @@ Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter
       odometry_(options, ThreadCpuNs,
                 settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap),
       worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model), settings.initial_map),
-      lidar_check_(std::make_unique<LidarCheck>(options)) {
+      lidar_check_(options) {
   if (settings_.writes_map && settings_.initial_map) {
     map_.Add(settings_.initial_map->points, Pose::Identity());
   }
 }
-
-Replay::~Replay() = default;
 
 void Replay::Run(LogInput& input) {
   const auto begin = std::chrono::steady_clock::now();
@@ -54,7 +50,7 @@ void Replay::Add(InputItem item) {
   if (const auto* sample = std::get_if<ImuSample>(&item.data)) {
     odometry_.AddImu(*sample);
   } else {
-    lidar_check_->Add(std::get<ScanChunk>(item.data));
+    lidar_check_.Add(std::get<ScanChunk>(item.data));
     odometry_.AddChunk(std::get<ScanChunk>(std::move(item.data)), decode_ns_);
     decode_ns_ = 0;
   }
@@ -92,7 +88,6 @@ void Replay::TakeOutputs() {
   for (const Output& output : odometry_.TakeOutputs()) {
     writer_.Write(output, odometry_.trust());
     TellFailure();
-    AddPath(output);
     if (const auto* notice = std::get_if<Notice>(&output)) {
       if (notice->severity == Notice::Severity::kError) {
         refusal_ = notice->text;
@@ -104,24 +99,9 @@ void Replay::TakeOutputs() {
   }
 }
 
-void Replay::AddPath(const Output& output) {
-  const auto* scan = std::get_if<ScanOutput>(&output);
-  if (scan == nullptr || !scan->filter) return;
-  const Vector3& position = scan->filter->nav.T_map_imu.translation;
-  if (last_position_) path_m_ += (position - *last_position_).norm();
-  last_position_ = position;
-}
-
-// The causes that the sweeps themselves show come last: they seldom cost accuracy.
 void Replay::Judge() {
   verdict_ = odometry_.Judge();
-  for (Cause& cause : lidar_check_->Find(path_m_)) {
-    const bool is_known = std::any_of(verdict_.causes.begin(), verdict_.causes.end(),
-                                      [&](const Cause& other) { return other.kind == cause.kind; });
-    if (is_known) continue;
-    verdict_.trust = std::max(verdict_.trust, cause.leaves);
-    verdict_.causes.push_back(std::move(cause));
-  }
+  lidar_check_.AddTo(verdict_);
 }
 
 void Replay::TellFailure() {

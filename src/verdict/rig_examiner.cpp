@@ -82,6 +82,7 @@ void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_li
 Verdict RigExaminer::Judge(const Counters& counters) const {
   Verdict verdict;
   verdict.coverage = tally_.Coverage();
+  verdict.path_m = tally_.path_m();
   verdict.claimed = tally_.Claimed();
   verdict.causes = contradictions_;
   const auto append = [&](std::vector<Cause> causes) {

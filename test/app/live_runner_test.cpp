@@ -41,6 +41,17 @@ TEST_F(LiveRunnerTest, ScanRateFilesAreReplaysByteForByte) {
   ExpectAccountCloses();
 }
 
+TEST_F(LiveRunnerTest, TheVerdictNamesALidarOfAnotherModel) {
+  Options options = SceneOptions();
+  options.rig.lidar.model = "hdl64e";
+  LiveRunner runner(*bus_, options, WithFiles());
+  Play(runner);
+  runner.Stop();
+  ASSERT_TRUE(runner.verdict());
+  EXPECT_EQ(std::ranges::count(runner.verdict()->causes, CauseKind::kLidarModel, &Cause::kind), 1);
+  EXPECT_NE(Live("verdict.json").find("lidar_model"), std::string::npos);
+}
+
 TEST_F(LiveRunnerTest, TheAccountClosesWithHostileBytesAmongTheMessages) {
   LiveRunner runner(*bus_, SceneOptions(), WithFiles());
   Play(runner, 500, [&](std::int32_t num_scans) {

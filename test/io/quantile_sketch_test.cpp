@@ -19,7 +19,7 @@ double Exact(const std::vector<double>& sorted, double fraction) {
 }
 
 // Times of computing as they are: a bulk around `median`, and rare values many times as long.
-std::vector<double> StageTimes(std::size_t count, double median, std::uint64_t seed) {
+std::vector<double> RandomStageTimes(std::size_t count, double median, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   std::lognormal_distribution<double> time(std::log(median), 0.7);
   std::vector<double> times(count);
@@ -29,7 +29,7 @@ std::vector<double> StageTimes(std::size_t count, double median, std::uint64_t s
 
 TEST(QuantileSketch, AShortRunsQuantilesAreExact) {
   QuantileSketch sketch;
-  std::vector<double> values = StageTimes(QuantileSketch::kMaxExact, 12.0, 1);
+  std::vector<double> values = RandomStageTimes(QuantileSketch::kMaxExact, 12.0, 1);
   for (const double value : values) sketch.Add(value);
   std::sort(values.begin(), values.end());
   for (const double fraction : {0.0, 0.25, 0.5, 0.99, 1.0}) {
@@ -40,7 +40,7 @@ TEST(QuantileSketch, AShortRunsQuantilesAreExact) {
 TEST(QuantileSketch, ALongRunsQuantilesAreRightToOnePercent) {
   for (const double median : {3e-4, 0.1, 12.0, 4000.0}) {
     QuantileSketch sketch;
-    std::vector<double> values = StageTimes(20'000, median, 2);
+    std::vector<double> values = RandomStageTimes(20'000, median, 2);
     for (const double value : values) sketch.Add(value);
     std::sort(values.begin(), values.end());
     for (const double fraction : {0.01, 0.5, 0.9, 0.99, 0.999}) {
@@ -55,7 +55,7 @@ TEST(QuantileSketch, ALongRunsQuantilesAreRightToOnePercent) {
 TEST(QuantileSketch, ItsMemoryIsBounded) {
   QuantileSketch sketch;
   std::size_t most_bytes = 0;
-  for (const double value : StageTimes(50'000, 12.0, 3)) {
+  for (const double value : RandomStageTimes(50'000, 12.0, 3)) {
     sketch.Add(value);
     most_bytes = std::max(most_bytes, sketch.memory_bytes());
   }
@@ -64,7 +64,7 @@ TEST(QuantileSketch, ItsMemoryIsBounded) {
 }
 
 TEST(QuantileSketch, TheOrderOfTheValuesDoesNotMatter) {
-  std::vector<double> values = StageTimes(10'000, 5.0, 4);
+  std::vector<double> values = RandomStageTimes(10'000, 5.0, 4);
   QuantileSketch one;
   for (const double value : values) one.Add(value);
   std::reverse(values.begin(), values.end());

@@ -3,10 +3,10 @@
 // Runs the estimator over a log, without a clock and without dropping anything.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
+#include "lio/io/lidar_check.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/run_writer.hpp"
@@ -15,8 +15,6 @@
 #include "lio/pipeline/registration_worker.hpp"
 
 namespace lio {
-
-class LidarCheck;
 
 struct ReplaySettings {
   std::string program;  // is named at the progress bar and before each notice
@@ -30,7 +28,6 @@ struct ReplaySettings {
 class Replay {
  public:
   Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer);
-  ~Replay();
 
   // Replays all of `input`, or up to the notice that the options contradict it, and completes the
   // files. If one cannot be written, stderr tells at once; the estimate goes on without rows.
@@ -49,7 +46,6 @@ class Replay {
   [[nodiscard]] bool StartMatch();
   void TakeOutputs();
   void TellFailure();
-  void AddPath(const Output& output);
   void Judge();
   void Finish(const LogInput& input, double wall_s);
 
@@ -58,9 +54,7 @@ class Replay {
   Odometry odometry_;
   RegistrationWorker worker_;
   MapCloud map_;
-  std::unique_ptr<LidarCheck> lidar_check_;
-  std::optional<Vector3> last_position_;
-  double path_m_ = 0.0;
+  LidarCheck lidar_check_;
   std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;

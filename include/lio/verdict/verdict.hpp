@@ -73,6 +73,7 @@ struct Verdict {
   double coverage = 0.0;  // share of the input's time that has poses
   ClaimedAccuracy claimed;
   std::vector<Cause> causes;  // likeliest first
+  double path_m = 0.0;        // length of the path
 };
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "run/sensor_facts.hpp"
+#include "lio/io/lidar_guess.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::vector<BeamTable> Known() {
   return {LoadBeamTable("vlp16"), LoadBeamTable("hdl32e")};
 }
 
-LidarPoint PointAt(double elevation_rad, int ring) {
+LidarPoint RingPoint(double elevation_rad, int ring) {
   LidarPoint point;
   point.x_m = static_cast<float>(10.0 * std::cos(elevation_rad));
   point.z_m = static_cast<float>(10.0 * std::sin(elevation_rad));
@@ -47,9 +47,9 @@ TEST(GuessLidar, WithoutRingsTheLidarIsGeneric) {
 
 TEST(RingElevations, TheMedianOfARingIsNotMovedByStrayPoints) {
   RingElevations elevations;
-  for (int i = 0; i < 20; ++i) elevations.Add(PointAt(-0.1, 0));
-  elevations.Add(PointAt(0.5, 0));
-  elevations.Add(PointAt(0.1, 1));
+  for (int i = 0; i < 20; ++i) elevations.Add(RingPoint(-0.1, 0));
+  elevations.Add(RingPoint(0.5, 0));
+  elevations.Add(RingPoint(0.1, 1));
   const std::vector<double> medians = elevations.Medians();
   ASSERT_EQ(medians.size(), 2u);
   EXPECT_NEAR(medians[0], -0.1, 1e-6);
@@ -58,9 +58,9 @@ TEST(RingElevations, TheMedianOfARingIsNotMovedByStrayPoints) {
 
 TEST(RingElevations, OneRingAndMissingRingsGiveNothing) {
   RingElevations elevations;
-  elevations.Add(PointAt(0.0, 0));
+  elevations.Add(RingPoint(0.0, 0));
   EXPECT_THAT(elevations.Medians(), IsEmpty());
-  elevations.Add(PointAt(0.1, 2));
+  elevations.Add(RingPoint(0.1, 2));
   EXPECT_THAT(elevations.Medians(), IsEmpty());
 }
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "lio/io/lidar_guess.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/sensor/scan_chunk.hpp"
 #include "lio/verdict/verdict.hpp"
-#include "run/sensor_facts.hpp"
 
 namespace lio {
 
@@ -20,6 +20,9 @@ class LidarCheck {
   explicit LidarCheck(const Options& options);
 
   void Add(const ScanChunk& chunk);
+  // The causes that were found come last, since they seldom cost accuracy; of a kind that the
+  // verdict names already there is none.
+  void AddTo(Verdict& verdict) const;
   // The causes that were found, none of which takes more trust than `leaves` says. The vehicle's
   // own returns can only be told from the surroundings after a way of some length.
   [[nodiscard]] std::vector<Cause> Find(double path_m) const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "run/lidar_check.hpp"
+#include "lio/io/lidar_check.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "run/lidar_check.hpp"
+#include "lio/io/lidar_check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "lio/base/angle.hpp"
 #include "lio/io/beam_table.hpp"
+#include "lio/io/lidar_guess.hpp"
+#include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 // Whole numbers of cells: 2 deg of azimuth and of elevation.
 constexpr int kNumAzimuths = 180;
 constexpr int kNumElevations = 90;
@@ -97,6 +98,14 @@ void LidarCheck::AddNear(const ScanChunk& chunk, const LidarPoint& point) {
   ++cell.num_points;
   cell.sum_m += range_m;
   cell.sum_sq_m2 += range_m * range_m;
+}
+
+void LidarCheck::AddTo(Verdict& verdict) const {
+  for (Cause& cause : Find(verdict.path_m)) {
+    if (std::ranges::count(verdict.causes, cause.kind, &Cause::kind) > 0) continue;
+    verdict.trust = std::max(verdict.trust, cause.leaves);
+    verdict.causes.push_back(std::move(cause));
+  }
 }
 
 std::vector<Cause> LidarCheck::Find(double path_m) const {
