@@ -184,11 +184,11 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
 void Tracking::Examine(const MatchOutcome& outcome) const {
   MotionRecord& record = context_.examiner.record();
   if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();
-  record.SetClockCorrection(outcome.sweep->clock_correction);
-  const Timestamp middle = outcome.sweep->middle() - outcome.sweep->clock_correction;
+  const Timestamp middle = outcome.sweep->middle();
+  const Duration correction = outcome.sweep->clock_correction;
   const Timestamp since = record.last_stamp().value_or(middle);
   const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
-  record.Add({middle, outcome.match.T_map_imu},
+  record.Add({middle, outcome.match.T_map_imu}, correction,
              context_.stream.imu().Between(since - margin, middle + margin));
 }
 

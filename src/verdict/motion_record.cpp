@@ -55,8 +55,12 @@ void MotionRecord::SetImu(const Pose& T_old_new) {
   if (last_) last_->pose = last_->pose * T_old_new;
 }
 
-void MotionRecord::Add(const StampedPose& T_map_imu, std::span<const ImuSample> samples) {
-  const std::optional<StampedPose> last = std::exchange(last_, T_map_imu);
+void MotionRecord::Add(const StampedPose& T_map_imu, Duration clock_correction,
+                       std::span<const ImuSample> samples) {
+  const Duration change = clock_correction - std::exchange(clock_correction_, clock_correction);
+  if (std::abs(change.Seconds()) > kMotionRecord.max_correction_change_s) ++track_;
+  std::optional<StampedPose> last = std::exchange(last_, T_map_imu);
+  if (last) last->stamp = last->stamp + change;
   const bool is_step = last && samples.size() >= 3 && T_map_imu.stamp > last->stamp &&
                        SecondsBetween(last->stamp, T_map_imu.stamp) <= kMotionRecord.max_step_s &&
                        !HasSaturated(samples);
@@ -79,6 +83,7 @@ void MotionRecord::Add(const StampedPose& T_map_imu, std::span<const ImuSample> 
   step.velocity_mps = half_turn_back * motion.velocity;
   step.position_m = half_turn_back * motion.position;
   step.jerk_mps3 = (at_to.f_imu_mps2 - at_from.f_imu_mps2) / motion.span_s();
+  step.clock_correction_s = clock_correction.Seconds();
   if (steps_.size() >= kMotionRecord.max_steps) steps_.pop_front();
   steps_.push_back(step);
 }

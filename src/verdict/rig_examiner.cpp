@@ -63,10 +63,13 @@ std::optional<std::string> RigExaminer::News(const RigFindings& findings) {
 
 void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar,
                                const Pose& T_old_new) {
-  rig_.T_imu_lidar = T_imu_lidar;
+  if (!rig_.T_imu_lidar) rig_.T_imu_lidar.emplace();
+  static_cast<Pose&>(*rig_.T_imu_lidar) = T_imu_lidar;  // known as well as before
   bounds_.reset();
   told_.reset();
   if (findings.T_imu_lidar) {
+    first_stamp_.reset();
+    next_look_s_ = kRigExaminer.first_look_s;
     std::ranges::copy_if(findings.causes, std::back_inserter(corrected_), IsOfExtrinsic);
     record_.Clear();  // sweeps were deskewed wrongly
   } else {

@@ -102,7 +102,8 @@ std::vector<RigFit::Bend> RigFit::FindBends(double span_s, int map) const {
       const double height_at_to = 1.0 + slope * (from_s + dt);
       const double share = (height_at_to - 0.5 * slope * dt) * dt;
       // The weight is linear within the step: its integrals are those of velocity and position.
-      const Vector3 f = (height_at_to * step.velocity_mps - slope * step.position_m) / share;
+      const Vector3 f = (height_at_to * step.velocity_mps - slope * step.position_m) / share -
+                        step.clock_correction_s * step.jerk_mps3;
       bend.parts.push_back(
           {2.0 * share / (rise_s + fall_s), f, step.jerk_mps3,
            step.from.pose.rotation.slerp(0.5, step.to.pose.rotation).toRotationMatrix()});
@@ -157,7 +158,8 @@ RigFit::TurnAlignment RigFit::AlignTurns() const {
 RigFit::Row RigFit::TurnRow(const MotionStep& step, const RigErrors& errors) {
   const double dt = step.span_s();
   const Vector3 turn =
-      step.turn_rad + errors.offset_s * step.rate_gain_radps - dt * errors.gyro_bias_radps;
+      step.turn_rad + (errors.offset_s - step.clock_correction_s) * step.rate_gain_radps -
+      dt * errors.gyro_bias_radps;
   const Matrix3 E = errors.rotation.toRotationMatrix();
   Row row;
   row.stamp = step.to.stamp;

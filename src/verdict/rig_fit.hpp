@@ -35,7 +35,7 @@ struct RigFitParameters {
   double short_span_s = 0.2;  // of a second difference to each side: two scans at 10 Hz. Chosen
   // The same of a second one, for which noise is smaller.
   double long_span_s = MotionEvidenceParameters{}.second_difference_span_s;
-  double cluster_s = 2.0;      // longer than a step of a walker and the lag of the map. Chosen
+  double cluster_s = 1.0;      // longer than a step of a walker and the lag of the map. Chosen
   std::size_t min_steps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
   int num_iterations = 4;      // Gauss-Newton; linear but for the rotation. Chosen
   // Huber's threshold in standard deviations of one axis, for residuals of three. Customary, as in
@@ -114,7 +114,7 @@ class RigFit {
     Matrix3 rotation_bend = Matrix3::Zero();  // second difference of R_map_imu, 1/s^2
     struct Part {
       double share;    // of the triangular weight
-      Vector3 f_mps2;  // mean specific force under it, in imu
+      Vector3 f_mps2;  // mean specific force under it, in imu, without a further offset
       Vector3 jerk_mps3;
       Matrix3 R_map_imu;  // at the middle of the step
     };

@@ -131,8 +131,8 @@ inline int MapOfNextStep(MotionRecord& record) {
   const std::vector<ImuSample> samples =
       ExactSamples(Straight(0.0), kLate_s, kLate_s + 0.2, kImuStep_s);
   record.Interrupt();
-  record.Add({StampAt(kLate_s), {}}, samples);
-  record.Add({StampAt(kLate_s + 0.1), {}}, samples);
+  record.Add({StampAt(kLate_s), {}}, Duration{}, samples);
+  record.Add({StampAt(kLate_s + 0.1), {}}, Duration{}, samples);
   record.Interrupt();
   return record.steps().back().map;
 }

@@ -12,8 +12,8 @@ namespace {
 MotionRecord TwoPoses(double apart_s, std::vector<ImuSample> samples) {
   MotionRecord record;
   const Motion motion = Tumble();
-  record.Add({StampAt(1.0), motion(1.0)}, samples);
-  record.Add({StampAt(1.0 + apart_s), motion(1.0 + apart_s)}, samples);
+  record.Add({StampAt(1.0), motion(1.0)}, Duration{}, samples);
+  record.Add({StampAt(1.0 + apart_s), motion(1.0 + apart_s)}, Duration{}, samples);
   return record;
 }
 
@@ -43,7 +43,7 @@ TEST(MotionRecord, PosesAreThoseOfTheOtherImuFromThereOn) {
   MotionRecord record = TwoPoses(0.1, Samples());
   record.SetImu(T_old_new);
   const Motion motion = Tumble();
-  record.Add({StampAt(1.2), motion(1.2) * T_old_new}, Samples());
+  record.Add({StampAt(1.2), motion(1.2) * T_old_new}, Duration{}, Samples());
   ASSERT_EQ(record.steps().size(), 2U);
   for (const MotionStep& step : record.steps()) {
     const Pose expected = motion(test::SecondsOf(step.from.stamp)) * T_old_new;
@@ -62,11 +62,39 @@ TEST(MotionRecord, SaturatedSamplesAreNoStep) {
   EXPECT_TRUE(TwoPoses(0.1, samples).steps().empty());
 }
 
+// Adds poses each 0.1 s of the lidar's clock, to whose stamps these corrections were added.
+MotionRecord CorrectedBy(const std::vector<double>& corrections_s) {
+  MotionRecord record;
+  for (std::size_t i = 0; i < corrections_s.size(); ++i) {
+    const double t_s = 1.0 + 0.1 * static_cast<double>(i) + corrections_s[i];
+    record.Add({StampAt(t_s), Tumble()(t_s)}, Duration::FromSeconds(corrections_s[i]), Samples());
+  }
+  return record;
+}
+
+TEST(MotionRecord, ACorrectionThatCreepsLeavesStepsAsLongAsInTheLidarsClock) {
+  const MotionRecord record = CorrectedBy({0.02, 0.0204, 0.0208});
+  ASSERT_EQ(record.steps().size(), 2U);
+  EXPECT_EQ(record.steps()[0].track, record.steps()[1].track);
+  for (const MotionStep& step : record.steps()) EXPECT_NEAR(step.span_s(), 0.1, 1e-9);
+  EXPECT_NEAR(record.steps()[1].clock_correction_s, 0.0208, 1e-12);
+  EXPECT_NEAR(record.clock_correction().Seconds(), 0.0208, 1e-9);
+}
+
+TEST(MotionRecord, ACorrectionThatJumpsSeparatesTracks) {
+  const MotionRecord record = CorrectedBy({0.0, 0.0, 0.025, 0.025});
+  ASSERT_EQ(record.steps().size(), 3U);
+  EXPECT_NE(record.steps()[0].track, record.steps()[1].track);
+  EXPECT_EQ(record.steps()[1].track, record.steps()[2].track);
+}
+
 TEST(MotionRecord, InterruptionAndNewMapSeparateTracks) {
   MotionRecord record;
   const Motion motion = Tumble();
   const std::vector<ImuSample> samples = Samples();
-  const auto add = [&](double t_s) { record.Add({StampAt(t_s), motion(t_s)}, samples); };
+  const auto add = [&](double t_s) {
+    record.Add({StampAt(t_s), motion(t_s)}, Duration{}, samples);
+  };
   add(1.0);
   add(1.1);
   record.Interrupt();

@@ -55,6 +55,15 @@ TEST(RigFit, FindsRotationLeverAndOffsetTogether) {
   ExpectErrors(Fitted(drive), error, drive.clock_offset_s, lever);
 }
 
+TEST(RigFit, TellsAllOfAnOffsetThatTheStampsHaveBeenCorrectedBy) {
+  RigDrive drive = RightDrive();
+  drive.T_configured.translation += Vector3(0.1, 0.0, -0.1);
+  drive.clock_offset_s = 0.025;
+  drive.clock_correction_s = 0.022;
+  const Vector3 lever = drive.T_imu_lidar.translation - drive.T_configured.translation;
+  ExpectErrors(Fitted(drive), Quaternion::Identity(), drive.clock_offset_s, lever);
+}
+
 TEST(RigFit, FindsAQuarterTurn) {
   RigDrive drive{.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()};
   const Quaternion error = ExpSo3(Vector3(0.0, 0.0, M_PI / 2));

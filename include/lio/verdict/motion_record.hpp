@@ -23,6 +23,9 @@ struct MotionRecordParameters {
   // s. Half of the time over which rate and force at a stamp are averaged. Chosen: four samples at
   // 100 Hz, so that their noise is halved.
   double instant_s = 0.02;
+  // s. Neighbouring steps make one track while the estimated clock offset moves stamps by the same
+  // amount within this. Chosen: 2 cm at 20 m/s, as much as a match is off.
+  double max_correction_change_s = 0.001;
 };
 
 inline constexpr MotionRecordParameters kMotionRecord;
@@ -37,6 +40,7 @@ struct MotionStep {
   // The forces add this to velocity and position, in imu at the step's middle, without gravity.
   Vector3 velocity_mps, position_m;
   Vector3 jerk_mps3;  // mean change of the specific force, in imu
+  double clock_correction_s;  // what the estimated clock offset has added to both stamps
   double span_s() const { return SecondsBetween(from.stamp, to.stamp); }
 };
 
@@ -46,11 +50,11 @@ class MotionRecord {
   void BeginMap();
   // The rates and forces so far were read in other units or axes.
   void Clear();
-  // Adds a matched pose, later than the one before, whose stamp an estimated clock offset has not
-  // moved. `samples`: from the last pose to this one at least, ascending.
-  void Add(const StampedPose& T_map_imu, std::span<const ImuSample> samples);
-  // The estimate moves stamps by this much now.
-  void SetClockCorrection(Duration correction) { clock_correction_ = correction; }
+  // Adds a matched pose, later than the one before, to whose stamp an estimated clock offset has
+  // added `clock_correction`. `samples`: from the last pose to this one at least, ascending.
+  void Add(const StampedPose& T_map_imu, Duration clock_correction,
+           std::span<const ImuSample> samples);
+  // What the estimated clock offset adds to stamps now.
   Duration clock_correction() const { return clock_correction_; }
   // The poses so far and those to come are of another imu, which has this pose in the one so far.
   void SetImu(const Pose& T_old_new);
@@ -64,7 +68,7 @@ class MotionRecord {
   int map_ = 0;
   int track_ = 0;
   Duration clock_correction_;
-  std::optional<StampedPose> last_;
+  std::optional<StampedPose> last_;  // by the clock correction of now
   std::deque<MotionStep> steps_;
 };
 
