@@ -37,6 +37,11 @@ struct OptionalGroup {
   std::function<void()> disengage;
 };
 
+bool HasDefault(const std::string& path) {
+  const std::string_view key = std::string_view(path).substr(path.rfind('.') + 1);
+  return std::ranges::find(kExtrinsicStdKeys, key) != std::end(kExtrinsicStdKeys);
+}
+
 // Every key of an Options by dotted path, with how to set it. All optional groups are engaged.
 class KeyTable {
  public:
@@ -74,11 +79,12 @@ class KeyTable {
     if constexpr (kIsGroup<T>) {
       keys_[path_] = {};
       VisitFields(*this, field);
-      if constexpr (std::same_as<T, Pose>) AddOtherForms(field);
+      if constexpr (std::derived_from<T, Pose>) AddOtherForms(field);
     } else {
       keys_[path_] = {[&field](const YAML::Node& node) { return ParseValue(node, field); },
                       {path_}};
-      if (!optional_groups.empty() && path_.starts_with(optional_groups.back().path + ".")) {
+      if (!optional_groups.empty() && path_.starts_with(optional_groups.back().path + ".") &&
+          !HasDefault(path_)) {
         optional_groups.back().fields.push_back(path_);
       }
     }

@@ -22,7 +22,7 @@ std::string Comment(const std::string& text, const std::string& indent) {
   return lines + "\n";
 }
 
-std::string Extrinsic(const RigDraft& draft) {
+std::string ExtrinsicText(const RigDraft& draft) {
   if (!draft.rig.T_imu_lidar) return "";
   const Vector3& t = draft.rig.T_imu_lidar->translation;
   const Quaternion& q = draft.rig.T_imu_lidar->rotation;
@@ -74,7 +74,7 @@ std::string RigDraftYaml(const RigDraft& draft) {
       Comment("The rig of " + draft.input + ", drafted by lio-run. Correct it and run", "") +
       Comment("  " + draft.command, "");
   for (const std::string& line : draft.about) text += Comment(line, "");
-  text += "rig:\n" + Extrinsic(draft) + Lidar(draft) + Imu(draft);
+  text += "rig:\n" + ExtrinsicText(draft) + Lidar(draft) + Imu(draft);
   if (draft.use_imu) {
     text += fmt::format("  gravity_mps2: {:.6g}\n", draft.rig.gravity_mps2);
   } else {

@@ -59,7 +59,7 @@ class Naming {
  private:
   // The rotation from the axes of the messages to those that the rig makes of the lidar's.
   Quaternion R_rig_sent() const { return solution_.errors.rotation * R_imu_sent_; }
-  Pose T_configured() const { return rig_.T_imu_lidar.value_or(Pose{}); }
+  Extrinsic T_configured() const { return rig_.T_imu_lidar.value_or(Extrinsic{}); }
 
   // rig.T_imu_lidar in axes that R_rig_axes turns into its own, without a lever arm that it lacks.
   Pose InAxes(const Quaternion& R_rig_axes, const Vector3& lever_m) const {
@@ -76,8 +76,11 @@ class Naming {
     return {InAxes(R_rig_sent(), {}).rotation, T_configured().translation};
   }
 
-  // In the axes that the samples are read in. The translation is the rig's, as above.
+  // In the axes that the samples are read in. The translation is the rig's, as above, and so is
+  // what the rig says to be exact.
   std::optional<Pose> WithoutErrors(const RigFitResult& fit, bool rotation, bool lever) const {
+    rotation = rotation && T_configured().std_deg > 0.0;
+    lever = lever && T_configured().std_m > 0.0;
     if (!rotation && !lever) return std::nullopt;
     const Quaternion R_rig_read = rotation ? fit.errors.rotation : Quaternion::Identity();
     if (lever) return InAxes(R_rig_read, fit.errors.lever_m);
@@ -135,10 +138,21 @@ class Naming {
          ExtrinsicYaml(T.Inverse())});
   }
 
+  // In tolerances, or in what the rig says to be one standard deviation where that is more.
+  double DistrustedFrom(CauseKind kind) const {
+    double stds = 1.0;
+    if (kind == CauseKind::kExtrinsicRotation) {
+      stds = std::max(stds, T_configured().std_deg / kRigFindings.rotation_tolerance_deg);
+    } else if (kind == CauseKind::kLeverArm) {
+      stds = std::max(stds, T_configured().std_m / kRigFindings.lever_tolerance_m);
+    }
+    return kRigFindings.tolerances_to_distrust * stds;
+  }
+
   Cause MakeCause(CauseKind kind) const {
     const RigSelection::Suspect suspect = selection_.Judge(kind);
     Cause cause{kind, Trust::kDoubtful, suspect.sigmas, "", ""};
-    if (suspect.in_tolerances > kRigFindings.tolerances_to_distrust) cause.leaves = Trust::kNo;
+    if (suspect.in_tolerances > DistrustedFrom(kind)) cause.leaves = Trust::kNo;
     const auto std_of = [&](int at) { return std::sqrt(solution_.cov(at, at)); };
     const auto axes = [&](const Vector3& value, int at, double scale) {
       return fmt::format("[{:.3g}, {:.3g}, {:.3g}] +- [{:.2g}, {:.2g}, {:.2g}]", scale * value.x(),

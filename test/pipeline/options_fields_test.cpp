@@ -25,6 +25,12 @@ constexpr int NumMembers() {
   }
 }
 
+// It is no aggregate: a pose and two standard deviations.
+template <>
+constexpr int NumMembers<Extrinsic>() {
+  return NumMembers<Pose>() + 2;
+}
+
 // Compares each struct's members with its listed fields, nested ones too.
 class FieldCounter {
  public:

@@ -90,12 +90,48 @@ TEST(RigFindings, SmallErrorsBetterAnEarlierLook) {
   EXPECT_LT((findings.T_imu_lidar_bettered->translation - ExamplePose().translation).norm(), 0.01);
 }
 
+// 4 deg of yaw and 1 m are wrong.
+RigFindings FindingsWhereKnownTo(double std_m, double std_deg) {
+  RigDrive drive = RightDrive();
+  drive.T_configured.rotation = ExpSo3(Vector3(0.0, 0.0, 0.07)) * drive.T_configured.rotation;
+  drive.T_configured.translation.x() += 1.0;
+  Rig rig;
+  rig.T_imu_lidar = drive.T_configured;
+  rig.T_imu_lidar->std_m = std_m;
+  rig.T_imu_lidar->std_deg = std_deg;
+  return FindRigErrors(RecordDrive(drive), rig, ConventionOf(ImuUnits::kSi));
+}
+
+TEST(RigFindings, AnExactPartIsNamedAndNotCorrected) {
+  const RigFindings of_lever = FindingsWhereKnownTo(0.03, 0.0);
+  ASSERT_TRUE(of_lever.T_imu_lidar);
+  EXPECT_NEAR(of_lever.T_imu_lidar->rotation.angularDistance(ExamplePose().rotation), 0.07, 1e-6);
+  EXPECT_LT(of_lever.T_imu_lidar->translation.x(), ExamplePose().translation.x() + 0.5);
+  const RigFindings of_rotation = FindingsWhereKnownTo(0.0, 1.0);
+  ASSERT_TRUE(of_rotation.T_imu_lidar);
+  EXPECT_NEAR(of_rotation.T_imu_lidar->translation.x(), ExamplePose().translation.x() + 1.0, 1e-9);
+  EXPECT_LT(of_rotation.T_imu_lidar->rotation.angularDistance(ExamplePose().rotation), 0.01);
+  const RigFindings exact = FindingsWhereKnownTo(0.0, 0.0);
+  EXPECT_FALSE(exact.T_imu_lidar);
+  EXPECT_FALSE(exact.T_imu_lidar_bettered);
+  EXPECT_EQ(exact.causes.size(), 2U);
+}
+
+TEST(RigFindings, ARoughExtrinsicThatIsCorrectedLeavesDoubtAlone) {
+  for (const Cause& cause : FindingsWhereKnownTo(0.03, 1.0).causes) {
+    EXPECT_EQ(cause.leaves, Trust::kNo);
+  }
+  for (const Cause& cause : FindingsWhereKnownTo(1.0, 5.0).causes) {
+    EXPECT_EQ(cause.leaves, Trust::kDoubtful);
+  }
+}
+
 TEST(RigFindings, ClockOffsetThatIsFollowedLeavesDoubtAlone) {
   RigDrive drive = RightDrive();
   drive.clock_offset_s = 0.02;
-  MotionRecord record = test::RecordDrive(drive);
   for (const auto& [followed_ms, leaves] : {std::pair{18, Trust::kDoubtful}, {10, Trust::kNo}}) {
-    record.SetClockCorrection(Duration{1'000'000LL * followed_ms});
+    drive.clock_correction_s = 1e-3 * followed_ms;
+    const MotionRecord record = test::RecordDrive(drive);
     Rig rig;
     rig.T_imu_lidar = drive.T_configured;
     const RigFindings findings = FindRigErrors(record, rig, {});

@@ -46,9 +46,9 @@ template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>
 inline constexpr bool kIsGroup =
-    kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, PipelineOptions, StartOptions,
-             ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions, GicpOptions,
-             FilterOptions>;
+    kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, Extrinsic, PipelineOptions,
+             StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions,
+             GicpOptions, FilterOptions>;
 
 template <class T, class Struct>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
@@ -64,6 +64,20 @@ void VisitFields(Visitor& visit, MaybeConst<Pose> auto& o) {
   visit("translation_m", o.translation, "origin of the second frame in the first, x y z [m]",
         Range{-100, 100});
   visit("rotation_wxyz", o.rotation, "unit quaternion, w first");
+}
+
+// A pose's keys go together in a configuration; these two have defaults.
+inline constexpr std::string_view kExtrinsicStdKeys[] = {"std_m", "std_deg"};
+
+template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<Extrinsic> auto& o) {
+  using PartOfPose = std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(o)>>,
+                                        const Pose, Pose>;
+  VisitFields(visit, static_cast<PartOfPose&>(o));
+  visit("std_m", o.std_m, "how well the translation is known, 1 sigma of an axis [m]; 0: exactly",
+        Range{0, 100});
+  visit("std_deg", o.std_deg, "how well the rotation is known, 1 sigma of an axis; 0: exactly",
+        Range{0, 180});
 }
 
 template <class Visitor>

@@ -54,8 +54,19 @@ struct ImuRig {
   GravityInput gravity = GravityInput::kAutomatic;
 };
 
+// The pose of the lidar in the IMU's frame, p_imu = T_imu_lidar * p_lidar, and how well it is known:
+// 1 sigma of each axis. The motion corrects what it surely contradicts, but never a part whose
+// standard deviation is 0.
+struct Extrinsic : Pose {
+  Extrinsic() = default;
+  Extrinsic(const Pose& pose) : Pose(pose) {}  // NOLINT: a pose is one of ordinary care
+  // Chosen: a tape measure and an inclinometer.
+  double std_m = 0.03;
+  double std_deg = 1.0;
+};
+
 struct Rig {
-  std::optional<Pose> T_imu_lidar;  // p_imu = T_imu_lidar * p_lidar; required with an IMU
+  std::optional<Extrinsic> T_imu_lidar;  // required with an IMU
   // p_base = T_base_imu * p_imu: a frame of the vehicle whose motion is published, too.
   std::optional<Pose> T_base_imu;
   LidarRig lidar;

@@ -20,8 +20,9 @@ namespace lio {
 
 struct RigFindingParameters {
   // A careful rig may be off by this, one standard deviation. Beyond one of it the result is
-  // doubtful, beyond three of it no trust is left. Chosen: an inclinometer, a tape measure, and
-  // clocks that are set by network time.
+  // doubtful, beyond three of it no trust is left. A rig that says to be known less well
+  // (Extrinsic::std_m) is distrusted beyond three of its own. Chosen: an inclinometer, a tape
+  // measure, and clocks that are set by network time.
   double rotation_tolerance_deg = 1.0;
   double lever_tolerance_m = 0.03;
   double offset_tolerance_s = 0.005;
@@ -67,7 +68,8 @@ struct RigFindings {
   std::optional<RigBounds> bounds;  // by the motion, where it was enough to tell
   std::vector<Cause> causes;        // likeliest first
   // rig.T_imu_lidar as the motion shows it, in the axes that the samples are read in: present where
-  // it is surely wrong. Entries that are not surely wrong are the rig's.
+  // it is surely wrong. Entries that are not surely wrong, or that the rig says to be exact, are the
+  // rig's.
   std::optional<Pose> T_imu_lidar;
   // The same within the tolerances, for an extrinsic that was found by an earlier and shorter look:
   // present where this one contradicts it.
