@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// P <- (I - K H) P (I - K H)^T + K R K^T, then x <- x (+) K r and P <- G P G^T.
+// P <- (I - K H) P (I - K H)^T + K R K^T, then K r is injected and P <- G P G^T.
 template <int kRows>
 void Apply(Estimate& estimate, const Eigen::Matrix<double, kRows, kStateDim>& H,
            const Eigen::Matrix<double, kStateDim, kRows>& K,
@@ -18,20 +18,10 @@ void Apply(Estimate& estimate, const Eigen::Matrix<double, kRows, kStateDim>& H,
   const ErrorMatrix remain = ErrorMatrix::Identity() - K * H;
   const ErrorMatrix joseph = remain * estimate.cov * remain.transpose() + K * R * K.transpose();
   const ErrorVector error = K * residual;
-  estimate.state = BoxPlus(estimate.state, error);
-
-  // Errors are now relative to the new nominal rotations and map pose.
-  const Matrix3 reset_rotation = RightJacobianSo3(error.segment<3>(kRot));
-  const Matrix6 reset_map = LeftJacobianSe3(-error.segment<6>(kMapPose));
-  const Matrix3 reset_start = RightJacobianSo3(-error.segment<3>(kMapStart));  // a left error
-  ErrorMatrix cov = joseph;
-  cov.middleRows<3>(kRot) = reset_rotation * joseph.middleRows<3>(kRot);
-  cov.middleRows<6>(kMapPose) = reset_map * joseph.middleRows<6>(kMapPose);
-  cov.middleRows<3>(kMapStart) = reset_start * joseph.middleRows<3>(kMapStart);
-  const ErrorMatrix half = cov;
-  cov.middleCols<3>(kRot) = half.middleCols<3>(kRot) * reset_rotation.transpose();
-  cov.middleCols<6>(kMapPose) = half.middleCols<6>(kMapPose) * reset_map.transpose();
-  cov.middleCols<3>(kMapStart) = half.middleCols<3>(kMapStart) * reset_start.transpose();
+  // Errors are now relative to the new nominal poses.
+  const ErrorMatrix reset = InjectJacobian(estimate.state, error);
+  estimate.state = Inject(estimate.state, error);
+  const ErrorMatrix cov = reset * joseph * reset.transpose();
   estimate.cov = 0.5 * (cov + cov.transpose());
 }
 

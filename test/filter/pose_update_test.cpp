@@ -93,13 +93,13 @@ TEST(PoseUpdate, ResetJacobianMatchesDifferences) {
   const Eigen::MatrixXd H = before.cov.inverse();
   Estimate after = before;
   FuseLinear(after, H, kVariance * move, kVariance * ErrorMatrix::Identity());
-  ASSERT_LT((BoxMinus(after.state, before.state) - move).norm(), 1e-6);
+  ASSERT_LT(BoxMinus(after.state, Inject(before.state, move)).norm(), 1e-6);
 
   const ErrorMatrix reset = test::NumericJacobian(
       [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
-        return BoxMinus(BoxPlus(before.state, ErrorVector(error)), after.state);
+        return BoxMinus(Inject(before.state, ErrorVector(error)), after.state);
       },
-      BoxMinus(after.state, before.state));
+      move);
   const ErrorMatrix expected = reset * before.cov * reset.transpose();
   EXPECT_LT((after.cov - expected).norm(), 1e-7);
   EXPECT_GT((after.cov - before.cov).norm(), 1e-3) << "the reset must do something here";
@@ -124,6 +124,27 @@ TEST(PoseUpdate, WorldPoseFollowsByItsCorrelation) {
   (void)FusePose(estimate, Measure(Pose{Quaternion::Identity(), Vector3(0.5, 0, 0)}, 1.0), kNoGate);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 0.25, 1e-12);
   EXPECT_NEAR(estimate.state.T_world_imu.translation.x(), 5.25, 1e-12);
+}
+
+// After half a minute without scans: both poses have drifted alike by tens of metres and some
+// degrees, and where the map lies in world is still known.
+TEST(PoseUpdate, ALongDriftThatIsSeenLeavesTheMapInItsPlace) {
+  std::mt19937_64 random(8);
+  Estimate estimate;
+  estimate.state = test::RandomState(random);
+  const Matrix3 R_world_imu = estimate.state.T_world_imu.rotation.toRotationMatrix();
+  Eigen::Matrix<double, kStateDim, 6> drift = Eigen::Matrix<double, kStateDim, 6>::Zero();
+  drift.block<3, 3>(kPos, 0) = R_world_imu;
+  drift.block<3, 3>(kRot, 3).setIdentity();
+  drift.block<6, 6>(kMapPose, 0).setIdentity();
+  const Vector6 drift_std = (Vector6() << 30, 30, 30, 0.05, 0.05, 0.05).finished();
+  estimate.cov = drift * drift_std.cwiseAbs2().asDiagonal() * drift.transpose();
+  const Pose T_world_map = estimate.state.T_world_imu * estimate.state.T_map_imu.Inverse();
+  const Pose seen = estimate.state.T_map_imu *
+                    ExpSe3((Vector6() << 25, -20, 5, 0.03, -0.02, 0.06).finished());
+  (void)FusePose(estimate, Measure(seen, 0.01), kNoGate);
+  const Pose after = estimate.state.T_world_imu * estimate.state.T_map_imu.Inverse();
+  EXPECT_LT(LogSe3(T_world_map.Inverse() * after).head<3>().norm(), 0.02);
 }
 
 TEST(PoseUpdate, UpdateNeverWidensTheCovariance) {

@@ -50,6 +50,14 @@ struct NavState {
 // state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
 
+// Injects an error that a measurement has shown: BoxPlus to first order. A motion that both poses
+// lack moves both alike, exactly, however far: the rotation and place of world and map to each other
+// change by the difference of the two poses' errors alone. BoxPlus would leave half the product of
+// the motion's turn and shift between them, 0.5 m after 30 m and 2 deg of drift.
+NavState Inject(const NavState& state, const ErrorVector& error);
+// d (error about Inject(state, error)) / d (error about state), at `error`.
+ErrorMatrix InjectJacobian(const NavState& state, const ErrorVector& error);
+
 struct Estimate {
   Timestamp stamp;
   NavState state;
