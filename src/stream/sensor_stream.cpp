@@ -121,6 +121,9 @@ void SensorStream::Reject() {
   Ledgers& ledgers = counters_->ledgers;
   ledgers.samples.Settle(SampleFate::kUnwanted, std::exchange(step_, {}).result.accepted.size());
   ledgers.scans.Settle(ScanFate::kUnwanted, NumSweepsReady());
+  const std::size_t num_held = lidar_clock_.Release().size();
+  counters_->num_chunks += static_cast<std::int64_t>(num_held);
+  ledgers.chunks.Settle(ChunkFate::kUnwanted, num_held);
   events_.clear();
   inbox_.num_points = 0;
   for (const Message& message : std::exchange(inbox_.messages, {})) {
@@ -142,11 +145,12 @@ std::size_t SensorStream::NumSweepsReady() const {
 
 Ledgers SensorStream::ledgers() const {
   Ledgers ledgers = counters_->ledgers;
-  const auto num_chunks =
+  const auto num_in_inbox =
       std::count_if(inbox_.messages.begin(), inbox_.messages.end(),
                     [](const Message& message) { return message.chunk.has_value(); });
-  ledgers.chunks.num_waiting = num_chunks;
-  ledgers.samples.num_waiting = std::ssize(inbox_.messages) - num_chunks +
+  ledgers.chunks.num_waiting =
+      num_in_inbox + static_cast<std::int64_t>(lidar_clock_.num_held());
+  ledgers.samples.num_waiting = std::ssize(inbox_.messages) - num_in_inbox +
                                 std::ssize(step_.result.accepted) + std::ssize(late_imu_) +
                                 static_cast<std::int64_t>(preprocessor_.num_held());
   ledgers.scans.num_waiting =
@@ -220,6 +224,7 @@ void SensorStream::ProcessImu(const ImuSample& sample) {
   ImuSample shifted = sample;
   shifted.stamp = sample.stamp + imu_clock_shift_;
   ImuPreprocessor::Result result = preprocessor_.Add(shifted);
+  if (preprocessor_.is_in_doubt()) TakeChunks(lidar_clock_.Release());
   if (result.step != ImuPreprocessor::Step::kNone) {
     TakeStep(std::move(result));
   } else {
@@ -229,12 +234,36 @@ void SensorStream::ProcessImu(const ImuSample& sample) {
 }
 
 void SensorStream::ProcessChunk(ScanChunk chunk, std::int64_t decode_ns) {
-  const Timestamp stamp = chunk.stamp;
-  newest_chunk_ = stamp;
+  const std::optional<Timestamp> newest_imu = preprocessor_.newest();
+  const bool is_order_known = has_imu_ && newest_imu && !preprocessor_.is_in_doubt();
+  if (!is_order_known) {
+    TakeChunks(lidar_clock_.Release({std::move(chunk), decode_ns}));
+    return;
+  }
+  std::vector<LidarClockCorrector::Arrival> arrivals =
+      lidar_clock_.Add({std::move(chunk), decode_ns}, *newest_imu);
+  if (const auto step = lidar_clock_.TakeStep()) NotifyLidarClockSet(*step);
+  TakeChunks(std::move(arrivals));
+}
+
+void SensorStream::TakeChunks(std::vector<LidarClockCorrector::Arrival> arrivals) {
+  for (LidarClockCorrector::Arrival& arrival : arrivals) TakeChunk(std::move(arrival));
+}
+
+void SensorStream::TakeChunk(LidarClockCorrector::Arrival arrival) {
+  const Timestamp stamp = arrival.chunk.stamp;
   if (!preprocessor_.is_in_doubt()) arbiter_.Note(stamp, preprocessor_.newest());
-  assembler_.Add(std::move(chunk), decode_ns);
+  assembler_.Add(std::move(arrival.chunk), arrival.decode_ns);
   if (!has_imu_ || !imu_.newest()) CloseSweepsBefore(stamp);
   OpenGate();
+}
+
+void SensorStream::NotifyLidarClockSet(const LidarClockCorrector::Step& step) {
+  ++counters_->num_clock_jumps;
+  Notify(step.stamp, Notice::Severity::kWarning,
+         fmt::format("the lidar's clock stepped by {:.3f} s and the IMU's did not: the lidar's "
+                     "stamps are now shifted by {:.3f} s",
+                     step.by.Seconds(), step.shift.Seconds()));
 }
 
 void SensorStream::AcceptAll(const std::vector<ImuSample>& samples) {

@@ -38,7 +38,8 @@ void SensorStream::JudgeBy(const Message& message) {
   const bool has_waited_long = step_.num_examined > kStream.max_judged_messages;
   if (message.chunk) {
     const StepVerdict verdict =
-        arbiter_.Judge(StampsOfStep(), message.chunk->stamp, step_.newest_examined);
+        arbiter_.Judge(StampsOfStep(), lidar_clock_.PutRight(message.chunk->stamp),
+                       step_.newest_examined);
     if (verdict.lidar == LidarClock::kStepped || has_waited_long) {
       EndStep();
     } else if (verdict.lidar == LidarClock::kSteady) {
@@ -120,7 +121,7 @@ void SensorStream::TakeLateImu(const ImuSample& sample) {
   const ImuPreprocessor::Result result = preprocessor_.Add(shifted);
   if (result.step != Step::kNone) ForgetLateImu();
   for (const ImuSample& accepted : result.accepted) {
-    const bool is_apart = NotifyIfClocksApart(accepted.stamp, newest_chunk_);
+    const bool is_apart = NotifyIfClocksApart(accepted.stamp, lidar_clock_.newest());
     if (is_apart) ForgetLateImu();
     if (is_apart || (!late_imu_.empty() && accepted.stamp <= late_imu_.back().stamp)) {
       ++counters_->num_imu_late;

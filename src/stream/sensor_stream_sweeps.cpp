@@ -82,6 +82,7 @@ void SensorStream::GiveOut(SweepPtr sweep) {
 void SensorStream::CloseAll() {
   life_ = Life::kClosed;
   AcceptAll(preprocessor_.Flush());
+  TakeChunks(lidar_clock_.Release());
   assembler_.CloseAll();
   OpenGate();
   gate_.Flush();

@@ -104,6 +104,30 @@ struct ClockStepParameters {
 };
 inline constexpr ClockStepParameters kClockStep;
 
+// Was the lidar's clock set alone? (lidar_clock_corrector.hpp)
+struct LidarClockParameters {
+  // A chunk that lies farther off than this, beside the spread of lags, may come after a step.
+  // Chosen: a message is delayed by less, and the estimated clock offset follows half of it.
+  Duration least_step{100'000'000};
+  // Messages that tell the usual lag. Chosen: as ClockStepParameters::num_lags.
+  std::size_t num_known = 9;
+  // The step is believed when so many messages in so long a time bear it out. Chosen: three sweeps
+  // at 10 Hz; a burst of late messages is over by then.
+  Duration confirmed_after{250'000'000};
+  std::size_t num_confirmations = 3;
+  // Chunks are held for no longer, by their stamps, and no more of them. Chosen: twice the time in
+  // which a step is believed, and four sweeps of a lidar of 128 beams.
+  Duration max_held{500'000'000};
+  std::size_t max_num_held = 256;
+  // A lidar whose messages are so many strides apart has paused, and its clock may be another.
+  // Chosen: two messages that were lost are no pause.
+  double pause_in_strides = 3.5;
+  // Streams of one clock lie no farther apart. Chosen: a sweep at 5 Hz that is sent at its end, and
+  // as much again for the driver.
+  Duration usual_lag{400'000'000};
+};
+inline constexpr LidarClockParameters kLidarClock;
+
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
   Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz

@@ -46,6 +46,30 @@ TEST(SensorStreamLoneClock, StepsOfTheImuClockAloneAddUp) {
       << run.Of<Notice>()[1].text;
 }
 
+TEST(SensorStreamLoneClock, LidarClockThatStepsAloneIsShifted) {
+  for (const double step_s : {-3600.0, -1.5, -0.2, 0.2, 1.5, 3600.0}) {
+    StreamRun run;
+    run.Feed(Stepped(Sensors(0.0, 6.0), Sensor::kLidar, 2.0, step_s));
+    run.Finish();
+    EXPECT_EQ(run.SweepStarts().size(), 59u) << step_s;
+    EXPECT_NEAR(LargestStep_s(run.SweepStarts()), 0.1, 0.011) << step_s;
+    EXPECT_EQ(run.Of<SegmentStarts>().size(), 0u) << step_s;
+    EXPECT_EQ(run.counters.num_clock_jumps, 1) << step_s;
+    ASSERT_EQ(run.Of<Notice>().size(), 1u) << step_s;
+    EXPECT_NE(run.Of<Notice>()[0].text.find("the lidar's clock stepped by"), std::string::npos);
+  }
+}
+
+TEST(SensorStreamLoneClock, ChunksThatAreHeldAtARejectionAreAccountedFor) {
+  StreamRun run;
+  run.Feed(Stepped(Sensors(0.0, 3.25), Sensor::kLidar, 3.0, 1.5));
+  const std::int64_t waiting = run.stream.ledgers().chunks.num_waiting;
+  EXPECT_GT(waiting, 0);
+  run.stream.Reject();
+  EXPECT_EQ(run.stream.ledgers().chunks.num_waiting, 0);
+  EXPECT_EQ(run.stream.ledgers().chunks.Unaccounted(), 0);
+}
+
 // Samples are missing around the step: only the lidar knows for how long.
 TEST(SensorStreamLoneClock, ImuClockThatStepsAloneInAPauseIsSetByTheLidar) {
   constexpr double kTolerance_s = 0.03;  // of the sweeps' steady delay

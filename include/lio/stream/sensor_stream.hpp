@@ -26,6 +26,7 @@
 #include "lio/stream/clock_step_arbiter.hpp"
 #include "lio/stream/imu_buffer.hpp"
 #include "lio/stream/imu_preprocessor.hpp"
+#include "lio/stream/lidar_clock_corrector.hpp"
 #include "lio/stream/saturation_detector.hpp"
 #include "lio/stream/scan_assembler.hpp"
 #include "lio/stream/scan_gate.hpp"
@@ -121,6 +122,9 @@ class SensorStream {
   void Process(Message message);
   void ProcessImu(const ImuSample& sample);
   void ProcessChunk(ScanChunk chunk, std::int64_t decode_ns);
+  void TakeChunks(std::vector<LidarClockCorrector::Arrival> arrivals);
+  void TakeChunk(LidarClockCorrector::Arrival arrival);
+  void NotifyLidarClockSet(const LidarClockCorrector::Step& step);
   void AcceptAll(const std::vector<ImuSample>& samples);
   void Accept(const ImuSample& sent);
   ImuSample MarkSaturated(ImuSample sent);
@@ -161,12 +165,12 @@ class SensorStream {
   SaturationDetector saturation_;
   ImuBuffer imu_;
   ClockStepArbiter arbiter_;
+  LidarClockCorrector lidar_clock_;
   ScanAssembler assembler_;
   ScanGate gate_;
   StampCorrection corrections_;
   PendingStep step_;
   Duration imu_clock_shift_;  // of an inertial clock that stepped alone
-  Timestamp newest_chunk_;
   std::vector<ImuSample> late_imu_;  // the first ones, where the lidar has begun alone
   std::optional<Timestamp> begin_;
 };
