@@ -46,8 +46,9 @@ Estimate AcrossOutage(Estimate before, Timestamp now) {
   return estimate;
 }
 
-void OutageRecovery::Begin(const Estimate& before) {
+void OutageRecovery::Begin(const Estimate& before, const Pose& T_map_imu_seen) {
   before_ = before;
+  T_map_imu_seen_ = T_map_imu_seen;
   Enter(last_match_.degenerate_mask == 0 ? Stage::kSeek : Stage::kFindVelocity);
 }
 
@@ -79,7 +80,7 @@ void OutageRecovery::SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJ
 
 OutageRecovery::Event OutageRecovery::AddSought(const MatchOutcome& outcome, bool is_fused) {
   if (is_fused) {
-    moved_m_ = (outcome.match.T_map_imu.translation - before_.state.T_map_imu.translation).norm();
+    moved_m_ = (outcome.match.T_map_imu.translation - T_map_imu_seen_.translation).norm();
     Enter(Stage::kCheck);
   } else if (num_scans_ >= kOutage.max_scans_sought) {
     Enter(Stage::kFindVelocity);

@@ -67,8 +67,10 @@ class OutageRecovery {
 
   // A scan that was fused while nothing is lost: what later ones are compared with.
   void NoteMatch(const MatchResult& match) { last_match_ = match; }
-  // No search is believed in a scene that did not hold all directions: a new map begins at once.
-  void Begin(const Estimate& before);
+  // `before`: the estimate to which a place that turns out to be wrong falls back. `T_map_imu_seen`:
+  // where the last scan was matched. No search is believed in a scene that did not hold all
+  // directions: a new map begins at once.
+  void Begin(const Estimate& before, const Pose& T_map_imu_seen);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
   // The present stage asks this of matching. `T_map_imu_if_set`: the pose if no time passed.
@@ -84,7 +86,7 @@ class OutageRecovery {
   [[nodiscard]] Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
-  // The distance of the scan that was found from where the body was before.
+  // The distance of the scan that was found from the last one that was matched before.
   double moved_m() const { return moved_m_; }
 
  private:
@@ -98,6 +100,7 @@ class OutageRecovery {
   int num_checked_ = 0;
   MatchResult last_match_;
   Estimate before_;
+  Pose T_map_imu_seen_;
   double moved_m_ = 0.0;
 };
 

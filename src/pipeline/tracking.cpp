@@ -135,7 +135,10 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
     handover_.last_seq = outcome.sweep->scan_seq;
   }
   is_first_scan_ = false;
-  if (verdict.is_newly_lost) NotifyLost(end, context_.outputs);
+  if (verdict.is_newly_lost) {
+    NotifyLost(end, context_.outputs);
+    SeekAfterSilence(end);
+  }
   if (report.fused && is_sound) {
     handover_.last_fix =
         MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);

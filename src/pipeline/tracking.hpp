@@ -57,6 +57,7 @@ class Tracking {
   void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                        const std::string& why);
+  void SeekAfterSilence(Timestamp end);
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
   void NotifyFound(Timestamp end);

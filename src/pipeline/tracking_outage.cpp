@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/filter/world_yaw.hpp"
 #include "pipeline/tracking.hpp"
 
 namespace lio {
@@ -16,12 +17,20 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
   const Timestamp first = segment.first.stamp;
   handover_.clock_step.Begin({before.stamp, first}, before.state.T_map_imu);
   history_ = FilterHistory(HistoryOptionsAt(first), AcrossOutage(before, first), segment.first);
-  outage_.Begin(before);
+  outage_.Begin(before, before.state.T_map_imu);
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
   context_.outputs.Notify(first, Notice::Severity::kWarning,
                           fmt::format("lost: {}; scans tell whether the body has moved", why));
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
+}
+
+// Where no scan was matched for so long that matching cannot search all the poses that the
+// inertial samples leave, the place is sought as after an outage, from the pose that they give.
+void Tracking::SeekAfterSilence(Timestamp end) {
+  if (outage_.is_running() || context_.place.is_inside() || IsPriorSure(end)) return;
+  outage_.Begin(history_.At(end), handover_.last_fix.T_map_imu);
+  if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(end);
 }
 
 void Tracking::AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused) {
@@ -77,6 +86,10 @@ void Tracking::LeaveMap(Timestamp stamp) {
   handover_.last_located.reset();
   keyframes_.Reset();
   context_.convention.BeginMap(stamp);
+  Estimate estimate = history_.At(stamp);
+  const double yaw_var = TakeOutYaw(estimate);
+  handover_.yaw_doubt.Add(yaw_var, estimate.state.T_world_imu.translation);
+  BeginHistoryAt(estimate);
   context_.outputs.Notify(
       stamp, Notice::Severity::kWarning,
       "the place is not found in the map, so a new map begins in the same world; "

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The yaw of the world that a new map lies in, where the body turned unmeasured before it: no
-// sensor ever tells that yaw, so its variance stands beside the filter. Within an extended Kalman
-// filter a yaw that is unsure by a radian would become sure by mere linearisation (G. Huang,
-// A. Mourikis, S. Roumeliotis, "Observability-based rules for designing consistent EKF SLAM
-// estimators", IJRR 2010).
+// sensor ever tells that yaw, so its variance stands beside the filter (filter/world_yaw.hpp).
+// Within an extended Kalman filter one that is unsure by a radian would become sure by mere
+// linearisation (G. Huang, A. Mourikis, S. Roumeliotis, "Observability-based rules for designing
+// consistent EKF SLAM estimators", IJRR 2010).
 #pragma once
 
 #include "lio/filter/published_estimate.hpp"

@@ -43,7 +43,7 @@ OutageRecovery Begun(unsigned degenerate_mask = 0) {
   MatchResult before = Scan(1000, 500).match;
   before.degenerate_mask = degenerate_mask;
   recovery.NoteMatch(before);
-  recovery.Begin(HeadingAlongY());
+  recovery.Begin(HeadingAlongY(), HeadingAlongY().state.T_map_imu);
   return recovery;
 }
 

@@ -222,6 +222,27 @@ TEST(Tracking, TwentyFiveUnmatchedScansInARowEndTheMode) {
   EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
 }
 
+// The IMU went on, but not so well that matching finds the map from what it says.
+TEST(Tracking, AfterHalfAMinuteWithoutScansThePlaceIsSoughtAndThenANewMapBegins) {
+  TrackingBench b(Straight(kSpeed_mps));
+  ASSERT_FALSE(b.Match(5));
+  b.FeedImu(30.0);
+  b.sweep_start_s = 30.0;
+  ASSERT_FALSE(b.Miss());
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  for (int i = 0; i < kOutage.max_scans_sought; ++i) {
+    const MatchJob job = b.NextJob();
+    ASSERT_TRUE(std::holds_alternative<Relocalize>(job.task)) << i;
+    EXPECT_EQ(std::get<Relocalize>(job.task).search.region, SearchRegion::kObservable);
+    EXPECT_NEAR(XOf(job), (b.sweep_start_s - 0.05) * kSpeed_mps, 20.0);
+    ASSERT_FALSE(b.Finish(b.bench.Unmatched(job)));
+  }
+  const MatchJob job = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(job.task));
+  EXPECT_EQ(job.map_action, MapAction::kClear);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+}
+
 TEST(Tracking, MatchInBetweenBeginsTheCountOfUnmatchedScansAnew) {
   TrackingBench b(Straight(kSpeed_mps));
   ASSERT_FALSE(b.Match(5));
