@@ -8,7 +8,6 @@
 
 #include "lio/base/counters.hpp"
 #include "lio/pipeline/options.hpp"
-#include "lio/pipeline/sensor_fixed_errors.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
 #include "pipeline/clock_offset_follower.hpp"
@@ -17,6 +16,7 @@
 #include "pipeline/imu_noise_watch.hpp"
 #include "pipeline/output_queue.hpp"
 #include "pipeline/place_knowledge.hpp"
+#include "pipeline/sensor_fixed_errors.hpp"
 
 namespace lio {
 
