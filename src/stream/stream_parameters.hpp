@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "lio/base/time.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 
@@ -90,9 +90,8 @@ inline constexpr SaturationParameters kSaturation;
 
 // Did the lidar's clock step as well? (clock_step_arbiter.hpp)
 struct ClockStepParameters {
-  // The step lies somewhere between two inertial samples, which need not come on time. Chosen: as
-  // kImuGap.sparse, three periods at 100 Hz.
-  Duration step_uncertainty{30'000'000};
+  // The step lies somewhere between two inertial samples, which need not come on time.
+  Duration step_uncertainty = kImuGap.sparse;
   // A chunk that is so far off tells nothing. Chosen: no message is delayed by as much.
   Duration wild{5'000'000'000};
   // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
