@@ -106,7 +106,7 @@ inline constexpr ClockStepParameters kClockStep;
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
   Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz
-  // Sweeps that follow each other are nearer. Chosen: two of kMaxSweepSpan.
+  // Sweeps that follow each other are nearer. Chosen: two of kSweep.max_span.
   Duration apart{1'000'000'000};
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
