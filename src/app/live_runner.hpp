@@ -30,8 +30,8 @@
 #include "app/receiver.hpp"
 #include "app/run_series.hpp"
 #include "app/status_board.hpp"
-#include "app/worker_thread.hpp"
 #include "lio/io/cpu_clock.hpp"
+#include "lio/io/worker_thread.hpp"
 
 namespace lio {
 

@@ -17,8 +17,8 @@
 #include "app/feature_clouds.hpp"
 #include "app/full_cloud.hpp"
 #include "app/publisher.hpp"
-#include "app/worker_thread.hpp"
 #include "lio/io/run_writer.hpp"
+#include "lio/io/worker_thread.hpp"
 
 namespace lio {
 

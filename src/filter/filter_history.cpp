@@ -8,9 +8,6 @@
 namespace lio {
 namespace {
 
-// Chosen: three seconds of a 10 kHz IMU. More come only where stamps hardly advance.
-constexpr std::size_t kMaxNodes = 1 << 15;
-
 void RebaseMapPose(Estimate& estimate) {
   estimate.cov.middleRows<6>(kMapPose).setZero();
   estimate.cov.middleCols<6>(kMapPose).setZero();
@@ -289,7 +286,8 @@ std::vector<ImuSample> FilterHistory::SamplesBetween(Timestamp from, Timestamp t
 void FilterHistory::Trim() {
   Timestamp oldest = nodes_.back().stamp - Duration::FromSeconds(options_.span_s);
   if (keep_from_) oldest = std::min(oldest, *keep_from_);
-  while (nodes_.size() > 2 && (nodes_[1].stamp <= oldest || nodes_.size() > kMaxNodes)) {
+  while (nodes_.size() > 2 &&
+         (nodes_[1].stamp <= oldest || nodes_.size() > kFilterParameters.history.max_events)) {
     nodes_.pop_front();
   }
 }

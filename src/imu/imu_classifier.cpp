@@ -173,14 +173,14 @@ ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
 
 bool ImuClassifier::IsGyroAbsurd() const {
   if (!HasMoved()) return false;
+  constexpr int kRecent = kImuConventionParameters.evidence.recent_steps;
   const std::vector<MotionEvidence::Step>& steps = evidence_.steps();
-  const auto num_absurd =
-      std::count_if(steps.end() - MotionEvidence::kRecentSteps, steps.end(), [&](const auto& step) {
-        const double read_rad = expected_.rate_scale() * step.span_s() * step.w_sent.norm();
-        return read_rad > kClassifier.absurd_turn_rad &&
-               read_rad > kClassifier.absurd_ratio * step.turn_rad.norm();
-      });
-  return 2 * num_absurd >= MotionEvidence::kRecentSteps;
+  const auto num_absurd = std::count_if(steps.end() - kRecent, steps.end(), [&](const auto& step) {
+    const double read_rad = expected_.rate_scale() * step.span_s() * step.w_sent.norm();
+    return read_rad > kClassifier.absurd_turn_rad &&
+           read_rad > kClassifier.absurd_ratio * step.turn_rad.norm();
+  });
+  return 2 * num_absurd >= kRecent;
 }
 
 std::string ImuClassifier::Describe(const ImuConvention& found, Bends bends) const {

@@ -151,8 +151,8 @@ std::vector<MotionEvidence::Bend> MotionEvidence::FindBends() const {
 }
 
 bool MotionEvidence::HasMoved() const {
-  if (std::ssize(steps_) < kRecentSteps) return false;
-  const Step& first = *(steps_.end() - kRecentSteps);
+  if (std::ssize(steps_) < kEvidence.recent_steps) return false;
+  const Step& first = *(steps_.end() - kEvidence.recent_steps);
   const Pose motion = first.from.pose.Inverse() * steps_.back().to.pose;
   return motion.translation.norm() > kEvidence.min_motion_m ||
          LogSo3(motion.rotation).norm() > kEvidence.min_motion_rad;

@@ -22,7 +22,7 @@ int Tell(const std::string& name, const std::exception& error, int exit_code) {
   return exit_code;
 }
 
-int RunCatching(const std::string& name, const std::function<int()>& body) {
+int RunTelling(const std::string& name, const std::function<int()>& body) {
   try {
     return body();
   } catch (const UsageError& error) {
@@ -41,7 +41,7 @@ int RunCatching(const std::string& name, const std::function<int()>& body) {
 
 int RunProgram(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGXFSZ, SIG_IGN);
-  const int exit_code = RunCatching(name, body);
+  const int exit_code = RunTelling(name, body);
   if (IsStdoutWhole()) return exit_code;
   std::cerr << name << ": cannot write to the standard output in full\n";
   return exit_code == kExitDone || exit_code == kExitNoTrust ? kExitWriteFailed : exit_code;

@@ -11,7 +11,9 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kNumFirst = 400;
-constexpr double kGapRatio = 3.0;  // a gap is longer than so many typical periods
+// A gap is longer than so many typical periods. Chosen. sensor/gap.hpp has the gaps that change the
+// estimate; these here tell a person that a recording of any rate, 1 Hz or 1 kHz, lacks messages.
+constexpr double kGapRatio = 3.0;
 
 }  // namespace
 

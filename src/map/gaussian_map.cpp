@@ -13,10 +13,11 @@
 namespace lio {
 namespace {
 
-// Is a point, given from the voxel's centre, within three standard deviations of the plane?
+// Is a point, given from the voxel's centre, on the plane?
 bool IsOn(const SurfacePatch& patch, const Eigen::Vector3f& local) {
   const float off = patch.normal.dot(local - patch.mean);
-  return off * off < 9.f * patch.thickness_var;
+  constexpr float kSigmas = GaussianMapParameters::kOnPlane_sigmas;
+  return off * off < kSigmas * kSigmas * patch.thickness_var;
 }
 
 }  // namespace

@@ -92,27 +92,27 @@ class Initializing {
 
   // initializing_convention.cpp
   bool IsInDoubt(Timestamp stamp) const;
-  std::optional<Transition> JudgeConvention(Timestamp stamp);
-  std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp,
-                                             bool& is_accepted);
-  std::optional<Transition> CheckGravity(bool is_there, const std::string& evidence,
-                                         Timestamp stamp) const;
-  Transition SetConvention(const ImuConvention& found, const std::string& evidence,
-                           Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> JudgeConvention(Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2,
+                                                           Timestamp stamp, bool& is_accepted);
+  [[nodiscard]] std::optional<Transition> CheckGravity(bool is_there, const std::string& evidence,
+                                                       Timestamp stamp) const;
+  [[nodiscard]] Transition SetConvention(const ImuConvention& found, const std::string& evidence,
+                                         Timestamp stamp);
   void TurnHandover(const ImuConvention& found);
-  Transition Reject(Timestamp stamp, const std::string& why) const;
+  [[nodiscard]] Transition Reject(Timestamp stamp, const std::string& why) const;
 
   // initializing_start.cpp
-  std::optional<Transition> TryStart(Timestamp stamp);
-  std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
-  std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
-  std::optional<Transition> TryStartInMotion(Timestamp stamp);
-  std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> TryStart(Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> TryStartInMotion(Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
   void TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const;
-  Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
+  [[nodiscard]] Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
 
-  Transition Retry() const;
-  Transition GoLidarOnly() const;
+  [[nodiscard]] Transition Retry() const;
+  [[nodiscard]] Transition GoLidarOnly() const;
 
   ModeContext context_;
   Handover handover_;

@@ -56,8 +56,8 @@ class LidarOnly {
   void NoteError(const Pose& T_map_imu_predicted, const MatchOutcome& outcome);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
-  Transition RestartWhenLost(Timestamp sweep_end) const;
-  Transition ReturnToImu(const MatchOutcome& outcome) const;
+  [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;
+  [[nodiscard]] Transition ReturnToImu(const MatchOutcome& outcome) const;
 
   ModeContext context_;
   Handover handover_;

@@ -4,19 +4,22 @@
 // the motion, so nothing of a motion crosses a change of mode here (handover.hpp is for that).
 #pragma once
 
+#include <fmt/format.h>
+
 #include <deque>
 
 #include "lio/base/counters.hpp"
 #include "lio/pipeline/options.hpp"
-#include "lio/pipeline/sensor_fixed_errors.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
 #include "pipeline/clock_offset_follower.hpp"
 #include "pipeline/extrinsic_follower.hpp"
+#include "pipeline/health.hpp"
 #include "pipeline/imu_convention_monitor.hpp"
 #include "pipeline/imu_noise_watch.hpp"
 #include "pipeline/output_queue.hpp"
 #include "pipeline/place_knowledge.hpp"
+#include "pipeline/sensor_fixed_errors.hpp"
 
 namespace lio {
 
@@ -54,8 +57,9 @@ struct ModeContext {
 
 inline void NotifyLost(Timestamp stamp, OutputQueue& outputs) {
   outputs.Notify(stamp, Notice::Severity::kWarning,
-                 "lost: no scan has matched the map for two seconds; the pose drifts until one "
-                 "matches again, so look at what the lidar sees there");
+                 fmt::format("lost: no scan has matched the map for {:g} s; the pose drifts until "
+                             "one matches again, so look at what the lidar sees there",
+                             kHealth.lost_after_s));
 }
 
 }  // namespace lio

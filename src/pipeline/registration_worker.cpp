@@ -4,10 +4,10 @@
 
 #include <utility>
 
-#include "lio/pipeline/match_method.hpp"
 #include "lio/registration/match_budget.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
+#include "pipeline/match_method.hpp"
 #include "pipeline/prior_error.hpp"
 
 namespace lio {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/sensor_fixed_errors.hpp"
+#include "pipeline/sensor_fixed_errors.hpp"
 
 #include "lio/registration/degenerate_directions.hpp"
 

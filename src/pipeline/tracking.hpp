@@ -76,8 +76,8 @@ class Tracking {
                bool rebases_map, InsertTask& insert);
   void Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
                std::int64_t begin_ns);
-  std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
-  Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
+  [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
+  [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
   void PublishAtImuRate();
   ReportContext MakeReportContext() const;
 

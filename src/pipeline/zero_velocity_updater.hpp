@@ -32,7 +32,8 @@ class ZeroVelocityUpdater {
   }
 
   // After a scan that was fused. True: the filter took the velocity for zero.
-  bool AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world, FilterHistory& history);
+  [[nodiscard]] bool AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world,
+                                  FilterHistory& history);
   // The time before says nothing about now.
   void Forget() {
     detector_.Forget();

@@ -2,21 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "lio/registration/place_width.hpp"
 
-#include <unordered_set>
-
-#include "lio/base/voxel_key.hpp"
+#include "lio/base/voxel_set.hpp"
 #include "lio/registration/registration_parameters.hpp"
 
 namespace lio {
 namespace {
 
 double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
-  std::unordered_set<VoxelKey> cells;
+  VoxelSet cells;
   for (const Eigen::Vector3f& point : points) {
     const Vector3 scaled = point.cast<double>() / edge_m;
     if (!IsVoxel(scaled)) continue;
     const VoxelCell cell = VoxelOf(scaled);
-    cells.insert(PackVoxel(cell[0], cell[1], cell[2]));
+    cells.Insert(PackVoxel(cell[0], cell[1], cell[2]));
     if (cells.size() >= PlaceWidthParameters::kMaxCounted) break;
   }
   return static_cast<double>(cells.size());

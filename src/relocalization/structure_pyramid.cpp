@@ -80,17 +80,18 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
     }
     marked[IndexOf(at.x(), at.y(), size_)] = kThing;
   }
+  constexpr int kLog2Cells = kRelocalization.map_search.log2_cells_per_block;
   Eigen::Vector2i marked_size = size_;
   for (int level = 0; level < kRelocalization.map_search.num_levels; ++level) {
     Level& added = levels_.emplace_back();
-    added.shift = std::max(0, level - 2);
+    added.shift = std::max(0, level - kLog2Cells);
     if (added.shift > 0) {
       const Eigen::Vector2i half = (marked_size.array() + 1) / 2;
       marked = Halved(marked, marked_size, half);
       marked_size = half;
     }
     // A block begins anywhere in a cell, so that it may touch one more than it is wide.
-    added.tolerance = added.shift > 0 ? 4 : (1 << level) - 1;
+    added.tolerance = added.shift > 0 ? 1 << kLog2Cells : (1 << level) - 1;
     added.size = marked_size.array() + added.tolerance;
     added.grid = added.tolerance == 0 ? marked : Widened(marked, marked_size, added.tolerance);
   }

@@ -4,8 +4,8 @@
 
 #include "lio/base/voxel_set.hpp"
 #include "lio/scan/point_filter.hpp"
-#include "lio/scan/ring_order.hpp"
 #include "scan/loam_ring.hpp"
+#include "scan/ring_order.hpp"
 
 namespace lio {
 namespace {

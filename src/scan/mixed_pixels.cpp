@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lio/scan/point_filter.hpp"
-#include "lio/scan/ring_order.hpp"
+#include "scan/ring_order.hpp"
 #include "scan/scan_parameters.hpp"
 
 namespace lio {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/scan/ring_order.hpp"
+#include "scan/ring_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,7 @@ bool IsUsable(const ScanChunk& chunk) {
 // The same number far away in time is another sweep, after a restart of the sender.
 bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
   return scan_seq == chunk.scan_seq && sensor_id == chunk.sensor_id &&
-         chunk.stamp - first < kMaxSweepSpan && last - chunk.stamp < kMaxSweepSpan;
+         chunk.stamp - first < kSweep.max_span && last - chunk.stamp < kSweep.max_span;
 }
 
 // Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
@@ -61,7 +61,7 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
   const Duration last_offset = LastOffset(chunk);
   const Timestamp last = chunk.stamp + last_offset;
-  if (!IsUsable(chunk) || last_offset > kMaxSweepSpan || IsTornOff(chunk, last)) {
+  if (!IsUsable(chunk) || last_offset > kSweep.max_span || IsTornOff(chunk, last)) {
     ++counters_->num_chunks_bad;
     counters_->ledgers.chunks.Settle(ChunkFate::kBad);
     return;
@@ -129,7 +129,7 @@ void ScanAssembler::Close(std::size_t at) {
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
   counters_->num_chunks_missing += sweep.num_missing_chunks;
-  if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kMaxSweepSpan);
+  if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kSweep.max_span);
   if (partial.chunks.size() == 1) {
     sweep.points = std::move(partial.chunks.front().points);
   } else {

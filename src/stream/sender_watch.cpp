@@ -20,7 +20,8 @@ bool SenderWatch::GoesOn(const Newest& sample) {
   if (apart > kSenderWatch.max_apart || -apart > kSenderWatch.max_apart) return false;
   const Duration off{passed.ns - apart * step_.ns};
   if (2 * Abs(off).ns > step_.ns) return false;
-  if (apart == 1) step_ = {(7 * step_.ns + passed.ns) / 8};  // follows within ten samples
+  constexpr std::int64_t kMean = kSenderWatch.mean_of_steps;
+  if (apart == 1) step_ = {((kMean - 1) * step_.ns + passed.ns) / kMean};
   return true;
 }
 

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "lio/base/time.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 
@@ -90,9 +90,8 @@ inline constexpr SaturationParameters kSaturation;
 
 // Did the lidar's clock step as well? (clock_step_arbiter.hpp)
 struct ClockStepParameters {
-  // The step lies somewhere between two inertial samples, which need not come on time. Chosen: as
-  // kImuGap.sparse, three periods at 100 Hz.
-  Duration step_uncertainty{30'000'000};
+  // The step lies somewhere between two inertial samples, which need not come on time.
+  Duration step_uncertainty = kImuGap.sparse;
   // A chunk that is so far off tells nothing. Chosen: no message is delayed by as much.
   Duration wild{5'000'000'000};
   // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
@@ -131,7 +130,7 @@ inline constexpr LidarClockParameters kLidarClock;
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
   Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz
-  // Sweeps that follow each other are nearer. Chosen: two of kMaxSweepSpan.
+  // Sweeps that follow each other are nearer. Chosen: two of kSweep.max_span.
   Duration apart{1'000'000'000};
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.

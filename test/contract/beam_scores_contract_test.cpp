@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lio/pipeline/sensor_fixed_errors.hpp"
 #include "lio/registration/beam_scores.hpp"
+#include "pipeline/sensor_fixed_errors.hpp"
 #include "support/matcher_drive.hpp"
 
 namespace lio {

@@ -128,6 +128,21 @@ TEST(LidarOnly, FollowsTheMatchedPosesAndPublishesEachScan) {
   EXPECT_TRUE(b.bench.sweeps.empty());
 }
 
+TEST(LidarOnly, MapThatBeginsBeforeTheTrackIsCountedAsLate) {
+  LidarOnlyBench b;
+  ASSERT_FALSE(b.Match());
+  auto early = std::make_shared<Sweep>();
+  early->start = StampAt(-0.29);  // with its middle before the track's start
+  early->end = StampAt(0.2);
+  b.bench.sweeps.push_back(early);
+  MatchOutcome begins = b.bench.Unmatched(b.mode.MakeJob(early));
+  begins.match.status = MatchStatus::kEmptyMap;
+  EXPECT_EQ(b.bench.counters.num_scans_late, 0);
+  ASSERT_FALSE(b.Finish(begins));
+  EXPECT_EQ(b.bench.counters.num_scans_late, 1);
+  EXPECT_TRUE(b.insert.T_map_imu);
+}
+
 TEST(LidarOnly, FiveUnmatchedScansInARowEndTheMode) {
   LidarOnlyBench b;
   ASSERT_FALSE(b.Match(10));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/pipeline/match_method.hpp"
+#include "pipeline/match_method.hpp"
 
 #include <gtest/gtest.h>
 

@@ -194,7 +194,7 @@ TEST(OdometryScan, AfterTwoSecondsWithoutAMatchItIsLostAndSaysSoOnce) {
   EXPECT_EQ(run.status(), TrackingStatus::kInit);
   EXPECT_EQ(run.counters().num_restarts, 1);
   for (const char* text :
-       {"lost: no scan has matched the map for two seconds; the pose drifts until one matches "
+       {"lost: no scan has matched the map for 2 s; the pose drifts until one matches "
         "again, so look at what the lidar sees there",
         "lost: scans see enough but match the map nowhere, so initialization begins "
         "again at the last pose that was found; if it happens often, check the rig and the IMU"}) {

@@ -93,6 +93,23 @@ TEST(TrackingOutage, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
   EXPECT_NEAR(report.nav.v_world_imu_mps.x(), kSpeed_mps, 0.5);
 }
 
+// The scan is of the time before the outage, of which the filter holds nothing any more.
+TEST(TrackingOutage, VelocityOfAScanBeforeTheOutageIsCountedAsLateAndNotTaken) {
+  AfterOneSecond b;
+  b.StartSegment(6.0, Step::kGap);
+  ASSERT_FALSE(b.Miss(kOutage.max_scans_sought));
+  b.sweep_start_s = 5.8;
+  MatchOutcome early = b.bench.Unmatched(b.NextJob());
+  early.v_map_imu_mps = Vector3(0, 3.0 * kSpeed_mps, 0);
+  ASSERT_FALSE(b.Finish(early));
+  EXPECT_EQ(b.bench.counters.num_scans_late, 1);
+  b.sweep_start_s = b.imu_from_s = 7.0;
+  ASSERT_FALSE(b.Match(2));  // for the map, and for its confirmation
+  EXPECT_EQ(b.bench.counters.num_scans_late, 1);
+  const FilterReport report = *b.bench.Take<ScanOutput>().back().filter;
+  EXPECT_NEAR(report.nav.v_world_imu_mps.y(), 0.0, 0.5);
+}
+
 // Gravity is fitted for each map, so the record must know that there are two.
 TEST(TrackingOutage, FoundNowhereAfterAnOutageTheRecordOfTheMotionBeginsAMap) {
   AfterOneSecond b;

@@ -186,6 +186,18 @@ TEST(Tracking, MovedScansGrowTheMapAndRestingOnesSoonDoNot) {
   EXPECT_FALSE(resting.insert.T_map_imu);
 }
 
+// The filter cannot set its map pose to certain at a time that it does not hold.
+TEST(Tracking, MapThatBeginsBeforeTheFilterIsCountedAsLate) {
+  TrackingBench b(Straight(0.0));
+  b.sweep_start_s = -0.1;
+  ASSERT_FALSE(b.Match());
+  EXPECT_EQ(b.bench.counters.num_scans_late, 1);
+  EXPECT_TRUE(b.insert.T_map_imu);
+  ASSERT_FALSE(b.Match(5));
+  EXPECT_EQ(b.bench.counters.num_scans_late, 1);
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+}
+
 TEST(Tracking, MapGoesOnFromThePredictionAfterTenUnmatchedScans) {
   TrackingBench b(Straight(kSpeed_mps));
   ASSERT_FALSE(b.Match(5));

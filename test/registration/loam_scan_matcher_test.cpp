@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "lio/scan/loam_reducer.hpp"
-#include "lio/scan/ring_order.hpp"
 #include "support/street_scene.hpp"
 
 namespace lio {

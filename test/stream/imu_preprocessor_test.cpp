@@ -87,7 +87,7 @@ TEST(ImuPreprocessor, DroppedSampleDoesNotMoveTheClock) {
   ImuPreprocessor intake(counters);
   ImuSample bad = Still(500.0);
   bad.w_imu_radps.x() = std::numeric_limits<double>::quiet_NaN();
-  intake.Add(bad);
+  EXPECT_TRUE(intake.Add(bad).accepted.empty());
   EXPECT_EQ(Feed(intake, 0.0, 3), 3);
   EXPECT_EQ(counters.num_clock_jumps, 0);
 }

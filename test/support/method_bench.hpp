@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "lio/pipeline/match_method.hpp"
 #include "lio/registration/match_diagnostics.hpp"
+#include "pipeline/match_method.hpp"
 #include "support/guess_cov.hpp"
 #include "support/street_scene.hpp"
 

@@ -18,6 +18,7 @@
 #include "lio/io/progress_bar.hpp"
 #include "lio/view/live_feed.hpp"
 #include "lio/view/log_player.hpp"
+#include "lio/view/serve.hpp"
 #include "lio/view/view_server.hpp"
 
 namespace lio {
@@ -41,7 +42,7 @@ constexpr const char* kAbout =
     "told.\n"
     "Nothing is encrypted; over an open network take ssh -L 8080:localhost:8080 instead.\n\n"
     "Exit codes: 0 ended by SIGINT or SIGTERM, 2 usage, 4 no transport, 5 damaged, missing or\n"
-    "unusable log.";
+    "unusable log, 70 an internal fault of what brings the data.";
 
 struct Arguments {
   std::string lcm_url;
@@ -110,9 +111,9 @@ void PlayUntilStopped(LogPlayer& player, const std::stop_token& stop) {
   }
 }
 
-void Serve(ViewServer& server) {
+ExitCode Serve(const std::function<void(const std::stop_token&)>& feed, ViewServer& server) {
   fmt::print(stderr, "{}: open {}\n", kProgram, server.Url());
-  server.Run();
+  const std::optional<std::string> fault = ServeWhile(feed, server);
   const ServerCounts& counts = server.counts();
   fmt::print(stderr,
              "{}: {} pages had {} frames, {:.1f} MB; {} poses and {} scans were left out for slow "
@@ -120,6 +121,9 @@ void Serve(ViewServer& server) {
              kProgram, counts.num_clients, counts.num_frames,
              1e-6 * static_cast<double>(counts.num_bytes), counts.num_poses_left_out,
              counts.num_scans_left_out, counts.num_turned_away);
+  if (!fault) return kExitDone;
+  fmt::print(stderr, "{}: {}; the page ends here, please report this fault\n", kProgram, *fault);
+  return kExitInternalFault;
 }
 
 int Main(int argc, char** argv) {
@@ -132,21 +136,16 @@ int Main(int argc, char** argv) {
   if (!arguments.log.empty()) {
     const std::unique_ptr<LogPlayer> player = OpenLog(arguments, hub);
     ViewServer server(options, hub, player.get());
-    const std::jthread worker(
-        [&](const std::stop_token& stop) { PlayUntilStopped(*player, stop); });
-    Serve(server);
-    return kExitDone;
+    return Serve([&](const std::stop_token& stop) { PlayUntilStopped(*player, stop); }, server);
   }
   try {
     LiveFeed feed(arguments.lcm_url, arguments.channel_prefix, hub);
     ViewServer server(options, hub, nullptr);
-    const std::jthread worker([&](const std::stop_token& stop) { feed.Run(stop); });
-    Serve(server);
+    return Serve([&](const std::stop_token& stop) { feed.Run(stop); }, server);
   } catch (const TransportError& error) {
     fmt::print(stderr, "{}: {}\n", kProgram, error.what());
     return kExitNoTransport;
   }
-  return kExitDone;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 // value marked "chosen" has no measurement behind it.
 #pragma once
 
+#include <cstddef>
+
 #include "lio/sensor/gap.hpp"
 
 namespace lio {
@@ -96,7 +98,15 @@ struct ClockOffsetParameters {
   double min_announced_s = 3e-3;
 };
 
+// The window of events (filter_history.hpp).
+struct HistoryParameters {
+  // Events that are kept at most, where stamps hardly advance. Chosen: three seconds of a 10 kHz
+  // IMU.
+  std::size_t max_events = 1 << 15;
+};
+
 struct FilterParameters {
+  HistoryParameters history;
   InflationParameters inflation;
   ForcedUpdateParameters forced_update;
   ImuOutageParameters imu_outage;

@@ -16,7 +16,9 @@ namespace lio {
 struct MotionEvidenceParameters {
   // Steps that are kept: 10 s at 10 Hz. Chosen; more costs time and takes longer to forget.
   std::size_t max_steps = 100;
-  // m, rad. Motion over the last ten steps from which the body counts as moving. Chosen: 0.3 m/s
+  // Steps over which it is judged whether the body moves now. Chosen: a second at 10 Hz.
+  int recent_steps = 10;
+  // m, rad. Motion over these steps from which the body counts as moving. Chosen: 0.3 m/s
   // and 0.1 rad/s at 10 Hz, beyond what matching errs by at rest.
   double min_motion_m = 0.3;
   double min_motion_rad = 0.1;

@@ -54,7 +54,7 @@ class MotionEvidence {
   // The evidence with samples taken `num_steps` later, as if the clocks differed by so much.
   MotionEvidence Shifted(double num_steps) const;
   std::vector<Bend> FindBends() const;
-  bool HasMoved() const;  // over the last kRecentSteps steps
+  bool HasMoved() const;  // over the last recent_steps steps
 
   // Chi-square of the turns, minimized over the gyro bias.
   double RateScore(const Matrix3& R_imu_sent, double rate_scale) const;
@@ -65,9 +65,6 @@ class MotionEvidence {
   // Root mean square error of rates, and of forces, that a score stands for.
   double RateError_radps(double score) const;
   static double ForceError_mps2(std::span<const Bend> bends, double score);
-
-  // Steps that HasMoved() looks at. Chosen: a second at 10 Hz.
-  static constexpr std::ptrdiff_t kRecentSteps = 10;
 
  private:
   std::optional<Bend> BendAbout(std::size_t k) const;

@@ -6,9 +6,13 @@
 // every module takes its limits from here:
 //
 //   question                       asked by                           limits
-//   does the drive begin at rest?  pipeline/initializing              kRest.at_start
+//   does the drive begin at rest?  pipeline/initializing              kRest.at_start, and the keys
+//                                                                     start.max_*_std
 //   does the vehicle stop?         pipeline/zero_velocity_detector    kRest.on_the_way
 //   did it stand all the time?     verdict/data_findings              kRest.whole_run
+//
+// Those keys (StartOptions) say how much the IMU may shake while a start takes it for standing.
+// They belong to the user, whose engine may shake more than any that was tried.
 #pragma once
 
 #include <span>

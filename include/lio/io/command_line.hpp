@@ -25,7 +25,7 @@ enum ExitCode : int {
   kExitNoTransport = 4,     // LCM cannot be reached
   kExitUnusableInput = 5,   // damaged, missing or unusable input
   kExitNoTrust = 6,         // done, but the result cannot be trusted: verdict.json says why
-  kExitInternalFault = 70,  // a thread of liod failed: EX_SOFTWARE of sysexits.h
+  kExitInternalFault = 70,  // a thread of liod or lio-view failed: EX_SOFTWARE of sysexits.h
   kExitWriteFailed = 74,    // a file or stdout could not be written in full: EX_IOERR
 };
 

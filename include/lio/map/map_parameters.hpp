@@ -36,6 +36,9 @@ struct GaussianMapParameters {
   // The mean view of a saved map's cell, whose points have views of one or zero, is at least so
   // long if the cell has one side. Chosen: half of the points.
   static constexpr float kMinView = 0.5f;
+  // A point whose side nobody knows is on a saved map's plane within so many standard deviations of
+  // the plane's thickness. Statistics: 99.7 % of a plane's points are.
+  static constexpr float kOnPlane_sigmas = 3.f;
   // The sides of a saved map's surfaces are sorted by up and this share of a level direction, which
   // tells the sides of a wall. Chosen: small beside up, so that floors that lean are still sorted
   // by up.

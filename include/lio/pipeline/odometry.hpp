@@ -79,25 +79,25 @@ class Odometry {
   // The log has ended: closes what is still open.
   void Flush();
 
-  std::optional<MatchJob> NextJob();
-  InsertTask FinishJob(MatchOutcome outcome);
+  [[nodiscard]] std::optional<MatchJob> NextJob();
+  [[nodiscard]] InsertTask FinishJob(MatchOutcome outcome);
 
   // Live only: drops the oldest waiting scans beyond options.pipeline.max_queued_scans, counted.
   void ShedLoad();
 
   // Everything that happened since the last call, in order. NavOutputs of source kImuPropagated
   // come one an IMU sample.
-  std::vector<Output> TakeOutputs();
+  [[nodiscard]] std::vector<Output> TakeOutputs();
 
-  const Counters& counters() const;
+  [[nodiscard]] const Counters& counters() const;
   // The fates of every sample, chunk and scan so far, with those that wait now.
   [[nodiscard]] Ledgers ledgers() const;
-  TrackingStatus status() const;
+  [[nodiscard]] TrackingStatus status() const;
   // May the result so far be trusted, and if not, why? Costs some ten milliseconds.
   [[nodiscard]] Verdict Judge() const;
   // The trust that the last of the looks at the rig left, which come ever more seldom; costs
   // nothing.
-  Trust trust() const;
+  [[nodiscard]] Trust trust() const;
 
  private:
   struct Impl;

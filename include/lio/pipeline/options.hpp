@@ -66,6 +66,6 @@ struct OptionFault {
 };
 
 // All faults at once; empty means usable.
-std::vector<OptionFault> Validate(const Options& options);
+[[nodiscard]] std::vector<OptionFault> Validate(const Options& options);
 
 }  // namespace lio

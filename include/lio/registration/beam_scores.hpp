@@ -20,10 +20,11 @@ namespace lio {
 class BeamScores {
  public:
   using Score = Eigen::Matrix<float, 6, 1>;
-  // Elevations are told apart by their sine, by 1 deg near the horizon. Chosen: the beams of a
-  // VLP-16 are 2 deg apart; 24 sectors in place of 8 octants are the same
-  // (docs/experiments/sensor_fixed_errors.md).
+  // Bins of the sine of the elevation over -1..1, each 1 deg wide near the horizon. Chosen: the
+  // beams of a VLP-16 are 2 deg apart.
   static constexpr int kElevations = 120;
+  // Sectors of the turn, told by three signs. Measured: 24 of them give the same
+  // (docs/experiments/sensor_fixed_errors.md).
   static constexpr int kOctants = 8;
   static constexpr std::size_t kNumDirections = kElevations + kOctants;
 

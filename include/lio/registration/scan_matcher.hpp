@@ -93,7 +93,7 @@ class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
 
-  virtual MatchResult Match(const MatchInput& input) = 0;
+  [[nodiscard]] virtual MatchResult Match(const MatchInput& input) = 0;
   virtual void Insert(const ScanView& scan, const Pose& T_map_imu) = 0;
   // Adds the points of a saved map, which stay for good. False, and nothing is added, where the
   // method has no use for points without a scan.

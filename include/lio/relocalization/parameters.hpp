@@ -116,8 +116,11 @@ struct StandingPointsParameters {
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  float cell_m = 0.5f;              // of the finest grid; chosen: matching converges from there
-  int num_levels = 7;               // chosen: cells of 0.5 to 32 m, a few of which cover a map
+  float cell_m = 0.5f;  // of the finest grid; chosen: matching converges from there
+  int num_levels = 7;   // chosen: cells of 0.5 to 32 m, a few of which cover a map
+  // Binary logarithm of the cells that a block of shifts is wide in its grid. Chosen: all
+  // grids take three times the memory of the finest then; fewer bound a score looser.
+  int log2_cells_per_block = 2;
   int max_cells_per_side = 8192;    // chosen by memory: 4 km, whose grids take 220 MB
   float max_coordinate_m = 100e3f;  // of a map's point; arithmetic: a float holds 8 mm there
   float step_rad = 0.0175f;         // chosen: a cell at 30 m

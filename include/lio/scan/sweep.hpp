@@ -12,9 +12,12 @@
 
 namespace lio {
 
-// Longer sweeps are wrong stamps. Chosen: no lidar turns slower than twice a second; data sheets
-// end at five.
-inline constexpr Duration kMaxSweepSpan{500'000'000};
+struct SweepParameters {
+  // Longer sweeps are wrong stamps. Chosen: no lidar turns slower than twice a second; data sheets
+  // end at five.
+  Duration max_span{500'000'000};
+};
+inline constexpr SweepParameters kSweep;
 
 struct Sweep {
   Timestamp start;            // instant of t_offset_ns = 0: the first point's stamp

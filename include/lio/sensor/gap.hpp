@@ -17,6 +17,9 @@
 //
 //   scans apart by
 //     250 ms   missing     it is counted as num_scan_gaps           stream/scan_gate
+//     250 ms   unjoined    from pose to pose: they are no step of   verdict/motion_record,
+//                          the motion, and time between them has    verdict/run_tally
+//                          no pose
 //     500 ms   unrelated   no motion is measured across it          filter/clock_offset,
 //                                                                   imu/motion_evidence,
 //                                                                   pipeline/zero_velocity_detector
@@ -53,6 +56,9 @@ struct ScanGapParameters {
   // From the end of one sweep to the start of the next. Chosen: two missing sweeps of a 10 Hz lidar
   // leave 200 ms; the rest is for stamps that jitter.
   Duration missing{250'000'000};
+  // From one matched pose to the next. Chosen: one of a 10 Hz lidar may be lacking, and half a
+  // period is for stamps that jitter.
+  Duration unjoined{250'000'000};
   // From the end of one sweep to the end of another. Chosen: five periods at 10 Hz.
   Duration unrelated{500'000'000};
 };

@@ -41,13 +41,13 @@ class ImuPreprocessor {
     double clock_step_s = 0.0;  // with a step: of the clock, if samples went on meanwhile
     bool undoes_hole = false;   // the step back is as long as a hole before: was that a step, too?
   };
-  Result Add(const ImuSample& sample);
+  [[nodiscard]] Result Add(const ImuSample& sample);
   // Are samples held that may be the first ones after a step?
   // Samples that wait until others bear them out.
   std::size_t num_held() const { return suspects_.size(); }
   bool is_in_doubt() const { return !suspects_.empty(); }
   // The samples that are still held, when no more will come.
-  std::vector<ImuSample> Flush();
+  [[nodiscard]] std::vector<ImuSample> Flush();
   // Only right after a step: `shift` is added to the stamps of what was accepted with it.
   void ShiftBy(Duration shift);
   // The last hole in the stream was none of the clock's doing.

@@ -29,7 +29,7 @@ class ScanAssembler {
   void CloseSegment(Timestamp end, Timestamp next_begin);
 
   // Closed sweeps in order of time, oldest first.
-  std::optional<Sweep> Take();
+  [[nodiscard]] std::optional<Sweep> Take();
   // Sweeps that are open, or closed and not taken.
   [[nodiscard]] std::size_t num_held() const { return open_.size() + closed_.size(); }
 

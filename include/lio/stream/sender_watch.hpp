@@ -17,6 +17,9 @@ struct SenderWatchParameters {
   // Numbers that are farther apart are not of one row, whatever the stamps. Chosen: ten seconds of
   // a 100 Hz IMU.
   std::int64_t max_apart = 1000;
+  // Steps between samples over which the step is averaged, exponentially. Chosen: it follows
+  // another rate within ten samples, and one late sample moves it by an eighth.
+  std::int64_t mean_of_steps = 8;
   int min_evidence = 3;  // chosen: a row that a bit error begins does not go on three times
   // So many in a row without one of the first sender, and for so long: that one is gone. Chosen:
   // more than a fast IMU sends between two samples of a slow one.

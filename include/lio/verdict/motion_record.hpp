@@ -10,14 +10,15 @@
 #include <optional>
 #include <span>
 
+#include "lio/sensor/gap.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/stamped_pose.hpp"
 
 namespace lio {
 
 struct MotionRecordParameters {
-  // s. A longer step between poses skipped too many sweeps: left out. Chosen: two at 10 Hz.
-  double max_step_s = 0.25;
+  // s. A longer step between poses skipped too many sweeps: left out.
+  double max_step_s = kScanGap.unjoined.Seconds();
   // The steps that are kept, the last ones: four minutes at 10 Hz, 0.7 MB. Chosen.
   std::size_t max_steps = 2400;
   // s. Half of the time over which rate and force at a stamp are averaged. Chosen: four samples at

@@ -10,6 +10,7 @@
 
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
+#include "lio/sensor/gap.hpp"
 #include "lio/sensor/imu_noise.hpp"
 #include "lio/verdict/verdict.hpp"
 
@@ -19,9 +20,8 @@ struct RunTallyParameters {
   // s. A start may take so long before it counts as missing: the longest moving window that
   // StartOptions::moving_window_s may have.
   double start_s = 3.0;
-  // s. A pose covers the time since the one before up to so long: two and a half sweeps at 10 Hz,
-  // as in lio-eval's association.
-  double max_step_s = 0.25;
+  // s. A pose covers the time since the one before up to so long.
+  double max_step_s = kScanGap.unjoined.Seconds();
   // s. A longer step of the input's time is a jump of its clocks, not time. Chosen: longer than any
   // outage that is carried over.
   double max_input_step_s = 60.0;

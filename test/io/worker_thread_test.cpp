@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "app/worker_thread.hpp"
+#include "lio/io/worker_thread.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The threads of the daemon. An exception that leaves a thread's body ends that thread and not the
-// process: it is reported in words, so that the run can end in order, with its files complete.
+// The threads of the daemon and of the viewer. An exception that leaves a thread's body ends that
+// thread and not the process: it is reported in words, so that the run can end in order, with its
+// files complete.
 #pragma once
 
 #include <chrono>
