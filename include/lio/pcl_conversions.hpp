@@ -108,7 +108,7 @@ LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp,
 template <class Point>
 LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp) {
   static_assert(!pcl_detail::HasAmbiguousTime<Point>,
-                "what this type's times count is not known: give SweepFromPcl a function of them");
+                "the unit of this type's times is unknown: give SweepFromPcl a function of them");
   return SweepFromPcl(cloud, stamp, []([[maybe_unused]] const Point& p) {
     if constexpr (pcl_detail::HasSeconds<Point>) return static_cast<double>(p.time);
     if constexpr (pcl_detail::HasNanoseconds<Point>) return 1e-9 * static_cast<double>(p.t);
