@@ -16,7 +16,7 @@ namespace lio {
 
 struct FeatureCloudTask {
   std::shared_ptr<const Sweep> sweep;
-  std::shared_ptr<const LoamFeatures> features;  // of the sweep
+  std::shared_ptr<const LoamFeatures> features;  // extracted from the sweep
 };
 
 // Gives the points of a set as they were measured: in the lidar frame at each point's own instant,

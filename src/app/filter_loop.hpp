@@ -64,7 +64,7 @@ class FilterLoop {
  private:
   // The clouds of the scan that is being matched or was just fused.
   struct Clouds {
-    FullCloudTask full;                       // of the job that is out
+    FullCloudTask full;                       // for the job that is out
     std::vector<Eigen::Vector3f> points_imu;  // for LIO_CLOUD
     Pose T_map_points;                        // places points_imu in the map
     std::optional<Timestamp> last_sent;       // LIO_CLOUD

@@ -17,7 +17,7 @@ namespace lio {
 // These are what a watch looks for, in the words of the one who must mend it.
 struct InputNames {
   std::string imu, scan;  // channels
-  std::string url;        // of LCM, not empty
+  std::string url;        // LCM's, not empty
   bool uses_imu = true;   // else nobody misses it
 };
 

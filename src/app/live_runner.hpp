@@ -99,7 +99,7 @@ class LiveRunner {
   StatusReport ComposeStatus();
   void WatchInput(StatusReport& report);
   RunStats Stats() const;
-  RunStats JudgedStats() const;  // of the filter thread
+  RunStats JudgedStats() const;  // on the filter thread only
 
   const LiveOptions live_;
   Bus& bus_;
@@ -108,7 +108,7 @@ class LiveRunner {
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
-  InputWatch watch_;  // of the output thread
+  InputWatch watch_;  // used by the output thread only
   FilterInbox inbox_;
   FaultLatch faults_;
   MatchWorker match_worker_;

@@ -15,7 +15,7 @@ namespace lio {
 class RunSeries {
  public:
   struct Folders {
-    std::filesystem::path first;   // of the first run; earlier files in it are replaced
+    std::filesystem::path first;   // takes the first run; earlier files in it are replaced
     std::filesystem::path wanted;  // the next ones are numbered after this
   };
 
@@ -42,7 +42,7 @@ class RunSeries {
   StartIn start_in_;
   std::filesystem::path folder_;
   std::optional<RunWriter> writer_;
-  RunStats at_begin_;  // of the folder
+  RunStats at_begin_;  // when the folder was begun
   std::optional<std::string> failure_;
 };
 

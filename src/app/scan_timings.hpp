@@ -12,7 +12,7 @@ namespace lio {
 struct ScanTiming {
   std::int32_t scan_seq = -1;
   std::int64_t arrived_utime = 0;  // us since the epoch, of its last chunk; 0: unknown
-  std::int64_t started_utime = 0;  // of its match; 0: not begun
+  std::int64_t started_utime = 0;  // when its match began; 0: not begun
 
   [[nodiscard]] bool is_complete() const { return arrived_utime != 0 && started_utime != 0; }
 };

@@ -30,7 +30,7 @@ using so3::Vec3;
 // A turn by gyro at the offset of the round, with its derivatives.
 struct GyroTurn {
   Quaternion turn;
-  Matrix3 by_bias;             // of the right error
+  Matrix3 by_bias;             // derivative of the right error
   Vector3 rate_from, rate_to;  // rad/s, bias-corrected: derivatives by the offset
 };
 

@@ -139,9 +139,9 @@ class JoinedBags : public BagReader {
   bool is_left_ = false;
   std::optional<Timestamp> begin_time_;
   BagDamage damage_;
-  BagDamage damage_before_;  // of the parts before
+  BagDamage damage_before_;  // in the parts before
   std::int64_t bytes_before_ = 0;
-  std::int64_t num_read_ = 0;  // of the parts before
+  std::int64_t num_read_ = 0;  // from the parts before
   std::int64_t size_bytes_ = 0;
 };
 

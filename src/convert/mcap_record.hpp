@@ -29,12 +29,12 @@ struct McapChunkHeader {
   std::uint64_t inflated_bytes = 0;
   std::uint32_t inflated_crc = 0;  // 0: there is none
   std::string compression;         // "", "lz4" (frames) or "zstd"
-  std::uint64_t stored_bytes = 0;  // of the records as they stand in the file
+  std::uint64_t stored_bytes = 0;  // length of the records as they stand in the file
 };
 
 struct McapFooter {
   std::uint64_t summary_start = 0;  // from the file's begin; 0: there is no summary
-  std::uint32_t summary_crc = 0;    // of the summary and the footer before this field; 0: none
+  std::uint32_t summary_crc = 0;    // over the summary and the footer before this field; 0: none
 };
 
 struct McapStatistics {

@@ -14,7 +14,7 @@ namespace lio {
 
 // Lengths are in mm, here and in packets.
 inline constexpr double kMetresPerMillimetre = 1e-3;
-inline constexpr std::size_t kOusterPixelBytes = 12;  // of one beam in a packet
+inline constexpr std::size_t kOusterPixelBytes = 12;  // one beam in a packet
 
 enum class OusterProfile { kLegacy, kRng19 };
 

@@ -31,7 +31,7 @@ std::optional<std::size_t> EthernetHeaderBytes(ByteView frame) {
     const std::uint16_t type = Big16(frame, at);
     if (type == kIpv4) return at + 2;
     if (type != 0x8100 && type != 0x88a8) return std::nullopt;
-    at += kTagBytes;  // of a VLAN
+    at += kTagBytes;  // the tag of a VLAN
   }
   return std::nullopt;
 }

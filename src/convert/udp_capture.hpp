@@ -20,7 +20,7 @@ struct pcap;
 namespace lio {
 
 struct UdpDatagram {
-  Timestamp received;        // of its last fragment, by the clock of the capturing host
+  Timestamp received;        // arrival of its last fragment, by the clock of the capturing host
   std::uint32_t source = 0;  // address of the sender
   std::uint16_t port = 0;    // to which it was sent
   ByteView payload;          // valid until the next call of Next()

@@ -61,8 +61,8 @@ class VelodyneDecoder : public PacketDecoder {
   FiringTable table_;
   HourClock clock_;
   double block_s_ = 0.0;                 // from one block to the next
-  double rate_radps_ = 0.0;              // of the head, clockwise
-  std::optional<Timestamp> next_stamp_;  // of the packet that should come next
+  double rate_radps_ = 0.0;              // turn rate of the head, clockwise
+  std::optional<Timestamp> next_stamp_;  // due time of the next packet
   std::optional<double> last_azimuth_rad_;
   double turned_rad_ = 0.0;  // since the turn began
   Turn turn_;

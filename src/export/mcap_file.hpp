@@ -87,7 +87,7 @@ class McapFile {
   McapContent chunk_;  // records
   Span chunk_span_;
   std::map<std::uint16_t, std::vector<Entry>> chunk_entries_;
-  std::string schema_records_, channel_records_, chunk_index_records_;  // of the summary
+  std::string schema_records_, channel_records_, chunk_index_records_;  // repeated in the summary
   Statistics statistics_;
 };
 

@@ -21,7 +21,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr std::uint64_t kMaxPoints = 1'000'000'000;
-constexpr std::uint64_t kMaxStepBytes = 4096;  // of a point
+constexpr std::uint64_t kMaxStepBytes = 4096;  // size of one point
 constexpr std::uint64_t kMaxRatio = 100;       // LZF packs 264 bytes into 3 at best
 
 std::optional<std::uint64_t> Number(const std::string& word) {

@@ -84,7 +84,7 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
       search.best = {near, from_query};
     }
   }
-  double nearest_side = 1.0;  // of the query's voxel, in voxels
+  double nearest_side = 1.0;  // distance to the nearest side of the query's voxel, in voxels
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at =
         blocks_.Scaled(query_map[static_cast<Eigen::Index>(axis)]) - search.voxel[axis];

@@ -20,7 +20,7 @@ namespace lio {
 struct ReportContext {
   const Options& options;
   Vector3 g_world;        // zero where no gravity is felt: the world is then the map's frame
-  std::int64_t last_seq;  // of the last scan that was fused
+  std::int64_t last_seq;  // the last scan that was fused
   TrackingStatus status;
   const ImuBuffer* imu;  // null without an IMU
   const ClockOffsetFollower& clocks;

@@ -92,7 +92,7 @@ class Health {
   std::optional<Timestamp> last_fused_;
   Counters* counters_;
   int num_gated_in_a_row_ = 0;
-  int num_unmatched_in_a_row_ = 0;  // of scans that see enough
+  int num_unmatched_in_a_row_ = 0;  // counts scans that see enough
   std::uint32_t gated_scans_ = 0;   // a bit a matched scan, the newest lowest
 };
 

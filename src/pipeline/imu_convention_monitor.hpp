@@ -61,7 +61,7 @@ class ImuConventionMonitor {
   struct Finding {
     enum class Kind {
       kNone,
-      kMisleadingGyro,  // what was tracked with its rates is of no use
+      kMisleadingGyro,  // the gyro misled tracking: its track is of no use
       kOtherwise        // the samples are in `convention`
     };
     Kind kind = Kind::kNone;
@@ -85,7 +85,7 @@ class ImuConventionMonitor {
   // A mean force over a rest tells this of the convention under which it was read.
   struct ForceVerdict {
     ForceAtRest force = ForceAtRest::kUnclear;
-    ImuConvention convention;  // that the force tells
+    ImuConvention convention;  // the convention that the force tells
     std::string evidence;
   };
   [[nodiscard]] ForceVerdict JudgeForce(const Vector3& mean_f_mps2) const;

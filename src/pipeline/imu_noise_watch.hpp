@@ -32,7 +32,7 @@ class ImuNoiseWatch {
  private:
   struct Sensor {
     double told = 0.0;        // the ratio that was announced last
-    double least_lately = 0;  // of the scans in a row that are much noisier than was told
+    double least_lately = 0;  // the least ratio in the present row of scans much noisier than told
     int num_in_row = 0;
   };
   static bool IsNews(double ratio, Sensor& sensor);

@@ -67,9 +67,9 @@ class LidarOnly {
   MotionTrend trend_;
   std::optional<ConstantVelocityTracker> tracker_;  // from the first sweep on
   Vector3 up_map_ = Vector3::UnitZ();               // roughly
-  int num_scans_ = 0;                               // that have been tracked
-  std::optional<StartState> inertial_;              // of the filter that this mode goes on from
-  Vector3 g_world_ = Vector3::Zero();               // its gravity, which levelled the world
+  int num_scans_ = 0;                               // scans tracked so far
+  std::optional<StartState> inertial_;  // state of the filter that this mode goes on from
+  Vector3 g_world_ = Vector3::Zero();   // its gravity, which levelled the world
   bool is_imu_back_ = false;
 };
 

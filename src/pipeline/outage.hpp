@@ -94,7 +94,7 @@ class OutageRecovery {
   bool MatchesAsBefore(const MatchResult& match) const;
 
   Stage stage_ = Stage::kNone;
-  int num_scans_ = 0;  // of the stage
+  int num_scans_ = 0;  // since the stage began
   int num_checked_ = 0;
   MatchResult last_match_;
   Estimate before_;

@@ -67,7 +67,7 @@ struct RegistrationWorker::ScanInWork {
   ReducedScan reduced = {};
   StampedPoses motion;  // the trajectory that the points are deskewed by
   MatchOutcome outcome = {};
-  std::vector<Eigen::Vector3f> to_match = {};  // of outcome.points_imu
+  std::vector<Eigen::Vector3f> to_match = {};  // chosen from outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
   MatchBudget budget = MatchBudget(kRelocalization.max_matches_per_scan);
 

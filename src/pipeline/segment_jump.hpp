@@ -31,7 +31,7 @@ inline constexpr SegmentJumpParameters kSegmentJump;
 struct SegmentJump {
   enum class Kind : std::int8_t { kGap, kClockSet, kUnseen, kSetFarBack };
   Kind kind = Kind::kGap;
-  double jump_s = 0.0;     // of the stamps
+  double jump_s = 0.0;     // jump of the stamps
   double unknown_s = 0.0;  // kGap, kClockSet: the time of which nothing is known
 
   // The clock was set by so much, beyond the time that may have passed.

@@ -14,7 +14,7 @@ namespace lio {
 
 struct LoamSolverOptions {
   double huber_m = LoamOptions{}.huber_m;
-  double edge_weight = 1.0;  // of a squared edge residual against a plane's; A-LOAM's
+  double edge_weight = 1.0;  // weight of a squared edge residual against a plane's; A-LOAM's
   int max_iterations = LoamOptions{}.max_iterations;
 };
 
@@ -32,7 +32,7 @@ class LoamSolver {
  private:
   std::deque<EdgeFactor> edges_;  // cost functions cannot be moved
   std::deque<PlaneFactor> planes_;
-  std::vector<CostPtr> partial_edges_;  // of a sweep ratio below 1
+  std::vector<CostPtr> partial_edges_;  // for a sweep ratio below 1
   std::vector<CostPtr> partial_planes_;
 };
 

@@ -16,10 +16,10 @@ namespace lio {
 // An edge point and its line.
 struct EdgeTerm {
   std::int32_t point = 0;
-  std::int32_t part = 0;  // of the target; terms of one part share its errors
+  std::int32_t part = 0;  // part of the target; terms of one part share its errors
   Vector3 on_line;
   Vector3 direction;           // unit
-  double direction_var = 0.0;  // of each of its two components across [rad^2]
+  double direction_var = 0.0;  // variance of each of its two components across [rad^2]
   double weight = 0.0;         // at the last linearisation, 1 / m^2
 };
 
@@ -29,7 +29,7 @@ struct PlaneTerm {
   std::int32_t part = 0;
   Vector3 on_plane;
   Matrix3 axes;                // columns: normal, tangents
-  Eigen::Vector2d normal_var;  // of the normal's tilt toward either tangent [rad^2]
+  Eigen::Vector2d normal_var;  // variance of the normal's tilt toward either tangent [rad^2]
   double weight = 0.0;
 };
 

@@ -45,7 +45,7 @@ class RingGrid {
   static constexpr float kVoxel_m = LoamScanParameters::kGridVoxel_m;
   struct Point {
     Eigen::Vector3f position;
-    std::int32_t next = -1;  // of the same voxel
+    std::int32_t next = -1;  // next point of the same voxel
     std::uint16_t ring = 0;
   };
   template <class Visit>

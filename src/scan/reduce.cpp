@@ -16,7 +16,7 @@ constexpr ThinningParameters kThinning = kScanParameters.thinning;
 
 struct Voxel {
   VoxelKey key;
-  float distance_sq;  // of the point from the voxel's centre, in voxels
+  float distance_sq;  // from the point to the voxel's centre, in voxels
 };
 
 Voxel VoxelOf(const LidarPoint& point, float inverse_voxel) {

@@ -189,7 +189,7 @@ struct Flight {
   double x = 0.0;
   double z = 0.0;
   double direction = 1.0;
-  double side = 1.0;  // of y
+  double side = 1.0;  // sign of y
 };
 
 void AddFlight(Mesh& mesh, const Flight& flight) {

@@ -14,7 +14,7 @@ struct OfficeShape {
   static constexpr int kNumStoreys = 3;
   static constexpr double kStorey_m = 3.3;
   static constexpr double kSlab_m = 0.3;
-  static constexpr double kLength_m = 24.0;       // of the corridor, from x = 0
+  static constexpr double kLength_m = 24.0;       // length of the corridor, from x = 0
   static constexpr double kHalfCorridor_m = 0.8;  // it is 1.6 m wide
   static constexpr double kRoomDepth_m = 5.0;
   static constexpr double kWall_m = 0.12;

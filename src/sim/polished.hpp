@@ -12,7 +12,7 @@
 namespace lio::sim {
 
 struct PolishParameters {
-  double min_specular = 0.3;  // of a material that reflects as a mirror does. Chosen.
+  double min_specular = 0.3;  // least of a material that reflects as a mirror does. Chosen.
   // Share of the light that a mirror returns at normal incidence; towards grazing it grows to all
   // by Schlick's formula. Two faces of glass of index 1.5 give 8 %, the clear coat of paint 4 %.
   double glass_reflectance = 0.08;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHalfGallery_m = 1.7;
 constexpr double kGalleryHeight_m = 2.9;
-constexpr double kRounding_m = 0.9;  // of the corners between walls, roof and floor
+constexpr double kRounding_m = 0.9;  // radius of the corners between walls, roof and floor
 constexpr double kCell_m = 0.22;
 
 // A piece of a gallery's middle line, on the floor.

@@ -97,7 +97,7 @@ struct ClockStepParameters {
   Duration wild{5'000'000'000};
   // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
   Duration silence{1'000'000'000};
-  std::size_t num_chunks = 4;  // that are remembered; chosen: a step among them shows
+  std::size_t num_chunks = 4;  // remembered ones; chosen: a step among them shows
   // Differences between the streams' stamps whose median counts. Chosen: the lidar may step a
   // message earlier, and the odd burst is outvoted.
   std::size_t num_lags = 9;
@@ -106,13 +106,13 @@ inline constexpr ClockStepParameters kClockStep;
 
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
-  Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz
+  Duration jitter{20'000'000};  // spread of a sweep's length; chosen: a fifth of one at 10 Hz
   // Sweeps that follow each other are nearer. Chosen: two of kMaxSweepSpan.
   Duration apart{1'000'000'000};
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;
-  std::size_t max_points = 4 << 20;  // of a sweep; chosen: four times those of the largest lidars
+  std::size_t max_points = 4 << 20;  // in a sweep; chosen: four times those of the largest lidars
 };
 inline constexpr ScanAssemblerParameters kScanAssembler;
 

@@ -25,7 +25,7 @@ struct PathRow {
   float x_m = 0.0F;
   float y_m = 0.0F;
   float z_m = 0.0F;
-  float status = 0.0F;  // of TrackingStatus
+  float status = 0.0F;  // a TrackingStatus
 };
 
 // Velocity in world [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], NIS (0: no update).

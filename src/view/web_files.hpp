@@ -9,7 +9,7 @@
 namespace lio {
 
 struct WebFile {
-  std::string_view type;  // of its content
+  std::string_view type;  // MIME type
   std::string_view content;
 };
 

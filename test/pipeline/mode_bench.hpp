@@ -21,7 +21,7 @@ namespace lio::test {
 
 inline constexpr double kImuStep_s = 0.01;
 inline constexpr double kSweepSpan_s = 0.1;
-inline constexpr double kSpeed_mps = 8.0;  // of a car on a straight road
+inline constexpr double kSpeed_mps = 8.0;  // speed of a car on a straight road
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 
 inline Options WithoutImu() {

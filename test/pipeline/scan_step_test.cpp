@@ -28,7 +28,7 @@ SweepPtr SweepOf(double start_s, double end_s) {
 struct Unknown {
   Vector3 velocity_mps = Vector3::Zero();  // in world
   double gyro_bias_radps = 0.0;
-  double rotation_rad = 0.0;  // of the map pose
+  double rotation_rad = 0.0;  // error of the map pose
 };
 
 // A body that drives along world's x, its own x axis to the left of that, over two seconds. Its IMU

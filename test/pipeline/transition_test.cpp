@@ -21,7 +21,7 @@ std::multiset<std::string> DrawnTransitions() {
     if (line == "<!-- transitions:begin -->") is_inside = true;
     if (line == "<!-- transitions:end -->") is_inside = false;
     if (!is_inside || line.find("-->") == std::string::npos || line.starts_with("<!--")) continue;
-    if (line.find("[*]") != std::string::npos) continue;  // where the diagram begins and ends
+    if (line.find("[*]") != std::string::npos) continue;  // begin or end of the diagram
     drawn.insert(line.substr(line.find_first_not_of(' ')));
   }
   return drawn;

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr float kPointsEach = 4.f;  // that each neighbour is the mean of
+constexpr float kPointsEach = 4.f;  // each neighbour is the mean of so many
 
 PointMap::Neighbours Of(const std::vector<Eigen::Vector3f>& points) {
   PointMap::Neighbours neighbours;
@@ -48,7 +48,7 @@ TEST(FitLine, FindsTheLineThroughItsPoints) {
 TEST(FitLine, ScatterAcrossMakesTheDirectionUnsure) {
   const auto line = FitLine(Of(PointsOnALine(0.4f, 0.15f)), kOptions);
   ASSERT_TRUE(line);
-  const double across_var = 0.15 * 0.15 * 0.2 * 0.8;  // of one point in five
+  const double across_var = 0.15 * 0.15 * 0.2 * 0.8;  // one point in five is off
   EXPECT_NEAR(line->direction_var, across_var / (5 * 2 * 0.16), 1e-5);
 }
 

@@ -70,7 +70,7 @@ struct StreamRun {
     }
     return found;
   }
-  std::vector<Timestamp> MeasuredStamps() const;  // of inertial samples that are not made up
+  std::vector<Timestamp> MeasuredStamps() const;  // excludes inertial samples that were made up
   std::vector<Timestamp> SweepStarts() const;
 
   Counters counters;

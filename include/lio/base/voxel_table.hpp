@@ -18,7 +18,7 @@
 
 namespace lio {
 
-inline constexpr VoxelKey kNoVoxel = ~VoxelKey{0};  // of no voxel: keys leave the top bit free
+inline constexpr VoxelKey kNoVoxel = ~VoxelKey{0};  // names no voxel: keys leave the top bit free
 
 template <class Value>
 class VoxelTable {

@@ -50,8 +50,8 @@ struct RotationCalibration {
   double sweep_std_rad = 0.0;        // error of a sweep's rotation, per axis
   double turn_std_rad = 0.0;         // further error of a turn, per axis
   double residual_ratio = 0.0;       // root of the normalized mean squared residual; about 1
-  double correlation = 0.0;          // of the turn rates at the offset of the search, 0..1
-  double turn_rate_rms_radps = 0.0;  // of the motion about its mean
+  double correlation = 0.0;          // between the turn rates, at the offset of the search, 0..1
+  double turn_rate_rms_radps = 0.0;  // root mean square about the mean
   int num_turns = 0;
 };
 

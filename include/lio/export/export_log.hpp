@@ -22,8 +22,8 @@ struct ExportOptions {
 };
 
 struct ExportCounts {
-  std::int64_t num_messages = 0;   // that were taken out
-  std::int64_t num_refused = 0;    // of the same channels, but malformed
+  std::int64_t num_messages = 0;   // written to the export
+  std::int64_t num_refused = 0;    // malformed ones on the same channels
   std::int64_t num_points = 0;     // PLY
   std::int64_t skipped_bytes = 0;  // damage of the log
 };

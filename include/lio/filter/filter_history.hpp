@@ -91,14 +91,14 @@ class FilterHistory {
   enum class Kind { kImu, kPose, kZeroVelocity, kVelocity, kRebase, kNoise };
   struct Node {
     Timestamp stamp;
-    Timestamp imu_stamp;  // of the last measured sample up to here
+    Timestamp imu_stamp;  // the last measured sample up to here
     Kind kind = Kind::kImu;
     ImuSample sample;  // measured, or interpolated at the stamp of another event
     PoseEvent pose;
     double velocity_var = 0.0;  // (m/s)^2; of both kinds of velocities
     Vector3 v_imu_mps = Vector3::Zero();
     UpdateResult update;
-    ImuNoise new_noise;             // of kNoise
+    ImuNoise new_noise;             // kNoise only
     ImuNoise noise;                 // shown after the event
     CovarianceInflation inflation;  // after the event
     RateError rate_error;           // after the event

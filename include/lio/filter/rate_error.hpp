@@ -49,8 +49,8 @@ class RateError {
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
   double interval_s_ = RateErrorParameters{}.first_interval_s;  // between fused poses
-  double weight_sum_ = 0.0;                                     // of turn^4
-  double product_sum_ = 0.0;  // of turn^2 times the error's square
+  double weight_sum_ = 0.0;                                     // sum of turn^4
+  double product_sum_ = 0.0;  // sum of turn^2 times the error's square
 };
 
 }  // namespace lio

@@ -27,7 +27,7 @@ struct TransitCounters {
 };
 
 struct Account {
-  Ledgers ledgers;  // of the estimator, with what waits
+  Ledgers ledgers;  // the estimator's, with what still waits
   TransitCounters imu;
   TransitCounters chunks;
 };

@@ -41,7 +41,7 @@ using TextCheck = std::function<std::string(const std::string&)>;
 [[nodiscard]] TextCheck NumberWithin(double least, double most);
 [[nodiscard]] TextCheck NumberFromZero();
 [[nodiscard]] TextCheck NumberAboveZero();
-[[nodiscard]] TextCheck WholeNumberFromZero();  // of 64 bits
+[[nodiscard]] TextCheck WholeNumberFromZero();  // fits 64 bits
 // The option takes a name of at most so many characters.
 [[nodiscard]] TextCheck NameUpTo(std::size_t max_characters);
 

@@ -13,8 +13,8 @@ namespace lio {
 enum class FileKind : std::int8_t {
   kOther,
   kLcmLog,
-  kRosBag,         // of ROS 1 or 2 (SQLite or MCAP), a file or a folder
-  kCapture,        // of a network, pcap or pcapng
+  kRosBag,         // ROS 1 or 2 (SQLite or MCAP), a file or a folder
+  kCapture,        // network capture, pcap or pcapng
   kKittiRaw,       // the folder of a drive
   kKittiOdometry,  // the folder of a sequence
   kLogFolder,      // log.lcm with config.yaml beside it, as lio-sim writes them

@@ -40,7 +40,7 @@ class LevelTrack {
     double T_map_imu[7] = {};    // translation, then rotation x y z w
     double T_world_imu[7] = {};  // likewise
     double T_imu_lidar[7] = {};  // in use
-    double pose_cov[36] = {};    // of T_world_imu
+    double pose_cov[36] = {};    // covariance of T_world_imu
   };
 
   static void Put(const Pose& pose, double (&to)[7]);

@@ -49,8 +49,8 @@ class LidarCheck {
   std::vector<Cell> cells_;
   std::optional<std::int32_t> scan_;
   std::optional<Timestamp> scan_begin_;
-  double span_s_ = 0.0;         // of the points of the present sweep
-  std::vector<double> shares_;  // of the time between sweeps that the points of each span
+  double span_s_ = 0.0;         // time from the first to the last point of the present sweep
+  std::vector<double> shares_;  // share of the time between sweeps that each one's points span
   int num_scans_ = 0;
   int num_sampled_ = 0;  // whose near returns were looked at
 };

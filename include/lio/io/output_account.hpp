@@ -15,7 +15,7 @@ namespace lio {
 
 // The counts of messages in a message of LIO_STATUS.
 struct StatusCounts {
-  std::int64_t start_utime = 0;  // of the daemon
+  std::int64_t start_utime = 0;  // when the daemon started
   Counters counters;             // without ledgers
   std::int64_t num_refused = 0;
   std::int64_t num_queue_dropped = 0;

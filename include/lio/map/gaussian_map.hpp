@@ -91,7 +91,7 @@ class GaussianMap {
   };
   struct Sums {
     Vector3 mean = Vector3::Zero();                         // from the voxel's centre
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
     std::int32_t fitted_at = 0;  // num_points when the patch was last computed
@@ -128,10 +128,10 @@ class GaussianMap {
   VoxelMap<SurfacePatch, Sums> voxels_;
   // Scratch of Insert.
   std::vector<Place> places_;
-  std::vector<std::int32_t> cells_;  // of the places
+  std::vector<std::int32_t> cells_;  // one per place
   std::vector<std::int32_t> touched_cells_;
   std::size_t num_kept_ = 0;
-  std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
+  std::size_t sweep_position_ = 0;  // next cell of the walk that looks for far ones
   std::uint32_t scan_number_ = 0;
 };
 

@@ -25,7 +25,8 @@ struct PointMapOptions {
 
 class PointMap {
  public:
-  using Mean = Eigen::Vector4f;  // of a voxel's points, from the block's corner [m]; their number
+  // The mean of a voxel's points, from the block's corner [m], and their number.
+  using Mean = Eigen::Vector4f;
   static constexpr int kMaxNeighbours = 8;  // room in Neighbours; as the range of num_neighbours
 
   // Throws std::invalid_argument when an option is out of its range.

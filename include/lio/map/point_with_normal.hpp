@@ -11,7 +11,7 @@ struct PointWithNormal {
   Eigen::Vector3f position;                          // m
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, either side; zero: rank-deficient
   float thickness_var = 0.f;                         // along the normal [m^2]
-  float normal_var = 0.f;                            // of the normal's tilt [rad^2]
+  float normal_var = 0.f;                            // variance of the normal's tilt [rad^2]
   // Variance of the surface's distance from its plane at one metre [m^2]; at another distance it
   // goes with the distance's fourth power.
   float bend_var = 0.f;

@@ -25,7 +25,7 @@ class VoxelBlocks {
   struct Block {
     std::uint64_t occupied = 0;            // a bit a voxel: x + 4 y + 16 z
     VoxelCell at{};                        // in blocks
-    std::array<PerVoxel, kVoxels> voxels;  // of the occupied ones alone
+    std::array<PerVoxel, kVoxels> voxels;  // valid where occupied
   };
 
   // `voxel_m`: the edge; `margin_voxels`: how far a search goes beyond a voxel.

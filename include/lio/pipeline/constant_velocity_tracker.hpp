@@ -21,7 +21,7 @@ struct ConstantVelocityParameters {
   // The velocity turns with the body for so long without a sweep, then it is constant in the world:
   // nobody walks in circles. Chosen: a turn of a walker or of a car at a crossing is half done.
   Duration follows_turn_for{500'000'000};
-  Duration step{10'000'000};  // of the propagation; chosen: a tenth of a sweep at 10 Hz
+  Duration step{10'000'000};  // propagation step; chosen: a tenth of a sweep at 10 Hz
   // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, 1 sigma; a
   // walker's does. The turn rate walks as the drive shows, within these bounds: a car's changes by
   // 0.3 rad/s, that of what a hand holds by 1.3 rad/s. Measured: the bounds and the factor keep the
@@ -33,7 +33,7 @@ struct ConstantVelocityParameters {
   // Density by the root mean square of turn error / (time since the last scan)^(3/2). A rate that
   // walks at random would give 0.7; bodies turn smoothly, so that errors of the model last.
   double density_per_error = 4.4;
-  double turn_error_rate = 0.02;  // of the mean, a scan; chosen: 5 s at 10 Hz
+  double turn_error_rate = 0.02;  // weight of a scan in the mean; chosen: 5 s at 10 Hz
   // Nothing is known. Chosen: a vehicle in a city, one that turns.
   double start_velocity_std_mps = 15.0;
   double start_turn_rate_std_radps = 1.0;
@@ -66,7 +66,7 @@ struct MotionSeed {
 };
 
 struct TrackerOptions {
-  double span_s = HistoryOptions{}.span_s;        // of its history
+  double span_s = HistoryOptions{}.span_s;        // length of its history
   double nis_limit = HistoryOptions{}.nis_limit;  // gate of poses
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;

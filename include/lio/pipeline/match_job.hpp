@@ -69,23 +69,23 @@ struct MatchOutcome {
   MatchResult match;
   bool is_relocalized = false;           // located by the search, not near the prior
   bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
-  std::optional<Vector3> v_map_imu_mps;  // of FindVelocity; absent while no velocity is clear
+  std::optional<Vector3> v_map_imu_mps;  // answers FindVelocity; absent while no velocity is clear
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
-  std::optional<FoundPlace> place;       // of the map in the initial map, with seeks_place
+  std::optional<FoundPlace> place;       // the map's place in the initial map, with seeks_place
   int num_matches = 0;                   // full matches of the scan against the map
-  int num_coarse_matches = 0;            // of a few hundred of its points
+  int num_coarse_matches = 0;            // the same with a few hundred of its points
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
-  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
-  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  std::vector<FeatureTag> tags;                  // one a point; empty where the method needs none
+  std::shared_ptr<const LoamFeatures> features;  // the sweep's, where the method has them
   StageTimes stage_ns{};                         // kInsert: of the scan before
 };
 
 struct InsertTask {
   std::vector<Eigen::Vector3f> points_imu;
   std::optional<Pose> T_map_imu;      // absent: do not insert
-  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
+  std::vector<FeatureTag> tags = {};  // one a point; empty where the method needs none
 };
 
 }  // namespace lio

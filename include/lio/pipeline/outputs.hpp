@@ -31,7 +31,7 @@ enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
 struct BaseMotion {
   Pose T_world_base;
   Matrix6 pose_cov = Matrix6::Zero();
-  Vector3 v_world_base_mps = Vector3::Zero();  // of base's origin
+  Vector3 v_world_base_mps = Vector3::Zero();  // velocity of base's origin
   Matrix3 velocity_cov = Matrix3::Zero();
   Vector3 w_base_radps = Vector3::Zero();  // bias-corrected rate, in base
   Pose T_map_base;
@@ -74,7 +74,7 @@ struct FilterReport {
   ImuNoiseRatios imu_noise;  // zero where it is not known
   double nis = 0.0;          // normalised innovation squared of the last update
   int nis_dof = 0;           // 0: no update
-  Eigen::MatrixXd cov;       // that of the pose and velocity in `nav`
+  Eigen::MatrixXd cov;       // covariance of the pose and velocity in `nav`
 };
 
 enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };
@@ -89,10 +89,10 @@ struct ScanReport {
   int num_raw = 0;
   int num_used = 0;
   int num_matched = 0;           // points
-  LevelCounts num_matched_at{};  // of them by level of the map, finest first; method ndt
+  LevelCounts num_matched_at{};  // the same by level of the map, finest first; method ndt
   int num_matches = 0;         // full matches against the map, of guesses and after another deskew
-  int num_coarse_matches = 0;  // of a few hundred points, which rank the candidates of a search
-  int iterations = 0;          // of the last match
+  int num_coarse_matches = 0;  // with a few hundred points, to rank the candidates of a search
+  int iterations = 0;          // in the last match
   MatchStatus status = MatchStatus::kConverged;
   bool fused = false;
   double residual_rms_m = 0.0;

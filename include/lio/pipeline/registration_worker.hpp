@@ -36,7 +36,7 @@ class RegistrationWorker {
   [[nodiscard]] bool is_in_map() const { return !initial_ || initial_->is_inside(); }
 
  private:
-  struct ScanInWork;  // what the steps of one job share
+  struct ScanInWork;  // shared by the steps of one job
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
@@ -56,7 +56,7 @@ class RegistrationWorker {
   void SeekPlace(ScanInWork& scan);
   void TakeDensePoints(ScanInWork& scan);
 
-  Pose T_imu_lidar_;  // of the last job
+  Pose T_imu_lidar_;  // the last job's
   ClockNs clock_;
   bool warms_up_densely_;  // a new map gets all points of a sweep: only NDT's cells want them
   PointFilter filter_;

@@ -88,14 +88,14 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::unique_ptr<ScanNormals> normals_;
   std::vector<PointWithNormal> source_;  // the scan's points that are matched
   std::vector<std::int32_t> near_;       // each one's last neighbour; kUnknown, kNowhere
-  std::vector<Pair> pairs_;              // of the current iteration, in the points' order
+  std::vector<Pair> pairs_;              // in the current iteration, in the points' order
   Pose paired_at_;                       // the pairs' offsets are for this pose
   Pose sought_at_;                       // the neighbours were sought at this pose
   bool is_far_off_ = false;              // MatchInput::is_far_off
   bool has_rank_deficient_ = false;      // source_ includes points without a normal
   bool uses_rank_deficient_ = false;     // they count in the present sums
   MatchScores scores_;
-  Pose T_imu_lidar_;         // of the scan that is matched
+  Pose T_imu_lidar_;         // the matched scan's
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
 

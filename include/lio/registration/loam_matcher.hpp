@@ -46,7 +46,7 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
   LoamOptions options_;
   PointMap edge_map_;
   PointMap surface_map_;
-  std::unique_ptr<LoamTerms> terms_;  // of the current round
+  std::unique_ptr<LoamTerms> terms_;  // in the current round
   MatchScores scores_;                // by block, the edge map's after the surface map's
 };
 

@@ -26,7 +26,7 @@ struct LoamOptions {
   double edge_std_m = 0.1;
   // Standard deviation of a surface point's distance. Chosen: range noise and roughness.
   double surface_std_m = 0.03;
-  int max_iterations = 4;  // of one round; A-LOAM's
+  int max_iterations = 4;  // per round; A-LOAM's
   // Correspondences are sought anew in each. Chosen, A-LOAM always has 2: rounds end by converging.
   int max_rounds = 8;
   // A round's step smaller than both ends the match. Chosen: as NdtOptions.

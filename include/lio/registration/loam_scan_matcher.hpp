@@ -49,7 +49,7 @@ class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
   Pose T_map_last_;  // the pose of the last scan
   std::unique_ptr<RingGrid> edges_;
   std::unique_ptr<RingGrid> surfaces_;
-  std::unique_ptr<LoamTerms> terms_;  // of the current round
+  std::unique_ptr<LoamTerms> terms_;  // in the current round
   MatchScores scores_;                // by part, the edges' after the surfaces'
 };
 

@@ -81,10 +81,10 @@ struct MatchSums {
   TermSum noise_information;  // the part that the noise of the map's normals induces by itself
   TermSum sure_information;   // the part that no noise of normals induces: of vertical structures
   Vector6 gradient = Vector6::Zero();
-  double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
+  double weight_sum = 0.0;       // sum of the robust weights, 1 for an inlier
   double residual_sq_sum = 0.0;  // weighted so [m^2]
-  double curvature_sum = 0.0;    // of the robust cost
-  double information_sum = 0.0;  // of the cost with constant weights
+  double curvature_sum = 0.0;    // sum for the robust cost
+  double information_sum = 0.0;  // sum for the cost with constant weights
   int num_matched = 0;
 };
 
@@ -92,7 +92,7 @@ struct MatchSums {
 
 // The scores of a match at its solution.
 struct MatchScores {
-  PoseScores by_part;  // of the map
+  PoseScores by_part;  // one per part of the map
   BeamScores by_beam;
 
   void Reset(std::size_t num_parts, const Pose& T_imu_lidar) {

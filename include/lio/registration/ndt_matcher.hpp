@@ -55,7 +55,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   // The patch that a point is matched to.
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
-    Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
+    Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // mean to point, grid axes
   };
   // The rows that a point adds to the problem at the solution.
   struct PointScore {
@@ -113,15 +113,15 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MultiResolutionMap map_;
   PlaceWidth width_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
-  std::vector<Pair> pairs_;               // of the current iteration, one a point
+  std::vector<Pair> pairs_;               // in the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell
-  std::vector<PointScore> scores_;        // of the last match, one a point
+  std::vector<PointScore> scores_;        // in the last match, one a point
   MatchScores gradients_;                 // by cell and by beam
   std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
-  std::int32_t count_number_ = 0;  // of the last count; older counts are void
+  std::int32_t count_number_ = 0;  // number of the last count; older counts are void
 };
 
 }  // namespace lio

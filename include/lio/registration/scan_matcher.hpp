@@ -22,7 +22,7 @@ namespace lio {
 // Points of a scan and, for methods that use features, the kind of each.
 struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
-  std::span<const FeatureTag> tags = {};  // of each point; empty where the method needs none
+  std::span<const FeatureTag> tags = {};  // one a point; empty where the method needs none
   Vector3 sensor_imu = Vector3::Zero();   // the lidar's place
 };
 
@@ -38,7 +38,7 @@ struct MatchInput {
   // prior: it stays out of the cost.
   Matrix6 guess_cov = Matrix6::Zero();
   bool is_far_off = false;  // the guess may be far off: take more iterations before giving up
-  std::span<const FeatureTag> tags = {};                  // of points_imu
+  std::span<const FeatureTag> tags = {};                  // one per point of points_imu
   std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to fit normals in
   // Standard deviation of the guessed translation since the last scan. Things that look different
   // from each side (trunks, bushes) are left out where it is known better than they can tell.
@@ -64,10 +64,10 @@ struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
   Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
-  Matrix6 cov = Matrix6::Zero();  // of T_map_imu, right error; 100 m along degenerate directions
+  Matrix6 cov = Matrix6::Zero();  // error of T_map_imu, right; 100 m along degenerate directions
   Matrix6 observable_cov =
       Matrix6::Zero();                    // the same without the part along degenerate directions
-  Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
+  Vector6 eigenvalues = Vector6::Zero();  // the information's, rotations scaled to metres
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   int num_matched = 0;
   LevelCounts num_matched_at{};  // by level of the map, finest first; method ndt
@@ -82,7 +82,7 @@ struct [[nodiscard]] MatchResult {
   // How far a unit of gradient shifts the pose, right error: the robust cost's curvature inverted,
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
-  double new_content_share = 1.0;  // of the matched cells after this scan is inserted: 0..1
+  double new_content_share = 1.0;  // 0..1, share of the matched map that this scan brings
 
   [[nodiscard]] bool IsUsable() const {
     return status == MatchStatus::kConverged || status == MatchStatus::kDegenerate;

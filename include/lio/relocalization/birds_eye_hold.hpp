@@ -24,7 +24,7 @@ class BirdsEyeHold {
              MatchResult& match);
 
  private:
-  std::vector<PlacedView> views_;  // of the last scans, some way apart, in level axes
+  std::vector<PlacedView> views_;  // from the last scans, some way apart, in level axes
 };
 
 }  // namespace lio

@@ -15,7 +15,7 @@ namespace lio {
 
 // The cloud around the body at one instant, in the axes of its map.
 struct CloudSample {
-  Vector3 centre_map = Vector3::Zero();     // where the body was
+  Vector3 centre_map = Vector3::Zero();     // the body's position
   std::vector<Eigen::Vector2f> structures;  // things that stand up, seen from above
   std::vector<Eigen::Vector3f> points;      // evenly chosen; from the centre
 };

@@ -12,7 +12,7 @@
 namespace lio {
 
 struct BirdsEyeViewParameters {
-  float half_width_m = 60.f;  // of the view's square; chosen: farther off a VLP-16 sees little
+  float half_width_m = 60.f;  // half of the view's square; chosen: farther off a VLP-16 sees little
   float column_m = 0.5f;      // edge of a column of points; chosen: wider than trunks and posts
   float min_height_m = 0.4f;  // from a column's lowest to its highest point; chosen: above kerbs
   // Edge of the cells that say how near is near. Chosen: matching converges from there.
@@ -29,8 +29,8 @@ struct BirdsEyeViewParameters {
 };
 
 struct VelocitySearchParameters {
-  float step_mps = 0.5f;     // of the grid; chosen: 5 cm between two sweeps, well within a cell
-  int max_steps = 90;        // to each side: 45 m/s; chosen: faster than cars drive on motorways
+  float step_mps = 0.5f;  // step of the grid; chosen: 5 cm between two sweeps, well within a cell
+  int max_steps = 90;     // to each side: 45 m/s; chosen: faster than cars drive on motorways
   float peak_width_m = 1.f;  // chosen: what is farther from the best shift is a rival
   // Lead of the best score over its rivals, in roots of the score. Chosen: two standard deviations
   // of a count; nine starts on a motorway are all clear by it.
@@ -64,18 +64,18 @@ struct PlaceSearchParameters {
 // docs/experiments/open_road.md.
 struct ShiftSearchParameters {
   float step_m = 0.25f;    // chosen: a cell of the view
-  double min_std_m = 0.2;  // of a result; chosen: about a cell's width
+  double min_std_m = 0.2;  // lower bound of a result's; chosen: about a cell's width
   // A score that is lower by its chance is e^-6 as likely. Chosen with the starts of that page.
   double log_odds = 6.0;
-  double range_sigmas = 3.0;  // of the match, that are searched, ... statistics: 99.7 %
+  double range_sigmas = 3.0;  // searched around the match, ... statistics: 99.7 %
   double min_range_m = 1.5;   // ... at least, ... chosen: six steps, so that a peak shows its sides
   double max_range_m = 5.0;   // ... at most; chosen by cost
-  std::size_t max_views = 8;  // of earlier scans; chosen by cost, used in that page
+  std::size_t max_views = 8;  // from earlier scans; chosen by cost, used in that page
   float view_spacing_m = 1.5f;  // between them; chosen: posts look new; used in that page
 };
 
 struct PlaceCandidateParameters {
-  double range_sigmas = 2.0;  // of the prior, that are searched; chosen by cost: 95 % of each axis
+  double range_sigmas = 2.0;  // searched around the prior; chosen by cost: 95 % of each axis
   double max_shift_m = 60.0;  // chosen: farther off less than half of the views overlaps
   // Standard deviation of a candidate. Chosen: a fine step and what structures lack in place, and
   // about a coarse step of the turn.
@@ -108,29 +108,29 @@ struct PlaceVerificationParameters {
 // Things that stand up in a cloud, in voxels.
 struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
-  int min_points = 5;      // of a voxel that shows their spread; chosen: fewer spread by chance
-  float min_std_m = 0.2f;  // of their height; chosen: a wall through the whole voxel has 0.29
+  int min_points = 5;      // a voxel's spread needs so many; chosen: fewer spread by chance
+  float min_std_m = 0.2f;  // their spread in height; chosen: a wall through the voxel has 0.29
   float column_m = BirdsEyeViewParameters{}.column_m;  // edge; a column gives one structure
 };
 
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  float cell_m = 0.5f;              // of the finest grid; chosen: matching converges from there
-  int num_levels = 7;               // chosen: cells of 0.5 to 32 m, a few of which cover a map
-  int max_cells_per_side = 8192;    // chosen by memory: 4 km, whose grids take 220 MB
-  float max_coordinate_m = 100e3f;  // of a map's point; arithmetic: a float holds 8 mm there
+  float cell_m = 0.5f;            // edge of the finest cells; chosen: matching converges from there
+  int num_levels = 7;             // chosen: cells of 0.5 to 32 m, a few of which cover a map
+  int max_cells_per_side = 8192;  // chosen by memory: 4 km, whose grids take 220 MB
+  float max_coordinate_m = 100e3f;  // bound on a map's points; arithmetic: a float holds 8 mm there
   float step_rad = 0.0175f;         // chosen: a cell at 30 m
   // Fine steps to each side, over what a score is the same. Arithmetic: four of
   // PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts as well.
   int num_refine_steps = 4;
   float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
   std::size_t max_structures = 120;  // chosen: bounds the cost
-  float max_range_m = 40.f;          // of structures; chosen: a step of the turn is 0.7 m there
-  double min_share = 0.4;  // of the structures, in the map; chosen: scans see new things, too
-  double min_score_ratio = VelocitySearchParameters{}.flat_top;  // of the best score
+  float max_range_m = 40.f;  // range of structures; chosen: a step of the turn is 0.7 m there
+  double min_share = 0.4;    // share of structures in the map; chosen: scans see new things, too
+  double min_score_ratio = VelocitySearchParameters{}.flat_top;  // share of the best score
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
-  std::size_t max_nodes = 4'000'000;  // that wait; chosen by memory: 48 MB
+  std::size_t max_nodes = 4'000'000;  // nodes that wait; chosen by memory: 48 MB
   // Look-ups in a grid for one scan. Chosen by time: about 20 ms; a search of a street of 440 m
   // takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
   std::int64_t max_lookups_per_scan = 4'000'000;
@@ -138,9 +138,9 @@ struct MapSearchParameters {
 
 struct HeightVotesParameters {
   float column_m = MapSearchParameters{}.cell_m;  // edge of a column of the map
-  float bin_m = 0.25f;           // of heights; chosen: matching converges from half a metre
-  std::size_t max_points = 400;  // that vote; chosen: bounds the cost
-  double min_vote_ratio = 0.6;   // of those for the best height; chosen: storeys look nearly alike
+  float bin_m = 0.25f;           // height of a bin; chosen: matching converges from half a metre
+  std::size_t max_points = 400;  // voters; chosen: bounds the cost
+  double min_vote_ratio = 0.6;   // share of the best height's; chosen: storeys look nearly alike
   float apart_m = 1.f;          // chosen: two heights nearer than this are one, no storey is as low
   std::size_t max_heights = 4;  // storeys that are tried; chosen by cost
 };
@@ -158,7 +158,7 @@ struct PlaceContestParameters {
   int num_coarse_points = 800;
   int max_coarse_per_scan = 20;    // coarse matches of a scan; chosen: some milliseconds
   std::size_t max_contenders = 8;  // places that are followed; chosen: two matches a scan, in turn
-  double min_support_ratio = 0.5;  // of the best coarse match, to be followed; chosen: half
+  double min_support_ratio = 0.5;  // share of the best coarse match, to be followed; chosen: half
   // Standard deviation of a place that matched the scan before. Chosen: above what a scan's match
   // moves it by, below max_step_m and max_step_rad.
   double settled_std_m = 0.1;
@@ -210,7 +210,7 @@ struct RelocalizationParameters {
   GatheredCloudParameters gathered;
   PlaceContestParameters contest;
   PlaceSeekerParameters seeker;
-  double aligned_std_m = 0.5;  // of a prior that was aligned; chosen: 5 m/s over a sweep
+  double aligned_std_m = 0.5;  // an aligned prior's; chosen: 5 m/s over a sweep
   // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
   // Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;

@@ -33,7 +33,7 @@ struct LocatedScan {
 
 struct FoundPlace {
   Pose T_initial_map;
-  Matrix6 cov = Matrix6::Zero();  // of the body's pose in the saved map, right error
+  Matrix6 cov = Matrix6::Zero();  // pose of the body in the saved map, right error
 };
 
 class PlaceContest {
@@ -51,10 +51,10 @@ class PlaceContest {
  private:
   struct Contender {
     Pose T_initial_map;
-    double support = 0.0;  // of the coarse match
+    double support = 0.0;  // share of points that the coarse match found
     int num_checks = 0;
     int num_good_in_a_row = 0;
-    double fit_sum = 0.0;  // of scans: 1 where one fits as well as its new map
+    double fit_sum = 0.0;  // sum over scans: 1 where one fits as well as its new map
     Matrix6 cov = Matrix6::Zero();
 
     [[nodiscard]] double fit() const { return num_checks == 0 ? 1.0 : fit_sum / num_checks; }

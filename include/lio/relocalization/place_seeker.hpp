@@ -41,7 +41,7 @@ struct PlaceGuess {
 struct PlaceMatching {
   MatchInInitial match;
   MatchInInitial match_coarsely;
-  int max_matches = 0;  // of this scan, not coarse ones
+  int max_matches = 0;  // full matches allowed for this scan
 };
 
 class PlaceSeeker {
@@ -68,7 +68,7 @@ class PlaceSeeker {
   GatheredCloud cloud_;
   int num_scans_ = 0;        // since the last search began
   bool has_sought_ = false;  // in this new map
-  CloudSample sample_;       // of the search
+  CloudSample sample_;       // sought in the initial map
   std::optional<MapSearch> search_;
   std::optional<PlaceContest> contest_;
   bool is_ranked_ = false;  // the contest's places are

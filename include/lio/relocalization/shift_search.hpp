@@ -17,7 +17,7 @@
 namespace lio {
 
 struct PlacedView {
-  Eigen::Vector2f position_m;  // of the sensor, in axes that all share
+  Eigen::Vector2f position_m;  // the sensor's, in axes that all share
   BirdsEyeView view;
 };
 

@@ -55,7 +55,7 @@ class Replay {
   RegistrationWorker worker_;
   MapCloud map_;
   LidarCheck lidar_check_;
-  std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
+  std::optional<MatchOutcome> outcome_;  // from the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;
   bool has_told_failure_ = false;

@@ -28,7 +28,7 @@ struct CarVibrationParameters {
   double start_decay_s = 0.35;
   double crank_hz = 8.3;         // firing rate while a starter turns the engine, 250 rpm
   double idle_hz = 26.7;         // firing rate at 800 rpm
-  double stops_after_s = 1.5;    // of standing
+  double stops_after_s = 1.5;    // after standing this long
   double starts_before_s = 1.0;  // driving off
   double idles_s = 25.0;         // in a car that stays parked: this long
   double pauses_s = 15.0;
@@ -73,7 +73,7 @@ class CarVibration {
   Vector3 direction_;         // in which the engine shakes, imu
   Vector3 axis_;              // about which the body rocks, imu
   std::array<double, kNumWheels> wheel_phase_rad_{};
-  std::array<double, kNumWheels> wheel_scale_{};  // of the unbalance
+  std::array<double, kNumWheels> wheel_scale_{};  // factor on the unbalance of each wheel
   std::array<double, kNumWheels> wheel_rate_{};   // turns relative to the mean wheel
   double engine_phase_rad_ = 0.0;
   double last_s_ = 0.0;

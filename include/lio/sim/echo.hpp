@@ -12,10 +12,10 @@ namespace lio::sim {
 
 // Says how a return came about; it is known to the simulator only and never travels in messages.
 enum class EchoKind : std::uint8_t {
-  kSurface,       // of the surface that the beam meets
+  kSurface,       // the surface that the beam meets
   kInBetween,     // a mixed pixel: between the two surfaces of an edge
-  kMirrored,      // of a surface that the beam met after a reflection; it lies behind the mirror
-  kThroughGlass,  // of a surface behind a pane
+  kMirrored,      // a surface that the beam met after a reflection; it lies behind the mirror
+  kThroughGlass,  // a surface behind a pane
   kDust,
 };
 

@@ -32,7 +32,7 @@ class GapBridge {
 
   ImuSample last_;
   ImuSample mean_;
-  double correlation_time_s_;  // of the rates
+  double correlation_time_s_;  // correlation time of the rates
 };
 
 }  // namespace lio

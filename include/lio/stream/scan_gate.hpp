@@ -49,7 +49,7 @@ class ScanGate {
 
   Counters* counters_;
   std::deque<std::shared_ptr<Sweep>> waiting_;
-  std::optional<Timestamp> last_end_;  // of the newest sweep that was let in
+  std::optional<Timestamp> last_end_;  // the end of the newest sweep that was let in
   int num_late_in_a_row_ = 0;
   std::optional<Sweep> suspect_;            // far ahead of all others
   std::optional<Timestamp> last_imu_;       // newest inertial stamp, and where the lidar ...

@@ -101,14 +101,14 @@ class SensorStream {
   struct PendingStep {
     ImuPreprocessor::Result result;  // its samples come first once the step is judged
     std::size_t num_examined = 0;    // messages of inbox_, to judge the step by
-    Timestamp newest_examined;       // of the inertial samples since the step
+    Timestamp newest_examined;       // the newest inertial stamp since the step
   };
 
   // The senders that are kept.
   struct Senders {
     struct Lidar {
       std::int8_t sensor_id = 0;
-      Timestamp newest;  // of its chunks
+      Timestamp newest;  // the newest chunk's
     };
     SenderWatch imu;
     std::optional<Lidar> lidar;  // the one that came first
@@ -165,7 +165,7 @@ class SensorStream {
   ScanGate gate_;
   StampCorrection corrections_;
   PendingStep step_;
-  Duration imu_clock_shift_;  // of an inertial clock that stepped alone
+  Duration imu_clock_shift_;  // offset of an inertial clock that stepped alone
   Timestamp newest_chunk_;
   std::vector<ImuSample> late_imu_;  // the first ones, where the lidar has begun alone
   std::optional<Timestamp> begin_;

@@ -39,7 +39,7 @@ class StampCorrection {
 
   std::size_t lag_;
   std::size_t num_sweeps_ = 0;   // given out
-  std::size_t num_matched_ = 0;  // of them, at least once
+  std::size_t num_matched_ = 0;  // given out, and matched at least once
   Duration newest_;
   std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweeps
 };

@@ -45,7 +45,7 @@ struct AmbiguousClockStep {
 struct ImuAbsent {
   Timestamp stamp;  // end of the first sweep that follows
   std::string evidence;
-  Timestamp begin;                        // of that sweep
+  Timestamp begin;                        // the sweep's
   Vector3 w_imu_radps = Vector3::Zero();  // the last rate that is known there
 };
 
