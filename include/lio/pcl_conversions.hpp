@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Clouds and poses between the estimator and PCL, for programs that use both. Header-only: whoever
-// includes it finds and links PCL (components common), liod itself does not.
+// Converts clouds and poses between the estimator and PCL, for programs that use both. Header-only:
+// whoever includes it finds and links PCL (components common), liod itself does not.
 //
 //   odometry.AddSweep(lio::SweepFromPcl(cloud, lio::StampFromPcl(cloud.header)));
 //   pcl::transformPointCloud(cloud, cloud_world, lio::AffineFromPose(T_world_lidar));
@@ -131,7 +131,8 @@ pcl::PointCloud<Point> CloudToPcl(std::span<const Eigen::Vector3f> points) {
   return cloud;
 }
 
-// For pcl::transformPointCloud: the transform from source to target for T_target_source.
+// Returns the transform from source to target for T_target_source, as pcl::transformPointCloud
+// takes it.
 inline Eigen::Affine3d AffineFromPose(const Pose& T_target_source) {
   Eigen::Affine3d affine = Eigen::Affine3d::Identity();
   affine.linear() = T_target_source.rotation.toRotationMatrix();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The command line of liod.
+// Reads the command line of liod.
 #pragma once
 
 #include <string>

@@ -29,7 +29,7 @@ struct Arrival {
   std::int64_t decode_ns = 0;
 };
 
-// A command, from the bus or by a signal of the system.
+// Holds a command, from the bus or by a signal of the system.
 struct Request {
   Command command;
   bool is_answered = true;  // by a reply on the bus

@@ -49,7 +49,7 @@ class InputWatch {
   [[nodiscard]] std::string standing() const;
 
  private:
-  // A count that ought to grow, or ought not to.
+  // Watches a count that ought to grow, or ought not to.
   struct Growth {
     std::int64_t count = 0;
     Clock::duration still_for{0};    // since it grew

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator on a bus, with threads around it:
+// Runs the estimator on a bus, with threads around it:
 //
 //   receive ---> inbox ---> filter ---> match (one job at a time, the map)
 //                             ^  |  <------'
@@ -87,8 +87,8 @@ class LiveRunner {
   void PingFilter() { inbox_.Put(Ping{}); }
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
-  // the files and sends a last status. Once only. Throws WriteError when a file could not be
-  // written in full.
+  // the files and sends a last status. It runs once only. Throws WriteError when a file could not
+  // be written in full.
   void Stop();
 
  private:

@@ -38,8 +38,8 @@ class OutputWorker {
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
 
-  // Work on the files between the rows before and after it. It is given the writer, which is null
-  // where there are no files, and returns the one of the rows that follow. It must not throw.
+  // Does work on the files between the rows before and after it. It is given the writer, which is
+  // null where there are no files, and returns the one of the rows that follow. It must not throw.
   using FileTask = std::function<RunWriter*(RunWriter*)>;
 
   void PutRow(Output row);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of --out. They go on in a new folder when they are asked to: the run in the old one is
-// completed, with its stats and verdict. One thread at a time.
+// Writes the files of --out. They go on in a new folder when they are asked to: the run in the old
+// one is completed, with its stats and verdict. It serves one thread at a time.
 #pragma once
 
 #include <filesystem>

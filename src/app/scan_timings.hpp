@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// When the last scans arrived and when their matches began, by the host's clock: for the latencies
-// of LIO_STATUS. Scans are found by their sequence number.
+// Keeps when the last scans arrived and when their matches began, by the host's clock: for the
+// latencies of LIO_STATUS. Scans are found by their sequence number.
 #pragma once
 
 #include <array>

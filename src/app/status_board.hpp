@@ -35,8 +35,8 @@ class StatusBoard {
   // Stands in place of all notes from now on, because it does not pass.
   void SetAlarm(std::string alarm);
   void CountRefusedCommand();
-  // The times of one scan: `queue_ms` from the arrival of its last datagram to the start of its
-  // match, `compute_ms` from there to its odometry.
+  // Adds the times of one scan: `queue_ms` from the arrival of its last datagram to the start of
+  // its match, `compute_ms` from there to its odometry.
   void AddLatency(double queue_ms, double compute_ms);
 
   [[nodiscard]] InputCounters input() const;

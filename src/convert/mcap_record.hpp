@@ -59,7 +59,7 @@ struct McapStatistics {
 [[nodiscard]] std::unique_ptr<ByteSource> MakeMcapChunkSource(const McapChunkHeader& header,
                                                               std::unique_ptr<ByteSource> stored);
 
-// The CRC-32 (of ISO 3309, as in zip files) of all that `source` still delivers.
+// Returns the CRC-32 (of ISO 3309, as in zip files) of all that `source` still delivers.
 [[nodiscard]] std::uint32_t Crc32OfRest(ByteSource& source);
 
 }  // namespace lio

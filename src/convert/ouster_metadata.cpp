@@ -55,7 +55,7 @@ OusterProfile ProfileOf(const Json& all) {
   throw InputError("profile " + name + " is not supported: LEGACY and RNG19_RFL8_SIG16_NIR16 are");
 }
 
-// "1024x10": columns of a turn, turns a second.
+// The mode "1024x10" has columns of a turn, then turns a second.
 std::size_t ColumnsOfMode(const Json& all) {
   return std::stoul(Find(all, "lidar_mode").get<std::string>());
 }

@@ -20,7 +20,7 @@ namespace lio {
 // Says what a datagram is: nothing for other data, "" for a Velodyne that is not supported, else
 // the name of its model in config/lidars.
 [[nodiscard]] std::optional<std::string> VelodyneModel(ByteView payload);
-// The product's number in a data packet, for messages to users.
+// Returns the product's number in a data packet, for messages to users.
 [[nodiscard]] int VelodyneProduct(ByteView payload);
 
 // The sensor's clock: it tells the time since the hour. Without GPS it began when it was switched

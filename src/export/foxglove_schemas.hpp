@@ -14,7 +14,7 @@ namespace lio {
 [[nodiscard]] std::string FrameTransformSchema();
 [[nodiscard]] std::string SceneUpdateSchema();
 [[nodiscard]] std::string LogSchema();
-// An object with a timestamp and numbers, vectors and texts of any name.
+// Describes an object with a timestamp and numbers, vectors and texts of any name.
 [[nodiscard]] std::string PlotSchema(const std::string& title);
 
 }  // namespace lio

@@ -91,7 +91,7 @@ class McapFile {
   Statistics statistics_;
 };
 
-// The CRC-32 of ISO 3309, as in zip files.
+// Returns the CRC-32 of ISO 3309, as in zip files.
 [[nodiscard]] std::uint32_t McapCrc(std::string_view bytes);
 
 }  // namespace lio

@@ -5,7 +5,7 @@
 namespace lio {
 namespace {
 
-// Bias-corrected samples at both ends of the step.
+// Holds bias-corrected samples at both ends of the step.
 struct Ends {
   double dt_s;
   Vector3 rotation;     // rotation vector of the turn

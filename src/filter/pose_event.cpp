@@ -12,9 +12,9 @@
 namespace lio {
 namespace {
 
-// The factors after an update: an exponential mean of NIS / 3, the ratio of the innovations'
-// variance to its expected value, for translation and rotation; from 1 to `max`. The NIS was
-// computed with the inflated covariance, so it is multiplied by the factor `now`.
+// Returns the factors after an update: an exponential mean of NIS / 3, the ratio of the
+// innovations' variance to its expected value, for translation and rotation; from 1 to `max`. The
+// NIS was computed with the inflated covariance, so it is multiplied by the factor `now`.
 CovarianceInflation NextInflation(const CovarianceInflation& inflation, const UpdateResult& update,
                                   const CovarianceInflation& max) {
   static constexpr InflationParameters kParameters = kFilterParameters.inflation;

@@ -33,8 +33,8 @@ struct AlignmentTerms {
   double accel_bias_std_mps2 = 0.0;
 };
 
-// Order of the first state's covariance, 3 each: rotation (rad, right), velocity (m/s, any), gyro
-// bias (rad/s), accel bias (m/s^2), up_any (rank 2: its length is fixed).
+// The first state's covariance has this order, 3 each: rotation (rad, right), velocity (m/s, any),
+// gyro bias (rad/s), accel bias (m/s^2), up_any (rank 2: its length is fixed).
 inline constexpr int kAlignedRot = 0;
 inline constexpr int kAlignedVel = 3;
 inline constexpr int kAlignedBiases = 6;

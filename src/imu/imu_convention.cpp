@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;  // 1 g by definition (CGPM 1901)
 
-// "x -y -z": the axes of the messages along imu's x, y and z.
+// Returns the axes of the messages along imu's x, y and z, such as "x -y -z".
 std::string AxisNames(const Matrix3& R_imu_sent) {
   std::string names;
   for (const auto& row : R_imu_sent.rowwise()) {

@@ -17,8 +17,8 @@ double Square(double x) {
   return x * x;
 }
 
-// The mean sample without spikes. A rate is a spike when it is beyond any gyro and, since the unit
-// is not known, also far above the median.
+// Returns the mean sample without spikes. A rate is a spike when it is beyond any gyro and, since
+// the unit is not known, also far above the median.
 ImuSample MeanWithoutSpikes(std::span<const ImuSample> sent) {
   std::vector<double> rates;
   for (const ImuSample& sample : sent) rates.push_back(sample.w_imu_radps.norm());

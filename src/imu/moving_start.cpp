@@ -97,7 +97,8 @@ AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const Mat
   return terms;
 }
 
-// Root of the median of the squared residuals over that of chi-square: robust to wrong matches.
+// Returns the root of the median of the squared residuals over that of chi-square: robust to wrong
+// matches.
 double ResidualRatio(std::vector<double> squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Point clouds from files of PCL, without a word on the console.
+// Reads point clouds from files of PCL, without a word on the console.
 #pragma once
 
 #include <pcl/PCLPointCloud2.h>

@@ -15,7 +15,7 @@
 namespace lio {
 namespace {
 
-// Whole numbers of cells: 2 deg of azimuth and of elevation.
+// These are whole numbers of cells: 2 deg of azimuth and of elevation.
 constexpr int kNumAzimuths = 180;
 constexpr int kNumElevations = 90;
 constexpr float kNear_m = 2.5f;  // no farther does a vehicle reach that carries its lidar on top

@@ -9,8 +9,8 @@
 
 namespace lio {
 
-// The least number of insertions, deletions, substitutions and swaps of neighbours that turn `a`
-// into `b`.
+// Returns the least number of insertions, deletions, substitutions and swaps of neighbours that
+// turn `a` into `b`.
 [[nodiscard]] int EditDistance(std::string_view a, std::string_view b);
 
 // The name with the smallest edit distance, the first of equal ones; empty when there are no names.

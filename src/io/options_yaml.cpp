@@ -37,7 +37,8 @@ struct OptionalGroup {
   std::function<void()> disengage;
 };
 
-// Every key of an Options by dotted path, with how to set it. All optional groups are engaged.
+// Knows every key of an Options by dotted path, with how to set it. All optional groups are
+// engaged.
 class KeyTable {
  public:
   explicit KeyTable(Options& options) { VisitFields(*this, options); }

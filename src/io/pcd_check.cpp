@@ -98,7 +98,7 @@ std::optional<Header> ReadHeader(std::istream& file) {
   return std::nullopt;
 }
 
-// The sizes that stand before compressed points, against those of the header and of the file.
+// Checks the sizes that stand before compressed points against those of the header and of the file.
 bool IsSoundCompressed(std::istream& file, std::uint64_t num_rest, std::uint64_t num_points_bytes) {
   std::array<std::uint8_t, 8> bytes{};
   if (!file.read(reinterpret_cast<char*>(bytes.data()), bytes.size())) return false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one document of a configuration file.
+// Reads the one document of a configuration file.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The search for the nearest point of the submap, shell by shell around the query.
+// Searches for the nearest point of the submap, shell by shell around the query.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace lio {
 struct KeyframeMap::Search {
   Vector3 query;
   VoxelCell voxel;
-  // Squared distance from the query to the voxels `offset` away along an axis [m^2].
+  // Holds the squared distance from the query to the voxels `offset` away along an axis [m^2].
   std::array<std::array<float, 2 * KeyframeMapParameters::kMaxSearch_voxels + 1>, 3> gap_sq;
   float best_sq;
   Hit best;

@@ -23,7 +23,8 @@ namespace lio {
 
 // An early verdict costs a map, a late one a wrong pose said to be right.
 struct HealthParameters {
-  // s. Without a match. Chosen: a car has gone 20 to 60 m, and the IMU's guess is metres off.
+  // s. The way is lost after so long without a match. Chosen: a car has gone 20 to 60 m, and the
+  // IMU's guess is metres off.
   double lost_after_s = 2.0;
   // Scans in a row that see enough and match nowhere: then the map goes on from where the IMU says
   // ... Chosen: a second at 10 Hz; fewer give the map up for a bus alongside.

@@ -20,8 +20,8 @@ namespace lio {
 struct ConventionMonitorParameters {
   // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
   std::size_t min_scans = ImuClassifierParameters{}.min_steps;
-  // Poses from one verdict to the next while tracking. Chosen: half a second at 10 Hz, for the time
-  // of a verdict.
+  // While tracking, so many poses lie between two verdicts. Chosen: half a second at 10 Hz, for the
+  // time of a verdict.
   int poses_per_verdict = 5;
   // A gyro that reads this much over half a second while nothing is matched has other units.
   // Chosen: no vehicle turns by a radian a second for long; hands do, but their scans match.

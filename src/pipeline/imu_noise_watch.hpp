@@ -13,7 +13,8 @@
 namespace lio {
 
 [[nodiscard]] ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig);
-// The rig with its densities raised to the noise that the samples show on the noisiest axis.
+// Returns the rig with its densities raised to the noise that the samples show on the noisiest
+// axis.
 [[nodiscard]] ImuRig RaisedTo(const ImuNoise& shown, ImuRig rig);
 
 struct ImuNoiseWatchParameters {

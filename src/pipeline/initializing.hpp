@@ -62,7 +62,7 @@ class Initializing {
   // Index into context.sweeps of the sweep to match next; those before are looked back on.
   std::size_t next_sweep() const { return scans_.size(); }
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
-  // The outcome of that job. `insert` gets the pose for the map where the scan grows it.
+  // Takes the outcome of that job. `insert` gets the pose for the map where the scan grows it.
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
   [[nodiscard]] std::optional<Transition> StartSegment(const SegmentStarts& segment);
@@ -90,7 +90,7 @@ class Initializing {
   bool IsVeryCalm(Timestamp stamp) const;
   void ForgetOldestScan();
 
-  // initializing_convention.cpp
+  // These are in initializing_convention.cpp.
   bool IsInDoubt(Timestamp stamp) const;
   std::optional<Transition> JudgeConvention(Timestamp stamp);
   std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp,
@@ -102,7 +102,7 @@ class Initializing {
   void TurnHandover(const ImuConvention& found);
   Transition Reject(Timestamp stamp, const std::string& why) const;
 
-  // initializing_start.cpp
+  // These are in initializing_start.cpp.
   std::optional<Transition> TryStart(Timestamp stamp);
   std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
   std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);

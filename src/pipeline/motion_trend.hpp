@@ -28,7 +28,7 @@ class MotionTrend {
     error_ = LogSe3(T_map_imu_predicted.Inverse() * T_map_imu_found);
   }
   const Vector6& error() const { return error_; }
-  // The error of the next prediction, a right increment [translation (m); rotation (rad)].
+  // Returns the error of the next prediction, a right increment [translation (m); rotation (rad)].
   [[nodiscard]] Vector6 Expected() const {
     Vector6 expected;
     expected << Believed(error_.head<3>(), kMotionTrend.translation_noise_m),

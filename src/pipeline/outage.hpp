@@ -26,9 +26,9 @@ struct OutageParameters {
   double min_speed_mps = 5.0;
   // A road climbs by at most this in its length. Chosen: but for a few streets none is steeper.
   double slope = 0.2;
-  // Change of roll and pitch, 1 sigma. Chosen: that slope, halved as it is seldom met.
+  // Roll and pitch change by this, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
-  // The turn rate while unseen, 1 sigma: that in a gap, ...
+  // The turn rate while unseen has this, 1 sigma: that in a gap, ...
   double turn_rate_std_radps = kFilterParameters.imu_outage.gap_gyro_std_radps;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;
@@ -71,7 +71,7 @@ class OutageRecovery {
   void Begin(const Estimate& before);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
-  // The present stage asks this of matching. `T_map_imu_if_set`: the pose if no time passed.
+  // The present stage asks this of matching. `T_map_imu_if_set` is the pose if no time passed.
   void SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const;
 
   enum class Event : std::int8_t {

@@ -8,7 +8,7 @@
 
 namespace lio {
 
-// The error of the pose at an instant of the sweep, as a share of that at its middle.
+// Returns the error of the pose at an instant of the sweep, as a share of that at its middle.
 [[nodiscard]] inline double ShareOfPriorError(double from_mid_sweep_s, const MatchJob& job) {
   return 1.0 + from_mid_sweep_s / job.prior.since_last_fix_s;
 }

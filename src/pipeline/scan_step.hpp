@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The two steps of a scan that every mode shares: the job that matches it, predicted by a filter,
-// and the fusion of what matching found. Pure functions of their arguments.
+// and the fusion of what matching found. They are pure functions of their arguments.
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ struct ScanStepParameters {
 
 inline constexpr ScanStepParameters kScanStep;
 
-// A job that tracks the sweep from the filter's prediction for its middle. `last_located`: the
-// middle of the last sweep that was located, if there is one.
+// Makes a job that tracks the sweep from the filter's prediction for its middle. `last_located`:
+// the middle of the last sweep that was located, if there is one.
 [[nodiscard]] MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
                                        std::optional<Timestamp> last_located);
 
@@ -52,7 +52,7 @@ struct FusionSettings {
                                      const FilterOptions& filter, FilterHistory& history,
                                      double& nis);
 
-// The report of the matching for registration.csv: all but the filter's part.
+// Returns the report of the matching for registration.csv: all but the filter's part.
 [[nodiscard]] ScanReport MakeScanReport(const MatchOutcome& outcome);
 
 // Adds the filter's time to the stage times, and their total.

@@ -38,7 +38,7 @@ struct SegmentJump {
   [[nodiscard]] Duration set_by() const { return Duration::FromSeconds(jump_s - unknown_s); }
 };
 
-// `before`: the stamp of the filter's newest state.
+// `before` is the stamp of the filter's newest state.
 [[nodiscard]] SegmentJump JudgeJump(Timestamp before, const SegmentStarts& segment);
 
 // The estimate at the segment's first sample after a gap or a clock that was set.

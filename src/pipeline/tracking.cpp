@@ -192,7 +192,7 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
              context_.stream.imu().Between(since - margin, middle + margin));
 }
 
-// The filters that stand beside this one.
+// Updates the filters that stand beside this one.
 void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise) {
   if (is_fused) {
     SettleClockStep(outcome);

@@ -39,7 +39,7 @@ class ZeroVelocityUpdater {
     last_.reset();
   }
 
-  // Factor on the covariance of the next match.
+  // Returns the factor on the covariance of the next match.
   double match_cov_factor() const { return last_ ? kZeroVelocity.matches_alike : 1.0; }
 
  private:

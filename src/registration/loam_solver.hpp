@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One Ceres problem over one pose: edge and plane terms with Huber's loss. Terms lie next to
+// Solves one Ceres problem over one pose: edge and plane terms with Huber's loss. Terms lie next to
 // each other rather than each in an allocation of its own.
 #pragma once
 

@@ -21,7 +21,7 @@ float TurnBetween(float a_rad, float b_rad) {
   return std::abs(std::remainder(a_rad - b_rad, kWholeTurn_rad));
 }
 
-// The mean of the poses that score best.
+// Keeps the mean of the poses that score best.
 class MeanOfBest {
  public:
   void Add(int score, const Eigen::Vector3f& pose) {

@@ -14,7 +14,7 @@ namespace lio {
 
 struct PlanarGrid {
   PlanarPose middle;
-  // Steps to each side of the middle.
+  // The grid has so many steps to each side of the middle.
   int num_x = 0;
   int num_y = 0;
   int num_turns = 0;

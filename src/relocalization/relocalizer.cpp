@@ -22,7 +22,7 @@ double CoarseSupportOf(const MatchResult& match) {
   return share * match.num_matched;
 }
 
-// The guesses, moved to where a coarse match ends, best first, each place once.
+// Returns the guesses, moved to where a coarse match ends, best first, each place once.
 std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
                                    const MatchFrom& match_coarsely) {
   struct Candidate {

@@ -50,7 +50,8 @@ std::vector<ScoredShift> ScoreAll(std::span<const PlacedView> earlier, const Bir
   return scored;
 }
 
-// Mean and covariance over all positions, each weighted by its likelihood (Olson 2009, eq. 10).
+// Returns mean and covariance over all positions, each weighted by its likelihood (Olson 2009, eq.
+// 10).
 FoundShift Summarise(const std::vector<ScoredShift>& scored, int peak, double chance) {
   double weight_sum = 0.0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

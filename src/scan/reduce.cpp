@@ -91,8 +91,8 @@ void ScanReducer::MarkChosen() {
   });
 }
 
-// The chosen points by time, then ring. A key beside the index saves the sort from reading the
-// points.
+// Returns the chosen points by time, then ring. A key beside the index saves the sort from reading
+// the points.
 std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep) {
   MarkChosen();
   std::vector<Chosen> chosen;

@@ -18,7 +18,7 @@ struct ThinningParameters {
   // from a hall to a road within ten sweeps and does not answer to one sweep.
   double min_edge_ratio = 0.8;
   double max_edge_ratio = 1.25;
-  // Slots of the table of voxels at the beginning. Chosen: three a target point; it grows as
+  // The table of voxels begins with so many slots. Chosen: three a target point; it grows as
   // needed.
   std::size_t initial_slots = 1u << 14;
 };
@@ -30,7 +30,8 @@ struct DeskewParameters {
 };
 
 struct LoamFeatureParameters {
-  // Neighbours on each side in the curvature. Zhang and Singh, RSS 2014; A-LOAM's constant.
+  // The curvature takes so many neighbours on each side. Zhang and Singh, RSS 2014; A-LOAM's
+  // constant.
   int half_window = 5;
   // Points of the far surface that are left out at the border of a shadow. LOAM's published code.
   std::size_t shadow_points = 6;
@@ -40,8 +41,8 @@ struct LoamFeatureParameters {
   // Share of the rise that a single step may have in a slope; more is a jump. Chosen: 0.25 is even,
   // 1 is a single jump; between, rough surfaces stay slopes.
   float max_step_share = 0.6f;
-  // Largest share of edges among the matched points. Chosen: edges are few and constrain directions
-  // that surfaces leave free.
+  // Edges are at most this share of the matched points. Chosen: edges are few and constrain
+  // directions that surfaces leave free.
   int edge_divisor = 2;
 };
 
@@ -51,7 +52,7 @@ struct MixedPixelParameters {
   // ground. docs/experiments/mixed_pixels.md tells what is found and lost so.
   float tolerance_m = 0.1f;
   float tolerance_per_range = 0.005f;
-  // Cosine of the largest angle to the beams beside it, 1 deg. Chosen: three beams of a coarse
+  // Neighbouring beams are at most 1 deg apart, given as a cosine. Chosen: three beams of a coarse
   // lidar (OS1-64, 0.35 deg); beams farther apart see different things.
   float min_cos = 0.99985f;
   // Points of a ring that step back in time by no more than this are in the order of measurement as

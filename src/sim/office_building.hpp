@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Makes an office building of three storeys that look alike: on each a corridor along x between
 // rooms, and at its western end a stairwell with two flights from storey to storey. The corridor's
-// middle is y = 0, the floor of the lowest storey z = 0. Used inside src/sim only.
+// middle is y = 0, the floor of the lowest storey z = 0. It is used inside src/sim only.
 #pragma once
 
 #include "lio/sim/mesh.hpp"
@@ -20,8 +20,8 @@ struct OfficeShape {
   static constexpr double kWall_m = 0.12;
   static constexpr double kDoorWidth_m = 0.95;
   static constexpr double kDoorHeight_m = 2.05;
-  // The doors of the walk, by their middle: one of the lowest storey's northern rooms, one of the
-  // highest storey's southern rooms.
+  // The walk has these doors, by their middle: one of the lowest storey's northern rooms, one of
+  // the highest storey's southern rooms.
   static constexpr double kLowDoor_m = 4.5;
   static constexpr double kHighDoor_m = 6.0;
   // A flight has ten risers and nine treads. The first flight from a storey leads to -x at y < 0 up

@@ -139,7 +139,8 @@ void AddTraffic(World& world, Random& random) {
   }
 }
 
-// Up one aisle and down the next, from the first aisle on, in a loop over all of them.
+// The way leads up one aisle and down the next, from the first aisle on, in a loop over all of
+// them.
 Path Way(double length_m) {
   constexpr double kTurn_m = 2.2;  // from the racks' ends to the way across
   std::vector<Vector2> points = {{1.0, AisleMiddle(1)}};

@@ -22,7 +22,7 @@ struct StreamParameters {
   // It is taken for no more than this. Chosen: a rate then lasts for 10 s, longer than any gap that
   // is bridged.
   double max_correlation = 0.99;
-  // rad/s and m/s^2. The least deviation that a made-up sample states, weighed as that of one
+  // rad/s and m/s^2. A made-up sample states this deviation at least, weighed as that of one
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;
   // s. Raw samples that are kept for an initialization that looks back, twice. Chosen: 3.5 s of
@@ -50,7 +50,7 @@ struct StreamParameters {
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
-  // The same of their points: 160 MB, ten seconds of a fast lidar; chosen.
+  // Their points are so many at most: 160 MB, ten seconds of a fast lidar; chosen.
   std::size_t max_waiting_points = 8 << 20;
   // Raw samples that are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
   std::size_t max_imu_samples = 1 << 17;
@@ -76,10 +76,10 @@ struct ImuPreprocessorParameters {
 };
 inline constexpr ImuPreprocessorParameters kImuPreprocessor;
 
-// An axis at the end of its range (saturation_detector.hpp).
+// Tunes the finding of an axis at the end of its range (saturation_detector.hpp).
 struct SaturationParameters {
-  // Equal readings in a row. Chosen: fewer may be chance where readings are coarse; used in
-  // docs/experiments/gyro_saturation.md.
+  // So many equal readings in a row count. Chosen: fewer may be chance where readings are coarse;
+  // used in docs/experiments/gyro_saturation.md.
   int min_equal = 5;
   // No sensor's range is smaller. Chosen: an axis that never reads anything (2 deg/s), or gravity
   // without noise (1.2 g), is not saturated.

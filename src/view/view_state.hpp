@@ -28,15 +28,15 @@ struct PathRow {
   float status = 0.0F;  // a TrackingStatus
 };
 
-// Velocity in world [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], NIS (0: no update).
+// Holds velocity in world [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], NIS (0: no update).
 struct StateRow {
   static constexpr std::size_t kNumValues = 10;
   double t_s = 0.0;  // sensor time
   std::array<float, kNumValues> values{};
 };
 
-// The uncertainty of the position as an ellipsoid: its axes in map, and a standard deviation along
-// each.
+// Gives the uncertainty of the position as an ellipsoid: its axes in map, and a standard deviation
+// along each.
 struct PositionEllipsoid {
   Quaternion axes = Quaternion::Identity();
   Vector3 std_m = Vector3::Zero();

@@ -13,7 +13,7 @@ struct WebFile {
   std::string_view content;
 };
 
-// The file at a path such as "/" or "/main.js"; nothing for any other path.
+// Returns the file at a path such as "/" or "/main.js"; nothing for any other path.
 [[nodiscard]] std::optional<WebFile> FindWebFile(std::string_view path);
 
 }  // namespace lio

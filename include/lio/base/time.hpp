@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Instants and spans of time as integer nanoseconds: stamps never lose digits, and only differences
-// become seconds in floating point.
+// Holds instants and spans of time as integer nanoseconds: stamps never lose digits, and only
+// differences become seconds in floating point.
 #pragma once
 
 #include <cmath>
@@ -45,7 +45,7 @@ struct Timestamp {
   friend constexpr Duration operator-(Timestamp a, Timestamp b) { return {a.ns - b.ns}; }
 };
 
-// Seconds from `from` to `to`.
+// Returns the seconds from `from` to `to`.
 constexpr double SecondsBetween(Timestamp from, Timestamp to) {
   return (to - from).Seconds();
 }

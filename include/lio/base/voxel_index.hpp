@@ -31,7 +31,7 @@ class VoxelIndex {
   void Clear() { *this = {}; }
 
   [[nodiscard]] std::size_t size() const { return numbers_.size(); }
-  // Upper bound of the numbers given so far.
+  // Returns an upper bound of the numbers given so far.
   [[nodiscard]] std::size_t capacity() const { return nodes_.size(); }
   [[nodiscard]] bool IsUsed(std::int32_t voxel) const { return node(voxel).is_used; }
   [[nodiscard]] VoxelKey key(std::int32_t voxel) const { return node(voxel).key; }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one hashed container of voxels and what they hold. The contents are its user's policy:
-// Gaussian cells, blocks of means or of points of keyframes, moments, chains of points. Each type
-// of content has an array of its own beside VoxelIndex, so that a search that reads one does not
-// fetch the others.
+// This is the one hashed container of voxels and what they hold. The contents are its user's
+// policy: Gaussian cells, blocks of means or of points of keyframes, moments, chains of points.
+// Each type of content has an array of its own beside VoxelIndex, so that a search that reads one
+// does not fetch the others.
 #pragma once
 
 #include <cstddef>

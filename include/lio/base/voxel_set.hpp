@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A set of voxels, for thinning. No allocation once warm.
+// Holds a set of voxels, for thinning. It allocates nothing once warm.
 #pragma once
 
 #include "lio/base/voxel_table.hpp"

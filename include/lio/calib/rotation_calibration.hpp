@@ -10,8 +10,7 @@
 // noise and the map's drift. Both standard deviations are estimated from the residuals. Output:
 // estimates with covariance, scaled up when residuals are larger than the model expects. Failure:
 // no result but a reason when lidar and gyro do not agree, a result with a reason when the motion
-// does not determine everything. Nothing throws.
-// Cost: about 0.3 s for a minute at 10 Hz and 100 Hz.
+// does not determine everything. Nothing throws. A minute at 10 Hz and 100 Hz costs about 0.3 s.
 // Sources: rotation from vectors: Kabsch, Acta Cryst. 1976 (Wahba's problem); preintegration:
 // Forster et al., TRO 2017. Method and figures: docs/calibration.md; constants:
 // calibration_parameters.hpp.

@@ -60,7 +60,7 @@ struct PcapReport {
   }
 };
 
-// A file of inertial samples beside drive.pcap: drive.imu.csv, .lcm, .bag, .db3 or .mcap.
+// Returns a file of inertial samples beside drive.pcap: drive.imu.csv, .lcm, .bag, .db3 or .mcap.
 [[nodiscard]] std::optional<std::filesystem::path> ImuFileBeside(
     const std::filesystem::path& capture);
 

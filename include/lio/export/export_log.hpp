@@ -39,7 +39,7 @@ ExportCounts ExportMcap(const std::filesystem::path& log, const std::filesystem:
 ExportCounts ExportCsv(const std::filesystem::path& log, const std::filesystem::path& folder,
                        const ExportOptions& options);
 
-// The points of all registered clouds, the first one in each voxel of 0.2 m.
+// Writes the points of all registered clouds, the first one in each voxel of 0.2 m.
 ExportCounts ExportPly(const std::filesystem::path& log, const std::filesystem::path& file,
                        const ExportOptions& options);
 

@@ -52,7 +52,7 @@ class ClockOffset {
   double move_by_s() const { return move_by_s_; }
 
  private:
-  // The measurement by a turn between neighbouring scans.
+  // A turn between neighbouring scans gives this measurement.
   struct Turn {
     Vector3 rate_change_radps = Vector3::Zero();
     double rate_change_std_radps = 0.0;

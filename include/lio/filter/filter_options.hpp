@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The configuration keys `filter.*` of the error-state filter. The sensors' noise is in
+// Holds the configuration keys `filter.*` of the error-state filter. The sensors' noise is in
 // sensor/rig.hpp, constants without a key are in filter_parameters.hpp.
 #pragma once
 

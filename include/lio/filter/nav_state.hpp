@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's state and the conventions of its errors. Error-state form: Sola, arXiv 1711.02508.
+// Defines the filter's state and the conventions of its errors. Error-state form: Sola, arXiv
+// 1711.02508.
 //
 // Frames: world (z up, gravity-aligned, origin at the imu's first pose), imu (the body), map (the
 // frame of the map that scans are matched against; it starts as world and drifts from it).
@@ -34,7 +35,7 @@ inline constexpr int kMapStart = 21;  // the rotation between world and map at t
 inline constexpr int kStateDim = 24;
 
 using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
-// Covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
+// Holds the covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
 using NavCov = Eigen::Matrix<double, kAccelBias, kAccelBias>;
 using ErrorMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 
@@ -47,7 +48,7 @@ struct NavState {
   Quaternion R_world_map_start = Quaternion::Identity();  // map_bend.hpp
 };
 
-// state (+) error, by the conventions above.
+// Returns state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
 
 struct Estimate {

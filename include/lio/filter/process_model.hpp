@@ -42,7 +42,7 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
 void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
                        const Vector3& velocity_var_imu);
 
-// The same with a motion of any covariance in imu.
+// Does the same with a motion of any covariance in imu.
 void AddUnseenMotion(Estimate& estimate, const Matrix6& motion_cov_imu);
 
 // Forgets the velocity for one that is known in imu, with `cov_world` besides: an error of the

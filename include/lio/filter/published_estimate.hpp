@@ -19,7 +19,7 @@ struct WorldEstimate {
   NavCov cov = NavCov::Zero();            // as in nav_state.hpp, 12x12
 };
 
-// The filter's own world pose and covariance.
+// Returns the filter's own world pose and covariance.
 WorldEstimate InWorld(const Estimate& estimate);
 // The map's pose as if the map's frame were world. `cov` is the mean square error of that use:
 // the filter's covariance plus the square of the known difference between the two poses.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tuning constants of the detection of the IMU convention: units, axes and gravity of the inertial
-// messages (imu_classifier.hpp, motion_evidence.hpp; docs/filter.md, Initialization). A
-// comment gives the unit, the meaning and the source; a value marked "chosen" has no
-// measurement behind it. The standard deviations and thresholds were found together on simulated
-// drives (g, deg/s, both, z down, turned axes); KITTI 0005 and UrbanLoco drives, whose convention
-// is the expected one, are decided rightly, too.
+// Tunes the detection of the IMU convention: units, axes and gravity of the inertial messages
+// (imu_classifier.hpp, motion_evidence.hpp; docs/filter.md, Initialization). A comment gives the
+// unit, the meaning and the source; a value marked "chosen" has no measurement behind it. The
+// standard deviations and thresholds were found together on simulated drives (g, deg/s, both, z
+// down, turned axes); KITTI 0005 and UrbanLoco drives, whose convention is the expected one, are
+// decided rightly, too.
 #pragma once
 
 #include <cstddef>
@@ -20,29 +20,29 @@ struct MotionEvidenceParameters {
   // and 0.1 rad/s at 10 Hz, beyond what matching errs by at rest.
   double min_motion_m = 0.3;
   double min_motion_rad = 0.1;
-  // rad. Error of a step's turn, 1 sigma: skewed scans and maps during warm-up. Fitted to the
-  // simulator's drives of docs/experiments/imu_convention.md.
+  // rad. A step's turn errs by this, 1 sigma, by skewed scans and by maps during warm-up. Fitted to
+  // the simulator's drives of docs/experiments/imu_convention.md.
   double turn_std_rad = 0.003;
   // rad/s. Gyro bias before anything is known, 1 sigma. Chosen: 3 deg/s, the turn-on bias of the
   // worst units.
   double gyro_bias_std_radps = 0.05;
-  // s. Time between the positions of a second difference. Chosen: longer averages noise, shorter
-  // sees livelier motion, such as a walker's step.
+  // s. The positions of a second difference are so far apart in time. Chosen: longer averages
+  // noise, shorter sees livelier motion, such as a walker's step.
   double second_difference_span_s = 0.5;
   // Share of that time which must exist on either side. Chosen: a sweep of 0.1 s may be missing.
   double min_span_share = 0.8;
-  // m/s^2. Error of a second difference, 1 sigma: 1 cm in each position at 0.5 s. Fitted to the
+  // m/s^2. A second difference errs by this, 1 sigma: 1 cm in each position at 0.5 s. Fitted to the
   // same drives.
   double second_difference_std_mps2 = 0.15;
-  // m/s^2. Error of the mean force's length in one map, 1 sigma: the accelerometer's bias. Chosen
-  // for consumer units.
+  // m/s^2. The mean force's length errs by this in one map, 1 sigma: the accelerometer's bias.
+  // Chosen for consumer units.
   double gravity_std_mps2 = 0.15;
   // A rate is a spike when it is beyond any gyro and this many times the median of its step.
   // Chosen: no turn triples within a sweep; a smaller one takes lively rates in deg/s for spikes.
   double spike_ratio = 3.0;
 };
 
-// Decisions. Scores are chi-square, scaled so that the best convention fits.
+// Bounds the decisions. Scores are chi-square, scaled so that the best convention fits.
 struct ImuClassifierParameters {
   // Fewest steps before anything is decided. Chosen: 0.8 s at 10 Hz.
   std::size_t min_steps = 8;

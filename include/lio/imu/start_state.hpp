@@ -19,8 +19,8 @@
 
 namespace lio {
 
-// True when the measured forces contain gravity. The setting `automatic` decides by the mean force
-// at rest or in smooth motion: whether its length is nearer to g than to zero.
+// Returns true when the measured forces contain gravity. The setting `automatic` decides by the
+// mean force at rest or in smooth motion: whether its length is nearer to g than to zero.
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig);
 
 struct StartState {
@@ -34,7 +34,7 @@ struct StartState {
 [[nodiscard]] StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp,
                                      const Rig& rig);
 
-// The last known position, attitude and velocity of the body.
+// Holds the last known position, attitude and velocity of the body.
 struct LastFix {
   Timestamp stamp;
   Pose T_world_imu;
@@ -60,7 +60,7 @@ void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate);
 // makes the yaw of imu's x axis zero.
 Quaternion LevelledRotation(const Vector3& up_imu);
 
-// A message to users: "started <how>: imu tilted by ...".
+// Returns a message to users: "started <how>: imu tilted by ...".
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity);
 
 }  // namespace lio

@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// Messages between the decoder and the estimator; all zero in a replay.
+// Counts messages between the decoder and the estimator; all are zero in a replay.
 struct TransitCounters {
   std::int64_t num_dropped = 0;   // the queue was full
   std::int64_t num_given_up = 0;  // the daemon had to end before they were looked at
@@ -32,7 +32,7 @@ struct Account {
   TransitCounters chunks;
 };
 
-// The object "account" of stats.json, without its key.
+// Returns the object "account" of stats.json, without its key.
 [[nodiscard]] std::string AccountJson(const Account& account, const InputCounters& input);
 
 // Samples, chunks and scans that were received but have no fate, in a sentence; empty when the

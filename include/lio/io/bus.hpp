@@ -45,7 +45,7 @@ class Bus {
   // Waits up to `timeout` for a message and hands it to its handlers.
   [[nodiscard]] virtual ReceiveResult Receive(std::chrono::milliseconds timeout) = 0;
 
-  // False when the transport refused the message.
+  // Returns false when the transport refused the message.
   [[nodiscard]] virtual bool Publish(const std::string& channel, ByteView data) = 0;
 
   // How many messages were above kMaxMessageBytes, and for how many a handler threw. Neither got

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The parts that the command lines of all programs share: exit codes, errors in one line, and
+// Defines what the command lines of all programs share: exit codes, errors in one line, and
 // --config, --set and --print-options of the programs that run the pipeline.
 #pragma once
 

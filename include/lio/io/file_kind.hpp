@@ -27,7 +27,8 @@ enum class FileKind : std::int8_t {
 // and a device may never end. A path that does not exist passes.
 void RefuseIrregular(const std::filesystem::path& path);
 
-// The steady path in a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
+// Returns the steady path in a run's folder: trajectory_level.tum, or trajectory.tum without
+// gravity.
 [[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
 
 // One line that says what `path` is and which command takes it; empty for logs and for kOther.

@@ -3,9 +3,9 @@
 // The path of a run as it looks when the run is over: the steady path in map, turned once, rigidly
 // and about its origin, so that it is level by the last estimate. It keeps its shape, and its
 // height does not drift by the tilt that the start did not know. Its stamps and its body are those
-// of the last estimates of clock offset and extrinsic, before these were found too. Written at the
-// end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them,
-// trajectory_level.rows.
+// of the last estimates of clock offset and extrinsic, before these were found too. It is written
+// at the end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file
+// beside them, trajectory_level.rows.
 #pragma once
 
 #include <cstdint>

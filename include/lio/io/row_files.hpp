@@ -21,9 +21,8 @@ namespace lio {
 class RowFiles {
  public:
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
-  // naming the file when it cannot; the others throw WriteError when a file could not be written
-  // in full.
-  // `turns_map`: LevelTrack.
+  // naming the file when it cannot; the others throw WriteError when a file could not be written in
+  // full. For `turns_map` see LevelTrack.
   RowFiles(const std::filesystem::path& folder, bool has_base, bool turns_map = true);
 
   // A row that is not later than the one before is left out and counted. `trust` is that of the run

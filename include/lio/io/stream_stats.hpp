@@ -14,7 +14,7 @@
 
 namespace lio {
 
-// The middle value, the upper one of the two in the middle; 0 for none.
+// Returns the middle value, the upper one of the two in the middle; 0 for none.
 [[nodiscard]] double UpperMedian(std::vector<double> values);
 
 // The stamp of an event in a log; a time more than 146 years from the epoch, which is damage, is

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of surface patches, the normal-distributions transform of the scans: hashed voxels,
-// each with the running mean and covariance of the points that fell into it, and from them, where
-// they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
+// Holds a bounded map of surface patches, the normal-distributions transform of the scans: hashed
+// voxels, each with the running mean and covariance of the points that fell into it, and from them,
+// where they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
 //
 // A cell whose points show neither is rank-deficient and does not count: cells filled from a
 // standing vehicle hold single scan rings, which look like lines and hold the vehicle back by
@@ -65,7 +65,7 @@ class GaussianMap {
            patch(cell).num_points >= static_cast<float>(options_.max_cell_points);
   }
 
-  // The vertical's direction in the map's frame, of any length.
+  // Sets the vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
   // Adds a scan taken from `sensor_map`; then drops cells that are too far from there and, beyond
@@ -80,7 +80,7 @@ class GaussianMap {
                   const Workers& workers = Workers(1));
 
   std::size_t num_cells() const { return voxels_.size(); }
-  // Upper bound of cell indices, for scratch arrays beside the map.
+  // Returns an upper bound of cell indices, for scratch arrays beside the map.
   std::size_t cell_capacity() const { return voxels_.capacity(); }
   std::size_t memory_bytes() const { return voxels_.memory_bytes(); }
 
@@ -116,7 +116,7 @@ class GaussianMap {
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
-  // gaussian_map_patch.cpp
+  // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
@@ -126,7 +126,7 @@ class GaussianMap {
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
   VoxelMap<SurfacePatch, Sums> voxels_;
-  // Scratch of Insert.
+  // Insert() uses these as scratch.
   std::vector<Place> places_;
   std::vector<std::int32_t> cells_;  // one per place
   std::vector<std::int32_t> touched_cells_;

@@ -19,7 +19,8 @@
 namespace lio {
 
 struct KeyframeMapOptions {
-  // Edge. Chosen: about the distance of nearest points; it sets the time of a search alone.
+  // Voxels have this edge. Chosen: about the distance of nearest points; it sets the time of a
+  // search alone.
   double voxel_m = 0.5;
   int max_points = 1000000;  // memory bound; as GicpOptions
   // Keyframes farther from the newest one are dropped; as GicpOptions.
@@ -58,7 +59,7 @@ class KeyframeMap {
   // How many points of all keyframes lie in the voxel around a point.
   [[nodiscard]] int CountAt(const Vector3& point_map) const;
 
-  // The keyframe nearest to a place; none: -1.
+  // Holds the keyframe nearest to a place; none: -1.
   struct Nearest {
     std::int32_t keyframe = -1;
     Pose T_map_kf;
@@ -74,7 +75,7 @@ class KeyframeMap {
   static constexpr std::int32_t kNone = -1;
   using Blocks = VoxelBlocks<std::int32_t>;  // the first node of each voxel's chain
 
-  // Some points of one voxel, in a chain.
+  // Holds some points of one voxel, in a chain.
   struct Node {
     std::array<float, kNodeSize> x{}, y{}, z{};  // from the block's corner
     std::array<std::int32_t, kNodeSize> point{};
@@ -102,7 +103,7 @@ class KeyframeMap {
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
-  // keyframe_map_search.cpp
+  // These are in keyframe_map_search.cpp.
   void SearchAround(Search& search, int radius_voxels) const;
   void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;

@@ -52,13 +52,13 @@ class MultiResolutionMap {
   // Adds a scan taken from `sensor_map`, to all levels from `finest` on.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1), std::size_t finest = 0);
-  // As GaussianMap::InsertKept(), in all levels.
+  // Does the same as GaussianMap::InsertKept(), in all levels.
   void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
                   const Workers& workers = Workers(1));
 
   std::size_t num_levels() const { return levels_.size(); }
   std::size_t num_cells() const;
-  // Upper bound of cell numbers, for scratch arrays beside the map.
+  // Returns an upper bound of cell numbers, for scratch arrays beside the map.
   std::size_t cell_capacity() const;
   std::size_t memory_bytes() const;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar odometry by a model of constant velocity and turn rate, built from the filter itself:
+// Runs lidar odometry by a model of constant velocity and turn rate, built from the filter itself:
 // inertial samples without gravity, wide process noise. In lidar-only operation the velocity is
 // constant in the imu's axes, and the samples read the force that turns it; in the first seconds
 // before the inertial filter starts it is constant in the world, and they read none. The turn rate
@@ -30,8 +30,9 @@ struct ConstantVelocityParameters {
   double min_turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
   double max_turn_accel_density = 4.0;
   double start_turn_accel_density = 3.0;  // before a turn was seen; chosen: nearer to the larger
-  // Density by the root mean square of turn error / (time since the last scan)^(3/2). A rate that
-  // walks at random would give 0.7; bodies turn smoothly, so that errors of the model last.
+  // The density is this times the root mean square of turn error / (time since the last
+  // scan)^(3/2). A rate that walks at random would give 0.7; bodies turn smoothly, so that errors
+  // of the model last.
   double density_per_error = 4.4;
   double turn_error_rate = 0.02;  // weight of a scan in the mean; chosen: 5 s at 10 Hz
   // Nothing is known. Chosen: a vehicle in a city, one that turns.
@@ -40,8 +41,8 @@ struct ConstantVelocityParameters {
   // A velocity seed is good to a metre per second or so (velocity_search.hpp). Measured at nine
   // starts on a motorway: with 4 m/s matching strayed from the right velocity.
   double velocity_seed_std_mps = 1.5;
-  // The motion of an earlier tracker, some seconds old. Chosen: a car brakes by as much in a
-  // second.
+  // An earlier tracker's motion, some seconds old, errs by this. Chosen: a car brakes by as much in
+  // a second.
   double known_velocity_std_mps = 2.0;
   double known_turn_rate_std_radps = 0.3;
   // A time of unknown length without sweeps. Chosen: it is taken for half a second, over which a
@@ -59,9 +60,10 @@ inline constexpr ConstantVelocityParameters kConstantVelocity;
 
 // The motion as far as it is known before anything is matched.
 struct MotionSeed {
-  // Velocity seed: by correlative alignment of bird's-eye views, in the imu's axes [m/s].
+  // The velocity seed comes from correlative alignment of bird's-eye views, in the imu's axes
+  // [m/s].
   std::optional<Vector3> v_imu_mps;
-  // Motion prior: velocity and, without a gyro, turn rate of an earlier tracker's state.
+  // The motion prior is velocity and, without a gyro, turn rate of an earlier tracker's state.
   std::optional<NavState> motion;
 };
 

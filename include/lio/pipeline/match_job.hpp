@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The messages between the filter and the registration worker. Each is complete in itself, so they
-// may cross threads.
+// Defines the messages between the filter and the registration worker. Each is complete in itself,
+// so they may cross threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,10 +23,10 @@
 
 namespace lio {
 
-// Match the scan near the prior.
+// Asks to match the scan near the prior.
 struct Track {
-  // Better the prior by correlative alignment of the bird's-eye view with the last located scan's
-  // (for a prior of unsure shift).
+  // True betters the prior by correlative alignment of the bird's-eye view with the last located
+  // scan's (for a prior of unsure shift).
   bool aligns_prior = false;
   // Hold directions that the match leaves degenerate by the bird's-eye views of earlier scans.
   bool holds_degenerate = false;

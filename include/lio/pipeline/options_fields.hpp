@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Every option named once: key, field, meaning with unit, and limits as data. Loading, printing,
-// range checks and config/default.yaml all come from here, so a new option is one line here and
-// one in its struct (a test counts the fields of both).
+// Names every option once: key, field, meaning with unit, and limits as data. Loading, printing,
+// range checks and config/default.yaml all come from here, so a new option is one line here and one
+// in its struct (a test counts the fields of both).
 //
 //   VisitFields(visitor, options) calls visitor(key, field, meaning) or
 //   visitor(key, field, meaning, range) for each field in order. A field may be a struct of fields
@@ -41,7 +41,7 @@ inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto"
 template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<LoamTarget>{"map", "scan"};
 
-// Structs whose fields VisitFields lists.
+// Accepts structs whose fields VisitFields lists.
 template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>

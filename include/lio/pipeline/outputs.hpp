@@ -27,7 +27,7 @@ enum class TrackingStatus : std::int8_t {
 
 enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
 
-// The state of the rig's base frame. Covariances are those of NavOutput, for base.
+// Holds the state of the rig's base frame. Covariances are those of NavOutput, for base.
 struct BaseMotion {
   Pose T_world_base;
   Matrix6 pose_cov = Matrix6::Zero();
@@ -56,8 +56,8 @@ struct NavOutput {
   std::optional<BaseMotion> base;          // with rig.T_base_imu
 };
 
-// The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel
-// bias, then the right error of T_map_imu [translation; rotation].
+// Reports the filter in full, once a scan. Errors are ordered position, rotation, velocity, gyro
+// bias, accel bias, then the right error of T_map_imu [translation; rotation].
 struct FilterReport {
   NavOutput nav;
   Vector3 v_map_imu_mps = Vector3::Zero();
@@ -81,7 +81,7 @@ enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal }
 inline constexpr int kNumStages = 7;
 using StageTimes = std::array<std::int64_t, kNumStages>;  // ns of CPU work, indexed by Stage
 
-// One registration: a row of registration.csv.
+// Reports one registration: a row of registration.csv.
 struct ScanReport {
   Timestamp stamp;            // sweep end
   Duration clock_correction;  // in the stamp, by the estimated clock offset
@@ -102,7 +102,7 @@ struct ScanReport {
   StageTimes stage_ns{};
 };
 
-// Registered points for viewers: in the map's frame.
+// Holds registered points for viewers, in the map's frame.
 struct RegisteredCloud {
   Timestamp stamp;
   std::int64_t scan_seq = 0;

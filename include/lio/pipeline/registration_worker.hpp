@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The part of the estimator that works on points: reduce, deskew, match, insert. It owns the map
-// and takes self-contained jobs, so that it may run on a thread of its own. One job at a time, in
-// order.
+// Runs the part of the estimator that works on points: reduce, deskew, match, insert. It owns the
+// map and takes self-contained jobs, so that it may run on a thread of its own. Jobs run one at a
+// time, in order.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Direct matching of a scan against a submap of keyframes, plane to plane (generalized ICP). Each
+// Matches a scan directly against a submap of keyframes, plane to plane (generalized ICP). Each
 // point p is paired with its nearest neighbour q; e = q - T p is their offset, b the direction
 // along which both surfaces constrain it best, and the cost is
 //   sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + k a^4 + radius^2.
@@ -55,7 +55,7 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   double openness_m() const { return openness_m_; }
 
  private:
-  // A point of the scan and its neighbour on the map.
+  // Holds a point of the scan and its neighbour on the map.
   struct Pair {
     std::int32_t point = 0;
     std::int32_t target = 0;

@@ -38,7 +38,7 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
 
  private:
   void Associate(const MatchInput& input, const Pose& T_map_imu, const SearchRadius& radius);
-  // The pose after Gauss-Newton steps with the correspondences of one round.
+  // Returns the pose after Gauss-Newton steps with the correspondences of one round.
   Pose SolveRound(const MatchInput& input, Pose T_map_imu);
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);

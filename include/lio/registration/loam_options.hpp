@@ -21,10 +21,10 @@ struct LoamOptions {
   double min_line_ratio = 3.0;     // largest to second eigenvalue of a line's points; A-LOAM's
   double max_plane_error_m = 0.2;  // a plane fits none of its points worse; A-LOAM's
   double huber_m = 0.1;            // residuals above count linearly; A-LOAM's
-  // Standard deviation of an edge point's distance from its edge. Chosen: the beams' gap decides
-  // where an edge is hit.
+  // An edge point's distance from its edge has this standard deviation. Chosen: the beams' gap
+  // decides where an edge is hit.
   double edge_std_m = 0.1;
-  // Standard deviation of a surface point's distance. Chosen: range noise and roughness.
+  // A surface point's distance has this standard deviation. Chosen: range noise and roughness.
   double surface_std_m = 0.03;
   int max_iterations = 4;  // per round; A-LOAM's
   // Correspondences are sought anew in each. Chosen, A-LOAM always has 2: rounds end by converging.

@@ -30,7 +30,7 @@ class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
   ~LoamScanMatcher() override;
 
   MatchResult Match(const MatchInput& input) override;
-  // Matches a scan that is not deskewed. `sweep_ratios`: one for each point of the input.
+  // Matches a scan that is not deskewed. `sweep_ratios` has one for each point of the input.
   MatchResult MatchSkewed(const MatchInput& input, std::span<const float> sweep_ratios);
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   void Clear() override;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the terms of a least-squares match at its solution to its report: information, covariance,
-// degenerate directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the map, n a
-// unit direction of the map and w a robust weight that the derivative takes as constant.
+// Turns the terms of a least-squares match at its solution into its report: information,
+// covariance, degenerate directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the
+// map, n a unit direction of the map and w a robust weight that the derivative takes as constant.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class RobustKernel {
     curvature_ = 1.f - 4.f * root_ * distance_sq / Parameters::kWidthSq;
   }
   [[nodiscard]] float weight() const { return root_ * root_; }  // 1 for an inlier
-  // The robust cost's second derivative over the weight.
+  // Returns the robust cost's second derivative over the weight.
   [[nodiscard]] float curvature() const { return curvature_; }
 
   // Beyond five standard deviations a residual does not count at all.
@@ -74,7 +74,7 @@ struct MatchSums {
   // gradient.
   Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
   void operator+=(const MatchSums& other);
-  // The robust cost's own curvature over that of the cost with constant weights: below one.
+  // Returns the robust cost's own curvature over that of the cost with constant weights: below one.
   [[nodiscard]] double curvature_ratio() const;
 
   TermSum information;
@@ -90,7 +90,7 @@ struct MatchSums {
 
 [[nodiscard]] DirectionSplit SplitDirections(const MatchSums& sums);
 
-// The scores of a match at its solution.
+// Holds the scores of a match at its solution.
 struct MatchScores {
   PoseScores by_part;  // one per part of the map
   BeamScores by_beam;
@@ -106,9 +106,9 @@ struct MatchScores {
 };
 
 // Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
-// turns kConverged into kDegenerate where a direction is degenerate. `score_cov`: covariance of the
-// whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at the
-// solution, within the observable directions.
+// turns kConverged into kDegenerate where a direction is degenerate. `score_cov` is the covariance
+// of the whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at
+// the solution, within the observable directions.
 [[nodiscard]] Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov,
                                 MatchResult& result);
 

@@ -40,7 +40,7 @@ struct NdtTerm;
 
 class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
-  // The same results to the last bit on any number of threads.
+  // Gives the same results to the last bit on any number of threads.
   explicit NdtMatcher(const NdtOptions& options, int num_threads = 1);
 
   MatchResult Match(const MatchInput& input) override;
@@ -78,9 +78,9 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   // is wide, all but the coarsest where it is narrow.
   static constexpr int kNumFiner = 1;
   [[nodiscard]] MultiResolutionMap::Levels LevelsInUse() const;
-  // Those for a correspondence radius. A guess that may be far off is followed by large cells to
-  // the end: small ones hold points that are half a cell off elsewhere, and a place is then not
-  // found again.
+  // Returns the levels for a correspondence radius. A guess that may be far off is followed by
+  // large cells to the end: small ones hold points that are half a cell off elsewhere, and a place
+  // is then not found again.
   [[nodiscard]] MultiResolutionMap::Levels LevelsFor(const MatchInput& input,
                                                      double radius_m) const;
   std::vector<Vector3> InGrid(std::span<const Eigen::Vector3f> points,
@@ -94,7 +94,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     const CellCount& count = cell_counts_[static_cast<std::size_t>(cell)];
     return count.count_number == count_number_ ? count.num_points : 1;
   }
-  // `view`: along the beam, in grid axes, of any length.
+  // `view` points along the beam, in grid axes, with any length.
   Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Scan-to-map registration: one interface, several methods. A matcher owns its map. The pose it
-// measures is that of the imu in the map's frame, at the sweep's middle; points come in the imu
-// frame at that instant, already deskewed.
+// Defines scan-to-map registration: one interface, several methods. A matcher owns its map. The
+// pose it measures is that of the imu in the map's frame, at the sweep's middle; points come in the
+// imu frame at that instant, already deskewed.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace lio {
 
-// Points of a scan and, for methods that use features, the kind of each.
+// Holds points of a scan and, for methods that use features, the kind of each.
 struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
   std::span<const FeatureTag> tags = {};  // one a point; empty where the method needs none
@@ -34,14 +34,15 @@ struct TurnRate {
 struct MatchInput {
   std::span<const Eigen::Vector3f> points_imu;
   Pose T_map_imu_guess;
-  // Right error of the guess, [translation; rotation]: sets the correspondence radius. It is not a
-  // prior: it stays out of the cost.
+  // The guess has this right error, [translation; rotation]: it sets the correspondence radius. It
+  // is not a prior: it stays out of the cost.
   Matrix6 guess_cov = Matrix6::Zero();
   bool is_far_off = false;  // the guess may be far off: take more iterations before giving up
   std::span<const FeatureTag> tags = {};                  // one per point of points_imu
   std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to fit normals in
-  // Standard deviation of the guessed translation since the last scan. Things that look different
-  // from each side (trunks, bushes) are left out where it is known better than they can tell.
+  // The guessed translation since the last scan has this standard deviation. Things that look
+  // different from each side (trunks, bushes) are left out where it is known better than they can
+  // tell.
   double shift_std_m = 1.0;
   // The time of each of points_imu; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
@@ -79,7 +80,7 @@ struct [[nodiscard]] MatchResult {
   std::optional<TurnRate> turn_rate_error;
   // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
   std::vector<Vector6> beam_scores;
-  // How far a unit of gradient shifts the pose, right error: the robust cost's curvature inverted,
+  // A unit of gradient shifts the pose by this, right error: the robust cost's curvature inverted,
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
   double new_content_share = 1.0;  // 0..1, share of the matched map that this scan brings

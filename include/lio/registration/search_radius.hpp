@@ -15,7 +15,7 @@ namespace lio {
 
 class SearchRadius {
  public:
-  // `guess_cov`: right error, [translation; rotation].
+  // `guess_cov` is of the right error, [translation; rotation].
   explicit SearchRadius(const Matrix6& guess_cov)
       : translation_var_(LargestVariance(guess_cov.topLeftCorner<3, 3>())),
         rotation_var_(LargestVariance(guess_cov.bottomRightCorner<3, 3>())) {}
@@ -25,7 +25,7 @@ class SearchRadius {
     const double std = std::sqrt(translation_var_ + rotation_var_ * range_m * range_m);
     return share_ * std::fmin(std, Parameters::kMaxStd_m);
   }
-  // After a step toward the solution.
+  // Call it after a step toward the solution.
   void Shrink() {
     constexpr double kLever_m = Parameters::kLever_m;
     share_ *= Parameters::kShrink;

@@ -13,7 +13,7 @@
 
 namespace lio {
 
-// The cloud around the body at one instant, in the axes of its map.
+// Holds the cloud around the body at one instant, in the axes of its map.
 struct CloudSample {
   Vector3 centre_map = Vector3::Zero();     // the body's position
   std::vector<Eigen::Vector2f> structures;  // things that stand up, seen from above

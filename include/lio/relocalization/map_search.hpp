@@ -37,11 +37,11 @@ class MapSearch {
 
   // Goes on for at most about so many look-ups. True: the search is over.
   bool GoOn(std::int64_t max_lookups);
-  // Best first, at most 40, no two of them the same.
+  // They stand best first, at most 40, no two of them the same.
   [[nodiscard]] const std::vector<ScoredPlace>& places() const { return places_; }
 
  private:
-  // All shifts of a square of 2^level cells, at one turn.
+  // Holds all shifts of a square of 2^level cells, at one turn.
   struct Node {
     std::int32_t score = 0;  // upper bound: no place of the node has more structures on the map
     std::int16_t x = 0;      // cell that `centre` comes to, the least of the square

@@ -32,7 +32,7 @@ struct VelocitySearchParameters {
   float step_mps = 0.5f;  // step of the grid; chosen: 5 cm between two sweeps, well within a cell
   int max_steps = 90;     // to each side: 45 m/s; chosen: faster than cars drive on motorways
   float peak_width_m = 1.f;  // chosen: what is farther from the best shift is a rival
-  // Lead of the best score over its rivals, in roots of the score. Chosen: two standard deviations
+  // The best score leads its rivals by so many roots of the score. Chosen: two standard deviations
   // of a count; nine starts on a motorway are all clear by it.
   double min_lead = 2.0;
   // Scores above this share of the best are averaged. Measured at nine starts on a motorway,
@@ -77,8 +77,8 @@ struct ShiftSearchParameters {
 struct PlaceCandidateParameters {
   double range_sigmas = 2.0;  // searched around the prior; chosen by cost: 95 % of each axis
   double max_shift_m = 60.0;  // chosen: farther off less than half of the views overlaps
-  // Standard deviation of a candidate. Chosen: a fine step and what structures lack in place, and
-  // about a coarse step of the turn.
+  // A candidate has this standard deviation. Chosen: a fine step and what structures lack in place,
+  // and about a coarse step of the turn.
   double std_m = 0.5;
   double std_rad = 0.03;
 };
@@ -99,13 +99,13 @@ struct PlaceVerificationParameters {
   // docs/experiments/clock_steps.md.
   double plenty_number = 0.6;
   double apart_m = 0.5;  // chosen: two poses nearer than this are not told apart by matching
-  // Times the points on surfaces, for a better match. Chosen; used in
+  // A better match has so many times the points on surfaces. Chosen; used in
   // docs/experiments/clock_steps.md.
   double clearly_more = 1.2;
   double much_nearer = 0.3;  // times as far, for a match near one of two poses; chosen: a third
 };
 
-// Things that stand up in a cloud, in voxels.
+// Finds things that stand up in a cloud, in voxels.
 struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
   int min_points = 5;      // a voxel's spread needs so many; chosen: fewer spread by chance
@@ -131,8 +131,8 @@ struct MapSearchParameters {
   double min_score_ratio = VelocitySearchParameters{}.flat_top;  // share of the best score
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
   std::size_t max_nodes = 4'000'000;  // nodes that wait; chosen by memory: 48 MB
-  // Look-ups in a grid for one scan. Chosen by time: about 20 ms; a search of a street of 440 m
-  // takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
+  // One scan pays for so many look-ups in a grid. Chosen by time: about 20 ms; a search of a street
+  // of 440 m takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
   std::int64_t max_lookups_per_scan = 4'000'000;
 };
 
@@ -153,14 +153,14 @@ struct GatheredCloudParameters {
 };
 
 struct PlaceContestParameters {
-  // Points of a coarse match. Chosen: 50 of them must come to a surface
+  // A coarse match has so many points. Chosen: 50 of them must come to a surface
   // (MatchParameters::kMinMatched), and in a strange place few do.
   int num_coarse_points = 800;
   int max_coarse_per_scan = 20;    // coarse matches of a scan; chosen: some milliseconds
   std::size_t max_contenders = 8;  // places that are followed; chosen: two matches a scan, in turn
   double min_support_ratio = 0.5;  // share of the best coarse match, to be followed; chosen: half
-  // Standard deviation of a place that matched the scan before. Chosen: above what a scan's match
-  // moves it by, below max_step_m and max_step_rad.
+  // A place that matched the scan before has this standard deviation. Chosen: above what a scan's
+  // match moves it by, below max_step_m and max_step_rad.
   double settled_std_m = 0.1;
   double settled_std_rad = 0.01;
   // Share of the points on surfaces of those that come to one, over that of the scan in its own new
@@ -176,8 +176,8 @@ struct PlaceContestParameters {
   double max_step_rad = 0.02;
   int num_checks = 5;        // scans in a row that must say so; chosen: half a second
   int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
-  // A beaten rival's share of points that contradict it, over the winner's, ... Chosen; no wrong
-  // place won by it (docs/experiments/start_in_a_map.md).
+  // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
+  // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
   double min_residual_ratio = 1.5;
   double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things
   int max_scans = 30;            // then the search begins anew; chosen: three seconds at 10 Hz
@@ -190,8 +190,8 @@ struct PlaceSeekerParameters {
   // in view, or two seconds have brought more of them.
   double again_after_m = 2.0;
   int again_after_scans = 20;
-  // Around a guess, to each side, of its yaw, and up and down. Chosen: a parking lot's error by
-  // hand or GNSS, 30 deg, and less than half a storey.
+  // The search goes so far around a guess, to each side, of its yaw, and up and down. Chosen: a
+  // parking lot's error by hand or GNSS, 30 deg, and less than half a storey.
   float guess_range_m = 10.f;
   float guess_range_rad = 0.5f;
   float guess_range_up_m = 1.5f;
@@ -214,7 +214,8 @@ struct RelocalizationParameters {
   // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
   // Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;
-  // Points of a coarse match, which ranks candidates. Chosen: an eighth of a full match's.
+  // A coarse match, which ranks candidates, has so many points. Chosen: an eighth of a full
+  // match's.
   int num_coarse_points = 300;
   // A place nearer than both of these to one that was tried is the same. Chosen: matching converges
   // from there.

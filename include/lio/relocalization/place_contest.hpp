@@ -40,9 +40,9 @@ class PlaceContest {
  public:
   PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map);
 
-  // Ranks some more places. True: all are ranked.
+  // Ranks some more places; true when all are ranked. True: all are ranked.
   [[nodiscard]] bool Rank(const MatchInInitial& match);
-  // After ranking. At most `max_matches` matches of the scan.
+  // Call it after ranking. It makes at most `max_matches` matches of the scan.
   [[nodiscard]] std::optional<FoundPlace> Check(const LocatedScan& scan,
                                                 const MatchInInitial& match, int max_matches);
   // No place can win any more.

@@ -22,7 +22,7 @@ struct PlanarPose {
   float turn_rad = 0.f;
 };
 
-// The range of a search, to each side of its middle.
+// Holds the range of a search, to each side of its middle.
 struct PlanarRange {
   Eigen::Vector2f shift_m = Eigen::Vector2f::Zero();
   float turn_rad = 0.f;

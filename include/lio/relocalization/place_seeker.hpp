@@ -32,7 +32,7 @@ struct PlaceIndex {
   HeightVotes heights;
 };
 
-// A rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.
+// Holds a rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.
 struct PlaceGuess {
   Vector3 position_m = Vector3::Zero();
   double yaw_rad = 0.0;

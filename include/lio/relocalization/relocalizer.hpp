@@ -23,7 +23,7 @@
 
 namespace lio {
 
-// Deskewed points in imu at `stamp`, the sweep's middle.
+// Holds deskewed points in imu at `stamp`, the sweep's middle.
 struct DeskewedScan {
   Timestamp stamp;
   std::span<const Eigen::Vector3f> points_imu;
@@ -68,7 +68,7 @@ class Relocalizer {
                              const MotionPrior& prior, const MatchResult& near_prior,
                              const CandidateMatcher& matcher);
 
-  // Corrects degenerate directions of a usable match. `points_imu`: all of the scan.
+  // Corrects degenerate directions of a usable match. `points_imu` are all of the scan's.
   void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
                       MatchResult& match);
 

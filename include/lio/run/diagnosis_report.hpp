@@ -13,9 +13,9 @@ namespace lio {
 // fix, and what a replay with the fixes gave. `input` is what the user named.
 [[nodiscard]] std::string DiagnosisText(const Diagnosis& diagnosis, const std::string& input);
 
-// The content of verdict.json for the given rig, with `input`, `kind`, `assumptions`, `refusal`,
-// `treated` (kinds) and `with_fixes` (as verdict.json, or null where nothing was treated or
-// checked) besides.
+// Returns the content of verdict.json for the given rig, with `input`, `kind`, `assumptions`,
+// `refusal`, `treated` (kinds) and `with_fixes` (as verdict.json, or null where nothing was treated
+// or checked) besides.
 [[nodiscard]] std::string DiagnosisJson(const Diagnosis& diagnosis, const std::string& input);
 
 // The rig with the fixes as commented YAML, which LoadOptions takes. The comments at its top say

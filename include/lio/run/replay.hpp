@@ -34,7 +34,7 @@ class Replay {
   void Run(LogInput& input);
 
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
-  // After Run only.
+  // Call it after Run only.
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }
   // Says why the configuration contradicts the log; empty when it does not.
   [[nodiscard]] const std::string& refusal() const { return refusal_; }

@@ -11,7 +11,8 @@
 
 namespace lio {
 
-// Sampled to about ThinningParameters::max_sampled points. Cost: about 4 ms. Throws nothing.
+// The points are a sample of about ThinningParameters::max_sampled. It costs about 4 ms. Throws
+// nothing.
 std::vector<ScanPoint> DensePoints(const Sweep& sweep, const PointFilter& filter);
 
 }  // namespace lio

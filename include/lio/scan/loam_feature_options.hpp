@@ -8,12 +8,13 @@
 namespace lio {
 
 struct LoamFeatureOptions {
-  // Sectors of each ring, picked from separately, so that features surround the vehicle. A-LOAM's.
+  // Features are picked from so many sectors of each ring separately, so that they surround the
+  // vehicle. A-LOAM's.
   int num_sectors = 6;
   int num_sharp = 2;        // sharpest edge points of a sector; A-LOAM's
   int num_less_sharp = 20;  // edge points of a sector, the sharp ones included; A-LOAM's
   int num_flat = 4;         // flattest surface points of a sector; A-LOAM's
-  // |sum of differences to ten neighbours|^2: edges above, flats below. A-LOAM's.
+  // Edges lie above this |sum of differences to ten neighbours|^2, flats below. A-LOAM's.
   double curvature_m2 = 0.1;
   double leaf_m = 0.2;  // voxel edge and ring that keep one of the other surface points; A-LOAM's
   // Squared gap up to which neighbours of a pick are the same feature. A-LOAM's.

@@ -41,7 +41,7 @@ class SweepReducer {
 // The edge of the thinning grid for the next sweep, m, when this one kept `num_kept` points.
 float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept);
 
-// About `wanted` of the indices below `count`, evenly spread and ascending; all when fewer.
+// Returns about `wanted` of the indices below `count`, evenly spread and ascending; all when fewer.
 std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted);
 
 }  // namespace lio

@@ -50,10 +50,10 @@ struct ImuGapParameters {
 inline constexpr ImuGapParameters kImuGap;
 
 struct ScanGapParameters {
-  // From the end of one sweep to the start of the next. Chosen: two missing sweeps of a 10 Hz lidar
-  // leave 200 ms; the rest is for stamps that jitter.
+  // Sweeps are missing when one starts so long after the end of the one before. Chosen: two missing
+  // sweeps of a 10 Hz lidar leave 200 ms; the rest is for stamps that jitter.
   Duration missing{250'000'000};
-  // From the end of one sweep to the end of another. Chosen: five periods at 10 Hz.
+  // Sweeps are unrelated when their ends are so far apart. Chosen: five periods at 10 Hz.
   Duration unrelated{500'000'000};
 };
 inline constexpr ScanGapParameters kScanGap;

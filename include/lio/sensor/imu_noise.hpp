@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The white noise of an IMU as power spectral densities, per axis of imu: densities squared. Zero
-// where it is not known.
+// Holds the white noise of an IMU as power spectral densities, per axis of imu: densities squared.
+// Zero where it is not known.
 #pragma once
 
 #include "lio/base/rotation.hpp"

@@ -38,7 +38,8 @@ struct CarVibrationParameters {
   double wheel_radius_m = 0.31;
   double wheel_hop_hz = 11.0;  // resonance of the unsprung mass on its tyre
   double wheel_hop_quality = 3.0;
-  // Lever of the roof above the axis that the body rocks about: turns each tone into a rotation.
+  // The roof lies this far above the axis that the body rocks about, which turns each tone into a
+  // rotation.
   double lever_m = 1.5;
 };
 inline constexpr CarVibrationParameters kCarVibration;

@@ -69,9 +69,9 @@ class LidarSimulator {
   // Keeps references to scene and trajectory, which must outlive the simulator.
   LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory);
 
-  // Returns the turn number `index`, counted from 0. Safe from several threads.
+  // Returns the turn number `index`, counted from 0. It is safe from several threads.
   [[nodiscard]] SimulatedSweep Sweep(std::int64_t index) const;
-  // The trajectory time of that sweep's last firing.
+  // Returns the trajectory time of that sweep's last firing.
   [[nodiscard]] double SweepEnd_s(std::int64_t index) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace lio {
 
-// Stamps of the inertial samples next to each other on both sides of a step.
+// Holds stamps of the inertial samples next to each other on both sides of a step.
 struct ClockStep {
   Timestamp before;
   Timestamp after;

@@ -16,7 +16,8 @@ namespace lio {
 
 class GapBridge {
  public:
-  // `sent`: the samples up to the gap, not empty, the last one measured; read under `convention`.
+  // `sent` holds the samples up to the gap, not empty, the last one measured; they are read under
+  // `convention`.
   GapBridge(const std::deque<ImuSample>& sent, const ImuConvention& convention);
 
   // The sample for an instant of the gap, as it would be sent. It states how far, per axis, the

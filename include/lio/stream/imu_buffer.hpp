@@ -41,7 +41,7 @@ class ImuBuffer {
   const std::deque<ImuSample>& sent() const { return sent_; }
   // In SI units and the imu's axes, without those that no gyro can have read.
   const std::deque<ImuSample>& samples() const { return samples_; }
-  // The samples() from the one stamp to the other, both included.
+  // Returns the samples() from the one stamp to the other, both included.
   [[nodiscard]] std::vector<ImuSample> Between(Timestamp from, Timestamp to) const;
   [[nodiscard]] std::optional<Timestamp> newest() const;
   // The noise that the samples of the second before `stamp` show; zero where they are too few. Up

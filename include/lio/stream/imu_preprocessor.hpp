@@ -42,8 +42,8 @@ class ImuPreprocessor {
     bool undoes_hole = false;   // the step back is as long as a hole before: was that a step, too?
   };
   Result Add(const ImuSample& sample);
-  // Are samples held that may be the first ones after a step?
-  // Samples that wait until others bear them out.
+  // Are samples held that may be the first ones after a step? Counts samples that wait until others
+  // bear them out.
   std::size_t num_held() const { return suspects_.size(); }
   bool is_in_doubt() const { return !suspects_.empty(); }
   // The samples that are still held, when no more will come.

@@ -38,7 +38,7 @@ class ScanGate {
 
   bool empty() const { return waiting_.empty(); }
   const Sweep& oldest() const { return *waiting_.front(); }
-  // Time between the ends of the oldest and the newest waiting sweep.
+  // Returns the time between the ends of the oldest and the newest waiting sweep.
   double waiting_span_s() const;
 
  private:

@@ -140,7 +140,7 @@ class SensorStream {
   void LoseImu();
   void CloseAll();
 
-  // Steps of the inertial clock: sensor_stream_step.cpp.
+  // Steps of the inertial clock are taken in sensor_stream_step.cpp.
   void TakeStep(ImuPreprocessor::Result step);
   ClockStep StampsOfStep() const;
   void JudgeBy(const Message& message);

@@ -16,13 +16,13 @@
 
 namespace lio {
 
-// An inertial sample in SI units and the imu's axes.
+// Gives an inertial sample in SI units and the imu's axes.
 struct ImuReady {
   ImuSample sample;
   bool is_made_up = false;  // fills a gap of the stream: nothing is published at its time
 };
 
-// A sweep that inertial samples cover. They will not change any more up to its end.
+// Gives a sweep that inertial samples cover. They will not change any more up to its end.
 struct SweepReady {
   SweepPtr sweep;
 };
