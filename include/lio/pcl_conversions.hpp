@@ -67,7 +67,7 @@ inline Timestamp StampFromPcl(const pcl::PCLHeader& header) {
   return Timestamp::FromMicroseconds(static_cast<std::int64_t>(header.stamp));
 }
 
-// `seconds_after_stamp(point)`: when the point was measured, as a double; before `stamp` is
+// `seconds_after_stamp(point)` tells when the point was measured, as a double; before `stamp` is
 // negative. Points that are not finite are left out. Throws std::invalid_argument when the times
 // span more than 4 s, which is a wrong unit. The result's stamp is that of its earliest point.
 template <class Point, class SecondsAfterStamp>
@@ -116,7 +116,7 @@ LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp) {
   });
 }
 
-// Points [m] as a cloud of any type with x, y, z; its other members keep their defaults.
+// Returns points [m] as a cloud of any type with x, y, z; its other members keep their defaults.
 template <class Point = pcl::PointXYZ>
 pcl::PointCloud<Point> CloudToPcl(std::span<const Eigen::Vector3f> points) {
   pcl::PointCloud<Point> cloud;

@@ -24,7 +24,7 @@ struct DaemonArguments {
 
   // `this` must outlive the app.
   void AddTo(CLI::App& app);
-  // Without the initial map, which must be loaded.
+  // They lack the initial map, which must be loaded.
   [[nodiscard]] LiveOptions Live() const;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The clouds LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT and
-// LIO_REMOVED: the feature sets that LOAM's scan registration has extracted from a sweep, for
+// Publishes the clouds LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT
+// and LIO_REMOVED: the feature sets that LOAM's scan registration has extracted from a sweep, for
 // viewers and for other programs.
 #pragma once
 

@@ -40,7 +40,8 @@ class FilterLoop {
   FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
              const Neighbours& neighbours);
 
-  // The thread's body: until the inbox is closed and empty, and the job that is out has come back.
+  // Runs the thread's body until the inbox is closed and empty, and the job that is out has come
+  // back.
   void Run();
   // From any thread: take no further messages and begin no further matches.
   void CutShort() { is_cut_short_ = true; }
@@ -62,7 +63,7 @@ class FilterLoop {
   [[nodiscard]] double input_duration_s() const;
 
  private:
-  // The clouds of the scan that is being matched or was just fused.
+  // Holds the clouds of the scan that is being matched or was just fused.
   struct Clouds {
     FullCloudTask full;                       // for the job that is out
     std::vector<Eigen::Vector3f> points_imu;  // for LIO_CLOUD

@@ -45,7 +45,7 @@ class InputWatch {
   // now.
   [[nodiscard]] std::vector<InputRemark> Look(const StatusReport& report, Clock::time_point now);
 
-  // The faults that last, in one line; empty when all is well.
+  // Returns the faults that last, in one line; empty when all is well.
   [[nodiscard]] std::string standing() const;
 
  private:

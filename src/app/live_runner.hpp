@@ -52,7 +52,8 @@ struct LiveOptions {
   std::int32_t receive_buffer_bytes = 0;
   // How long Stop goes on matching the scans that wait.
   std::chrono::milliseconds max_finish{400};
-  // Called on the filter thread for each Ping, which a filter thread that hangs does not answer.
+  // It is called on the filter thread for each Ping, which a filter thread that hangs does not
+  // answer.
   std::function<void()> answer_ping = [] {};
   ClockNs match_clock = ThreadCpuNs;  // for the stage times of matching; called on its thread
 };
@@ -65,11 +66,12 @@ class LiveRunner {
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
 
-  // True when the bus will deliver nothing any more.
+  // Returns true when the bus will deliver nothing any more.
   [[nodiscard]] bool has_ended() const { return receiver_.has_ended(); }
-  // One line about the first thread that was ended by an exception; nothing when all is well.
+  // Returns one line about the first thread that was ended by an exception; nothing when all is
+  // well.
   [[nodiscard]] std::optional<std::string> fault() const { return faults_.first(); }
-  // For feeders that must not overrun the matcher.
+  // Feeders that must not overrun the matcher use it.
   [[nodiscard]] std::int64_t num_matches_done() const { return filter_.num_matches_done(); }
   // True once Stop has given up the scans that were still waiting.
   [[nodiscard]] bool is_cut_short() const { return filter_.is_cut_short(); }
@@ -77,7 +79,7 @@ class LiveRunner {
   // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
   [[nodiscard]] bool writes_files() const { return files_.has_value(); }
-  // The folder of the files that are written now; null without any.
+  // Returns the folder of the files that are written now; null without any.
   [[nodiscard]] const std::filesystem::path* out() const {
     return files_ ? &files_->folder() : nullptr;
   }

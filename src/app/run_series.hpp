@@ -22,7 +22,7 @@ class RunSeries {
   // Throws std::runtime_error when files cannot be created.
   RunSeries(const Folders& folders, const Options& options, StartIn start_in);
 
-  // Null when the last Renew could not make files.
+  // Returns null when the last Renew could not make files.
   [[nodiscard]] RunWriter* writer() { return writer_ ? &*writer_ : nullptr; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   // Says what was not written in full in any of the folders, first things first.

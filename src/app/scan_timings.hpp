@@ -21,7 +21,7 @@ class ScanTimings {
  public:
   static constexpr std::size_t kMaxScans = 64;  // older ones are forgotten
 
-  // The timing of the scan, empty when it is new.
+  // Returns the timing of the scan, empty when it is new.
   [[nodiscard]] ScanTiming& Of(std::int32_t scan_seq) {
     ScanTiming& timing = timings_[static_cast<std::uint32_t>(scan_seq) % kMaxScans];
     if (timing.scan_seq != scan_seq) timing = {scan_seq, 0, 0};

@@ -13,10 +13,10 @@
 
 namespace lio {
 
-// CPU time that this process has used, all threads together, us.
+// Returns the CPU time that this process has used, all threads together, us.
 [[nodiscard]] std::int64_t ProcessCpuMicroseconds();
 
-// The clocks that the status is made with.
+// Holds the clocks that the status is made with.
 struct StatusClocks {
   std::function<std::int64_t()> host_utime = HostUtime;
   std::function<std::int64_t()> process_cpu_us = ProcessCpuMicroseconds;
@@ -41,8 +41,8 @@ class StatusBoard {
 
   [[nodiscard]] InputCounters input() const;
 
-  // Everything above, with the memory and the CPU time that this process uses. The latencies and
-  // the load are those since the Compose before.
+  // Returns everything above, with the memory and the CPU time that this process uses. The
+  // latencies and the load are those since the Compose before.
   [[nodiscard]] StatusReport Compose();
 
  private:

@@ -16,12 +16,12 @@ struct ScanPosesParameters {
   // matching errs by; more lets matching search farther.
   double path_std_m = 0.05;
   double path_std_rad = 0.005;
-  // s. Least time since the last match that matching is told. Chosen: a guard against division by
-  // zero, a tenth of a sweep.
+  // s. Matching is told this time since the last match at least. Chosen: a guard against division
+  // by zero, a tenth of a sweep.
   double min_since_last_s = 0.01;
 };
 
-// The turns that are used.
+// Bounds the turns that are used.
 struct TurnSelectionParameters {
   // A turn longer than this times the median spans a missing sweep. Arithmetic: half way between
   // one and two.

@@ -118,7 +118,7 @@ class JoinedBags : public BagReader {
     return false;
   }
 
-  // The place of the topic in the joined list, to which it is added when it is new.
+  // Returns the place of the topic in the joined list, to which it is added when it is new.
   std::size_t Index(const BagTopic& topic) {
     const auto found = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
       return other.name == topic.name && other.type == topic.type;

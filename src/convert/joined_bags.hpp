@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// The .bag files of a folder, by name; empty where there are none.
+// Returns the .bag files of a folder, by name; empty where there are none.
 [[nodiscard]] std::vector<std::filesystem::path> BagsOfFolder(const std::filesystem::path& folder);
 
 struct BagParts {

@@ -33,7 +33,7 @@ std::vector<double> Angles(const Json& all, const std::string& key) {
   return angles;
 }
 
-// A list of 16 numbers, row by row, lengths in mm; the identity where it is missing.
+// Reads a list of 16 numbers, row by row, lengths in mm; the identity where it is missing.
 Pose TransformOf(const Json& all, const std::string& key) {
   const Json& found = Find(all, key);
   if (found.is_null()) return Pose::Identity();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The description of an Ouster sensor, a JSON file that its driver saves beside a capture, without
-// which its packets cannot be read: the beams' angles, and how a packet is laid out.
+// Reads the description of an Ouster sensor, a JSON file that its driver saves beside a capture,
+// without which its packets cannot be read: the beams' angles, and how a packet is laid out.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ std::uint16_t Big16(ByteView bytes, std::size_t at) {
   return LoadAs<std::uint16_t>(bytes.data() + at, true);
 }
 
-// How many bytes stand in front of an IPv4 packet; nothing when there is none.
+// Returns how many bytes stand in front of an IPv4 packet; nothing when there is none.
 std::optional<std::size_t> EthernetHeaderBytes(ByteView frame) {
   constexpr std::size_t kTagBytes = 4;
   std::size_t at = 12;

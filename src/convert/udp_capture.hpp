@@ -47,7 +47,7 @@ class UdpCapture {
   // Returns false at the end, and where the file is damaged.
   [[nodiscard]] bool Next(UdpDatagram& datagram);
   [[nodiscard]] const CaptureCounts& counts() const { return counts_; }
-  // The share of the file that was read, 0..1.
+  // Returns the share of the file that was read, 0..1.
   [[nodiscard]] double progress() const;
 
  private:

@@ -28,7 +28,7 @@ namespace lio {
 struct HourClock {
   Duration offset{0};
 
-  // The instant with that time since an hour that is nearest to when it was received.
+  // Returns the instant with that time since an hour that is nearest to when it was received.
   [[nodiscard]] Timestamp At(std::uint32_t since_hour_us, Timestamp received) const;
 };
 [[nodiscard]] std::uint32_t VelodyneTime(ByteView payload);

@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-// A file that is made with its first row.
+// Writes a file that is made with its first row.
 class Table {
  public:
   Table(std::filesystem::path path, std::string header)

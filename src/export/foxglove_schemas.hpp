@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// JSON schemas of the types that an exported MCAP file has: Foxglove's well-known ones, of which
-// the viewers know the names (docs.foxglove.dev, "Foxglove schemas"), and our own for plots.
+// Gives JSON schemas of the types that an exported MCAP file has: Foxglove's well-known ones, of
+// which the viewers know the names (docs.foxglove.dev, "Foxglove schemas"), and our own for plots.
 #pragma once
 
 #include <string>

@@ -43,7 +43,7 @@ class McapFile {
   // Overwrites an existing file. All functions throw what OutputFile throws.
   McapFile(const std::filesystem::path& path, McapCompression compression);
 
-  // A topic of JSON messages of a type; `schema` is a JSON schema. Gives its number for Write.
+  // Adds a topic of JSON messages of a type; `schema` is a JSON schema. Gives its number for Write.
   // Types of one name must have one schema.
   std::uint16_t AddTopic(const std::string& topic, const std::string& type,
                          std::string_view schema);

@@ -34,8 +34,8 @@ Matrix6 Inflated(const Matrix6& cov, const CovarianceInflation& inflation) {
   return scale.asDiagonal() * cov * scale.asDiagonal();
 }
 
-// True when a residual beyond the gate can be so much unseen motion and an error of registration,
-// whose covariance was then too small.
+// Returns true when a residual beyond the gate can be so much unseen motion and an error of
+// registration, whose covariance was then too small.
 bool CanBe(const Vector6& residual, const UnseenMotion& unseen) {
   constexpr ForcedUpdateParameters kParameters = kFilterParameters.forced_update;
   return residual.head<3>().norm() < kParameters.max_registration_error_m + unseen.translation_m &&

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The least squares of the initialization in motion (moving_start.hpp): states of a window from
-// matched poses and inertial samples, in one fixed frame, "any", in which gravity's direction is
-// unknown. Preintegration: Forster et al., TRO 2017. Nothing throws.
+// Solves the least squares of the initialization in motion (moving_start.hpp): states of a window
+// from matched poses and inertial samples, in one fixed frame, "any", in which gravity's direction
+// is unknown. Preintegration: Forster et al., TRO 2017. Nothing throws.
 #pragma once
 
 #include <span>

@@ -69,8 +69,8 @@ void ImuClassifier::ScoreForces(const ImuConvention& rates, Bends bends,
   }
 }
 
-// The convention among `likely` with the fewest changes against the expected one; absent when
-// several have as few.
+// Returns the convention among `likely` with the fewest changes against the expected one; absent
+// when several have as few.
 std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
   std::optional<ImuConvention> least;
   int least_changes = std::numeric_limits<int>::max();
@@ -97,7 +97,7 @@ bool ImuClassifier::IsGyroHeard(const ImuConvention& convention) const {
              kClassifier.refuted_score;
 }
 
-// The least score of the expected convention over the clock offsets that are possible.
+// Returns the least score of the expected convention over the clock offsets that are possible.
 double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   double least = std::numeric_limits<double>::infinity();
   for (double num_steps = -kClassifier.max_clock_shift_steps;

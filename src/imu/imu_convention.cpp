@@ -32,7 +32,7 @@ double ImuConvention::rate_scale() const {
   return is_in_deg ? kRadPerDeg : 1.0;
 }
 
-// Signed permutations of the axes that keep the handedness.
+// Returns signed permutations of the axes that keep the handedness.
 std::array<Matrix3, kNumQuarterTurns> QuarterTurns() {
   std::array<Matrix3, kNumQuarterTurns> turns;
   for (std::size_t i = 0; i < turns.size(); ++i) {

@@ -40,7 +40,7 @@ class Differences {
     sum_.setZero();
   }
 
-  // The variance of the means' noise; zero where there is no difference.
+  // Returns the variance of the means' noise; zero where there is no difference.
   [[nodiscard]] Axes Variance() const {
     return num_differences_ == 0 ? Axes(Axes::Zero())
                                  : Axes(squares_ / (kSumOfSquares * num_differences_));

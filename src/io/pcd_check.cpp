@@ -32,7 +32,8 @@ std::optional<std::uint64_t> Number(const std::string& word) {
   return std::stoull(word);
 }
 
-// In the order of the format; PCL breaks down over another order, and over any other word.
+// The keys are in the order of the format; PCL breaks down over another order, and over any other
+// word.
 enum Key { kVersion, kFields, kSize, kType, kCount, kWidth, kHeight, kViewpoint, kPoints, kData };
 constexpr std::array<std::string_view, 10> kKeys{
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};

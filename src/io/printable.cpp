@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// The length of the UTF-8 sequence that the text begins with; 0 where there is none.
+// Returns the length of the UTF-8 sequence that the text begins with; 0 where there is none.
 std::size_t SequenceBytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);

@@ -40,8 +40,8 @@ void KeyframeMap::SearchVoxel(const Blocks::Block& block, std::size_t voxel,
   }
 }
 
-// All voxels within so many voxels of the query's own, block by block, each only when it can hold
-// something nearer.
+// Visits all voxels within so many voxels of the query's own, block by block, each only when it can
+// hold something nearer.
 void KeyframeMap::SearchAround(Search& search, int radius_voxels) const {
   VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {

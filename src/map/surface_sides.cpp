@@ -39,7 +39,7 @@ struct Representatives {
   }
 };
 
-// The points by voxels as wide as the search is far.
+// Holds the points by voxels as wide as the search is far.
 class Neighbourhoods {
  public:
   explicit Neighbourhoods(std::span<const Eigen::Vector3f> points) {

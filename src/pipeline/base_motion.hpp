@@ -16,9 +16,9 @@
 
 namespace lio {
 
-// `cov`: of position, rotation, velocity and gyro bias of `nav`, whose own blocks are not looked
-// at. `rate_var` is that of the noise in nav.w_imu_radps, (rad/s)^2 an axis, independent of all
-// else.
+// `cov` is that of position, rotation, velocity and gyro bias of `nav`, whose own blocks are not
+// looked at. `rate_var` is that of the noise in nav.w_imu_radps, (rad/s)^2 an axis, independent of
+// all else.
 BaseMotion MoveToBase(const NavOutput& nav, const NavCov& cov, double rate_var,
                       const Pose& T_base_imu);
 

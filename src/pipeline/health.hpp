@@ -46,7 +46,7 @@ inline constexpr HealthParameters kHealth;
 
 class Health {
  public:
-  // `last_fused`: the end of the last fused sweep, if there is one.
+  // `last_fused` is the end of the last fused sweep, if there is one.
   Health(bool has_imu, TrackingStatus status, std::optional<Timestamp> last_fused,
          Counters& counters)
       : has_imu_(has_imu), status_(status), last_fused_(last_fused), counters_(&counters) {}
@@ -73,7 +73,7 @@ class Health {
   TrackingStatus status(bool recovers = false) const {
     return recovers ? TrackingStatus::kLost : status_;
   }
-  // The status while the place in a given map is sought.
+  // Returns the status while the place in a given map is sought.
   static TrackingStatus StatusWhileSeeking(bool was_known) {
     return was_known ? TrackingStatus::kLost : TrackingStatus::kInit;
   }

@@ -51,8 +51,8 @@ class ImuConventionMonitor {
   // The next doubt counts as the first one.
   void ForgetDoubt() { has_doubted_ = false; }
 
-  // The coarse track of an initialization: how many scans it has and how many of them are matched,
-  // and the samples since its first sweep.
+  // Holds the coarse track of an initialization: how many scans it has and how many of them are
+  // matched, and the samples since its first sweep.
   struct TrackFacts {
     std::size_t num_scans = 0;
     std::size_t num_matched = 0;
@@ -93,7 +93,7 @@ class ImuConventionMonitor {
   void KeepForceUnit();
   // Do rates over a rest have the noise that this gyro has in deg/s?
   [[nodiscard]] bool MayBeDegrees(std::span<const ImuSample> samples) const;
-  // Is gravity in the forces of a drive, whose mean is given? Absent where that is not clear.
+  // Is gravity in the forces of a drive, whose mean is given? It is absent where that is not clear.
   [[nodiscard]] std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
 
   // May the gyro's rates serve the constant-velocity tracker?

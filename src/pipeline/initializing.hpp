@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The mode before the first state is known. To build it is the reset: nothing of an earlier try is
-// left but the handover.
+// Runs the mode before the first state is known. To build it is the reset: nothing of an earlier
+// try is left but the handover.
 //
 // Does, over sweeps that it keeps and looks back on:
 //   1. velocity seed: correlative alignment of the first sweeps' bird's-eye views (FindVelocity),
@@ -38,8 +38,9 @@ struct InitializingParameters {
   double max_window_s = 3.5;
   std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move
   int min_samples_at_rest = 3;        // chosen: fewer have no spread
-  // Scans from which the motion may be known, and after which lidar-only odometry begins anyway.
-  // Chosen: the first ones are skewed by a motion that is not known; waiting longer loses them.
+  // The motion may be known after the first number of scans; lidar-only odometry begins anyway
+  // after the second. Chosen: the first ones are skewed by a motion that is not known; waiting
+  // longer loses them.
   std::size_t min_scans_for_motion = 4;
   std::size_t max_scans_for_motion = 8;
   // The motion is known when it is surer than this. Chosen: it skews a sweep of 0.1 s by 10 cm.
@@ -55,7 +56,7 @@ inline constexpr InitializingParameters kInitializing;
 
 class Initializing {
  public:
-  // `since`: the first sweep of an earlier try whose waiting time goes on.
+  // `since` is the first sweep of an earlier try whose waiting time goes on.
   Initializing(const ModeContext& context, Handover handover,
                std::optional<Timestamp> since = std::nullopt);
 

@@ -37,7 +37,7 @@ struct OutageParameters {
   // Beyond this standard deviation, numbers in double precision would leave too few digits for the
   // millimetres of the next match. Arithmetic: 1e8 m^2 beside 1e-6 m^2.
   double max_std_m = 1e4;
-  // Scans that are sought before the map is given up. Chosen: with three for the velocity, less
+  // So many scans are sought before the map is given up. Chosen: with three for the velocity, less
   // than a second passes at 10 Hz.
   int max_scans_sought = 4;
   // The scan that is found is matched with large cells, which any ground and any wall fit. Those
@@ -57,15 +57,15 @@ struct OutageParameters {
 
 inline constexpr OutageParameters kOutage;
 
-// The state at `now`, driven on as before, with a covariance that holds a body that stopped, that
-// drove on or turned, and clocks that were set.
+// Returns the state at `now`, driven on as before, with a covariance that holds a body that
+// stopped, that drove on or turned, and clocks that were set.
 [[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);
 
 class OutageRecovery {
  public:
   enum class Stage : std::int8_t { kNone, kSeek, kCheck, kFindVelocity, kBeginMap, kConfirm };
 
-  // A scan that was fused while nothing is lost: what later ones are compared with.
+  // Takes a scan that was fused while nothing is lost: what later ones are compared with.
   void NoteMatch(const MatchResult& match) { last_match_ = match; }
   // No search is believed in a scene that did not hold all directions: a new map begins at once.
   void Begin(const Estimate& before);
@@ -84,7 +84,7 @@ class OutageRecovery {
   [[nodiscard]] Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
-  // The distance of the scan that was found from where the body was before.
+  // Returns the distance of the scan that was found from where the body was before.
   double moved_m() const { return moved_m_; }
 
  private:

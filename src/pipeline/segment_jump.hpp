@@ -41,7 +41,7 @@ struct SegmentJump {
 // `before` is the stamp of the filter's newest state.
 [[nodiscard]] SegmentJump JudgeJump(Timestamp before, const SegmentStarts& segment);
 
-// The estimate at the segment's first sample after a gap or a clock that was set.
+// Returns the estimate at the segment's first sample after a gap or a clock that was set.
 [[nodiscard]] Estimate CarriedOver(const Estimate& before, const SegmentJump& jump, Timestamp first,
                                    const HistoryOptions& options);
 

@@ -180,7 +180,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   return report;
 }
 
-// The match as it is, before the filter.
+// Records the match as it is, before the filter.
 void Tracking::Examine(const MatchOutcome& outcome) const {
   MotionRecord& record = context_.examiner.record();
   if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();

@@ -63,8 +63,8 @@ void Tracking::BeginHistoryAt(const Estimate& estimate) {
   AddSamplesAfter(estimate.stamp);
 }
 
-// The samples that the stream has already. The history cannot refuse them: they rise, and it begins
-// before them.
+// Adds the samples that the stream has already. The history cannot refuse them: they rise, and it
+// begins before them.
 void Tracking::AddSamplesAfter(Timestamp stamp) {
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp > stamp) (void)history_.AddImu(sample);

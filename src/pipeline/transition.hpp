@@ -69,7 +69,7 @@ std::string_view NameOf(Trigger trigger);
 struct Transition {
   Trigger trigger = Trigger::kRetry;
   Handover handover = {};
-  // kStarted, kImuReturned; kImuAbsent: what the filter knew, biases and gravity included.
+  // The filter knew this at kStarted, kImuReturned and kImuAbsent, biases and gravity included.
   std::optional<StartState> start = std::nullopt;
   bool is_at_rest = false;  // kStarted: from a rest
   MotionSeed seed = {};     // kNoImu, kImuAbsent

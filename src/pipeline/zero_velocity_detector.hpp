@@ -39,7 +39,7 @@ class ZeroVelocityDetector {
   // The next scan finds the vehicle at rest.
   void BeginAtRest();
 
-  // As of the last scan, whose time is the estimate's.
+  // It judges as of the last scan, whose time is the estimate's.
   bool Judge(const Estimate& estimate, const Vector3& g_world);
 
  private:

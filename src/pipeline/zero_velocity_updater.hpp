@@ -31,7 +31,7 @@ class ZeroVelocityUpdater {
     if (is_at_rest) detector_.BeginAtRest();
   }
 
-  // After a scan that was fused. True: the filter took the velocity for zero.
+  // Call it after a scan that was fused. True: the filter took the velocity for zero.
   bool AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world, FilterHistory& history);
   // The time before says nothing about now.
   void Forget() {

@@ -21,12 +21,12 @@ struct LoamSolverOptions {
 class LoamSolver {
  public:
   void Clear();
-  // The line through a and b, which are at least LoamParameters::kMinLineLength_m apart. `s`: sweep
-  // ratio; below 1 the terms are automatic ones.
+  // Adds the line through a and b, which are at least LoamParameters::kMinLineLength_m apart. `s`
+  // is the sweep ratio; below 1 the terms are automatic ones.
   void AddEdge(const Vector3& point, const Vector3& a, const Vector3& b, double s);
   void AddPlane(const Vector3& point, const Vector3& normal, double offset, double s);
 
-  // From `start`; the pose itself when Ceres fails.
+  // Solves from `start`; returns the pose itself when Ceres fails.
   Pose Solve(const Pose& start, const LoamSolverOptions& options);
 
  private:

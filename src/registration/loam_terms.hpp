@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correspondences of one round of LOAM and what is done with them: linearised for a step and
-// for what is reported, or solved by Ceres. Target frame: the one that T_target_imu leads to.
+// Keeps the correspondences of one round of LOAM and what is done with them: linearised for a step
+// and for what is reported, or solved by Ceres. The target frame is the one that T_target_imu leads
+// to.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The term that one point adds to NDT's cost, matched to the surface patch of its cell
+// Gives the term that one point adds to NDT's cost, matched to the surface patch of its cell
 // (ndt_matcher.hpp has the formula).
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The line or plane that is fitted to a few neighbouring map points; none where they are
-// rank-deficient or do not fit. Positions are relative to the query point.
+// Fits a line or plane to a few neighbouring map points; none where they are rank-deficient or do
+// not fit. Positions are relative to the query point.
 #pragma once
 
 #include <optional>

@@ -29,7 +29,8 @@ bool IsInView(float x, float y) {
   return std::abs(x) < kView.half_width_m && std::abs(y) < kView.half_width_m;
 }
 
-// The cell of a coordinate that is in view; the conversion rounds down, since no sum is negative.
+// Returns the cell of a coordinate that is in view; the conversion rounds down, since no sum is
+// negative.
 int CellOf(float coordinate) {
   return static_cast<int>((coordinate + kView.half_width_m) / kView.cell_m);
 }
@@ -51,7 +52,7 @@ void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) 
   }
 }
 
-// Ordered, so that the result depends on the points alone.
+// They are ordered, so that the result depends on the points alone.
 std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
   std::map<std::pair<int, int>, Column> columns;
   for (const Eigen::Vector3f& point : points) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Poses where a scan may be that was not found near its motion prior: after a time unseen, or after
-// the lidar's clock was set.
+// Gives poses where a scan may be that was not found near its motion prior: after a time unseen, or
+// after the lidar's clock was set.
 #pragma once
 
 #include <span>
@@ -30,7 +30,7 @@ struct PlacedScan {
 // Returns the covariance of a candidate's error, right error.
 [[nodiscard]] Matrix6 CandidateCov();
 
-// The points in axes whose z is up; the origin stays at the sensor.
+// Returns the points in axes whose z is up; the origin stays at the sensor.
 [[nodiscard]] std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
                                                     const Quaternion& R_level_imu);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A grid of planar poses around a middle, over which structures seen from above are laid.
+// Lays structures seen from above over a grid of planar poses around a middle.
 #pragma once
 
 #include <Eigen/Core>

@@ -27,7 +27,8 @@ int ScoreAt(std::span<const PlacedView> earlier, const BirdsEyeView& now,
   return score;
 }
 
-// The score if nothing but the sensor's own pattern of beams were seen, which moves with it.
+// Returns the score if nothing but the sensor's own pattern of beams were seen, which moves with
+// it.
 int ScoreOfPattern(std::span<const PlacedView> earlier, const BirdsEyeView& now) {
   int score = 0;
   for (const PlacedView& other : earlier) {

@@ -106,7 +106,7 @@ class Galleries {
   std::vector<Piece> pieces_;
 };
 
-// A way that bends by up to 40 degrees every 12 to 24 m but keeps its general direction.
+// Returns a way that bends by up to 40 degrees every 12 to 24 m but keeps its general direction.
 Path Way(double length_m, Random& random) {
   std::vector<Vector2> points = {Vector2::Zero()};
   for (double along_m = 0.0; along_m < length_m;) {

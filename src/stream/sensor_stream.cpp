@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-// The largest rate that a message can hold, in any of the units that the option allows.
+// Returns the largest rate that a message can hold, in any of the units that the option allows.
 double MaxRateSent(ImuUnits units) {
   ImuConvention convention = ConventionOf(units);
   convention.is_in_deg |= units == ImuUnits::kAutomatic;
@@ -167,7 +167,7 @@ std::optional<StreamEvent> SensorStream::Next(std::size_t num_unmatched) {
   return event;
 }
 
-// One unit of work; false when there is none.
+// Does one unit of work; false when there is none.
 bool SensorStream::Advance(bool is_idle) {
   if (state_ == State::kWaitingForIdle) {
     if (!is_idle) return false;

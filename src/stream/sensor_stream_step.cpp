@@ -112,7 +112,7 @@ void SensorStream::ForgetLateImu() {
   counters_->ledgers.samples.Settle(SampleFate::kForgotten, std::exchange(late_imu_, {}).size());
 }
 
-// An IMU that comes up after the lidar. A stray sample is none, and neither is one by another
+// Takes an IMU that comes up after the lidar. A stray sample is none, and neither is one by another
 // clock.
 void SensorStream::TakeLateImu(const ImuSample& sample) {
   ImuSample shifted = sample;

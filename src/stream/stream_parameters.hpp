@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The constants of the stream: times after which messages are taken for late, missing or wrong.
+// Holds the constants of the stream: times after which messages are taken for late, missing or
+// wrong.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,8 @@ struct StreamParameters {
   // rad/s and m/s^2. A made-up sample states this deviation at least, weighed as that of one
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;
-  // s. Raw samples that are kept for an initialization that looks back, twice. Chosen: 3.5 s of
-  // sweeps (InitializingParameters::max_window_s), and margin for those that wait.
+  // s. Raw samples are kept for so long, for an initialization that looks back, twice. Chosen: 3.5
+  // s of sweeps (InitializingParameters::max_window_s), and margin for those that wait.
   double imu_buffer_s = 6.0;
   // s. Sweeps alone for this long mean that the log has no IMU. Chosen: IMUs start within a second.
   double no_imu_after_s = 2.0;
@@ -44,21 +45,21 @@ struct StreamParameters {
   // A step of the inertial clock is held back so long, by its stamps, until a sweep tells whether
   // the lidar's clock stepped as well. Chosen: ten sweeps at 10 Hz; longer delays all poses.
   Duration wait_for_lidar{1'000'000'000};
-  // The same as a count of messages, where stamps do not advance. Chosen: some seconds of a 400 Hz
-  // IMU and a lidar's chunks.
+  // The same is bounded as a count of messages, where stamps do not advance. Chosen: some seconds
+  // of a 400 Hz IMU and a lidar's chunks.
   std::size_t max_judged_messages = 3000;
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
   // Their points are so many at most: 160 MB, ten seconds of a fast lidar; chosen.
   std::size_t max_waiting_points = 8 << 20;
-  // Raw samples that are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
+  // So many raw samples are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
   std::size_t max_imu_samples = 1 << 17;
 };
 
 inline constexpr StreamParameters kStream;
 
-// The bounds on an inertial sample before anything is integrated (imu_preprocessor.hpp).
+// Bounds an inertial sample before anything is integrated (imu_preprocessor.hpp).
 struct ImuPreprocessorParameters {
   // Chosen: 200 g, beyond any accelerometer that a vehicle carries.
   double max_force_mps2 = 2000.0;
@@ -66,8 +67,8 @@ struct ImuPreprocessorParameters {
   Duration jitter{80'000'000};
   // A sample is missing from here on. Arithmetic: half way between one step and two.
   double hole_in_mean_steps = 1.5;
-  // Samples in a row that tell of a time already told. Chosen: a stray stamp does not come five
-  // times; so the clock steps of docs/experiments/clock_steps.md were judged.
+  // So many samples in a row must tell of a time already told. Chosen: a stray stamp does not come
+  // five times; so the clock steps of docs/experiments/clock_steps.md were judged.
   std::size_t confirmations = 5;
   // s, share. A clock that is set right steps forward by as much as it had gone back, but for so
   // much, and no more than this share of it. Chosen, as before: a gap of another length is none.

@@ -47,7 +47,7 @@ struct PositionEllipsoid {
 enum class ViewChannel { kOdometry, kOdometryImuRate, kCloud, kCloudFull, kStatus };
 inline constexpr std::size_t kNumViewChannels = 5;
 
-// A part with a number that grows when the part changes; 0: there is none.
+// Holds a part with a number that grows when the part changes; 0: there is none.
 template <class Part>
 struct Numbered {
   Part value{};
@@ -64,7 +64,7 @@ struct ViewedPose {
   std::int64_t recv_utime = 0;
 };
 
-// A place in a recording that is played.
+// Holds a place in a recording that is played.
 struct Timeline {
   double t_s = 0.0;
   double duration_s = 0.0;
@@ -85,7 +85,7 @@ class ViewState {
   ViewState() : ViewState(Limits{}) {}
   explicit ViewState(const Limits& limits);
 
-  // The messages of liod; recv_utime is the host's clock, or the recording's.
+  // Takes the messages of liod; recv_utime is the host's clock, or the recording's.
   void OnOdometry(const NavOutput& nav, std::int64_t recv_utime);
   void OnFilterState(const FilterReport& report);
   void OnRegistration(const ScanReport& report) { registration_.Set(report); }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of the page, which are compiled in.
+// Serves the files of the page, which are compiled in.
 #pragma once
 
 #include <optional>

@@ -25,7 +25,8 @@ using Quaternion = Eigen::Quaterniond;
 // Inverse of ExpSo3 with |result| <= pi; the sign of q does not matter. q must have unit norm.
 [[nodiscard]] Vector3 LogSo3(const Quaternion& q);
 
-// The angle about z of the rotated x axis, within -pi to pi [rad]; 0 where that axis is vertical.
+// Returns the angle about z of the rotated x axis, within -pi to pi [rad]; 0 where that axis is
+// vertical.
 [[nodiscard]] double YawOf(const Quaternion& rotation);
 
 // Exp(phi + d) = Exp(LeftJacobian(phi) d) Exp(phi) to first order; right likewise from the right.

@@ -26,7 +26,8 @@ inline constexpr double kSmallAngle_rad = 1e-4;
 // under the rounding of a double.
 inline constexpr double kSmallJacobianAngle_rad = 1e-2;
 
-// The square root, with a derivative of zero where x is zero: that of an even function's argument.
+// Returns the square root, with a derivative of zero where x is zero: that of an even function's
+// argument.
 template <class T>
 T Root(const T& x) {
   using std::sqrt;

@@ -16,7 +16,7 @@ class VoxelIndex {
  public:
   static constexpr std::int32_t kNone = -1;
 
-  // The voxel's number; kNone where it is not in use.
+  // Returns the voxel's number; kNone where it is not in use.
   [[nodiscard]] std::int32_t Find(VoxelKey key) const { return numbers_.Find(key).voxel; }
   // Fetches what Find() and FindOrAdd() will look at.
   void Prefetch(VoxelKey key) const { numbers_.Prefetch(key); }

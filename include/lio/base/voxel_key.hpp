@@ -27,14 +27,14 @@ template <class Float>
 // Holds a voxel's coordinates along x, y, z.
 using VoxelCell = std::array<std::int32_t, 3>;
 
-// Can the voxel around a point be named, whose coordinates are given in voxel edges? False for
-// coordinates that are not numbers, too.
+// Can the voxel around a point be named, whose coordinates are given in voxel edges? Returns false
+// for coordinates that are not numbers, too.
 [[nodiscard]] inline bool IsVoxel(const Eigen::Vector3d& scaled) {
   return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
 }
 
-// The voxel around a point whose coordinates are given in voxel edges, clamped to the limit. A
-// coordinate that is no number lies at the upper limit.
+// Returns the voxel around a point whose coordinates are given in voxel edges, clamped to the
+// limit. A coordinate that is no number lies at the upper limit.
 [[nodiscard]] inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   const auto coordinate = [](double x) {
     constexpr double kLimit = kVoxelCoordinateLimit;

@@ -10,7 +10,7 @@ namespace lio {
 class VoxelSet {
  public:
   void Clear() { table_.Clear(); }
-  // False when the key was in it already.
+  // Returns false when the key was in it already.
   bool Insert(VoxelKey key) { return table_.FindOrAdd(key).is_new; }
   [[nodiscard]] std::size_t size() const { return table_.size(); }
 

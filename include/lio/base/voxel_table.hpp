@@ -26,7 +26,7 @@ class VoxelTable {
   // The table begins with `num_slots`, a power of two.
   explicit VoxelTable(std::size_t num_slots = 1u << 10) : slots_(num_slots) {}
 
-  // The value of a key; Value{} for one that is not there, kNoVoxel included.
+  // Returns the value of a key; Value{} for one that is not there, kNoVoxel included.
   [[nodiscard]] const Value& Find(VoxelKey key) const { return slots_[SlotOf(key)].value; }
   // Fetches what Find() and FindOrAdd() will look at.
   void Prefetch(VoxelKey key) const {

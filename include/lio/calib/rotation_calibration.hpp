@@ -25,7 +25,8 @@
 
 namespace lio {
 
-// The lidar's attitude by scan matching at the middle of a sweep, in a map that does not move.
+// Holds the lidar's attitude by scan matching at the middle of a sweep, in a map that does not
+// move.
 struct SweepRotation {
   Timestamp stamp;  // by the lidar's clock
   Quaternion R_map_lidar = Quaternion::Identity();

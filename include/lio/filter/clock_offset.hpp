@@ -71,7 +71,7 @@ class ClockOffset {
   double move_by_s_ = 0.0;
   int num_turns_ = 0;      // turns fused so far
   bool is_found_ = false;  // stamps are moved
-  // The variance of a turn beyond what is claimed, rad^2 per axis.
+  // A turn varies by this beyond what is claimed, rad^2 per axis.
   double unclaimed_var_ =
       kFilterParameters.clock_offset.turn_std_rad * kFilterParameters.clock_offset.turn_std_rad;
   std::optional<Scan> last_;

@@ -32,7 +32,8 @@ enum class EventOutcome {
   kGated,        // the innovation is beyond the gate: the estimate is unchanged
 };
 
-// Settings of one history; defaults of the last two groups are those of filter_parameters.hpp.
+// Holds settings of one history; defaults of the last two groups are those of
+// filter_parameters.hpp.
 struct HistoryOptions {
   ProcessNoise noise;
   // m/s^2; zero when the samples hold no gravity. Standard gravity (CGPM 1901).
@@ -114,7 +115,7 @@ class FilterHistory {
   void Replay(std::size_t from);
   void Step(std::size_t at);
   static void FuseIn(Node& node, const HistoryOptions& options);
-  // `before`: the node that the step begins at. `in_gap_s` is that of the node that it ends at;
+  // `before` is the node that the step begins at. `in_gap_s` is that of the node that it ends at;
   // zero outside of gaps.
   void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, double in_gap_s) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.

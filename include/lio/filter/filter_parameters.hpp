@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's tuning constants: those that no configuration key holds. Keys are in
+// Holds the filter's tuning constants: those that no configuration key holds. Keys are in
 // filter_options.hpp, the noise of the sensors is in sensor/rig.hpp, and what one FilterHistory may
 // be given otherwise is HistoryOptions. A comment gives the unit, the meaning and the source; a
 // value marked "chosen" has no measurement behind it.
@@ -70,10 +70,10 @@ struct ClockOffsetParameters {
   // The change must also exceed so many of its standard deviations. Statistics: noise of the rate
   // makes the estimate too small by 1/(1 + sigmas^2), here 3 %.
   double min_rate_change_sigmas = 6.0;
-  // rad. Error of a turn beyond what registration and gyro claim, 1 sigma, before the drive has
+  // rad. A turn errs by this beyond what registration and gyro claim, 1 sigma, before the drive has
   // shown it. Chosen; it matters for the first seconds.
   double turn_std_rad = 1e-3;
-  // Turns over which that error is learned. Chosen: five seconds at 10 Hz.
+  // This error is learned over so many turns. Chosen: five seconds at 10 Hz.
   double num_turns_remembered = 50.0;
   // A single turn counts for no more than so many times the variance. Chosen: three sigmas.
   double max_scatter_ratio = 9.0;
@@ -89,7 +89,7 @@ struct ClockOffsetParameters {
   // Standard deviations. The stamps are moved before that where they are off for sure. Statistics:
   // without an offset one estimate in 370 of a normal distribution lies so far from zero.
   double sure_sigmas = 3.0;
-  // Turns before stamps are moved. Chosen: one wrong match, or two, do not show an offset.
+  // Stamps are moved after so many turns. Chosen: one wrong match, or two, do not show an offset.
   int min_turns = 5;
   // s per scan. The correction changes by this at most. Chosen: it turns a scan by 2 mrad at 1
   // rad/s (tested by ClockOffset.StampsAreMovedSlowly).

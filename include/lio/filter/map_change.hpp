@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The change from one map to another in which the body was found.
+// Changes from one map to another in which the body was found.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"

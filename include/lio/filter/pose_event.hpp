@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The pose of a scan as the filter fuses it: with the inflation that the poses before it have
+// Fuses the pose of a scan as the filter does: with the inflation that the poses before it have
 // shown, and beyond the gate where that is asked for. The update itself is in pose_update.hpp.
 #pragma once
 

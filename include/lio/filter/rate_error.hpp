@@ -19,12 +19,12 @@ struct RateErrorParameters {
   // The prior weighs as one scan with this turn [rad]. Chosen: a scan at 170 deg/s and 10 Hz;
   // slower turns hardly show the error, nor suffer from it.
   double prior_turn_rad = 0.3;
-  // Turns of that size that are remembered. Chosen: two seconds of them at 10 Hz.
+  // So many turns of that size are remembered. Chosen: two seconds of them at 10 Hz.
   double num_turns_remembered = 20.0;
   // Upper bound of the ratio: uncalibrated consumer units have 3 % (InvenSense MPU-9250). A wrong
   // match counts for no more than it.
   double max_std_ratio = 0.05;
-  // s. The interval of poses before two have come: lidars turn at 10 Hz.
+  // s. Poses have this interval before two have come: lidars turn at 10 Hz.
   double first_interval_s = 0.1;
 };
 
@@ -40,8 +40,8 @@ class RateError {
 
   // Returns the ratio per axis.
   [[nodiscard]] double std_ratio() const;
-  // The power spectral density per axis [(rad/s)^2/Hz] whose white noise has the error's variance
-  // at the next pose.
+  // Returns the power spectral density per axis [(rad/s)^2/Hz] whose white noise has the error's
+  // variance at the next pose.
   [[nodiscard]] double Psd(double rate_radps) const;
 
  private:

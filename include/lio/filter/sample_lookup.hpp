@@ -11,7 +11,7 @@
 
 namespace lio {
 
-// The first sample that is not before `stamp`, or the end.
+// Returns the first sample that is not before `stamp`, or the end.
 template <class Samples>
 auto FirstNotBefore(const Samples& samples, Timestamp stamp) {
   return std::lower_bound(std::begin(samples), std::end(samples), stamp,

@@ -55,8 +55,8 @@ class ImuClassifier {
   // `in_doubt`: other evidence contradicts the expected convention, too, so it is given up sooner.
   [[nodiscard]] ImuVerdict Judge(bool in_doubt = false) const;
 
-  // True when the body moves and the rates under the expected convention were lately many times
-  // those of scan matching: such a gyro only misleads the motion prior.
+  // Returns true when the body moves and the rates under the expected convention were lately many
+  // times those of scan matching: such a gyro only misleads the motion prior.
   bool IsGyroAbsurd() const;
   // Returns true when another convention fits slightly better. When the poses are wrong rather than
   // the convention, as when scans hold to the rings of a standstill, no other fits better.
@@ -98,11 +98,12 @@ class ImuClassifier {
 enum class ForceAtRest { kMetric, kInG, kWithoutGravity, kUnclear };
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2);
 
-// The standard deviation of the rates' noise [rad/s] on the noisiest axis, from their second
-// differences: independent of the motion while it is smooth over three samples. 0 below three.
+// Returns the standard deviation of the rates' noise [rad/s] on the noisiest axis, from their
+// second differences: independent of the motion while it is smooth over three samples. 0 below
+// three.
 double RateNoise(std::span<const ImuSample> samples);
-// True for samples, taken as rad/s, whose noise agrees with the rig's gyro only if they are in
-// deg/s.
+// Returns true for samples, taken as rad/s, whose noise agrees with the rig's gyro only if they are
+// in deg/s.
 bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu);
 
 }  // namespace lio

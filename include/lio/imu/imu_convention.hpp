@@ -27,7 +27,7 @@ struct ImuConvention {
   double rate_scale() const;   // rad/s per unit sent
 };
 
-// The rotations of a cube onto itself; the first is the identity.
+// A cube has so many rotations onto itself; the first is the identity.
 inline constexpr std::size_t kNumQuarterTurns = 24;
 std::array<Matrix3, kNumQuarterTurns> QuarterTurns();
 

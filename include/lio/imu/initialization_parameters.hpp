@@ -14,7 +14,8 @@ struct RestStartParameters {
   // m/s. A body at rest moves by this, 1 sigma. Chosen: above the 2.5 mm/s that a parked vehicle
   // sways by; 3 to 5 mm/s gained nothing (docs/experiments/zero_velocity.md).
   double velocity_std_mps = 0.01;
-  // rad. Tilt before the mean force is fused, 1 sigma. Chosen: large against the tilt that results.
+  // rad. Tilt is unknown by this before the mean force is fused, 1 sigma. Chosen: large against the
+  // tilt that results.
   double unknown_tilt_std_rad = 1.0;
   // m/s^2. Local gravity differs from the configured value by this, 1 sigma. Physics: 9.780 to
   // 9.832 m/s^2 from equator to poles.
@@ -22,22 +23,23 @@ struct RestStartParameters {
   // s. An earlier velocity is extrapolated no longer than this. Chosen: longer gaps say nothing
   // about the position anyhow; it bounds the jump after a clock step.
   double max_coast_s = 30.0;
-  // Share of g from which the mean force counts as containing gravity. Arithmetic: half way between
-  // none and all.
+  // The mean force counts as containing gravity from this share of g on. Arithmetic: half way
+  // between none and all.
   double min_gravity_share = 0.5;
-  // Least uncertainty of a path that a new initialization continues, 1 sigma. Chosen: without it
-  // the continued position would be stated to be exact; also the floor of a lidar-only start anew.
+  // A path that a new initialization continues is uncertain by this at least, 1 sigma. Chosen:
+  // without it the continued position would be stated to be exact; also the floor of a lidar-only
+  // start anew.
   double continued_std_m = 0.5;
   double continued_std_rad = 0.05;
 };
 
-// The initialization in motion: what is required of the data, and of the solution.
+// Tunes the initialization in motion: what is required of the data, and of the solution.
 struct MovingStartParameters {
   // A start needs so many matched scans, over so long a span (s). Chosen: less leaves tilt,
   // velocity and the accelerometer's bias undetermined; more delays the first pose.
   std::size_t min_poses = 8;
   double min_span_s = 1.0;
-  // Error of scan matching beyond its own covariance, 1 sigma: scans deskewed by a constant
+  // Scan matching errs by this beyond its own covariance, 1 sigma: scans deskewed by a constant
   // velocity, and a map that has only just begun. Chosen with the simulator's starts in motion
   // (docs/experiments/starts_in_motion.md).
   double pose_std_m = 0.02;

@@ -63,7 +63,7 @@ class MotionEvidence {
   static double ForceScore(std::span<const Bend> bends, const Matrix3& R_imu_sent,
                            double force_scale, double gravity_mps2);
 
-  // Root mean square error of rates, and of forces, that a score stands for.
+  // Returns the root mean square error of rates, and of forces, that a score stands for.
   double RateError_radps(double score) const;
   static double ForceError_mps2(std::span<const Bend> bends, double score);
 

@@ -25,7 +25,7 @@
 
 namespace lio {
 
-// A pose from scan matching, in any one frame that does not move.
+// Holds a pose from scan matching, in any one frame that does not move.
 struct MatchedPose {
   Timestamp stamp;
   Pose T_any_imu;
@@ -36,7 +36,7 @@ struct MovingStart {
   std::optional<StartState> start;
   std::string why_not;
   // Scan matching and IMU agree by this measure: root of the median squared residual of the poses
-  // over its expected value. About 1 when both are as their covariances say.
+  // over its expected value. It is about 1 when both are as their covariances say.
   double residual_ratio = 0.0;
 };
 

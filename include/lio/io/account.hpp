@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The account of a run: what became of every message and scan, from the bytes that came to the
-// estimate. It closes, or says by how much it does not.
+// Composes the account of a run: what became of every message and scan, from the bytes that came to
+// the estimate. It closes, or says by how much it does not.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ struct Account {
 // Returns the object "account" of stats.json, without its key.
 [[nodiscard]] std::string AccountJson(const Account& account, const InputCounters& input);
 
-// Samples, chunks and scans that were received but have no fate, in a sentence; empty when the
-// account closes.
+// Returns the number of samples, chunks and scans that were received but have no fate, in a
+// sentence; empty when the account closes.
 [[nodiscard]] std::string WhyOpen(const Account& account, const InputCounters& input);
 
 }  // namespace lio

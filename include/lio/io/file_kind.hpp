@@ -31,11 +31,12 @@ void RefuseIrregular(const std::filesystem::path& path);
 // gravity.
 [[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
 
-// One line that says what `path` is and which command takes it; empty for logs and for kOther.
+// Returns one line that says what `path` is and which command takes it; empty for logs and for
+// kOther.
 [[nodiscard]] std::string WhyNoLog(const std::filesystem::path& path);
-// The same for what is no trajectory; empty for kOther.
+// Returns the same for what is no trajectory; empty for kOther.
 [[nodiscard]] std::string WhyNoTrajectory(const std::filesystem::path& path);
-// The same for what need not be converted; empty for all but logs and results.
+// Returns the same for what need not be converted; empty for all but logs and results.
 [[nodiscard]] std::string WhyNoRecording(const std::filesystem::path& path);
 
 }  // namespace lio

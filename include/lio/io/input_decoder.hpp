@@ -14,7 +14,7 @@ namespace lio {
 
 inline constexpr const char* kDefaultChannelPrefix = "LIO_";
 
-// The feature set of LOAM that a cloud holds; in the order of Channels::features.
+// Names the feature set of LOAM that a cloud holds; in the order of Channels::features.
 enum class FeatureSet { kCornerSharp, kCornerLessSharp, kSurfFlat, kSurfLessFlat, kRemoved };
 inline constexpr std::size_t kNumFeatureSets = 5;
 
@@ -49,7 +49,7 @@ struct InputCounters {
 // Serves one thread at a time.
 class InputDecoder {
  public:
-  // False when the bytes were refused, which is counted.
+  // Returns false when the bytes were refused, which is counted.
   [[nodiscard]] bool Imu(ByteView bytes, ImuSample& sample);
   [[nodiscard]] bool Chunk(ByteView bytes, ScanChunk& chunk);
   // Counts a message that was refused unread.

@@ -23,8 +23,8 @@ class LidarCheck {
   // The causes that were found come last, since they seldom cost accuracy; of a kind that the
   // verdict names already there is none.
   void AddTo(Verdict& verdict) const;
-  // The causes that were found, none of which takes more trust than `leaves` says. The vehicle's
-  // own returns can only be told from the surroundings after a way of some length.
+  // Returns the causes that were found, none of which takes more trust than `leaves` says. The
+  // vehicle's own returns can only be told from the surroundings after a way of some length.
   [[nodiscard]] std::vector<Cause> Find(double path_m) const;
 
  private:

@@ -24,7 +24,7 @@ struct StatusCounts {
   [[nodiscard]] std::int64_t NumReceived() const;
 };
 
-// Absent where the bytes are no status_t of this version.
+// It is absent where the bytes are no status_t of this version.
 [[nodiscard]] std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes);
 
 class OutputAccount {

@@ -25,8 +25,8 @@ class QuantileSketch {
   void Add(double value);
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  // The value of rank round(fraction * (count - 1)) among the sorted values; `fraction` is within
-  // 0 .. 1. Throws std::logic_error when there are no values.
+  // Returns the value of rank round(fraction * (count - 1)) among the sorted values; `fraction` is
+  // within 0 .. 1. Throws std::logic_error when there are no values.
   [[nodiscard]] double Quantile(double fraction) const;
   [[nodiscard]] double min() const { return min_; }  // 0 when there are no values
   [[nodiscard]] double max() const { return max_; }

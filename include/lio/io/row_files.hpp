@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of a run that have a row for each scan or sample: trajectories, covariances, states.csv
-// and registration.csv in one folder (run_writer.hpp says which).
+// Writes the files of a run that have a row for each scan or sample: trajectories, covariances,
+// states.csv and registration.csv in one folder (run_writer.hpp says which).
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ void TellCutLine(const std::filesystem::path& file);
 void WriteTum(const std::filesystem::path& file, const StampedPoses& poses);
 void WriteKitti(const std::filesystem::path& file, const StampedPoses& poses);
 
-// One row without line end; all numbers have 9 decimals.
+// Returns one row without line end; all numbers have 9 decimals.
 [[nodiscard]] std::string TumRow(const StampedPose& pose);
 
 // Returns the stamp in seconds with 9 decimals, exact.

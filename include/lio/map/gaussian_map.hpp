@@ -26,8 +26,8 @@
 
 namespace lio {
 
-// The part of a cell that matching reads: one cache line. Vectors are in the map's frame, `mean`
-// from the voxel's centre.
+// Holds the part of a cell that matching reads: one cache line. Vectors are in the map's frame,
+// `mean` from the voxel's centre.
 struct alignas(64) SurfacePatch {
   // A plane constrains the pose along `normal`, which points to the side it was seen from. A
   // vertical structure constrains it in two horizontal directions: along `normal`, and along
@@ -104,7 +104,7 @@ class GaussianMap {
   Place PlaceOf(const Vector3& point_map) const;
   // Finds or makes each place's cell.
   void FindCells();
-  // `view_of(i)`: along the beam that saw the point, unit; or zero.
+  // `view_of(i)` points along the beam that saw the point, unit; or is zero.
   template <class ViewOf>
   void Add(std::span<const Vector3> points_map, const ViewOf& view_of, const Workers& workers);
   template <class ViewOf>

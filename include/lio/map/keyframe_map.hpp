@@ -47,11 +47,11 @@ class KeyframeMap {
     std::int32_t point = -1;  // for point(); -1: none within the radius
     Eigen::Vector3f from_query = Eigen::Vector3f::Zero();  // map axes
   };
-  // `near`: a point of the submap that may be the nearest, as it was a moment ago; -1: none known.
-  // The better it is the shorter the search; the result is the same but for ties.
+  // `near` is a point of the submap that may be the nearest, as it was a moment ago; -1: none
+  // known. The better it is the shorter the search; the result is the same but for ties.
   [[nodiscard]] Hit FindNearest(const Vector3& query_map, double radius_m,
                                 std::int32_t near = -1) const;
-  // Normal in the map's frame; the position is from the corner of the point's block.
+  // The normal is in the map's frame; the position is from the corner of the point's block.
   [[nodiscard]] const PointWithNormal& point(std::int32_t point) const {
     return points_[ToIndex(point)].value;
   }

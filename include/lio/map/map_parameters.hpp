@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The maps' constants that are no configuration keys: units, meaning and where each value comes
-// from. They are compile-time constants, so that inner loops cost nothing for them.
+// Holds the maps' constants that are no configuration keys: units, meaning and where each value
+// comes from. They are compile-time constants, so that inner loops cost nothing for them.
 #pragma once
 
 #include <cstddef>
@@ -55,16 +55,17 @@ struct GaussianMapParameters {
 
 // Bounds the levels, each with cells of half the size.
 struct MultiResolutionParameters {
-  // Cells of the finer levels farther away than this many of their edges are dropped. Arithmetic:
-  // the beams of spinning lidars are 0.35 deg and more apart, 0.7 of an edge there, and a cell has
-  // one ring at most.
+  // Cells of the finer levels are dropped when farther away than this many of their edges.
+  // Arithmetic: the beams of spinning lidars are 0.35 deg and more apart, 0.7 of an edge there, and
+  // a cell has one ring at most.
   static constexpr double kMaxDistance_edges = 120.0;
   // A level serves a guess that may be off by this share of its cells' edge, one standard
   // deviation. Chosen: most points then lie in their own cell.
   static constexpr double kMaxOff_edges = 0.25;
 };
 
-// Between a surface and the beams that saw it: docs/experiments/grazing_incidence.md.
+// Bounds the angle between a surface and the beams that saw it:
+// docs/experiments/grazing_incidence.md.
 struct GrazingIncidenceParameters {
   // This is the sine of the least angle, 3.4 deg. Measured, as are 0.045 to 0.09, which give the
   // same results: docs/experiments/grazing_incidence.md.
@@ -89,8 +90,8 @@ struct SurfaceSidesParameters {
   // thinnest floors are thicker, and a fifth of a wall that stands on a floor is nearer.
   static constexpr float kGap_m = 0.15f;
   static constexpr float kMaxShareInGap = 0.08f;
-  // Share of a voxel's points that have a side for it to hold. Chosen: half of them are of the
-  // other sheet, and those at beams and edges have none.
+  // A side holds when this share of a voxel's points has it. Chosen: half of them are of the other
+  // sheet, and those at beams and edges have none.
   static constexpr double kMinShare = 0.2;
   // The other sheet needs so many points. Chosen: three define a plane, and one more tests it.
   static constexpr int kMinPoints = 4;

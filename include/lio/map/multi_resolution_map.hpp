@@ -22,7 +22,7 @@ class MultiResolutionMap {
  public:
   static constexpr std::int32_t kNoCell = GaussianMap::kNoCell;
 
-  // From the one to the other, both included; the finest level is 0.
+  // Holds the range from one level to another, both included; the finest level is 0.
   struct Levels {
     std::size_t finest = 0;
     std::size_t coarsest = 0;
@@ -42,7 +42,8 @@ class MultiResolutionMap {
   [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
     return levels_[LevelOf(cell)].IsFrozen(InLevel(cell));
   }
-  // The finest level whose cells are so large that a point may be off by `std_m`, one sigma.
+  // Returns the finest level whose cells are so large that a point may be off by `std_m`, one
+  // sigma.
   [[nodiscard]] std::size_t LevelFor(double std_m) const;
   [[nodiscard]] std::size_t LevelOf(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) % levels_.size();

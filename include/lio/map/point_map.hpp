@@ -17,7 +17,7 @@ namespace lio {
 struct PointMapOptions {
   double voxel_m = 0.4;       // edge; as LoamOptions::surface_leaf_m
   int max_voxel_points = 20;  // a voxel with as many is frozen; as LoamOptions::max_leaf_points
-  // The memory bound; blocks without new points for longest go first. Chosen: half of
+  // This bounds the memory; blocks without new points for longest go first. Chosen: half of
   // LoamOptions::max_leaves, which LOAM sets instead.
   int max_voxels = 100000;
   double max_distance_m = 200.0;  // blocks farther away are dropped; as NdtOptions::max_distance_m

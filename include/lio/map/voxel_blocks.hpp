@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The hashed voxel map whose voxels lie in blocks of 4 x 4 x 4, so that a search passes over empty
-// space 64 voxels at a time. A voxel's content is the map's policy: a mean in PointMap, a chain of
-// points in KeyframeMap. Positions are kept relative to their block's corner, so that precision
-// does not depend on the distance from the origin.
+// Holds the hashed voxel map whose voxels lie in blocks of 4 x 4 x 4, so that a search passes over
+// empty space 64 voxels at a time. A voxel's content is the map's policy: a mean in PointMap, a
+// chain of points in KeyframeMap. Positions are kept relative to their block's corner, so that
+// precision does not depend on the distance from the origin.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class VoxelBlocks {
     std::array<PerVoxel, kVoxels> voxels;  // valid where occupied
   };
 
-  // `voxel_m`: the edge; `margin_voxels`: how far a search goes beyond a voxel.
+  // `voxel_m` is the edge; `margin_voxels` tells how far a search goes beyond a voxel.
   VoxelBlocks(double voxel_m, int margin_voxels)
       : voxel_m_(voxel_m), inverse_voxel_(1.0 / voxel_m), margin_(margin_voxels) {}
 
@@ -51,7 +51,7 @@ class VoxelBlocks {
     return (voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3);
   }
 
-  // The number of the block around a voxel, kNone where there is none.
+  // Returns the number of the block around a voxel, kNone where there is none.
   [[nodiscard]] std::int32_t Find(const VoxelCell& voxel) const {
     return blocks_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
   }
@@ -86,7 +86,7 @@ class VoxelBlocks {
   }
 
   [[nodiscard]] bool IsUsed(std::int32_t number) const { return blocks_.IsUsed(number); }
-  // The block that was touched longest ago, kNone when there is none.
+  // Returns the block that was touched longest ago, kNone when there is none.
   [[nodiscard]] std::int32_t oldest() const { return blocks_.oldest(); }
   // Returns an upper bound of the numbers.
   [[nodiscard]] std::size_t capacity() const { return blocks_.capacity(); }

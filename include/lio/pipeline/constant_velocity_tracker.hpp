@@ -58,7 +58,7 @@ struct ConstantVelocityParameters {
 
 inline constexpr ConstantVelocityParameters kConstantVelocity;
 
-// The motion as far as it is known before anything is matched.
+// Holds the motion as far as it is known before anything is matched.
 struct MotionSeed {
   // The velocity seed comes from correlative alignment of bird's-eye views, in the imu's axes
   // [m/s].

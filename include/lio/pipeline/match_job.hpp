@@ -28,7 +28,8 @@ struct Track {
   // True betters the prior by correlative alignment of the bird's-eye view with the last located
   // scan's (for a prior of unsure shift).
   bool aligns_prior = false;
-  // Hold directions that the match leaves degenerate by the bird's-eye views of earlier scans.
+  // True holds directions that the match leaves degenerate by the bird's-eye views of earlier
+  // scans.
   bool holds_degenerate = false;
 };
 
@@ -36,7 +37,7 @@ struct Track {
 // since the map was cleared.
 struct FindVelocity {};
 
-// Track; where the scan is not found near the prior, search for it.
+// Asks to track; where the scan is not found near the prior, to search for it.
 struct Relocalize {
   Track track;
   SearchRequest search;
@@ -55,7 +56,8 @@ struct MatchJob {
   MotionPrior prior;
   MapAction map_action = MapAction::kKeep;
   bool refines_deskew = false;  // match, deskew again along what was found, match again
-  // Bend the scan along with the pose that is found, as nothing else measured the motion within it.
+  // True bends the scan along with the pose that is found, as nothing else measured the motion
+  // within it.
   bool bends_scan = false;
   // The extrinsic that trajectory and prior are of. Absent: the rig has it.
   std::optional<Pose> T_imu_lidar = std::nullopt;

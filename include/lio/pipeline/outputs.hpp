@@ -38,9 +38,9 @@ struct BaseMotion {
   Matrix6 map_pose_cov = Matrix6::Zero();
 };
 
-// The state at one instant: in world, which is level, and in map, which is steady. Covariances:
-// position and velocity in world, rotation error on the right (R_true = R Exp(d)), order
-// [position; rotation].
+// Holds the state at one instant: in world, which is level, and in map, which is steady.
+// Covariances: position and velocity in world, rotation error on the right (R_true = R Exp(d)),
+// order [position; rotation].
 struct NavOutput {
   Timestamp stamp;
   std::int64_t scan_seq = -1;  // the last scan that was fused

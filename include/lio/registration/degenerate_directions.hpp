@@ -31,8 +31,8 @@ struct DirectionSplit {
   }
 };
 
-// The root mean square of the levers at which the matched points hold the rotation: about as far as
-// the surroundings are. 1 where there is no information.
+// Returns the root mean square of the levers at which the matched points hold the rotation: about
+// as far as the surroundings are. 1 where there is no information.
 [[nodiscard]] double MetresPerRad(const Matrix6& information);
 
 // `information` is the Hessian of the cost, right error. `noise_information` is the part of it that
@@ -53,8 +53,8 @@ struct DirectionSplit {
 // degenerate ones.
 [[nodiscard]] Matrix6 ObservableInverse(const DirectionSplit& split);
 
-// The sandwich H^-1 S H^-1, with the inverse as ObservableInverse() has it. S is the covariance of
-// the gradient.
+// Returns the sandwich H^-1 S H^-1, with the inverse as ObservableInverse() has it. S is the
+// covariance of the gradient.
 [[nodiscard]] Matrix6 CovarianceFromScores(const Matrix6& inverse, const Matrix6& score_cov);
 
 // Returns a variance of (100 m)^2 along the degenerate directions, zero along the observable ones.

@@ -32,7 +32,7 @@ struct LoamOptions {
   // A round's step smaller than both ends the match. Chosen: as NdtOptions.
   double converged_step_m = 1e-3;
   double converged_step_rad = 1e-4;
-  // Each map's memory bound; the least recently seen go first. Chosen: some ten megabytes.
+  // This bounds each map's memory; the least recently seen go first. Chosen: some ten megabytes.
   int max_leaves = 200000;
   // Leaves farther from the vehicle are dropped. Chosen: beyond LidarRig::max_range_m.
   double max_distance_m = 150.0;

@@ -17,7 +17,8 @@ namespace lio {
 
 using Vector6f = Eigen::Matrix<float, 6, 1>;
 
-// Derivative of n . (T p) by the right perturbation of T, for n given in the imu's axes.
+// Returns the derivative of n . (T p) by the right perturbation of T, for n given in the imu's
+// axes.
 inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
   Vector6f row;  // [n; p x n], both in the imu's axes
   row << n.x(), n.y(), n.z(), p.y() * n.z() - p.z() * n.y(), p.z() * n.x() - p.x() * n.z(),
@@ -122,8 +123,8 @@ void TakeLastStep(const Vector6& step, MatchResult& result);
 void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
                  MatchResult& result);
 
-// The mean over matched points of (points that this scan adds to a voxel) / (points in it after),
-// which is MatchResult::new_content_share.
+// Takes the mean over matched points of (points that this scan adds to a voxel) / (points in it
+// after), which is MatchResult::new_content_share.
 class NewContentMean {
  public:
   // A matched point in a voxel of so many points, to which the scan adds so many ...

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Normal-distributions matching: every point against the surface patch of the voxel that it falls
+// Matches by normal distributions: every point against the surface patch of the voxel that it falls
 // into (gaussian_map.hpp).
 //
 // The cost is the sum over points of rho(d^2 / s), d the distance from the patch's plane and s its
@@ -52,12 +52,12 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
-  // The patch that a point is matched to.
+  // Holds the patch that a point is matched to.
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
     Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // mean to point, grid axes
   };
-  // The rows that a point adds to the problem at the solution.
+  // Holds the rows that a point adds to the problem at the solution.
   struct PointScore {
     struct OfRow {
       Vector6f gradient;
@@ -99,7 +99,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
                       std::span<PointScore> scores) const;
-  // `share`: how much of a step the point takes (MatchInput::shares_of_correction).
+  // `share` tells how much of a step the point takes (MatchInput::shares_of_correction).
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       float share, const Eigen::Matrix3f& to_imu, MatchSums& sums,
                       PointScore* score);

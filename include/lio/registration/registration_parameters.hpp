@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The constants of registration that are no configuration keys: units, meaning and where each value
-// comes from ("chosen" where no experiment tells). They are compile-time constants, so that inner
-// loops cost nothing for them.
+// Holds the constants of registration that are no configuration keys: units, meaning and where each
+// value comes from ("chosen" where no experiment tells). They are compile-time constants, so that
+// inner loops cost nothing for them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace lio {
 // How far from its predicted place a point may have its counterpart on the map, from the covariance
 // of the guess.
 struct CorrespondenceParameters {
-  // Range at which rotations and translations are compared [m]: a rotation error moves a point by
+  // Rotations and translations are compared at this range [m]: a rotation error moves a point by
   // its range times the angle. Chosen: between a room's ranges and a street's.
   static constexpr double kLever_m = 20.0;
   // The correspondence radius shrinks by this factor after each step of a match. Chosen: after
@@ -36,7 +36,7 @@ struct DegeneracyParameters {
   // axis of a corridor 0.05 to 1.6; 5 and 10 give the same results
   // (docs/experiments/covariance_of_a_match.md).
   static constexpr double kMinInformationRatio = 8.0;
-  // Standard deviation that is reported along degenerate directions [m, at the scale of
+  // This standard deviation is reported along degenerate directions [m, at the scale of
   // DirectionSplit]. Chosen: far above every prior of the filter, and not so far that matrices lose
   // digits.
   static constexpr double kDegenerateStd_m = 100.0;
@@ -91,11 +91,11 @@ struct PlaceWidthParameters {
 };
 
 struct NdtParameters {
-  // Standard deviation of the error that all points of a vertical structure share [m], since the
+  // All points of a vertical structure share an error of this standard deviation [m], since the
   // visible part of a trunk depends on the side. Chosen: about half a trunk's width; used in
   // docs/experiments/vertical_structures.md.
   static constexpr double kSharedVerticalStd_m = 0.15;
-  // Standard deviation of the errors that all points of a ring share [m], which tilt a cell's plane
+  // All points of a ring share errors of this standard deviation [m], which tilt a cell's plane
   // however many points it has. A laser's bias is 3 to 10 mm; fitted within that to scenes of the
   // tests: 3 mm takes a tunnel's axis for observed, 6 mm an open road's posts for noise.
   static constexpr float kAlikeStd_m = 0.005f;
@@ -113,7 +113,7 @@ struct NdtParameters {
 };
 
 struct GicpParameters {
-  // Variance of a surface across its normal [m^2]: how far a surface is taken to extend. It counts
+  // A surface varies by this across its normal [m^2]: so far it is taken to extend. It counts
   // against a pair whose normals differ. Segal et al. (RSS 2009) take 1 here, too, and 0.001 along
   // the normal, in place of which we have the thickness.
   static constexpr float kTangentVar_m2 = 1.f;
@@ -131,18 +131,18 @@ struct GicpParameters {
   // Points of one voxel of this edge share the errors of the normals [m]. Chosen: the voxel over
   // which normals are fitted is 0.7 m.
   static constexpr double kClusterVoxel_m = 1.0;
-  // Factor on the number of iterations where the guess may be far off. Chosen; a lidar-only
-  // walk of 15 s had an APE of 88 cm without it and 7 cm with it.
+  // The number of iterations grows by this factor where the guess may be far off. Chosen; a
+  // lidar-only walk of 15 s had an APE of 88 cm without it and 7 cm with it.
   static constexpr int kFarOffIterationFactor = 3;
   // Neighbours are kept while no point within CorrespondenceParameters::kLever_m has moved farther
   // [m]. Chosen: a hundredth of the map's voxel.
   static constexpr double kKeepPairs_m = 5e-3;
-  // Share of the old value when a scan's median range is smoothed. Chosen: ten scans, so that one
-  // bus alongside makes no keyframes.
+  // The old value keeps this share when a scan's median range is smoothed. Chosen: ten scans, so
+  // that one bus alongside makes no keyframes.
   static constexpr double kOpennessKeep = 0.9;
 };
 
-// The plane that is fitted around a scan's point, from the moments of 3 x 3 x 3 voxels.
+// Bounds the plane that is fitted around a scan's point, from the moments of 3 x 3 x 3 voxels.
 struct ScanNormalParameters {
   // The 27 voxels need so many points together. Chosen: as NdtOptions::min_cell_points.
   static constexpr double kMinPoints = 6.0;
@@ -176,8 +176,8 @@ struct LoamParameters {
   // Residuals beyond this [m] and what the guess may be off do not count. Chosen: three times
   // LoamOptions::huber_m.
   static constexpr double kGate_m = 0.3;
-  // Factor on the number of rounds where the guess may be far off. Chosen; a lidar-only walk of 15
-  // s had an APE of 206 cm without it and 2.5 cm with it.
+  // The number of rounds grows by this factor where the guess may be far off. Chosen; a lidar-only
+  // walk of 15 s had an APE of 206 cm without it and 2.5 cm with it.
   static constexpr int kFarOffRoundFactor = 3;
   // Later rounds go half their step. Chosen: two sets of neighbours may alternate; half of
   // LoamOptions::max_rounds.
@@ -189,7 +189,8 @@ struct LoamParameters {
   static constexpr double kMaxNormalStd_rad = 0.1;
 };
 
-// Scan to scan: A-LOAM's neighbours, and bounds that keep noise from tilting lines and planes.
+// Tunes scan-to-scan matching: A-LOAM's neighbours, and bounds that keep noise from tilting lines
+// and planes.
 struct LoamScanParameters {
   // Fewer matched features end a match. Chosen: a scan has fewer of them than of surface points
   // (MatchParameters::kMinMatched).

@@ -44,7 +44,7 @@ struct MatchInput {
   // different from each side (trunks, bushes) are left out where it is known better than they can
   // tell.
   double shift_std_m = 1.0;
-  // The time of each of points_imu; given only where the rate within the sweep is asked for.
+  // Each of points_imu has its time here; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
   // How much of the correction of the guess each point's own instant takes, of points_imu: 1 at the
   // instant that the points are deskewed to. Empty: the scan is rigid. Only the method ndt bends
@@ -72,11 +72,13 @@ struct [[nodiscard]] MatchResult {
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   int num_matched = 0;
   LevelCounts num_matched_at{};  // by level of the map, finest first; method ndt
-  // Points where the map has a surface, near or far from it; 0 where the method does not tell.
+  // So many points lie where the map has a surface, near or far from it; 0 where the method does
+  // not tell.
   int num_in_map = 0;
   int iterations = 0;
   double residual_rms_m = 0.0;
-  // The error of the turn rate that the scan was deskewed by; where asked for and the method can.
+  // The turn rate that the scan was deskewed by errs by this; given where asked for and the method
+  // can.
   std::optional<TurnRate> turn_rate_error;
   // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
   std::vector<Vector6> beam_scores;
@@ -102,7 +104,7 @@ class ScanMatcher {
     return false;
   }
   virtual void Clear() = 0;
-  // The vertical's direction in the map, to some 10 deg; to be called before the first Insert().
+  // Sets the vertical's direction in the map, to some 10 deg; call it before the first Insert().
   virtual void SetUp(const Vector3& /*up_map*/) {}
   struct MapSize {
     std::size_t num_cells = 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The points of the scans so far, in the new map that they make, thinned: what is looked for in a
-// map saved before. It shows more of the place than one scan does, and from several viewpoints.
+// Gathers the points of the scans so far, in the new map that they make, thinned: what is looked
+// for in a map saved before. It shows more of the place than one scan does, and from several
+// viewpoints.
 #pragma once
 
 #include <Eigen/Core>

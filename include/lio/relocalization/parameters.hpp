@@ -15,7 +15,7 @@ struct BirdsEyeViewParameters {
   float half_width_m = 60.f;  // half of the view's square; chosen: farther off a VLP-16 sees little
   float column_m = 0.5f;      // edge of a column of points; chosen: wider than trunks and posts
   float min_height_m = 0.4f;  // from a column's lowest to its highest point; chosen: above kerbs
-  // Edge of the cells that say how near is near. Chosen: matching converges from there.
+  // Cells of this edge say how near is near. Chosen: matching converges from there.
   float cell_m = 0.25f;
   int coarse_cell = 4;  // edge of the coarse cells, in cells; chosen: 1 m, as the coarse step
   std::size_t min_structures = 20;   // chosen: fewer do not tell one place from another
@@ -39,8 +39,8 @@ struct VelocitySearchParameters {
   // with ConstantVelocityParameters::velocity_seed_std_mps: five begin at the first try, two
   // before.
   double flat_top = 0.88;
-  // Scans from which a velocity is believed. Measured: a single pair is ambiguous among repeating
-  // structures (docs/experiments/starts_in_motion.md).
+  // A velocity is believed from so many scans on. Measured: a single pair is ambiguous among
+  // repeating structures (docs/experiments/starts_in_motion.md).
   std::size_t min_scans = 3;
 };
 
@@ -88,11 +88,11 @@ struct PlaceVerificationParameters {
   // matching.
   double max_prior_std_m = CorrespondenceParameters::kMaxStd_m;
   double lever_m = CorrespondenceParameters::kLever_m;
-  // Share of the points on a surface of the map, of those that come to one, over the last scan's.
-  // Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
+  // This share of the points that come to a surface of the map must lie on it, over the last scan's
+  // share. Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
   // (docs/experiments/relocalization.md).
   double min_share = 0.9;
-  // The same from an unsure prior, for a scan that may be bent. Measured: as min_share.
+  // The same holds from an unsure prior, for a scan that may be bent. Measured: as min_share.
   double likely_share = 0.8;
   double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
   // As many end the search and overrule inertial prediction. Chosen; used in
@@ -121,7 +121,7 @@ struct MapSearchParameters {
   int max_cells_per_side = 8192;  // chosen by memory: 4 km, whose grids take 220 MB
   float max_coordinate_m = 100e3f;  // bound on a map's points; arithmetic: a float holds 8 mm there
   float step_rad = 0.0175f;         // chosen: a cell at 30 m
-  // Fine steps to each side, over what a score is the same. Arithmetic: four of
+  // A score is the same over so many fine steps to each side. Arithmetic: four of
   // PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts as well.
   int num_refine_steps = 4;
   float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
@@ -163,12 +163,12 @@ struct PlaceContestParameters {
   // match moves it by, below max_step_m and max_step_rad.
   double settled_std_m = 0.1;
   double settled_std_rad = 0.01;
-  // Share of the points on surfaces of those that come to one, over that of the scan in its own new
-  // map. Measured: 0.96 and more at right places, 0.94 at most one storey off
+  // This share of the points that come to a surface must lie on it, over that of the scan in its
+  // own new map. Measured: 0.96 and more at right places, 0.94 at most one storey off
   // (docs/experiments/start_in_a_map.md).
   double min_fit = 0.95;
-  // Points on surfaces, over those in the scan's own new map; with fewer the fit is worse. Chosen:
-  // a saved map has fewer points on near things than the last scans have.
+  // So many points must lie on surfaces, over those in the scan's own new map; with fewer the fit
+  // is worse. Chosen: a saved map has fewer points on near things than the last scans have.
   double min_number_ratio = 0.6;
   // A right place stays where it is from scan to scan. Chosen: three settled_std_m, and two of the
   // turn.
@@ -211,8 +211,8 @@ struct RelocalizationParameters {
   PlaceContestParameters contest;
   PlaceSeekerParameters seeker;
   double aligned_std_m = 0.5;  // an aligned prior's; chosen: 5 m/s over a sweep
-  // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
-  // Chosen by cost: up to 16 ran before, and found places no better.
+  // One scan has so many full matches: from the prior, two of a search, after the deskew was
+  // refined. Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;
   // A coarse match, which ranks candidates, has so many points. Chosen: an eighth of a full
   // match's.

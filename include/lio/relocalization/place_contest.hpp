@@ -25,7 +25,7 @@ namespace lio {
 using MatchInInitial = std::function<MatchResult(std::span<const Eigen::Vector3f> points,
                                                  const Pose& T_initial_guess, const Matrix6& cov)>;
 
-// A scan that the new map has located.
+// Holds a scan that the new map has located.
 struct LocatedScan {
   std::span<const Eigen::Vector3f> points_imu;  // to match
   const MatchResult& match;                     // in the new map

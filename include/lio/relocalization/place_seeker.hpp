@@ -23,7 +23,7 @@
 
 namespace lio {
 
-// The parts of a saved map that the search needs. Its z axis must be up to about 10 deg.
+// Holds the parts of a saved map that the search needs. Its z axis must be up to about 10 deg.
 struct PlaceIndex {
   // Throws std::invalid_argument when the points spread over more than 4 km.
   explicit PlaceIndex(std::span<const Eigen::Vector3f> points_map);
@@ -52,7 +52,7 @@ class PlaceSeeker {
 
   // The new map was cleared.
   void Clear();
-  // `all_points_imu`: of the scan, more than are matched.
+  // `all_points_imu` are those of the scan, more than are matched.
   [[nodiscard]] std::optional<FoundPlace> Add(const LocatedScan& scan,
                                               std::span<const Eigen::Vector3f> all_points_imu,
                                               const PlaceMatching& matching);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Everything that is known of where a scan may be besides the motion prior, by bird's-eye views:
-// its velocity before anything is mapped, a better prior by its shift since the last scan, its
-// place after it was lost, its position along degenerate directions. It knows no map: what needs
-// one calls back.
+// Keeps everything that is known of where a scan may be besides the motion prior, by bird's-eye
+// views: its velocity before anything is mapped, a better prior by its shift since the last scan,
+// its place after it was lost, its position along degenerate directions. It knows no map: what
+// needs one calls back.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,12 +53,13 @@ class Relocalizer {
   // Forgets all scans: the map was cleared.
   void Clear() { *this = Relocalizer(); }
 
-  // In the map's axes, from this and all scans that were given since Clear(); absent while no
-  // velocity is clear. The prior gives only its rotation and its vertical.
+  // The velocity is in the map's axes, from this and all scans that were given since Clear();
+  // absent while no velocity is clear. The prior gives only its rotation and its vertical.
   [[nodiscard]] std::optional<Vector3> FindVelocity(const DeskewedScan& scan,
                                                     const MotionPrior& prior);
 
-  // The prior with its position by the shift since the last located scan, where that is clear.
+  // Returns the prior with its position by the shift since the last located scan, where that is
+  // clear.
   [[nodiscard]] MotionPrior Align(const DeskewedScan& scan, const MotionPrior& prior) const;
 
   // Finds the scan's place if `near_prior`, its match from the prior, is not the place; returns

@@ -25,7 +25,7 @@ namespace lio {
 
 class VelocitySearch {
  public:
-  // `stamp`: when the sensor was at the points' origin. Scans come in order of time.
+  // `stamp` tells when the sensor was at the points' origin. Scans come in order of time.
   void Add(Timestamp stamp, std::span<const Eigen::Vector3f> points);
 
   // Returns the velocity in x and y [m/s]. Absent when none agrees clearly better than the rest:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The page that shows a run: report.html, one file that needs neither a network nor other files.
+// Writes the page that shows a run: report.html, one file that needs neither a network nor other
+// files.
 #pragma once
 
 #include <filesystem>

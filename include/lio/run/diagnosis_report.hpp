@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A diagnosis for people, for programs, and as a rig that can be used.
+// Writes a diagnosis for people, for programs, and as a rig that can be used.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ namespace lio {
 // or checked) besides.
 [[nodiscard]] std::string DiagnosisJson(const Diagnosis& diagnosis, const std::string& input);
 
-// The rig with the fixes as commented YAML, which LoadOptions takes. The comments at its top say
-// what was assumed, what was found and whether a replay agrees.
+// Returns the rig with the fixes as commented YAML, which LoadOptions takes. The comments at its
+// top say what was assumed, what was found and whether a replay agrees.
 [[nodiscard]] std::string DiagnosedRigYaml(const Diagnosis& diagnosis, const std::string& input);
 
 }  // namespace lio

@@ -36,7 +36,8 @@ struct LoamFeatures {
   std::vector<std::uint32_t> less_flat;  // one per voxel; may include flat ones
   std::vector<std::uint32_t> occluded;   // left out: at the border of an occlusion
   std::vector<std::uint32_t> grazed;     // left out: grazing incidence
-  // Ring of each point of the sweep, rebuilt from elevation; empty where the sweep has rings.
+  // Each point of the sweep has its ring here, rebuilt from elevation; empty where the sweep has
+  // rings.
   std::vector<std::uint16_t> rebuilt_rings;
 };
 

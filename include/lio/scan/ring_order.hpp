@@ -20,7 +20,7 @@ bool LacksRings(std::span<const LidarPoint> points);
 std::vector<std::uint16_t> RingsFromElevation(std::span<const LidarPoint> points,
                                               std::span<const double> beam_elevations_rad);
 
-// True when all points have one and the same time.
+// Returns true when all points have one and the same time.
 bool LacksTimes(std::span<const LidarPoint> points);
 
 // The time of each point as a fraction 0..1 of the turn, from its azimuth alone: the sensor turns

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one definition of a gap: a time without messages of a stream that its clock did not cause. (A
-// clock that was set is a clock step; stream/clock_step_arbiter.hpp tells the two apart.) The
-// length of a gap decides what follows from it, and every module takes the lengths from here:
+// Holds the one definition of a gap: a time without messages of a stream that its clock did not
+// cause. (A clock that was set is a clock step; stream/clock_step_arbiter.hpp tells the two apart.)
+// The length of a gap decides what follows from it, and every module takes the lengths from here:
 //
 //   samples apart by
 //     30 ms    sparse      process noise is added, and turns say    filter/filter_history,

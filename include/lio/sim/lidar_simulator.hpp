@@ -85,7 +85,8 @@ class LidarSimulator {
   const Scene* scene_;
   const Trajectory* trajectory_;
   Rotor rotor_;
-  // Each beam's direction when the column's heading is 0, true and as the beam table says.
+  // Each beam has its direction here when the column's heading is 0, true and as the beam table
+  // says.
   std::vector<Vector3> column_directions_;
   std::vector<Vector3> table_directions_;
   std::vector<double> laser_bias_m_;

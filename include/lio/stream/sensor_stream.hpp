@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From raw messages, in the order in which they arrive, to events in the order in which the
+// Turns raw messages, in the order in which they arrive, into events in the order in which the
 // estimator must consume them. It is the only owner of inertial samples and chunks: it validates,
 // buffers, assembles sweeps, holds them until inertial samples cover them, and judges gaps and
 // steps of the clocks by stamps and by the order of arrival; it asks no wall clock.
@@ -104,7 +104,7 @@ class SensorStream {
     Timestamp newest_examined;       // the newest inertial stamp since the step
   };
 
-  // The senders that are kept.
+  // Holds the senders that are kept.
   struct Senders {
     struct Lidar {
       std::int8_t sensor_id = 0;

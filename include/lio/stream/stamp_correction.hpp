@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correction of a sweep's stamps by the clock offset that matched sweeps have shown
+// Corrects a sweep's stamps by the clock offset that matched sweeps have shown
 // (pipeline/clock_offset_follower.hpp). A sweep gets the correction that was known when it was
 // `lag` sweeps away from being matched, so its stamps do not depend on how fast sweeps are matched.
 #pragma once

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The stream's output: what the estimator consumes, in the order in which it must be consumed.
+// Defines the stream's output: what the estimator consumes, in the order in which it must be
+// consumed.
 #pragma once
 
 #include <memory>
