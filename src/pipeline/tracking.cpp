@@ -146,7 +146,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
 }
 
 bool Tracking::IsPriorSure(Timestamp middle) const {
-  return IsWithinReachOfMatching(history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
+  return IsWithinConvergenceBasin(history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
 }
 
 // Gives the scan's row and takes it off the queue.

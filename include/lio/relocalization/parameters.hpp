@@ -84,8 +84,8 @@ struct PlaceCandidateParameters {
 };
 
 struct PlaceVerificationParameters {
-  // A prior with a smaller standard deviation, felt by points at the lever, is within reach of
-  // matching.
+  // A prior with a smaller standard deviation, felt by points at the lever, is within the basin of
+  // convergence of matching.
   double max_prior_std_m = CorrespondenceParameters::kMaxStd_m;
   double lever_m = CorrespondenceParameters::kLever_m;
   // This share of the points that come to a surface of the map must lie on it, over the last scan's

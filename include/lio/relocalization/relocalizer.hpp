@@ -40,7 +40,7 @@ struct CandidateMatcher {
 
 // Is a pose predicted so well that matching from it finds the scan, if it is there? The covariance
 // is of [position (m); rotation (rad)].
-[[nodiscard]] bool IsWithinReachOfMatching(const Matrix6& prior_cov);
+[[nodiscard]] bool IsWithinConvergenceBasin(const Matrix6& prior_cov);
 
 class Relocalizer {
  public:
