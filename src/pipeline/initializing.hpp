@@ -6,9 +6,8 @@
 // Does, over sweeps that it keeps and looks back on:
 //   1. velocity seed: correlative alignment of the first sweeps' bird's-eye views (FindVelocity),
 //   2. coarse track: the same sweeps are matched by a constant-velocity model, with the gyro's
-//   rates
-//      where they are trusted; once the motion is clear, again from the first one on, with the
-//      motion as a prior, since the first sweeps were skewed by a motion that was not known,
+//      rates where they are trusted; once the motion is clear, again from the first one on, with
+//      the motion as a prior, since the first sweeps were skewed by a motion that was not known,
 //   3. align: at rest from a second of inertial samples, in motion by least squares over the coarse
 //      track and the samples (moving_start.hpp).
 // Meanwhile ImuConventionMonitor judges units and axes. Without an IMU the motion of step 2 is all

@@ -20,7 +20,9 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
   context_.outputs.Notify(first, Notice::Severity::kWarning,
-                          fmt::format("lost: {}; scans tell whether the body has moved", why));
+                          fmt::format("lost: {}; scans tell whether the body has moved, and no "
+                                      "pose is sure until they do; nothing need be done",
+                                      why));
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
 }
 

@@ -68,7 +68,7 @@ void SensorStream::ShiftImuClock(Timestamp after_by_lidar) {
   Notify(
       step_.result.accepted.front().stamp, Notice::Severity::kWarning,
       fmt::format("the IMU's clock stepped by {:.3f} s and the lidar's did not: the IMU's stamps "
-                  "are now shifted by {:.3f} s",
+                  "are now shifted by {:.3f} s; nothing need be done",
                   step_.result.clock_step_s, imu_clock_shift_.Seconds()));
   state_ = State::kFlowing;
 }

@@ -103,7 +103,7 @@ TEST(ModeDriver, AnImuThatFallsSilentIsToldAndEndsTracking) {
   EXPECT_EQ(b.driver->kind(), ModeKind::kLidarOnly);
   const auto notices = b.bench.Take<Notice>();
   ASSERT_FALSE(notices.empty());
-  EXPECT_EQ(notices.front().text, "no samples: lidar-only odometry");
+  EXPECT_TRUE(notices.front().text.starts_with("no samples: lidar-only odometry"));
   EXPECT_EQ(notices.front().severity, Notice::Severity::kWarning);
 }
 
