@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The promises of every registration method.
+// Tests the promises of every registration method.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -97,7 +97,7 @@ TEST(ConstantVelocityTracker, GoesStraightOnWithGrowingDoubt) {
   EXPECT_EQ(tracker.history().head().stamp, StampAt(4.0)) << "never backwards";
 }
 
-// 5 m/s on a circle: matched poses teach velocity and turn rate.
+// The body goes at 5 m/s on a circle: matched poses teach velocity and turn rate.
 TEST(ConstantVelocityTracker, WithoutAGyroPosesTeachTheTurnRate) {
   const auto circle = [](double t_s) {
     const double turned = 0.4 * t_s;

@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-// The lines with an arrow between the marks of docs/design.md, without indentation.
+// Returns the lines with an arrow between the marks of docs/design.md, without indentation.
 std::multiset<std::string> DrawnTransitions() {
   std::ifstream page(LIO_SOURCE_DIR "/docs/design.md");
   std::multiset<std::string> drawn;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-log export: liod's messages of a log as files that other programs open (docs/export.md).
+// lio-log export writes liod's messages of a log as files that other programs open
+// (docs/export.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
