@@ -28,7 +28,7 @@ struct OutageParameters {
   double slope = 0.2;
   // Roll and pitch change by this, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
-  // The turn rate while unseen has this, 1 sigma: that in a gap, ...
+  // The turn rate is unknown by this while unseen, 1 sigma, as in a gap, ...
   double turn_rate_std_radps = kFilterParameters.imu_outage.gap_gyro_std_radps;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;

@@ -98,7 +98,7 @@ struct ClockStepParameters {
   Duration wild{5'000'000'000};
   // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
   Duration silence{1'000'000'000};
-  std::size_t num_chunks = 4;  // remembered ones; chosen: a step among them shows
+  std::size_t num_chunks = 4;  // chunks remembered; chosen: a step among them shows
   // Differences between the streams' stamps whose median counts. Chosen: the lidar may step a
   // message earlier, and the odd burst is outvoted.
   std::size_t num_lags = 9;

@@ -29,7 +29,7 @@ struct CorrespondenceParameters {
   static constexpr double kSearchSigmas = 3.0;
 };
 
-// Decides which directions of a pose a match observes.
+// Tunes which directions of a pose count as observed by a match.
 struct DegeneracyParameters {
   // A direction is observable when its information is this many times what the noise of the map's
   // normals alone induces. Measured: observable directions of streets have 40 times and more, the

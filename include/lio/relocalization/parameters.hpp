@@ -105,7 +105,7 @@ struct PlaceVerificationParameters {
   double much_nearer = 0.3;  // times as far, for a match near one of two poses; chosen: a third
 };
 
-// Finds things that stand up in a cloud, in voxels.
+// Tunes the search for things that stand up in a cloud, in voxels.
 struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
   int min_points = 5;      // a voxel's spread needs so many; chosen: fewer spread by chance
@@ -121,8 +121,9 @@ struct MapSearchParameters {
   int max_cells_per_side = 8192;  // chosen by memory: 4 km, whose grids take 220 MB
   float max_coordinate_m = 100e3f;  // bound on a map's points; arithmetic: a float holds 8 mm there
   float step_rad = 0.0175f;         // chosen: a cell at 30 m
-  // A score is the same over so many fine steps to each side. Arithmetic: four of
-  // PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts as well.
+  // A place is refined by so many fine steps to each side, over which its score is the same.
+  // Arithmetic: four of PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts
+  // as well.
   int num_refine_steps = 4;
   float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
   std::size_t max_structures = 120;  // chosen: bounds the cost
