@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-# What other programs see of liod after `cmake --install`: the package `liod` with the target
+# Other programs see this of liod after `cmake --install`: the package `liod` with the target
 # liod::core. A header is public when it stands in this list, and it may include only headers that
 # stand here, too (test/integration/install_test.py checks both).
 set(LIO_PUBLIC_HEADERS

@@ -48,7 +48,7 @@ echo "newcomer: the demo has ended after $((SECONDS - start)) s"
 failed=0
 for recording in "${recordings[@]}"; do
   cp "$recording" "$root/root/"
-  rm -f "$root/root/liod/out/demo/report.html" # of the run before
+  rm -f "$root/root/liod/out/demo/report.html" # may be the run before's
   start=$SECONDS code=0
   in_liod tools/demo.sh "/root/$(basename "$recording")" >"$folder/demo.log" 2>&1 || code=$?
   spent_s=$((SECONDS - start))

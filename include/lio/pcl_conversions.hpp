@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Clouds and poses between the estimator and PCL, for programs that use both. Header-only: whoever
-// includes it finds and links PCL (components common), liod itself does not.
+// Converts clouds and poses between the estimator and PCL, for programs that use both. Header-only:
+// whoever includes it finds and links PCL (components common), liod itself does not.
 //
 //   odometry.AddSweep(lio::SweepFromPcl(cloud, lio::StampFromPcl(cloud.header)));
 //   pcl::transformPointCloud(cloud, cloud_world, lio::AffineFromPose(T_world_lidar));
@@ -67,7 +67,7 @@ inline Timestamp StampFromPcl(const pcl::PCLHeader& header) {
   return Timestamp::FromMicroseconds(static_cast<std::int64_t>(header.stamp));
 }
 
-// `seconds_after_stamp(point)`: when the point was measured, as a double; before `stamp` is
+// `seconds_after_stamp(point)` tells when the point was measured, as a double; before `stamp` is
 // negative. Points that are not finite are left out. Throws std::invalid_argument when the times
 // span more than 4 s, which is a wrong unit. The result's stamp is that of its earliest point.
 template <class Point, class SecondsAfterStamp>
@@ -108,7 +108,7 @@ LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp,
 template <class Point>
 LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp) {
   static_assert(!pcl_detail::HasAmbiguousTime<Point>,
-                "what this type's times count is not known: give SweepFromPcl a function of them");
+                "the unit of this type's times is unknown: give SweepFromPcl a function of them");
   return SweepFromPcl(cloud, stamp, []([[maybe_unused]] const Point& p) {
     if constexpr (pcl_detail::HasSeconds<Point>) return static_cast<double>(p.time);
     if constexpr (pcl_detail::HasNanoseconds<Point>) return 1e-9 * static_cast<double>(p.t);
@@ -116,7 +116,7 @@ LidarSweep SweepFromPcl(const pcl::PointCloud<Point>& cloud, Timestamp stamp) {
   });
 }
 
-// Points [m] as a cloud of any type with x, y, z; its other members keep their defaults.
+// Returns points [m] as a cloud of any type with x, y, z; its other members keep their defaults.
 template <class Point = pcl::PointXYZ>
 pcl::PointCloud<Point> CloudToPcl(std::span<const Eigen::Vector3f> points) {
   pcl::PointCloud<Point> cloud;
@@ -131,7 +131,8 @@ pcl::PointCloud<Point> CloudToPcl(std::span<const Eigen::Vector3f> points) {
   return cloud;
 }
 
-// For pcl::transformPointCloud: the transform from source to target for T_target_source.
+// Returns the transform from source to target for T_target_source, as pcl::transformPointCloud
+// takes it.
 inline Eigen::Affine3d AffineFromPose(const Pose& T_target_source) {
   Eigen::Affine3d affine = Eigen::Affine3d::Identity();
   affine.linear() = T_target_source.rotation.toRotationMatrix();

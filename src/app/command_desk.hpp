@@ -33,9 +33,9 @@ class CommandDesk {
   CommandDesk(const Neighbours& neighbours, const Setting& setting,
               std::function<RunStats()> make_stats, OnFault on_write_failure);
 
-  // On the filter thread, between two messages.
+  // Runs on the filter thread, between two messages.
   void Obey(const Request& request);
-  // From any thread.
+  // Any thread may call it.
   void Refuse(const Command& command, const std::string& why);
 
  private:

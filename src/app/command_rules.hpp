@@ -13,7 +13,8 @@ namespace lio {
 // Says in a sentence why the fields that the action uses are unusable; empty when they can be used.
 [[nodiscard]] std::string WhyUnusable(const Command& command);
 
-// The pose of a command that is usable: its rotation normalized, no covariance where none is given.
+// Returns the pose of a command that is usable: its rotation normalized, no covariance where none
+// is given.
 [[nodiscard]] GivenPose PoseOf(const Command& command);
 
 }  // namespace lio

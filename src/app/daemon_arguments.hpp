@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The command line of liod.
+// Reads the command line of liod.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct DaemonArguments {
 
   // `this` must outlive the app.
   void AddTo(CLI::App& app);
-  // Without the initial map, which must be loaded.
+  // They lack the initial map, which must be loaded.
   [[nodiscard]] LiveOptions Live() const;
 };
 

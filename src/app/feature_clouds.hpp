@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The clouds LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT and
-// LIO_REMOVED: the feature sets that LOAM's scan registration has extracted from a sweep, for
+// Publishes the clouds LIO_CORNER_SHARP, LIO_CORNER_LESS_SHARP, LIO_SURF_FLAT, LIO_SURF_LESS_FLAT
+// and LIO_REMOVED: the feature sets that LOAM's scan registration has extracted from a sweep, for
 // viewers and for other programs.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace lio {
 
 struct FeatureCloudTask {
   std::shared_ptr<const Sweep> sweep;
-  std::shared_ptr<const LoamFeatures> features;  // of the sweep
+  std::shared_ptr<const LoamFeatures> features;  // extracted from the sweep
 };
 
 // Gives the points of a set as they were measured: in the lidar frame at each point's own instant,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The queue in front of the filter thread: decoded messages in the order of their arrival, and the
+// Queues in front of the filter thread: decoded messages in the order of their arrival, and the
 // outcome of the match that is under way.
 //
 // The queue is bounded. When more than kMaxPoints wait, all chunks of the oldest scan are dropped;
@@ -29,7 +29,7 @@ struct Arrival {
   std::int64_t decode_ns = 0;
 };
 
-// A command, from the bus or by a signal of the system.
+// Holds a command, from the bus or by a signal of the system.
 struct Request {
   Command command;
   bool is_answered = true;  // by a reply on the bus
@@ -58,7 +58,7 @@ class FilterInbox {
   void Put(Arrival<ImuSample> sample);
   void Put(Arrival<ScanChunk> chunk);
   void Put(MatchOutcome outcome);
-  // False when kMaxRequests wait already, or when nobody would take it any more.
+  // Returns false when kMaxRequests wait already, or when nobody would take it any more.
   [[nodiscard]] bool Put(Request request);
   // It is taken before all that waits, so that the answer does not depend on how much that is.
   void Put(Ping ping);

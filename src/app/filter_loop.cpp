@@ -12,9 +12,9 @@ namespace lio {
 namespace {
 
 constexpr double kCloudInterval_s = 0.5;  // between two LIO_CLOUD, in sensor time
-constexpr std::size_t kFirstOther = 2;    // of InboxItem: those before are messages of sensors
+constexpr std::size_t kFirstOther = 2;  // index in InboxItem: those before are messages of sensors
 
-// Every n-th point in the map's frame, with n such that at most `max_points` are left.
+// Returns every n-th point in the map's frame, with n such that at most `max_points` are left.
 std::vector<Eigen::Vector3f> Decimate(const std::vector<Eigen::Vector3f>& points_imu,
                                       const Pose& T_map_imu, std::size_t max_points) {
   const std::size_t step = (points_imu.size() + max_points - 1) / max_points;

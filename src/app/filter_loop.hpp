@@ -40,31 +40,32 @@ class FilterLoop {
   FilterLoop(const Options& options, StartIn start_in, bool publishes_full_cloud,
              const Neighbours& neighbours);
 
-  // The thread's body: until the inbox is closed and empty, and the job that is out has come back.
+  // Runs the thread's body until the inbox is closed and empty, and the job that is out has come
+  // back.
   void Run();
   // From any thread: take no further messages and begin no further matches.
   void CutShort() { is_cut_short_ = true; }
   [[nodiscard]] bool is_cut_short() const { return is_cut_short_; }
-  // From any thread: LIO_CLOUD_FULL from the next scan on.
+  // Publishes LIO_CLOUD_FULL from the next scan on; any thread may call it.
   void PublishFullCloud(bool publishes) { publishes_full_cloud_ = publishes; }
   [[nodiscard]] std::int64_t num_matches_done() const { return num_matches_done_; }
 
-  // Forgets all that is known (Odometry::Reset) and tells `why`. On the filter thread.
+  // Forgets all that is known (Odometry::Reset) and tells `why`. Runs on the filter thread.
   void Reset(const std::optional<GivenPose>& at, const std::string& why);
 
-  // After Run, or on the filter thread.
+  // Call it after Run, or on the filter thread.
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
   [[nodiscard]] Verdict Judge() const;
   [[nodiscard]] Ledgers ledgers() const { return odometry_.ledgers(); }
   // Messages that were not looked at after CutShort.
   [[nodiscard]] const FilterInbox::Losses& given_up() const { return given_up_; }
-  // Host's time from the first message to the last.
+  // Returns the host's time from the first message to the last.
   [[nodiscard]] double input_duration_s() const;
 
  private:
-  // The clouds of the scan that is being matched or was just fused.
+  // Holds the clouds of the scan that is being matched or was just fused.
   struct Clouds {
-    FullCloudTask full;                       // of the job that is out
+    FullCloudTask full;                       // for the job that is out
     std::vector<Eigen::Vector3f> points_imu;  // for LIO_CLOUD
     Pose T_map_points;                        // places points_imu in the map
     std::optional<Timestamp> last_sent;       // LIO_CLOUD

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The cloud LIO_CLOUD_FULL: every finite point of a sweep, deskewed and in the frame `map`.
+// Publishes the cloud LIO_CLOUD_FULL: every finite point of a sweep, deskewed and in the frame
+// `map`.
 #pragma once
 
 #include <memory>

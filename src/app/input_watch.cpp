@@ -16,7 +16,7 @@ std::string OnOneLine(std::string text) {
   return text;
 }
 
-// The address of udpm://ADDRESS:PORT?...
+// Returns the address of udpm://ADDRESS:PORT?...
 std::string GroupOf(const std::string& url) {
   const std::string rest = url.substr(url.find("//") + 2);
   return rest.substr(0, rest.find_first_of(":?"));

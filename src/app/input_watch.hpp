@@ -17,7 +17,7 @@ namespace lio {
 // These are what a watch looks for, in the words of the one who must mend it.
 struct InputNames {
   std::string imu, scan;  // channels
-  std::string url;        // of LCM, not empty
+  std::string url;        // LCM's, not empty
   bool uses_imu = true;   // else nobody misses it
 };
 
@@ -45,11 +45,11 @@ class InputWatch {
   // now.
   [[nodiscard]] std::vector<InputRemark> Look(const StatusReport& report, Clock::time_point now);
 
-  // The faults that last, in one line; empty when all is well.
+  // Returns the faults that last, in one line; empty when all is well.
   [[nodiscard]] std::string standing() const;
 
  private:
-  // A count that ought to grow, or ought not to.
+  // Watches a count that ought to grow, or ought not to.
   struct Growth {
     std::int64_t count = 0;
     Clock::duration still_for{0};    // since it grew

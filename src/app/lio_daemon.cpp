@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// liod: LiDAR-inertial odometry from LCM to LCM, until it is told to end.
+// liod estimates LiDAR-inertial odometry from LCM to LCM, until it is told to end.
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 

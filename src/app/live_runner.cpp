@@ -89,7 +89,7 @@ void LiveRunner::Stop() {
   const Counters& counters = filter_.counters();
   if (counters.num_imu + counters.num_chunks > 0) verdict_ = filter_.Judge();
   if (!files_) return;
-  // After a fault of the output thread; otherwise none are left.
+  // This is after a fault of the output thread; otherwise none are left.
   if (const auto fault =
           RunCatching("writing the last rows", [this] { output_worker_.WriteRowsLeft(); })) {
     OnFault(*fault);

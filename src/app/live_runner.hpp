@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator on a bus, with threads around it:
+// Runs the estimator on a bus, with threads around it:
 //
 //   receive ---> inbox ---> filter ---> match (one job at a time, the map)
 //                             ^  |  <------'
@@ -52,7 +52,8 @@ struct LiveOptions {
   std::int32_t receive_buffer_bytes = 0;
   // How long Stop goes on matching the scans that wait.
   std::chrono::milliseconds max_finish{400};
-  // Called on the filter thread for each Ping, which a filter thread that hangs does not answer.
+  // It is called on the filter thread for each Ping, which a filter thread that hangs does not
+  // answer.
   std::function<void()> answer_ping = [] {};
   ClockNs match_clock = ThreadCpuNs;  // for the stage times of matching; called on its thread
 };
@@ -65,11 +66,12 @@ class LiveRunner {
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
 
-  // True when the bus will deliver nothing any more.
+  // Returns true when the bus will deliver nothing any more.
   [[nodiscard]] bool has_ended() const { return receiver_.has_ended(); }
-  // One line about the first thread that was ended by an exception; nothing when all is well.
+  // Returns one line about the first thread that was ended by an exception; nothing when all is
+  // well.
   [[nodiscard]] std::optional<std::string> fault() const { return faults_.first(); }
-  // For feeders that must not overrun the matcher.
+  // Feeders that must not overrun the matcher use it.
   [[nodiscard]] std::int64_t num_matches_done() const { return filter_.num_matches_done(); }
   // True once Stop has given up the scans that were still waiting.
   [[nodiscard]] bool is_cut_short() const { return filter_.is_cut_short(); }
@@ -77,7 +79,7 @@ class LiveRunner {
   // Judges the whole run; absent before Stop, and where no message came.
   [[nodiscard]] const std::optional<Verdict>& verdict() const { return verdict_; }
   [[nodiscard]] bool writes_files() const { return files_.has_value(); }
-  // The folder of the files that are written now; null without any.
+  // Returns the folder of the files that are written now; null without any.
   [[nodiscard]] const std::filesystem::path* out() const {
     return files_ ? &files_->folder() : nullptr;
   }
@@ -87,8 +89,8 @@ class LiveRunner {
   void PingFilter() { inbox_.Put(Ping{}); }
 
   // Takes what has arrived, goes on matching the scans that wait for at most max_finish, completes
-  // the files and sends a last status. Once only. Throws WriteError when a file could not be
-  // written in full.
+  // the files and sends a last status. It runs once only. Throws WriteError when a file could not
+  // be written in full.
   void Stop();
 
  private:
@@ -99,7 +101,7 @@ class LiveRunner {
   StatusReport ComposeStatus();
   void WatchInput(StatusReport& report);
   RunStats Stats() const;
-  RunStats JudgedStats() const;  // of the filter thread
+  RunStats JudgedStats() const;  // on the filter thread only
 
   const LiveOptions live_;
   Bus& bus_;
@@ -108,7 +110,7 @@ class LiveRunner {
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
-  InputWatch watch_;  // of the output thread
+  InputWatch watch_;  // used by the output thread only
   FilterInbox inbox_;
   FaultLatch faults_;
   MatchWorker match_worker_;

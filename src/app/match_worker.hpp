@@ -45,7 +45,7 @@ class MatchWorker {
   void Finish();
 
   [[nodiscard]] std::size_t map_bytes() const { return map_bytes_; }
-  // Points of map.pcd; only after Finish.
+  // Returns the points of map.pcd; only after Finish.
   [[nodiscard]] const MapCloud& map_cloud() const { return map_cloud_; }
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator's notices on stderr, through the log. A notice with the words of the last one is
-// left out for a few seconds of sensor time, so that a lasting fault does not fill the screen.
+// Writes the estimator's notices on stderr, through the log. A notice with the words of the last
+// one is left out for a few seconds of sensor time, so that a lasting fault does not fill the
+// screen.
 #pragma once
 
 #include <string>

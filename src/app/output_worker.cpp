@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kStatusInterval(1);
-// The pause between the chunks of a full cloud: a burst overruns receivers with stock buffers.
+// Pauses between the chunks of a full cloud: a burst overruns receivers with stock buffers.
 constexpr std::chrono::milliseconds kChunkPause(1);
 
 }  // namespace

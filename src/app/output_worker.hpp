@@ -38,8 +38,8 @@ class OutputWorker {
   OutputWorker(const OutputWorker&) = delete;
   OutputWorker& operator=(const OutputWorker&) = delete;
 
-  // Work on the files between the rows before and after it. It is given the writer, which is null
-  // where there are no files, and returns the one of the rows that follow. It must not throw.
+  // Does work on the files between the rows before and after it. It is given the writer, which is
+  // null where there are no files, and returns the one of the rows that follow. It must not throw.
   using FileTask = std::function<RunWriter*(RunWriter*)>;
 
   void PutRow(Output row);
@@ -78,11 +78,11 @@ class OutputWorker {
 
   Publisher& publisher_;
   const bool keeps_rows_;  // there are files
-  RunWriter* writer_;      // of the output thread
+  RunWriter* writer_;      // used by the output thread only
   std::string version_;
   std::function<StatusReport()> compose_;
   OnFault on_write_failure_;
-  bool has_told_failure_ = false;  // of the output thread
+  bool has_told_failure_ = false;  // used by the output thread only
   std::atomic<std::int64_t> num_rows_dropped_ = 0;
 
   std::mutex mutex_;  // guards tasks_ and is_finishing_

@@ -31,7 +31,7 @@ class Publisher {
   // Publishes a chunk of one of LOAM's feature sets.
   void PublishFeatures(FeatureSet set, const ScanChunk& chunk);
 
-  // 60 kB: one datagram, and no more than Java's lcm-spy can take.
+  // A cloud takes 60 kB at most: one datagram, and no more than Java's lcm-spy can take.
   static constexpr std::size_t kMaxCloudPoints = 3000;
 
   // How many messages the transport has refused.

@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr int kImuCapacity = 4096;  // samples: some seconds at 1 kHz
 constexpr int kScanCapacity =
     1024;  // chunks: forty sweeps; LCM's default of 30 would lose two thirds of them
-// Beyond the inbox's, so that those that are too many are answered.
+// The capacity exceeds the inbox's, so that those that are too many are answered.
 constexpr int kCommandCapacity = 2 * FilterInbox::kMaxRequests;
 constexpr milliseconds kPollInterval(50);  // after which Stop is noticed
 constexpr milliseconds kQuiet(20);         // after which without a message all have arrived

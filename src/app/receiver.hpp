@@ -23,7 +23,7 @@ class Receiver {
   Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
            StatusBoard& board, Refuse refuse);
 
-  // The thread's body: runs until Stop, or until the bus is closed. After Stop it still takes the
+  // Runs the thread's body until Stop, or until the bus is closed. After Stop it still takes the
   // messages that have arrived, for 200 ms at most, so that the last scan of a log is not lost.
   void Run();
   void Stop() { is_stopping_ = true; }

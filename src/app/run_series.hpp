@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of --out. They go on in a new folder when they are asked to: the run in the old one is
-// completed, with its stats and verdict. One thread at a time.
+// Writes the files of --out. They go on in a new folder when they are asked to: the run in the old
+// one is completed, with its stats and verdict. It serves one thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ namespace lio {
 class RunSeries {
  public:
   struct Folders {
-    std::filesystem::path first;   // of the first run; earlier files in it are replaced
+    std::filesystem::path first;   // takes the first run; earlier files in it are replaced
     std::filesystem::path wanted;  // the next ones are numbered after this
   };
 
   // Throws std::runtime_error when files cannot be created.
   RunSeries(const Folders& folders, const Options& options, StartIn start_in);
 
-  // Null when the last Renew could not make files.
+  // Returns null when the last Renew could not make files.
   [[nodiscard]] RunWriter* writer() { return writer_ ? &*writer_ : nullptr; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   // Says what was not written in full in any of the folders, first things first.
@@ -42,7 +42,7 @@ class RunSeries {
   StartIn start_in_;
   std::filesystem::path folder_;
   std::optional<RunWriter> writer_;
-  RunStats at_begin_;  // of the folder
+  RunStats at_begin_;  // when the folder was begun
   std::optional<std::string> failure_;
 };
 

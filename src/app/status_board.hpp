@@ -13,10 +13,10 @@
 
 namespace lio {
 
-// CPU time that this process has used, all threads together, us.
+// Returns the CPU time that this process has used, all threads together, us.
 [[nodiscard]] std::int64_t ProcessCpuMicroseconds();
 
-// The clocks that the status is made with.
+// Holds the clocks that the status is made with.
 struct StatusClocks {
   std::function<std::int64_t()> host_utime = HostUtime;
   std::function<std::int64_t()> process_cpu_us = ProcessCpuMicroseconds;
@@ -35,14 +35,14 @@ class StatusBoard {
   // Stands in place of all notes from now on, because it does not pass.
   void SetAlarm(std::string alarm);
   void CountRefusedCommand();
-  // The times of one scan: `queue_ms` from the arrival of its last datagram to the start of its
-  // match, `compute_ms` from there to its odometry.
+  // Adds the times of one scan: `queue_ms` from the arrival of its last datagram to the start of
+  // its match, `compute_ms` from there to its odometry.
   void AddLatency(double queue_ms, double compute_ms);
 
   [[nodiscard]] InputCounters input() const;
 
-  // Everything above, with the memory and the CPU time that this process uses. The latencies and
-  // the load are those since the Compose before.
+  // Returns everything above, with the memory and the CPU time that this process uses. The
+  // latencies and the load are those since the Compose before.
   [[nodiscard]] StatusReport Compose();
 
  private:

@@ -1,27 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tuning constants of the calibration of clock offset and rotation between lidar and IMU
-// (docs/calibration.md). Settings of a run are RotationCalibrationOptions. A comment gives the
-// unit, the meaning and the source; a value marked "chosen" has no measurement behind it.
+// Tunes the calibration of clock offset and rotation between lidar and IMU (docs/calibration.md).
+// Settings of a run are RotationCalibrationOptions. A comment gives the unit, the meaning and the
+// source; a value marked "chosen" has no measurement behind it.
 #pragma once
 
 namespace lio {
 
-// The poses by lidar-only odometry.
+// Tunes the poses by lidar-only odometry.
 struct ScanPosesParameters {
   // s. A sweep that is still incomplete so long after a later chunk's stamp is closed. Chosen:
   // three sweeps at 10 Hz.
   double wait_s = 0.3;
-  // m, rad. Uncertainty of a pose along a known path, 1 sigma. Chosen: some times what matching
-  // errs by; more lets matching search farther.
+  // m, rad. A pose along a known path is uncertain by this, 1 sigma. Chosen: some times what
+  // matching errs by; more lets matching search farther.
   double path_std_m = 0.05;
   double path_std_rad = 0.005;
-  // s. Least time since the last match that matching is told. Chosen: a guard against division by
-  // zero, a tenth of a sweep.
+  // s. Matching is told this time since the last match at least. Chosen: a guard against division
+  // by zero, a tenth of a sweep.
   double min_since_last_s = 0.01;
 };
 
-// The turns that are used.
+// Bounds the turns that are used.
 struct TurnSelectionParameters {
   // A turn longer than this times the median spans a missing sweep. Arithmetic: half way between
   // one and two.
@@ -31,37 +31,38 @@ struct TurnSelectionParameters {
   double offset_margin_s = 0.02;
 };
 
-// The search of the offset by correlation.
+// Tunes the search of the offset by correlation.
 struct RateSearchParameters {
-  // s. Step of the grid over all offsets, then of the grid around the best. Chosen: turn rates of
-  // hands and vehicles change little in 10 ms.
+  // s. The grid over all offsets has this step, then the grid around the best. Chosen: turn rates
+  // of hands and vehicles change little in 10 ms.
   double grid_step_s = 0.01;
   double fine_step_s = 0.001;
-  // Fewest turns for a correlation. Chosen: 2 s at 10 Hz; of fewer any two series are alike
+  // A correlation needs so many turns. Chosen: 2 s at 10 Hz; of fewer any two series are alike
   // somewhere.
   int min_turns = 20;
 };
 
-// Requirements on the data, before the least squares.
+// Sets the requirements on the data, before the least squares.
 struct CalibrationAcceptance {
-  // Fewest turns covered by samples: 5 s at 10 Hz. Chosen; docs/calibration.md asks for 30 s.
+  // Samples must cover so many turns: 5 s at 10 Hz. Chosen; docs/calibration.md asks for 30 s.
   int min_turns = 50;
-  // rad/s. Least root mean square of the turn rates. Chosen: less leaves the offset undetermined.
+  // rad/s. The root mean square of the turn rates must reach this. Chosen: less leaves the offset
+  // undetermined.
   double min_rate_rms_radps = 0.02;
-  // Least correlation of the turn rates. Chosen: below it lidar and gyro did not measure one motion
-  // (docs/calibration.md, How).
+  // The correlation of the turn rates must reach this. Chosen: below it lidar and gyro did not
+  // measure one motion (docs/calibration.md, How).
   double min_correlation = 0.6;
-  // Least ratio of the second singular value of the rates to the first. Chosen: below it all turns
-  // are about one axis.
+  // The second singular value of the rates must reach this share of the first. Chosen: below it all
+  // turns are about one axis.
   double min_second_axis_ratio = 1e-3;
   // s. An offset so near to the limit of the search is refused. Arithmetic: half a step of the
   // grid.
   double limit_margin_s = 0.005;
 };
 
-// The least squares (src/calib/turn_fit.cpp).
+// Tunes the least squares (src/calib/turn_fit.cpp).
 struct TurnFitParameters {
-  // Rounds of linearized least squares at most. Chosen: a bound on the time.
+  // The linearized least squares take so many rounds at most. Chosen: a bound on the time.
   int max_rounds = 8;
   // The noise is estimated in so many first rounds. Chosen: residuals of the first contain the
   // errors of the guess.
@@ -70,18 +71,18 @@ struct TurnFitParameters {
   // 0.04 ms and 0.04 deg (docs/calibration.md, Figures).
   double converged_s = 1e-7;
   double converged_rad = 1e-7;
-  // Iterations of Ceres in one round. Chosen: a bound on the time.
+  // Ceres iterates so often at most in one round. Chosen: a bound on the time.
   int max_iterations = 20;
-  // Sigmas. Huber's threshold. Customary: 3 sigma.
+  // Sigmas. This is Huber's threshold. Customary: 3 sigma.
   double huber_sigmas = 3.0;
   // A residual larger than this times the median does not count in the estimate of the noise.
   // Chosen: of normal residuals less than one in a million is.
   double max_residual_ratio = 4.0;
-  // rad. Least standard deviation of a sweep's rotation and of a turn. Chosen: below any lidar's;
-  // it keeps the weights finite on exact data.
+  // rad. A sweep's rotation and a turn have this standard deviation at least. Chosen: below any
+  // lidar's; it keeps the weights finite on exact data.
   double min_std_rad = 1e-5;
-  // Least ratio of a turn's own standard deviation to a sweep's. Chosen: with less the problem is
-  // badly conditioned.
+  // A turn's own standard deviation is at least this share of a sweep's. Chosen: with less the
+  // problem is badly conditioned.
   double min_turn_share = 0.05;
 };
 

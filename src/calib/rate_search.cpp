@@ -108,7 +108,7 @@ RateMatch RateSearch::Run(double max_offset_s) const {
   try_around(0.0, kGridStep_s, static_cast<int>(std::ceil(max_offset_s / kGridStep_s)));
   if (best.correlation <= 0.0) return best;
   try_around(best.offset_s, kFineStep_s, static_cast<int>(kGridStep_s / kFineStep_s));
-  // The vertex of the parabola through three points.
+  // The best offset is the vertex of the parabola through three points.
   const double before = At(best.offset_s - kFineStep_s).correlation;
   const double after = At(best.offset_s + kFineStep_s).correlation;
   const double bend = before - 2.0 * best.correlation + after;

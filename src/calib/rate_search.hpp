@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// The turn from one sweep to the next.
+// Holds the turn from one sweep to the next.
 struct LidarTurn {
   Timestamp from, to;      // by the lidar's clock
   Vector3 rotation_lidar;  // rotation vector, rad, in the lidar's axes at `from`
@@ -33,24 +33,25 @@ class RateSearch {
  public:
   RateSearch(std::span<const ImuSample> samples, std::span<const LidarTurn> turns);
 
-  // The best offset of a grid over +-max_offset_s, refined between its points. The correlation is 0
-  // when there are too few turns.
+  // Returns the best offset of a grid over +-max_offset_s, refined between its points. The
+  // correlation is 0 when there are too few turns.
   RateMatch Run(double max_offset_s) const;
-  // The agreement at one offset.
+  // Returns the agreement at one offset.
   RateMatch At(double offset_s) const;
 
  private:
-  // Integral of the rates from the first sample (rad, imu), and the number of holes up to there.
+  // Holds the integral of the rates from the first sample (rad, imu), and the number of holes up to
+  // there.
   struct Sum {
     Vector3 angle;
     int num_gaps;
   };
-  // The mean rates of one turn after another, by gyro and lidar.
+  // Holds the mean rates of one turn after another, by gyro and lidar.
   struct Rates {
     std::vector<Vector3> gyro, lidar;
   };
   Rates RatesAt(double offset_s) const;
-  // False outside the samples and in their holes.
+  // Returns false outside the samples and in their holes.
   [[nodiscard]] bool SumAt(double t_s, Sum& sum) const;
 
   std::span<const LidarTurn> turns_;

@@ -50,7 +50,7 @@ bool IsCovered(std::span<const ImuSample> samples, Timestamp from, Timestamp to)
   return false;
 }
 
-// The turns whose samples are there at the offset of the search and at all offsets near it.
+// Returns the turns whose samples are there at the offset of the search and at all offsets near it.
 std::vector<SweepTurn> Covered(std::span<const ImuSample> samples, std::vector<SweepTurn> turns,
                                double offset_s) {
   const Duration offset = Duration::FromSeconds(offset_s);

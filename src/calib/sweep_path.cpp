@@ -11,8 +11,8 @@
 namespace lio {
 namespace {
 
-// Velocities at the poses of the natural cubic spline: equal accelerations where pieces meet, none
-// at both ends. A tridiagonal system, solved by elimination (Thomas algorithm).
+// Returns the velocities at the poses of the natural cubic spline: equal accelerations where pieces
+// meet, none at both ends. The system is tridiagonal and solved by elimination (Thomas algorithm).
 std::vector<Vector3> SplineVelocities(const StampedPoses& poses) {
   const std::size_t n = poses.size();
   std::vector<double> diagonal(n), above(n);

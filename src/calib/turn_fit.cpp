@@ -19,18 +19,18 @@ namespace {
 
 constexpr TurnFitParameters kTurnFit = kCalibrationParameters.fit;
 
-// The common unknowns of all turns, as changes of the state of the round: offset [s], rotation
-// [rad, right], gyro bias [rad/s].
+// These unknowns are common to all turns, as changes of the state of the round: offset [s],
+// rotation [rad, right], gyro bias [rad/s].
 constexpr int kNumCommon = 7;
 
 using so3::Exp;
 using so3::Log;
 using so3::Vec3;
 
-// A turn by gyro at the offset of the round, with its derivatives.
+// Holds a turn by gyro at the offset of the round, with its derivatives.
 struct GyroTurn {
   Quaternion turn;
-  Matrix3 by_bias;             // of the right error
+  Matrix3 by_bias;             // derivative of the right error
   Vector3 rate_from, rate_to;  // rad/s, bias-corrected: derivatives by the offset
 };
 
@@ -46,7 +46,7 @@ GyroTurn TurnByGyro(std::span<const ImuSample> samples, const SweepTurn& turn,
           SampleAt(samples, to).w_imu_radps - state.gyro_bias_radps};
 }
 
-// The term of a turn: the lidar's against the gyro's, given the two sweeps' own errors.
+// Gives the term of a turn: the lidar's against the gyro's, given the two sweeps' own errors.
 struct TurnError {
   TurnError(const SweepTurn& turn, const GyroTurn& gyro_in, const RotationCalibration& state)
       : R_from_to(turn.R_from_to),
@@ -79,7 +79,7 @@ struct TurnError {
   double std_rad;
 };
 
-// The prior of a sweep's own rotation error.
+// Gives the prior of a sweep's own rotation error.
 struct OwnError {
   template <class T>
   bool operator()(const T* own, T* residual) const {
@@ -134,7 +134,7 @@ void EstimateNoise(std::span<const SweepTurn> turns, const std::vector<Vector3>&
                 kTurnFit.min_turn_share * state.sweep_std_rad});
 }
 
-// One least squares problem, linearized at the state of the round.
+// Solves one least squares problem, linearized at the state of the round.
 class Round {
  public:
   Round(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,

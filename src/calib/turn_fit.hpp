@@ -21,7 +21,7 @@ struct SweepTurn {
 };
 
 // Fills all of `state` but correlation and turn_rate_rms_radps, from a guess within 20 ms and a few
-// degrees. False when it does not converge or the turns do not determine it.
+// degrees. Returns false when it does not converge or the turns do not determine it.
 [[nodiscard]] bool FitTurns(std::span<const ImuSample> samples, std::span<const SweepTurn> turns,
                             RotationCalibration& state);
 

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kMaxWantedBytes = 1u << 26;
 // A recorder closes a chunk at some megabytes or after one message that is larger.
 inline constexpr std::uint64_t kMaxChunkBytes = 1u << 29;
 inline constexpr std::uint32_t kMaxDefinitionBytes = 1u << 24;  // definitions are some kilobytes
-// The year 2106, the limit of ROS 1, too.
+// This is the year 2106, the limit of ROS 1, too.
 inline constexpr std::int64_t kMaxReceivedNs = 4'294'967'296'000'000'000;
 
 }  // namespace lio

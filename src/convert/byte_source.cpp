@@ -21,7 +21,7 @@ constexpr int kMaxZstdWindowLog = 27;  // 128 MiB, the limit of the command zstd
 class Refill {
  public:
   explicit Refill(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {}
-  // Returns the waiting bytes, and reads a block if there are none. Empty at the end.
+  // Returns the waiting bytes, and reads a block if there are none. They are empty at the end.
   std::span<std::uint8_t> Waiting() {
     if (begin_ == end_) {
       begin_ = 0;

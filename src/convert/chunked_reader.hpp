@@ -36,8 +36,8 @@ class ChunkedReader : public BagReader {
 
   // Goes on outside of the chunk that ended at this position of the file.
   void GoOnBehindChunk(std::uint64_t end);
-  // The share of a chunk's stored bytes whose records were not understood, of `inflated` bytes in
-  // all.
+  // Returns the share of a chunk's stored bytes whose records were not understood, of `inflated`
+  // bytes in all.
   [[nodiscard]] static std::int64_t LostBytes(std::uint64_t stored, std::uint64_t understood,
                                               std::uint64_t inflated);
   // Notes the reason and the place of the first damage.

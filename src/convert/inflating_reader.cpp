@@ -59,7 +59,7 @@ class InflatingReader : public BagReader {
   std::unique_ptr<ZSTD_DCtx, FreeContext> context_{ZSTD_createDCtx()};
   std::vector<std::uint8_t> inflated_;
   std::int64_t num_damaged_ = 0;
-  mutable BagDamage damage_;  // of both; composed when it is asked for
+  mutable BagDamage damage_;  // the bag's and the frames' together; composed when it is asked for
 };
 
 }  // namespace

@@ -118,7 +118,7 @@ class JoinedBags : public BagReader {
     return false;
   }
 
-  // The place of the topic in the joined list, to which it is added when it is new.
+  // Returns the place of the topic in the joined list, to which it is added when it is new.
   std::size_t Index(const BagTopic& topic) {
     const auto found = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
       return other.name == topic.name && other.type == topic.type;
@@ -139,9 +139,9 @@ class JoinedBags : public BagReader {
   bool is_left_ = false;
   std::optional<Timestamp> begin_time_;
   BagDamage damage_;
-  BagDamage damage_before_;  // of the parts before
+  BagDamage damage_before_;  // in the parts before
   std::int64_t bytes_before_ = 0;
-  std::int64_t num_read_ = 0;  // of the parts before
+  std::int64_t num_read_ = 0;  // from the parts before
   std::int64_t size_bytes_ = 0;
 };
 

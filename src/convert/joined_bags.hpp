@@ -12,13 +12,13 @@
 
 namespace lio {
 
-// The .bag files of a folder, by name; empty where there are none.
+// Returns the .bag files of a folder, by name; empty where there are none.
 [[nodiscard]] std::vector<std::filesystem::path> BagsOfFolder(const std::filesystem::path& folder);
 
 struct BagParts {
   std::vector<std::filesystem::path> paths;
   std::unique_ptr<BagReader> (*open)(const std::filesystem::path&) = OpenRosbag1;
-  std::int64_t num_messages = -1;  // of all parts together; -1: not known
+  std::int64_t num_messages = -1;  // in all parts together; -1: not known
 };
 
 // Joins the parts in the order of their first messages; a part that is not there is damage. Throws

@@ -32,7 +32,7 @@ class McapReader : public ChunkedReader {
     McapChunkHeader header;
     std::uint64_t begin = 0;  // file positions of the present chunk's stored records
     std::uint64_t stored_end = 0;
-    std::uint64_t end = 0;         // where the next record of the file begins
+    std::uint64_t end = 0;         // position of the file's next record
     std::uint64_t missing = 0;     // bytes of the last chunk that are missing from the file
     std::uint64_t understood = 0;  // bytes of the chunk's records that were sound
   };

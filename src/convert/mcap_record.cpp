@@ -43,7 +43,7 @@ std::optional<McapMessageHeader> ReadMcapMessageHeader(ByteSource& source) {
 }
 
 std::optional<McapChunkHeader> ReadMcapChunkHeader(ByteSource& source) {
-  constexpr std::size_t kTimesBytes = 16;  // of the first and the last message
+  constexpr std::size_t kTimesBytes = 16;  // the times of the first and the last message
   std::array<std::uint8_t, kTimesBytes + 16> bytes;
   if (source.Read(bytes) < bytes.size()) return {};
   McapChunkHeader header;
@@ -64,7 +64,7 @@ std::optional<McapFooter> ParseMcapFooter(ByteView content) {
   RosCursor numbers = Numbers(content);
   McapFooter footer;
   footer.summary_start = numbers.Read<std::uint64_t>();
-  (void)numbers.Read<std::uint64_t>();  // where the summary's own index begins
+  (void)numbers.Read<std::uint64_t>();  // position of the summary's own index
   footer.summary_crc = numbers.Read<std::uint32_t>();
   if (!numbers.ok()) return {};
   return footer;

@@ -29,12 +29,12 @@ struct McapChunkHeader {
   std::uint64_t inflated_bytes = 0;
   std::uint32_t inflated_crc = 0;  // 0: there is none
   std::string compression;         // "", "lz4" (frames) or "zstd"
-  std::uint64_t stored_bytes = 0;  // of the records as they stand in the file
+  std::uint64_t stored_bytes = 0;  // length of the records as they stand in the file
 };
 
 struct McapFooter {
   std::uint64_t summary_start = 0;  // from the file's begin; 0: there is no summary
-  std::uint32_t summary_crc = 0;    // of the summary and the footer before this field; 0: none
+  std::uint32_t summary_crc = 0;    // over the summary and the footer before this field; 0: none
 };
 
 struct McapStatistics {
@@ -59,7 +59,7 @@ struct McapStatistics {
 [[nodiscard]] std::unique_ptr<ByteSource> MakeMcapChunkSource(const McapChunkHeader& header,
                                                               std::unique_ptr<ByteSource> stored);
 
-// The CRC-32 (of ISO 3309, as in zip files) of all that `source` still delivers.
+// Returns the CRC-32 (of ISO 3309, as in zip files) of all that `source` still delivers.
 [[nodiscard]] std::uint32_t Crc32OfRest(ByteSource& source);
 
 }  // namespace lio

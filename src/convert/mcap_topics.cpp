@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kMaxDefinitionsBytes = 1u << 26;  // of all types and topics together
+constexpr std::size_t kMaxDefinitionsBytes = 1u << 26;  // for all types and topics together
 
 // Schemas of ROS 2 may be written as .msg or as .idl; the type is the same.
 bool IsRos2Schema(std::string_view encoding) {

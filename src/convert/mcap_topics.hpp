@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The topics of an MCAP file, from its schemas (types with their definitions) and channels (a topic
-// each, several where several programs published on it).
+// Gives the topics of an MCAP file, from its schemas (types with their definitions) and channels (a
+// topic each, several where several programs published on it).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class McapTopics {
   [[nodiscard]] bool AddSchema(ByteView content);
   [[nodiscard]] bool AddChannel(ByteView content);
 
-  // The channel's index into topics().
+  // Returns the channel's index into topics().
   [[nodiscard]] std::optional<std::size_t> IndexOf(std::uint16_t channel) const;
   // Messages that are neither ROS 1's nor CDR have a type such as "foxglove.Imu as protobuf". Only
   // the first 64 MiB of definitions are kept.

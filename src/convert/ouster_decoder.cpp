@@ -12,8 +12,8 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 32;        // of a RNG19 packet
-constexpr std::size_t kColumnHeaderBytes = 12;  // of RNG19
+constexpr std::size_t kHeaderBytes = 32;        // in a RNG19 packet
+constexpr std::size_t kColumnHeaderBytes = 12;  // in a RNG19 packet
 constexpr std::size_t kLegacyHeaderBytes = 16;
 constexpr std::size_t kLegacyStatusBytes = 4;
 constexpr std::uint32_t kLegacyValid = 0xffffffff;
@@ -124,7 +124,7 @@ void OusterDecoder::AddImu(ByteView payload, Timestamp received) {
   };
   ReceivedImu imu;
   imu.received = received;
-  imu.sample.stamp = Timestamp{At<std::int64_t>(payload, 16)};  // that of the gyro
+  imu.sample.stamp = Timestamp{At<std::int64_t>(payload, 16)};  // the gyro's own time
   imu.sample.f_imu_mps2 = kStandardGravity_mps2 * vector(24);
   imu.sample.w_imu_radps = kRadPerDeg * vector(36);
   imu_.push_back(imu);

@@ -33,7 +33,7 @@ std::vector<double> Angles(const Json& all, const std::string& key) {
   return angles;
 }
 
-// A list of 16 numbers, row by row, lengths in mm; the identity where it is missing.
+// Reads a list of 16 numbers, row by row, lengths in mm; the identity where it is missing.
 Pose TransformOf(const Json& all, const std::string& key) {
   const Json& found = Find(all, key);
   if (found.is_null()) return Pose::Identity();
@@ -55,7 +55,7 @@ OusterProfile ProfileOf(const Json& all) {
   throw InputError("profile " + name + " is not supported: LEGACY and RNG19_RFL8_SIG16_NIR16 are");
 }
 
-// "1024x10": columns of a turn, turns a second.
+// The mode "1024x10" has columns of a turn, then turns a second.
 std::size_t ColumnsOfMode(const Json& all) {
   return std::stoul(Find(all, "lidar_mode").get<std::string>());
 }

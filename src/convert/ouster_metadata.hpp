@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The description of an Ouster sensor, a JSON file that its driver saves beside a capture, without
-// which its packets cannot be read: the beams' angles, and how a packet is laid out.
+// Reads the description of an Ouster sensor, a JSON file that its driver saves beside a capture,
+// without which its packets cannot be read: the beams' angles, and how a packet is laid out.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace lio {
 
 // Lengths are in mm, here and in packets.
 inline constexpr double kMetresPerMillimetre = 1e-3;
-inline constexpr std::size_t kOusterPixelBytes = 12;  // of one beam in a packet
+inline constexpr std::size_t kOusterPixelBytes = 12;  // one beam in a packet
 
 enum class OusterProfile { kLegacy, kRng19 };
 

@@ -19,7 +19,7 @@ struct PacketStream {
   std::string model;  // "vlp16", "hdl32e" or "ouster"; empty for what is no supported lidar
   std::string what;   // for the user: "a Velodyne of product 40", "datagrams of 512 bytes"
   std::int64_t num_packets = 0;
-  std::vector<double> delays_s;  // of the first packets: received, minus the time that they tell
+  std::vector<double> delays_s;  // the first packets': received, minus the time that they tell
 
   [[nodiscard]] std::string name() const;  // "192.168.1.201:2368"
 };

@@ -19,7 +19,7 @@ inline constexpr double kWholeTurn = 0.9;  // share of a turn that makes it a wh
 struct Turn {
   std::vector<LidarPoint> points;
   std::vector<std::int64_t> instants_ns;  // one a point
-  Timestamp received;                     // of the packet that completed it
+  Timestamp received;                     // when the packet came that completed it
   bool is_whole = true;                   // false: begun or ended by the capture, or by a gap
 };
 
@@ -30,8 +30,8 @@ struct ReceivedImu {
 
 struct PacketCounts {
   std::int64_t num_taken = 0;
-  std::int64_t num_damaged = 0;  // of the right size, but their content contradicts the format
-  std::int64_t num_lost = 0;     // that never came, by the times or numbers of their neighbours
+  std::int64_t num_damaged = 0;  // right in size, but their content contradicts the format
+  std::int64_t num_lost = 0;     // never came, as the times or numbers of their neighbours show
 };
 
 class PacketDecoder {

@@ -68,7 +68,7 @@ class PcapConversion {
   PacketStream stream_;
   std::unique_ptr<PacketDecoder> decoder_;
   ImuFile imu_file_;
-  std::size_t next_imu_ = 0;  // of the file
+  std::size_t next_imu_ = 0;  // index into the file's samples
   std::int32_t imu_seq_ = 0;
   std::int32_t scan_seq_ = 0;
 };
@@ -92,7 +92,7 @@ void PcapConversion::LoadImu() {
   imu_file_ = ReadImuFile(*file);
   report_.losses.num_imu_damaged = imu_file_.num_damaged;
   report_.imu_text = fmt::format("{} ({})", file->string(), imu_file_.description);
-  report_.T_imu_lidar.reset();  // that is where the lidar's own IMU sits
+  report_.T_imu_lidar.reset();  // it says where the lidar's own IMU sits
 }
 
 // The IMU of an Ouster sends to a port of its own.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bag whose files are compressed as a whole (drive.mcap.zstd, or a ROS 2 bag in compression mode
-// "file"), inflated into a folder for temporary files for as long as it is read.
+// Opens a bag whose files are compressed as a whole (drive.mcap.zstd, or a ROS 2 bag in compression
+// mode "file"), inflated into a folder for temporary files for as long as it is read.
 #pragma once
 
 #include <filesystem>

@@ -65,7 +65,7 @@ bool IsRule(std::string_view line) {
   return line.size() >= 3 && line.find_first_not_of('=') == std::string_view::npos;
 }
 
-// The full name of the message that `type` may mean in a field of a message of `package`.
+// Returns the full name of the message that `type` may mean in a field of a message of `package`.
 std::string FullName(const std::string& type, const std::string& package) {
   if (type == "Header") return "std_msgs/Header";
   return type.find('/') == std::string::npos ? package + "/" + type : type;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of a ROS 2 bag: a folder with metadata.yaml and one or more SQLite or MCAP files.
+// Finds the files of a ROS 2 bag: a folder with metadata.yaml and one or more SQLite or MCAP files.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lio {
 
-// The ending that recorders append to the name of a file that they compress.
+// Recorders append this ending to the name of a file that they compress.
 inline constexpr std::string_view kZstdEnding = ".zstd";
 
 // Returns whether it is a bag's file that is compressed as a whole, by ending and first bytes.

@@ -23,7 +23,7 @@ std::uint16_t Big16(ByteView bytes, std::size_t at) {
   return LoadAs<std::uint16_t>(bytes.data() + at, true);
 }
 
-// How many bytes stand in front of an IPv4 packet; nothing when there is none.
+// Returns how many bytes stand in front of an IPv4 packet; nothing when there is none.
 std::optional<std::size_t> EthernetHeaderBytes(ByteView frame) {
   constexpr std::size_t kTagBytes = 4;
   std::size_t at = 12;
@@ -31,7 +31,7 @@ std::optional<std::size_t> EthernetHeaderBytes(ByteView frame) {
     const std::uint16_t type = Big16(frame, at);
     if (type == kIpv4) return at + 2;
     if (type != 0x8100 && type != 0x88a8) return std::nullopt;
-    at += kTagBytes;  // of a VLAN
+    at += kTagBytes;  // the tag of a VLAN
   }
   return std::nullopt;
 }

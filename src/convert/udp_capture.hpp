@@ -20,7 +20,7 @@ struct pcap;
 namespace lio {
 
 struct UdpDatagram {
-  Timestamp received;        // of its last fragment, by the clock of the capturing host
+  Timestamp received;        // arrival of its last fragment, by the clock of the capturing host
   std::uint32_t source = 0;  // address of the sender
   std::uint16_t port = 0;    // to which it was sent
   ByteView payload;          // valid until the next call of Next()
@@ -47,7 +47,7 @@ class UdpCapture {
   // Returns false at the end, and where the file is damaged.
   [[nodiscard]] bool Next(UdpDatagram& datagram);
   [[nodiscard]] const CaptureCounts& counts() const { return counts_; }
-  // The share of the file that was read, 0..1.
+  // Returns the share of the file that was read, 0..1.
   [[nodiscard]] double progress() const;
 
  private:

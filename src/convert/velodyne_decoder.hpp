@@ -20,7 +20,7 @@ namespace lio {
 // Says what a datagram is: nothing for other data, "" for a Velodyne that is not supported, else
 // the name of its model in config/lidars.
 [[nodiscard]] std::optional<std::string> VelodyneModel(ByteView payload);
-// The product's number in a data packet, for messages to users.
+// Returns the product's number in a data packet, for messages to users.
 [[nodiscard]] int VelodyneProduct(ByteView payload);
 
 // The sensor's clock: it tells the time since the hour. Without GPS it began when it was switched
@@ -28,7 +28,7 @@ namespace lio {
 struct HourClock {
   Duration offset{0};
 
-  // The instant with that time since an hour that is nearest to when it was received.
+  // Returns the instant with that time since an hour that is nearest to when it was received.
   [[nodiscard]] Timestamp At(std::uint32_t since_hour_us, Timestamp received) const;
 };
 [[nodiscard]] std::uint32_t VelodyneTime(ByteView payload);
@@ -61,8 +61,8 @@ class VelodyneDecoder : public PacketDecoder {
   FiringTable table_;
   HourClock clock_;
   double block_s_ = 0.0;                 // from one block to the next
-  double rate_radps_ = 0.0;              // of the head, clockwise
-  std::optional<Timestamp> next_stamp_;  // of the packet that should come next
+  double rate_radps_ = 0.0;              // turn rate of the head, clockwise
+  std::optional<Timestamp> next_stamp_;  // due time of the next packet
   std::optional<double> last_azimuth_rad_;
   double turned_rad_ = 0.0;  // since the turn began
   Turn turn_;

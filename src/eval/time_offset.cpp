@@ -11,7 +11,7 @@ namespace lio {
 namespace {
 
 constexpr double kSpan_s = 1.0;
-constexpr double kStep_s = 0.05;  // of the coarse search
+constexpr double kStep_s = 0.05;  // step of the coarse search
 constexpr double kResolution_s = 1e-4;
 
 double PositionError(const Trajectory& truth, const Trajectory& estimate,
@@ -53,7 +53,7 @@ double FindTimeOffset(const Trajectory& truth, const Trajectory& estimate,
     least_m = found_m;
     best_s = i * kStep_s;
   }
-  constexpr int kBits = 20;  // of the interval
+  constexpr int kBits = 20;  // accuracy of the minimum
   const double fine_s =
       boost::math::tools::brent_find_minima(error_m, best_s - kStep_s, best_s + kStep_s, kBits)
           .first;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A table of each kind of message. Stamps are sensor time in nanoseconds, `received_ns` is the
-// log's.
+// Writes a table of each kind of message. Stamps are sensor time in nanoseconds, `received_ns` is
+// the log's.
 #include <fmt/format.h>
 
 #include <memory>
@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-// A file that is made with its first row.
+// Writes a file that is made with its first row.
 class Table {
  public:
   Table(std::filesystem::path path, std::string header)
@@ -37,7 +37,7 @@ class Table {
   std::unique_ptr<OutputFile> file_;
 };
 
-// Values behind commas, as many digits as bring the same number back.
+// Returns values behind commas, with as many digits as bring the same number back.
 template <typename Vector>
 std::string Values(const Vector& vector) {
   std::string text;
@@ -50,7 +50,7 @@ std::string PoseValues(const Pose& pose) {
   return Values(pose.translation) + fmt::format(",{},{},{},{}", q.x(), q.y(), q.z(), q.w());
 }
 
-// The entries on and above the diagonal, row by row.
+// Returns the entries on and above the diagonal, row by row.
 std::string UpperTriangle(const Matrix6& cov) {
   std::string text;
   for (int row = 0; row < 6; ++row) {

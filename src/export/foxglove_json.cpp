@@ -49,7 +49,7 @@ Json RowsJson(const Matrix& matrix) {
   return values;
 }
 
-// x, y, z as floats, then intensity and ring, little-endian.
+// Returns x, y, z as floats, then intensity and ring, little-endian.
 std::string PackedPoints(const std::vector<LidarPoint>& points) {
   std::string data;
   data.reserve(points.size() * 16);

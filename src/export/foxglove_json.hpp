@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// liod's messages as JSON of Foxglove's types, and as plain JSON for plots.
+// Writes liod's messages as JSON of Foxglove's types, and as plain JSON for plots.
 #pragma once
 
 #include <span>
@@ -25,10 +25,10 @@ inline constexpr const char* kLidarFrame = "lidar";
 [[nodiscard]] std::string PoseJson(Timestamp stamp, const char* frame, const Pose& pose);
 [[nodiscard]] std::string PosesJson(Timestamp stamp, const char* frame,
                                     std::span<const Pose> poses);
-// The pose of `child` in `parent`.
+// Returns the pose of `child` in `parent`.
 [[nodiscard]] std::string TransformJson(Timestamp stamp, const char* parent, const char* child,
                                         const Pose& T_parent_child);
-// The ellipsoid of three standard deviations of the position, in world.
+// Returns the ellipsoid of three standard deviations of the position, in world.
 [[nodiscard]] std::string EllipsoidJson(const NavOutput& nav);
 [[nodiscard]] std::string LogJson(Timestamp stamp, Trust trust, std::string_view text);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// JSON schemas of the types that an exported MCAP file has: Foxglove's well-known ones, of which
-// the viewers know the names (docs.foxglove.dev, "Foxglove schemas"), and our own for plots.
+// Gives JSON schemas of the types that an exported MCAP file has: Foxglove's well-known ones, of
+// which the viewers know the names (docs.foxglove.dev, "Foxglove schemas"), and our own for plots.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace lio {
 [[nodiscard]] std::string FrameTransformSchema();
 [[nodiscard]] std::string SceneUpdateSchema();
 [[nodiscard]] std::string LogSchema();
-// An object with a timestamp and numbers, vectors and texts of any name.
+// Describes an object with a timestamp and numbers, vectors and texts of any name.
 [[nodiscard]] std::string PlotSchema(const std::string& title);
 
 }  // namespace lio

@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kMaxPathPoses = 1000;  // of a message; longer paths are thinned evenly
+constexpr std::size_t kMaxPathPoses = 1000;  // in one message; longer paths are thinned evenly
 constexpr std::size_t kMinNewPoses = 10;
 
 // The path grows, and each message has all of it: it is told when it is a twentieth longer, so that

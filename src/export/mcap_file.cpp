@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kChunkBytes = 1u << 20;  // of records, before compression
+constexpr std::size_t kChunkBytes = 1u << 20;  // length of the records before compression
 constexpr int kZstdLevel = 3;
 
 std::string Record(McapOp op, std::string_view content) {

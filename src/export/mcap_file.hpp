@@ -43,7 +43,7 @@ class McapFile {
   // Overwrites an existing file. All functions throw what OutputFile throws.
   McapFile(const std::filesystem::path& path, McapCompression compression);
 
-  // A topic of JSON messages of a type; `schema` is a JSON schema. Gives its number for Write.
+  // Adds a topic of JSON messages of a type; `schema` is a JSON schema. Gives its number for Write.
   // Types of one name must have one schema.
   std::uint16_t AddTopic(const std::string& topic, const std::string& type,
                          std::string_view schema);
@@ -87,11 +87,11 @@ class McapFile {
   McapContent chunk_;  // records
   Span chunk_span_;
   std::map<std::uint16_t, std::vector<Entry>> chunk_entries_;
-  std::string schema_records_, channel_records_, chunk_index_records_;  // of the summary
+  std::string schema_records_, channel_records_, chunk_index_records_;  // repeated in the summary
   Statistics statistics_;
 };
 
-// The CRC-32 of ISO 3309, as in zip files.
+// Returns the CRC-32 of ISO 3309, as in zip files.
 [[nodiscard]] std::uint32_t McapCrc(std::string_view bytes);
 
 }  // namespace lio

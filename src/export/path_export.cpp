@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The path as TUM, and the map's points as PLY.
+// Writes the path as TUM, and the map's points as PLY.
 #include "export/output_reader.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/ply_file.hpp"

@@ -31,7 +31,7 @@ bool AreSparse(std::span<const ImuSample> samples) {
          }) != samples.end();
 }
 
-// The mean over the time by which the stamp may be wrong: noise and vibration average out.
+// Returns the mean over the time by which the stamp may be wrong: noise and vibration average out.
 Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vector3& bias) {
   const Duration half = Duration::FromSeconds(0.5 * kClockOffset.rate_span_s);
   const Quaternion turn = Gyro(samples, stamp - half, stamp + half, bias, 0.0).rotation;

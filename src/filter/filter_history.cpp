@@ -13,7 +13,7 @@ void RebaseMapPose(Estimate& estimate) {
   estimate.cov.middleCols<6>(kMapPose).setZero();
 }
 
-// The mean turn rate of a step, rad/s.
+// Returns the mean turn rate of a step, rad/s.
 double MeanRate(const ImuSample& from, const ImuSample& to) {
   return 0.5 * (from.w_imu_radps + to.w_imu_radps).norm();
 }

@@ -5,11 +5,11 @@
 namespace lio {
 namespace {
 
-// Bias-corrected samples at both ends of the step.
+// Holds bias-corrected samples at both ends of the step.
 struct Ends {
   double dt_s;
   Vector3 rotation;     // rotation vector of the turn
-  Vector3 rate_change;  // of the second sample against the first, rad/s
+  Vector3 rate_change;  // second sample minus the first, rad/s
   Vector3 force0;       // specific force at both ends, each in its own imu frame, m/s^2
   Vector3 force1;
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The increment of a state between two neighbouring inertial samples, in the imu frame at the first
-// of them and without gravity. This is the only integration rule; the filter's process model and
-// preintegration both use it:
+// Gives the increment of a state between two neighbouring inertial samples, in the imu frame at the
+// first of them and without gravity. This is the only integration rule; the filter's process model
+// and preintegration both use it:
 //
 //   R1 = R0 turn,   v1 = v0 + g dt + R0 velocity,   p1 = p0 + v0 dt + g dt^2/2 + R0 position.
 //
@@ -24,15 +24,15 @@ struct InertialIncrement {
   Vector3 position = Vector3::Zero();  // m
 };
 
-// Derivatives by the biases, 3x3 each. The turn's is on the right:
-// turn(bg + d) = turn Exp(turn_by_gyro d).
+// Holds the derivatives by the biases, 3x3 each. The turn's is on the right: turn(bg + d) = turn
+// Exp(turn_by_gyro d).
 struct IncrementByBias {
   Matrix3 turn_by_gyro;
   Matrix3 velocity_by_gyro, velocity_by_accel;
   Matrix3 position_by_gyro, position_by_accel;
 };
 
-// Biases in rad/s and m/s^2, imu. Needs to.stamp >= from.stamp.
+// Biases are in rad/s and m/s^2, imu. Needs to.stamp >= from.stamp.
 InertialIncrement MakeIncrement(const ImuSample& from, const ImuSample& to,
                                 const Vector3& gyro_bias, const Vector3& accel_bias);
 // The same, and fills the derivatives.

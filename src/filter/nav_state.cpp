@@ -46,7 +46,7 @@ ErrorMatrix InjectJacobian(const NavState& state, const ErrorVector& error) {
   const Matrix6 by_apart = AdjointSe3(ExpSe3(-common)) * LeftJacobianSe3(-apart);
   const Matrix3 R_before = state.T_world_imu.rotation.toRotationMatrix();
   const Matrix3 R_after = R_before * (ExpSo3(apart.tail<3>()) * ExpSo3(common.tail<3>()));
-  // Of both world errors as right errors.
+  // Position errors are in world, and right errors in imu.
   Matrix6 from_position = Matrix6::Identity();
   from_position.topLeftCorner<3, 3>() = R_before.transpose();
   Matrix6 to_position = Matrix6::Identity();

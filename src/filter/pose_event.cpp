@@ -12,9 +12,9 @@
 namespace lio {
 namespace {
 
-// The factors after an update: an exponential mean of NIS / 3, the ratio of the innovations'
-// variance to its expected value, for translation and rotation; from 1 to `max`. The NIS was
-// computed with the inflated covariance, so it is multiplied by the factor `now`.
+// Returns the factors after an update: an exponential mean of NIS / 3, the ratio of the
+// innovations' variance to its expected value, for translation and rotation; from 1 to `max`. The
+// NIS was computed with the inflated covariance, so it is multiplied by the factor `now`.
 CovarianceInflation NextInflation(const CovarianceInflation& inflation, const UpdateResult& update,
                                   const CovarianceInflation& max) {
   static constexpr InflationParameters kParameters = kFilterParameters.inflation;
@@ -34,8 +34,8 @@ Matrix6 Inflated(const Matrix6& cov, const CovarianceInflation& inflation) {
   return scale.asDiagonal() * cov * scale.asDiagonal();
 }
 
-// True when a residual beyond the gate can be so much unseen motion and an error of registration,
-// whose covariance was then too small.
+// Returns true when a residual beyond the gate can be so much unseen motion and an error of
+// registration, whose covariance was then too small.
 bool CanBe(const Vector6& residual, const UnseenMotion& unseen) {
   constexpr ForcedUpdateParameters kParameters = kFilterParameters.forced_update;
   return residual.head<3>().norm() < kParameters.max_registration_error_m + unseen.translation_m &&

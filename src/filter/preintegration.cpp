@@ -60,7 +60,7 @@ void Append(const ImuSample& from, const ImuSample& to, const ProcessNoise& nois
   sum.rotation = (sum.rotation * step.turn).normalized();
 }
 
-// The sample at `stamp`, between the sample before index `after` and the one there.
+// Returns the sample at `stamp`, between the sample before index `after` and the one there.
 ImuSample SampleAt(std::span<const ImuSample> samples, std::size_t after, Timestamp stamp) {
   const std::size_t last = samples.size() - 1;
   const ImuSample& b = samples[std::min(after, last)];

@@ -103,7 +103,8 @@ ErrorMatrix TimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
   return out;
 }
 
-// The lower triangle of X F^T, which is symmetric here; elements above the diagonal are undefined.
+// Returns the lower triangle of X F^T, which is symmetric here; elements above the diagonal are
+// undefined.
 ErrorMatrix LowerTimesTransitionTransposed(const Step& step, const ErrorMatrix& X) {
   ErrorMatrix out;
   out.middleCols<3>(kPos) = Columns<kPos>(step, X).Position();

@@ -22,7 +22,7 @@ using ConstQuat = Eigen::Map<const Eigen::Quaternion<T>>;
 using so3::Exp;
 using so3::Log;
 
-// Rotations with errors on the right, as everywhere in this project.
+// Holds rotations with errors on the right, as everywhere in this project.
 struct RightError {
   template <class T>
   bool Plus(const T* x, const T* delta, T* out) const {
@@ -42,7 +42,7 @@ Eigen::Matrix<double, kSize, kSize> Whitener(const Eigen::Matrix<double, kSize, 
   return cov.llt().matrixL().solve(Eigen::Matrix<double, kSize, kSize>::Identity());
 }
 
-// The term of a matched pose: position error in imu, rotation error on the right.
+// Gives the term of a matched pose: position error in imu, rotation error on the right.
 struct PoseTerm {
   explicit PoseTerm(const MatchedPose& pose)
       : T_any_imu(pose.T_any_imu), whiten(Whitener<6>(pose.cov)) {}
@@ -62,7 +62,8 @@ struct PoseTerm {
   Matrix6 whiten;
 };
 
-// The term of the preintegrated samples between two states (Forster et al., TRO 2017, section VI).
+// Gives the term of the preintegrated samples between two states (Forster et al., TRO 2017, section
+// VI).
 struct MotionTerm {
   MotionTerm(const Preintegration& motion_in, double gravity_mps2)
       : motion(motion_in), gravity(gravity_mps2), whiten(Whitener<9>(motion_in.cov)) {}
@@ -103,7 +104,7 @@ struct MotionTerm {
   Eigen::Matrix<double, 9, 9> whiten;
 };
 
-// The prior of the biases: zero mean, the rig's turn-on spread.
+// Gives the prior of the biases: zero mean, the rig's turn-on spread.
 struct BiasTerm {
   template <class T>
   bool operator()(const T* biases, T* residual) const {
@@ -114,7 +115,7 @@ struct BiasTerm {
   double accel_std;
 };
 
-// The unknowns, laid out for Ceres.
+// Holds the unknowns, laid out for Ceres.
 class Unknowns {
  public:
   explicit Unknowns(const Alignment& guess) : at_(guess) {
@@ -168,8 +169,8 @@ void AddTerms(const AlignmentTerms& terms, Unknowns& x, Problem& problem) {
   }
 }
 
-// The covariance of the first state, biases and vertical, by Ceres: their part of the inverse
-// Hessian.
+// Returns the covariance of the first state, biases and vertical, by Ceres: their part of the
+// inverse Hessian.
 AlignedCov LeadingCovariance(Problem& problem, Unknowns& x, bool has_up) {
   std::vector<const double*> blocks = {x.Rotation(0), x.Velocity(0), x.BiasBlock()};
   if (has_up) blocks.push_back(x.Up());

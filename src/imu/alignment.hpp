@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The least squares of the initialization in motion (moving_start.hpp): states of a window from
-// matched poses and inertial samples, in one fixed frame, "any", in which gravity's direction is
-// unknown. Preintegration: Forster et al., TRO 2017. Nothing throws.
+// Solves the least squares of the initialization in motion (moving_start.hpp): states of a window
+// from matched poses and inertial samples, in one fixed frame, "any", in which gravity's direction
+// is unknown. Preintegration: Forster et al., TRO 2017. Nothing throws.
 #pragma once
 
 #include <span>
@@ -33,8 +33,8 @@ struct AlignmentTerms {
   double accel_bias_std_mps2 = 0.0;
 };
 
-// Order of the first state's covariance, 3 each: rotation (rad, right), velocity (m/s, any), gyro
-// bias (rad/s), accel bias (m/s^2), up_any (rank 2: its length is fixed).
+// The first state's covariance has this order, 3 each: rotation (rad, right), velocity (m/s, any),
+// gyro bias (rad/s), accel bias (m/s^2), up_any (rank 2: its length is fixed).
 inline constexpr int kAlignedRot = 0;
 inline constexpr int kAlignedVel = 3;
 inline constexpr int kAlignedBiases = 6;

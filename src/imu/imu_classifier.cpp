@@ -39,8 +39,8 @@ double ImuClassifier::Lean(const ImuConvention& convention) const {
   return 1.0 - lidar_axis_imu_.dot(convention.R_imu_sent * force_sum.normalized());
 }
 
-// Every convention with its score, the sum of those of rates and forces. Another unit of rates is
-// considered only when the rates show the turns at all.
+// Returns every convention with its score, the sum of those of rates and forces. Another unit of
+// rates is considered only when the rates show the turns at all.
 std::vector<ImuClassifier::Scored> ImuClassifier::ScoreAll(Bends bends) const {
   std::vector<Scored> all;
   for (const Matrix3& R : QuarterTurns()) {
@@ -69,8 +69,8 @@ void ImuClassifier::ScoreForces(const ImuConvention& rates, Bends bends,
   }
 }
 
-// The convention among `likely` with the fewest changes against the expected one; absent when
-// several have as few.
+// Returns the convention among `likely` with the fewest changes against the expected one; absent
+// when several have as few.
 std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> likely) const {
   std::optional<ImuConvention> least;
   int least_changes = std::numeric_limits<int>::max();
@@ -89,15 +89,15 @@ std::optional<ImuConvention> ImuClassifier::LeastChange(std::span<const Scored> 
   return is_only ? least : std::nullopt;
 }
 
-// True when the gyro's rates explain the turns better than no rates at all. Noise and vibration of
-// a vehicle at rest do not, however small another unit makes them.
+// Returns true when the gyro's rates explain the turns better than no rates at all. Noise and
+// vibration of a vehicle at rest do not, however small another unit makes them.
 bool ImuClassifier::IsGyroHeard(const ImuConvention& convention) const {
   return evidence_.RateScore(convention.R_imu_sent, 0.0) >
          evidence_.RateScore(convention.R_imu_sent, convention.rate_scale()) +
              kClassifier.refuted_score;
 }
 
-// The least score of the expected convention over the clock offsets that are possible.
+// Returns the least score of the expected convention over the clock offsets that are possible.
 double ImuClassifier::ExpectedScoreOfOtherClocks() const {
   double least = std::numeric_limits<double>::infinity();
   for (double num_steps = -kClassifier.max_clock_shift_steps;

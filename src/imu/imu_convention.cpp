@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;  // 1 g by definition (CGPM 1901)
 
-// "x -y -z": the axes of the messages along imu's x, y and z.
+// Returns the axes of the messages along imu's x, y and z, such as "x -y -z".
 std::string AxisNames(const Matrix3& R_imu_sent) {
   std::string names;
   for (const auto& row : R_imu_sent.rowwise()) {
@@ -32,7 +32,7 @@ double ImuConvention::rate_scale() const {
   return is_in_deg ? kRadPerDeg : 1.0;
 }
 
-// Signed permutations of the axes that keep the handedness.
+// Returns signed permutations of the axes that keep the handedness.
 std::array<Matrix3, kNumQuarterTurns> QuarterTurns() {
   std::array<Matrix3, kNumQuarterTurns> turns;
   for (std::size_t i = 0; i < turns.size(); ++i) {

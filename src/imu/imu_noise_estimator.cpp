@@ -14,7 +14,7 @@ using Axes = Eigen::Matrix<double, 6, 1>;  // rate, force
 constexpr std::array<double, 7> kFactors{1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0};
 constexpr double kSumOfSquares = 924.0;
 
-// Means of so many neighbouring samples each, and the mean square of their sixth differences.
+// Keeps means of so many neighbouring samples each, and the mean square of their sixth differences.
 class Differences {
  public:
   explicit Differences(int samples_per_mean) : samples_per_mean_(samples_per_mean) {}
@@ -40,7 +40,7 @@ class Differences {
     sum_.setZero();
   }
 
-  // The variance of the means' noise; zero where there is no difference.
+  // Returns the variance of the means' noise; zero where there is no difference.
   [[nodiscard]] Axes Variance() const {
     return num_differences_ == 0 ? Axes(Axes::Zero())
                                  : Axes(squares_ / (kSumOfSquares * num_differences_));

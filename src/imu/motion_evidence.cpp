@@ -17,8 +17,8 @@ double Square(double x) {
   return x * x;
 }
 
-// The mean sample without spikes. A rate is a spike when it is beyond any gyro and, since the unit
-// is not known, also far above the median.
+// Returns the mean sample without spikes. A rate is a spike when it is beyond any gyro and, since
+// the unit is not known, also far above the median.
 ImuSample MeanWithoutSpikes(std::span<const ImuSample> sent) {
   std::vector<double> rates;
   for (const ImuSample& sample : sent) rates.push_back(sample.w_imu_radps.norm());
@@ -97,8 +97,8 @@ MotionEvidence MotionEvidence::Shifted(double num_steps) const {
   return shifted;
 }
 
-// The bend at the end of step k, over about half a second to either side; absent when the evidence
-// does not reach so far.
+// Returns the bend at the end of step k, over about half a second to either side; absent when the
+// evidence does not reach so far.
 std::optional<MotionEvidence::Bend> MotionEvidence::BendAbout(std::size_t k) const {
   const StampedPose& middle = steps_[k].to;
   const auto is_joined = [&](std::size_t i) {
@@ -158,7 +158,7 @@ bool MotionEvidence::HasMoved() const {
          LogSo3(motion.rotation).norm() > kEvidence.min_motion_rad;
 }
 
-// Minimum over the gyro bias, whose prior has zero mean.
+// Returns the minimum over the gyro bias, whose prior has zero mean.
 double MotionEvidence::RateScore(const Matrix3& R_imu_sent, double rate_scale) const {
   double sum_sq = 0.0;
   double times_sq = 0.0;

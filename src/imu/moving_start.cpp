@@ -40,7 +40,7 @@ std::string DataProblem(std::span<const ImuSample> samples, std::span<const Matc
   return {};
 }
 
-// The poses with the error of scan matching that their covariances do not contain.
+// Returns the poses with the error of scan matching that their covariances do not contain.
 std::vector<MatchedPose> Widened(std::span<const MatchedPose> poses) {
   Vector6 floor;
   floor << Vector3::Constant(kMovingStart.pose_std_m * kMovingStart.pose_std_m),
@@ -50,8 +50,8 @@ std::vector<MatchedPose> Widened(std::span<const MatchedPose> poses) {
   return widened;
 }
 
-// The guess of poses and velocities from the matched poses; the window's first state is the first
-// pose taken back by constant velocity.
+// Returns the guess of poses and velocities from the matched poses; the window's first state is the
+// first pose taken back by constant velocity.
 Alignment Guess(const AlignmentTerms& terms, Timestamp from) {
   const std::span<const MatchedPose> poses = terms.poses;
   const auto velocity_at = [&](std::size_t i) {
@@ -97,7 +97,8 @@ AlignmentTerms MakeTerms(std::span<const ImuSample> samples, std::span<const Mat
   return terms;
 }
 
-// Root of the median of the squared residuals over that of chi-square: robust to wrong matches.
+// Returns the root of the median of the squared residuals over that of chi-square: robust to wrong
+// matches.
 double ResidualRatio(std::vector<double> squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());

@@ -58,8 +58,8 @@ void FuseMeanRate(Estimate& estimate, const Vector3& mean_w, double noise_var) {
   FuseLinear(estimate, H, mean_w - estimate.state.gyro_bias, noise_var * Matrix3::Identity());
 }
 
-// Variance of a mean over the span: from the noise density, or from the measured spread when that
-// is larger.
+// Returns the variance of a mean over the span: from the noise density, or from the measured spread
+// when that is larger.
 double MeanVariance(double density, double seen_std, const ImuStatistics& statistics) {
   const double by_density = density * density / std::max(statistics.span_s, 1e-3);
   const double by_spread = seen_std * seen_std / std::max(1, statistics.num_samples);

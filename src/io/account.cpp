@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Refusals = std::array<std::int64_t, kNumDecodeStatuses>;
 
-// Everything that was counted before the estimator.
+// Holds everything that was counted before the estimator.
 struct Entry {
   std::int64_t num_received;
   const Refusals& refusals;

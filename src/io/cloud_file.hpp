@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Point clouds from files of PCL, without a word on the console.
+// Reads point clouds from files of PCL, without a word on the console.
 #pragma once
 
 #include <pcl/PCLPointCloud2.h>
@@ -17,10 +17,10 @@ namespace lio {
 
 enum class CloudKind : std::int8_t { kOther, kPcd, kPly };
 
-// The kind that a file's first words tell.
+// Returns the kind that a file's first words tell.
 [[nodiscard]] CloudKind KindOfCloud(const std::filesystem::path& path);
 
-// A PCD or PLY file with all its fields; absent where it cannot be read as that.
+// Returns a PCD or PLY file with all its fields; absent where it cannot be read as that.
 [[nodiscard]] std::optional<pcl::PCLPointCloud2> ReadCloud(const std::filesystem::path& path,
                                                            CloudKind kind);
 

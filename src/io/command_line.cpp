@@ -15,7 +15,7 @@
 namespace lio {
 namespace {
 
-// Thrown by the flag's callback, which CLI11 runs before it asks for required arguments.
+// It is thrown by the flag's callback, which CLI11 runs before it asks for required arguments.
 struct PrintOptionsRequest : CLI::Success {
   PrintOptionsRequest() : CLI::Success("print options", CLI::ExitCodes::Success) {}
 };

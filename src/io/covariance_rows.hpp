@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The rows of covariance*.csv: t_s and the 6x6 covariance of [position; right rotation], row-major.
+// Writes the rows of covariance*.csv: t_s and the 6x6 covariance of [position; right rotation],
+// row-major.
 #pragma once
 
 #include <string>

@@ -150,8 +150,8 @@ const std::uint8_t* EventLogReader::Impl::At(std::int64_t at, std::size_t count)
   return window.data() + (at - window_begin);
 }
 
-// True when a plausible event starts at `at`: sync word, lengths that fit the file, a printable
-// channel name.
+// Returns true when a plausible event starts at `at`: sync word, lengths that fit the file, a
+// printable channel name.
 bool EventLogReader::Impl::ReadHeader(std::int64_t at, Header& header) {
   const std::uint8_t* bytes = At(at, kHeaderBytes);
   if (bytes == nullptr || ReadBigEndian<std::uint32_t>(bytes) != kSync) return false;

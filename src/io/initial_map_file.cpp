@@ -27,7 +27,7 @@ bool HasFloat(const pcl::PCLPointCloud2& cloud, const char* name) {
   });
 }
 
-// Four finite numbers with commas between.
+// Reads four finite numbers with commas between.
 std::optional<std::array<double, 4>> ParsePose(const std::string& text) {
   std::array<double, 4> pose{};
   const char* at = text.data();

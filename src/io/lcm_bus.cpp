@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The bus over liblcm, through its C interface and raw subscriptions. Typed subscriptions decode
-// before the bytes can be checked, and one bad count then ends the process.
+// Runs the bus over liblcm, through its C interface and raw subscriptions. Typed subscriptions
+// decode before the bytes can be checked, and one bad count then ends the process.
 #include <lcm/lcm.h>
 #include <poll.h>
 

@@ -21,7 +21,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "points are little-endian on the wire and copied as they are");
 
-// Sizes of the encoded messages, including the eight bytes of the fingerprint.
+// These are sizes of the encoded messages, including the eight bytes of the fingerprint.
 constexpr std::size_t kImuBytes = 8 + 8 + 8 + 4 + 4 + 7 * 8;
 constexpr std::size_t kScanFixedBytes = 8 + 8 + 8 + 4 + 2 + 2 + 1 + 1 + 2 + 4 + 4;
 

@@ -45,7 +45,7 @@ class FieldReader {
   const std::uint8_t* next_;
 };
 
-// kOk when `bytes` is a message of the type and has at least its fixed part.
+// Returns kOk when `bytes` is a message of the type and has at least its fixed part.
 [[nodiscard]] inline DecodeStatus CheckHead(ByteView bytes, std::uint64_t fingerprint,
                                             std::size_t fixed_bytes) {
   if (bytes.size() > kMaxMessageBytes) return DecodeStatus::kTooLarge;

@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kPoses = "trajectory_level.tum";
 constexpr const char* kCovariances = "covariance_level.csv";
 
-// The mean square error of `pose` as an estimate of what `T_world_imu` estimates: its covariance
-// and the square of the known step between the two.
+// Returns the mean square error of `pose` as an estimate of what `T_world_imu` estimates: its
+// covariance and the square of the known step between the two.
 Matrix6 CovarianceOf(const Pose& pose, const Pose& T_world_imu, const Matrix6& world_cov) {
   Vector6 step;
   step << T_world_imu.translation - pose.translation,

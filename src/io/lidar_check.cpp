@@ -15,7 +15,7 @@
 namespace lio {
 namespace {
 
-// Whole numbers of cells: 2 deg of azimuth and of elevation.
+// These are whole numbers of cells: 2 deg of azimuth and of elevation.
 constexpr int kNumAzimuths = 180;
 constexpr int kNumElevations = 90;
 constexpr float kNear_m = 2.5f;  // no farther does a vehicle reach that carries its lidar on top
@@ -28,7 +28,7 @@ constexpr double kFixedStd_m = 0.05;
 constexpr int kFewestSamples = 20;
 constexpr double kShortestPath_m = 20.0;
 constexpr int kFewestCells = 6;
-constexpr double kFullRing = 0.6;  // of all azimuths at one elevation: a plain floor, too
+constexpr double kFullRing = 0.6;  // share of all azimuths at one elevation: a plain floor, too
 constexpr double kMargin_m = 0.05;
 constexpr double kOtherModel_rad = 1.0 / kDegPerRad;  // scatter of beams is a tenth of it
 constexpr double kOneTime = 0.2;                      // share of the time between sweeps

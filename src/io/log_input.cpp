@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxAhead = 64;  // messages; 85 MB when each is a whole sweep
 
-// Floating point, because a damaged log may hold any number.
+// It is floating point, because a damaged log may hold any number.
 double SecondsBetweenUtimes(std::int64_t from, std::int64_t to) {
   return (static_cast<double>(to) - static_cast<double>(from)) * 1e-6;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The buses without a transport: in memory, and to nowhere.
+// Defines the buses without a transport: in memory, and to nowhere.
 #include <atomic>
 #include <condition_variable>
 #include <deque>

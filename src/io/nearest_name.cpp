@@ -22,7 +22,7 @@ int Cost(std::string_view wrong, std::string_view name) {
 
 }  // namespace
 
-// Rows i-2, i-1 and i of the table of the Damerau-Levenshtein distance.
+// These are rows i-2, i-1 and i of the table of the Damerau-Levenshtein distance.
 int EditDistance(std::string_view a, std::string_view b) {
   std::vector<int> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);

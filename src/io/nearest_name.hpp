@@ -9,12 +9,12 @@
 
 namespace lio {
 
-// The least number of insertions, deletions, substitutions and swaps of neighbours that turn `a`
-// into `b`.
+// Returns the least number of insertions, deletions, substitutions and swaps of neighbours that
+// turn `a` into `b`.
 [[nodiscard]] int EditDistance(std::string_view a, std::string_view b);
 
-// The name with the smallest edit distance, the first of equal ones; empty when there are no names.
-// A dotted name also counts as near when only its last part is near.
+// Returns the name with the smallest edit distance, the first of equal ones; empty when there are
+// no names. A dotted name also counts as near when only its last part is near.
 [[nodiscard]] std::string NearestName(std::string_view wrong, std::span<const std::string> names);
 
 }  // namespace lio

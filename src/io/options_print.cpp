@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// The shortest text that reads back as the same double and that YAML takes for a number.
+// Returns the shortest text that reads back as the same double and that YAML takes for a number.
 std::string Text(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";

@@ -42,7 +42,8 @@ bool HasDefault(const std::string& path) {
   return std::ranges::find(kExtrinsicStdKeys, key) != std::end(kExtrinsicStdKeys);
 }
 
-// Every key of an Options by dotted path, with how to set it. All optional groups are engaged.
+// Knows every key of an Options by dotted path, with how to set it. All optional groups are
+// engaged.
 class KeyTable {
  public:
   explicit KeyTable(Options& options) { VisitFields(*this, options); }

@@ -10,8 +10,8 @@
 namespace lio {
 namespace {
 
-// Sizes of the encoded messages, including the eight bytes of the fingerprint; docs/messages.md has
-// them, too. A filter state has a covariance behind it, a status its note.
+// These are sizes of the encoded messages, including the eight bytes of the fingerprint;
+// docs/messages.md has them, too. A filter state has a covariance behind it, a status its note.
 constexpr std::size_t kOdometryBytes = 834;
 constexpr std::size_t kFilterStateFixedBytes = 212;
 constexpr std::size_t kRegistrationBytes = 134;

@@ -21,7 +21,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr std::uint64_t kMaxPoints = 1'000'000'000;
-constexpr std::uint64_t kMaxStepBytes = 4096;  // of a point
+constexpr std::uint64_t kMaxStepBytes = 4096;  // size of one point
 constexpr std::uint64_t kMaxRatio = 100;       // LZF packs 264 bytes into 3 at best
 
 std::optional<std::uint64_t> Number(const std::string& word) {
@@ -32,7 +32,8 @@ std::optional<std::uint64_t> Number(const std::string& word) {
   return std::stoull(word);
 }
 
-// In the order of the format; PCL breaks down over another order, and over any other word.
+// The keys are in the order of the format; PCL breaks down over another order, and over any other
+// word.
 enum Key { kVersion, kFields, kSize, kType, kCount, kWidth, kHeight, kViewpoint, kPoints, kData };
 constexpr std::array<std::string_view, 10> kKeys{
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
@@ -98,7 +99,7 @@ std::optional<Header> ReadHeader(std::istream& file) {
   return std::nullopt;
 }
 
-// The sizes that stand before compressed points, against those of the header and of the file.
+// Checks the sizes that stand before compressed points against those of the header and of the file.
 bool IsSoundCompressed(std::istream& file, std::uint64_t num_rest, std::uint64_t num_points_bytes) {
   std::array<std::uint8_t, 8> bytes{};
   if (!file.read(reinterpret_cast<char*>(bytes.data()), bytes.size())) return false;

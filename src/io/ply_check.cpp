@@ -19,8 +19,8 @@ constexpr std::size_t kMaxDigits = 10;
 constexpr std::array<std::string_view, 5> kWords{"format", "comment", "obj_info", "element",
                                                  "property"};
 
-// The number of elements that a line states; 0 for a line about something else. A count that is no
-// number is more than any file holds.
+// Returns the number of elements that a line states; 0 for a line about something else. A count
+// that is no number is more than any file holds.
 std::uint64_t NumElements(const std::string& line) {
   std::istringstream words(line);
   std::string word, name, count;

@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// The length of the UTF-8 sequence that the text begins with; 0 where there is none.
+// Returns the length of the UTF-8 sequence that the text begins with; 0 where there is none.
 std::size_t SequenceBytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
@@ -26,7 +26,7 @@ std::size_t SequenceBytes(std::string_view text) {
   return size;
 }
 
-// The controls below 0x20, 0x7f, and those of U+0080 to U+009F.
+// Says yes to the controls below 0x20, 0x7f, and those of U+0080 to U+009F.
 bool IsControl(std::string_view sequence) {
   const auto first = static_cast<std::uint8_t>(sequence[0]);
   if (sequence.size() == 1) return first < 0x20 || first == 0x7F;

@@ -18,7 +18,7 @@ std::size_t BinOf(double value) {
                                   std::log(kGrowth));
 }
 
-// Equally far from both edges, as a ratio.
+// The middle is equally far from both edges, as a ratio.
 double MiddleOf(std::size_t bin) {
   return QuantileSketch::kMinBinned * std::pow(kGrowth, static_cast<double>(bin) + 0.5);
 }

@@ -52,7 +52,7 @@ const fs::path& Created(const fs::path& folder) {
   if (error) {
     throw std::runtime_error("cannot create " + folder.string() + ": " + error.message());
   }
-  fs::remove(folder / "trajectory_base.tum", error);  // of an earlier run
+  fs::remove(folder / "trajectory_base.tum", error);  // left by an earlier run
   return folder;
 }
 

@@ -11,7 +11,7 @@ namespace lio {
 namespace fs = std::filesystem;
 namespace {
 
-// The first file that a run writes, and the one that a killed run leaves in any case.
+// Looks for the first file that a run writes, and for the one that a killed run leaves in any case.
 bool HoldsRun(const fs::path& folder) {
   std::error_code ignored;
   return fs::exists(folder / "options.yaml", ignored) ||

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The words for the stages of a scan in files.
+// Gives the words for the stages of a scan in files.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The rows of states.csv: what the filter says of itself after each scan, beside the pose.
+// Writes the rows of states.csv: what the filter says of itself after each scan, beside the pose.
 #pragma once
 
 #include <optional>

@@ -68,7 +68,7 @@ void CopyLatencies(const StatusReport& from, status_t& to) {
   to.latency_max_ms = from.latency.max_ms;
 }
 
-// "1.2.3" to {1, 2, 3}; what is missing is 0.
+// Turns "1.2.3" into {1, 2, 3}; what is missing is 0.
 void CopyVersion(const std::string& text, std::int8_t (&version)[3]) {
   const char* next = text.data();
   const char* end = next + text.size();

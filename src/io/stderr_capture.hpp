@@ -22,7 +22,7 @@ class StderrCapture {
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   // Restores stderr and returns what was written since the construction. Throws std::runtime_error
-  // when stderr cannot be restored. Afterwards, and without a redirection: empty.
+  // when stderr cannot be restored. Afterwards, and without a redirection, it is empty.
   [[nodiscard]] std::string Finish();
 
  private:

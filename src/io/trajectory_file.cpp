@@ -146,7 +146,7 @@ std::string KittiRow(const StampedPose& row) {
   return fmt::format("{:.12e}", fmt::join(matrix.data(), matrix.data() + kKittiColumns, " "));
 }
 
-// The parts of a decimal number: digits without leading zeros, times 10^exponent.
+// Holds the parts of a decimal number: digits without leading zeros, times 10^exponent.
 struct Decimal {
   bool is_negative = false;
   std::string digits;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one document of a configuration file.
+// Reads the one document of a configuration file.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -12,7 +12,7 @@ namespace lio {
 
 struct YamlDocument {
   YAML::Node first;                     // null where the text has none
-  std::optional<YAML::Mark> second_at;  // where another one begins
+  std::optional<YAML::Mark> second_at;  // begin of another one
 };
 
 // Throws YAML::Exception for text that is no YAML. YAML::LoadAll would find documents without end

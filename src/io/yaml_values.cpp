@@ -30,11 +30,11 @@ template <int kSize>
 std::string ParseNumbers(const YAML::Node& node, Eigen::Matrix<double, kSize, 1>& values) {
   const std::string expected = "expects a list of " + std::to_string(kSize) + " numbers, not ";
   if (!node.IsSequence()) return expected + Describe(node);
-  if (node.size() != kSize) return expected + "of " + std::to_string(node.size());
+  if (node.size() != kSize) return expected + "one of " + std::to_string(node.size());
   Eigen::Matrix<double, kSize, 1> parsed;
   for (int i = 0; i < kSize; ++i) {
     const YAML::Node entry = node[i];
-    if (!ParseNumber(entry, parsed(i))) return expected + "with " + Describe(entry);
+    if (!ParseNumber(entry, parsed(i))) return expected + "one with " + Describe(entry);
   }
   values = parsed;
   return "";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The convex hull of places in a plane.
+// Finds the convex hull of places in a plane.
 #pragma once
 
 #include <Eigen/Core>

@@ -77,7 +77,7 @@ void GaussianMap::Remove(std::int32_t cell) {
   voxels_.Of<SurfacePatch>(cell) = {};
 }
 
-// Welford's update. A cell that shows neither a plane nor a vertical structure forgets slowly
+// Makes Welford's update. A cell that shows neither a plane nor a vertical structure forgets slowly
 // instead of freezing; otherwise a cell filled by single rings while parked would stay a line for
 // ever.
 void GaussianMap::AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const {

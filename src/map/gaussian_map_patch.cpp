@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the sums of a cell to its patch: a plane, a vertical structure, or neither.
+// Turns the sums of a cell into its patch: a plane, a vertical structure, or neither.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The search for the nearest point of the submap, shell by shell around the query.
+// Searches for the nearest point of the submap, shell by shell around the query.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace lio {
 struct KeyframeMap::Search {
   Vector3 query;
   VoxelCell voxel;
-  // Squared distance from the query to the voxels `offset` away along an axis [m^2].
+  // Holds the squared distance from the query to the voxels `offset` away along an axis [m^2].
   std::array<std::array<float, 2 * KeyframeMapParameters::kMaxSearch_voxels + 1>, 3> gap_sq;
   float best_sq;
   Hit best;
@@ -40,8 +40,8 @@ void KeyframeMap::SearchVoxel(const Blocks::Block& block, std::size_t voxel,
   }
 }
 
-// All voxels within so many voxels of the query's own, block by block, each only when it can hold
-// something nearer.
+// Visits all voxels within so many voxels of the query's own, block by block, each only when it can
+// hold something nearer.
 void KeyframeMap::SearchAround(Search& search, int radius_voxels) const {
   VoxelCell low, high;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -84,7 +84,7 @@ KeyframeMap::Hit KeyframeMap::FindNearest(const Vector3& query_map, double radiu
       search.best = {near, from_query};
     }
   }
-  double nearest_side = 1.0;  // of the query's voxel, in voxels
+  double nearest_side = 1.0;  // distance to the nearest side of the query's voxel, in voxels
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at =
         blocks_.Scaled(query_map[static_cast<Eigen::Index>(axis)]) - search.voxel[axis];

@@ -54,7 +54,7 @@ std::size_t MultiResolutionMap::LevelFor(double std_m) const {
 struct MultiResolutionMap::Search {
   std::array<Vector3, Workers::kBlockSize> points;
   std::array<GaussianMap::Hit, Workers::kBlockSize> hits;
-  std::array<std::size_t, Workers::kBlockSize> index;  // of the points
+  std::array<std::size_t, Workers::kBlockSize> index;  // the points' indices
   std::size_t num = 0;
 };
 

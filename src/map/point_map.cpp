@@ -68,7 +68,7 @@ PointMap::PointMap(const PointMapOptions& options)
   }
 }
 
-// All voxels within so many voxels of the query's own, block by block.
+// Visits all voxels within so many voxels of the query's own, block by block.
 void PointMap::SearchAround(Search& search, int radius_voxels) const {
   search.found.count = 0;
   VoxelCell low, high;

@@ -39,7 +39,7 @@ struct Representatives {
   }
 };
 
-// The points by voxels as wide as the search is far.
+// Holds the points by voxels as wide as the search is far.
 class Neighbourhoods {
  public:
   explicit Neighbourhoods(std::span<const Eigen::Vector3f> points) {
@@ -61,7 +61,7 @@ class Neighbourhoods {
     }
   }
 
-  // The points around one, from there.
+  // Gives the points around one, from there.
   void Around(const Eigen::Vector3f& point, std::vector<Eigen::Vector3f>& offsets) const {
     offsets.clear();
     const VoxelCell at = CellOf(point);
@@ -103,7 +103,7 @@ Eigen::Vector3f NormalOf(std::span<const Eigen::Vector3f> offsets) {
   return eigen.eigenvectors().col(0);
 }
 
-// The points on one side of a sheet, by their distances from it.
+// Holds the points on one side of a sheet, by their distances from it.
 struct Side {
   int num = 0;
   int num_near = 0;

@@ -29,9 +29,9 @@ class ClockOffsetFollower {
 
   // To be added to the stamps of sweeps, as known now.
   [[nodiscard]] Duration correction() const;
-  // A scan that matching has dealt with. Gated ones as well: a wrong offset is what may have them
-  // gated. Returns what to announce, once for each time the offset becomes known.
-  // `gyro_density`: the gyro's noise as it is now, rad/s/sqrt(Hz).
+  // Takes a scan that matching has dealt with. Gated ones as well: a wrong offset is what may have
+  // them gated. Returns what to announce, once for each time the offset becomes known.
+  // `gyro_density` is the gyro's noise as it is now, rad/s/sqrt(Hz).
   [[nodiscard]] std::optional<std::string> AddScan(const MatchOutcome& outcome,
                                                    const FilterHistory& history,
                                                    double gyro_density);

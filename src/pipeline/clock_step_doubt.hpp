@@ -15,17 +15,18 @@ namespace lio {
 
 class ClockStepDoubt {
  public:
-  // A step that the filter's history reaches across.
+  // Takes a step that the filter's history reaches across.
   void Begin(const ClockStep& stamps) { step_ = {stamps, std::nullopt}; }
-  // A step after which the history begins anew; the body was there before it.
+  // Takes a step after which the history begins anew; the body was there before it.
   void Begin(const ClockStep& stamps, const Pose& T_map_imu) { step_ = {stamps, T_map_imu}; }
   void End() { step_.reset(); }
 
-  // The step in doubt, if there is one.
+  // Returns the step in doubt, if there is one.
   [[nodiscard]] std::optional<ClockStep> stamps() const;
   [[nodiscard]] bool IsAbout(const Sweep& sweep) const;  // it is after the step
-  // The pose of a sweep after the step if no time passed there: the motion since the step is added
-  // to the pose before it. Absent without a doubt, and where a sweep has been located meanwhile.
+  // Returns the pose of a sweep after the step if no time passed there: the motion since the step
+  // is added to the pose before it. It is absent without a doubt, and where a sweep has been
+  // located meanwhile.
   [[nodiscard]] std::optional<Pose> PoseIfSet(const Sweep& sweep, const Pose& T_map_imu_predicted,
                                               const std::optional<Timestamp>& last_located,
                                               const FilterHistory& history) const;

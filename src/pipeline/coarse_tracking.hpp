@@ -12,7 +12,8 @@
 namespace lio {
 
 struct CoarseTrackingParameters {
-  // The cosine between the lidar's axis and up, at least. Chosen: 45 deg; no lidar leans more.
+  // The cosine between the lidar's axis and up must reach this. Chosen: 45 deg; no lidar leans
+  // more.
   double min_up_cosine = 0.7;
 };
 
@@ -27,7 +28,7 @@ inline constexpr CoarseTrackingParameters kCoarseTracking;
 [[nodiscard]] Vector3 MeanUp(std::span<const ImuSample> samples, const Rig& rig);
 
 // A sweep that ends before the tracker's newest event means that stamps went back: the tracker goes
-// on at the sweep's start, and `last_located` moves there. Changes nothing for a later sweep.
+// on at the sweep's start, and `last_located` moves there. It changes nothing for a later sweep.
 void FollowClockBack(const Sweep& sweep, ConstantVelocityTracker& tracker,
                      std::optional<Timestamp>& last_located);
 

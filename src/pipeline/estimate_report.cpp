@@ -25,8 +25,8 @@ WorldEstimate Published(const Estimate& estimate, const ReportContext& context) 
   return WithDoubt(InPublishedWorld(estimate, context.g_world), context);
 }
 
-// The variance of the noise in the published rate: white noise of the gyro's density over the time
-// of one sample [(rad/s)^2].
+// Returns the variance of the noise in the published rate: white noise of the gyro's density over
+// the time of one sample [(rad/s)^2].
 double RateVariance(Timestamp stamp, const ReportContext& context) {
   if (context.imu == nullptr) return 0.0;
   const std::deque<ImuSample>& samples = context.imu->samples();

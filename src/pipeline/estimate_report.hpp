@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the filter's estimate to what is published: pose, velocity and covariances in world and map,
-// and in the rig's base frame; and the parts of it that the verdict and a new start keep.
+// Turns the filter's estimate into what is published: pose, velocity and covariances in world and
+// map, and in the rig's base frame; and the parts of it that the verdict and a new start keep.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
@@ -20,7 +20,7 @@ namespace lio {
 struct ReportContext {
   const Options& options;
   Vector3 g_world;        // zero where no gravity is felt: the world is then the map's frame
-  std::int64_t last_seq;  // of the last scan that was fused
+  std::int64_t last_seq;  // the last scan that was fused
   TrackingStatus status;
   const ImuBuffer* imu;  // null without an IMU
   const ClockOffsetFollower& clocks;
@@ -31,7 +31,7 @@ struct ReportContext {
 [[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);
 [[nodiscard]] FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report,
                                             const ReportContext& context);
-// The part of a report that the verdict keeps.
+// Returns the part of a report that the verdict keeps.
 [[nodiscard]] PoseRow MakePoseRow(const FilterReport& filter);
 // The pose of a sound scan, as published: a start made anew goes on from here.
 [[nodiscard]] LastFix MakeFix(Timestamp stamp, const Estimate& estimate, const Vector3& g_world);

@@ -23,14 +23,14 @@ struct Handover {
   };
   Origin origin = Origin::kNone;
   LastFix last_fix;                 // the last sound scan, as it was published
-  Pose T_world_start, T_map_start;  // where the mode began, in the axes that were believed then
+  Pose T_world_start, T_map_start;  // at the mode's begin, in the axes that were believed then
   bool is_placed = false;           // somebody has said where the body is: at last_fix
   bool keeps_map = false;           // the mode that follows goes on in the map as it is
   bool is_map_by_lidar = false;     // it began lidar-only: no IMU convention is in its axes
   Vector3 w_imu_radps = Vector3::Zero();  // kLostLidar: the turn rate when the map was given up,
   Matrix6 pose_cov = Matrix6::Zero();     // and the covariance of [position; rotation] in world
   YawDoubt yaw_doubt;
-  std::int64_t last_seq = -1;               // of the last scan that was fused
+  std::int64_t last_seq = -1;               // the last scan that was fused
   std::optional<Timestamp> last_fused;      // end of the last sweep that was fused
   std::optional<Timestamp> last_located;    // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published;  // at the IMU's rate

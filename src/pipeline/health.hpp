@@ -23,7 +23,8 @@ namespace lio {
 
 // An early verdict costs a map, a late one a wrong pose said to be right.
 struct HealthParameters {
-  // s. Without a match. Chosen: a car has gone 20 to 60 m, and the IMU's guess is metres off.
+  // s. The way is lost after so long without a match. Chosen: a car has gone 20 to 60 m, and the
+  // IMU's guess is metres off.
   double lost_after_s = 2.0;
   // Scans in a row that see enough and match nowhere: then the map goes on from where the IMU says
   // ... Chosen: a second at 10 Hz; fewer give the map up for a bus alongside.
@@ -45,7 +46,7 @@ inline constexpr HealthParameters kHealth;
 
 class Health {
  public:
-  // `last_fused`: the end of the last fused sweep, if there is one.
+  // `last_fused` is the end of the last fused sweep, if there is one.
   Health(bool has_imu, TrackingStatus status, std::optional<Timestamp> last_fused,
          Counters& counters)
       : has_imu_(has_imu), status_(status), last_fused_(last_fused), counters_(&counters) {}
@@ -72,7 +73,7 @@ class Health {
   TrackingStatus status(bool recovers = false) const {
     return recovers ? TrackingStatus::kLost : status_;
   }
-  // The status while the place in a given map is sought.
+  // Returns the status while the place in a given map is sought.
   static TrackingStatus StatusWhileSeeking(bool was_known) {
     return was_known ? TrackingStatus::kLost : TrackingStatus::kInit;
   }
@@ -92,7 +93,7 @@ class Health {
   std::optional<Timestamp> last_fused_;
   Counters* counters_;
   int num_gated_in_a_row_ = 0;
-  int num_unmatched_in_a_row_ = 0;  // of scans that see enough
+  int num_unmatched_in_a_row_ = 0;  // counts scans that see enough
   std::uint32_t gated_scans_ = 0;   // a bit a matched scan, the newest lowest
 };
 

@@ -50,7 +50,7 @@ ImuConventionMonitor::Finding ImuConventionMonitor::JudgeInitializing(const Trac
   return {Finding::Kind::kOtherwise, verdict.convention, verdict.evidence};
 }
 
-// Judged by poses that were tracked with its rates.
+// It judges by poses that were tracked with its rates.
 bool ImuConventionMonitor::IsGyroMisleading(const ImuVerdict& verdict,
                                             const TrackFacts& facts) const {
   if (verdict.finding == ImuVerdict::Finding::kOtherwise) {

@@ -20,8 +20,8 @@ namespace lio {
 struct ConventionMonitorParameters {
   // Fewer scans say nothing about whether the gyro misleads the constant-velocity tracker.
   std::size_t min_scans = ImuClassifierParameters{}.min_steps;
-  // Poses from one verdict to the next while tracking. Chosen: half a second at 10 Hz, for the time
-  // of a verdict.
+  // While tracking, so many poses lie between two verdicts. Chosen: half a second at 10 Hz, for the
+  // time of a verdict.
   int poses_per_verdict = 5;
   // A gyro that reads this much over half a second while nothing is matched has other units.
   // Chosen: no vehicle turns by a radian a second for long; hands do, but their scans match.
@@ -51,8 +51,8 @@ class ImuConventionMonitor {
   // The next doubt counts as the first one.
   void ForgetDoubt() { has_doubted_ = false; }
 
-  // The coarse track of an initialization: how many scans it has and how many of them are matched,
-  // and the samples since its first sweep.
+  // Holds the coarse track of an initialization: how many scans it has and how many of them are
+  // matched, and the samples since its first sweep.
   struct TrackFacts {
     std::size_t num_scans = 0;
     std::size_t num_matched = 0;
@@ -61,7 +61,7 @@ class ImuConventionMonitor {
   struct Finding {
     enum class Kind {
       kNone,
-      kMisleadingGyro,  // what was tracked with its rates is of no use
+      kMisleadingGyro,  // the gyro misled tracking: its track is of no use
       kOtherwise        // the samples are in `convention`
     };
     Kind kind = Kind::kNone;
@@ -85,7 +85,7 @@ class ImuConventionMonitor {
   // A mean force over a rest tells this of the convention under which it was read.
   struct ForceVerdict {
     ForceAtRest force = ForceAtRest::kUnclear;
-    ImuConvention convention;  // that the force tells
+    ImuConvention convention;  // the convention that the force tells
     std::string evidence;
   };
   [[nodiscard]] ForceVerdict JudgeForce(const Vector3& mean_f_mps2) const;
@@ -93,7 +93,7 @@ class ImuConventionMonitor {
   void KeepForceUnit();
   // Do rates over a rest have the noise that this gyro has in deg/s?
   [[nodiscard]] bool MayBeDegrees(std::span<const ImuSample> samples) const;
-  // Is gravity in the forces of a drive, whose mean is given? Absent where that is not clear.
+  // Is gravity in the forces of a drive, whose mean is given? It is absent where that is not clear.
   [[nodiscard]] std::optional<bool> GravityInMotion(const Vector3& mean_f_mps2) const;
 
   // May the gyro's rates serve the constant-velocity tracker?

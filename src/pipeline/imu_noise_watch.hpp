@@ -13,7 +13,8 @@
 namespace lio {
 
 [[nodiscard]] ImuNoiseRatios NoiseRatiosOf(const ImuNoise& noise, const ImuRig& rig);
-// The rig with its densities raised to the noise that the samples show on the noisiest axis.
+// Returns the rig with its densities raised to the noise that the samples show on the noisiest
+// axis.
 [[nodiscard]] ImuRig RaisedTo(const ImuNoise& shown, ImuRig rig);
 
 struct ImuNoiseWatchParameters {
@@ -32,7 +33,7 @@ class ImuNoiseWatch {
  private:
   struct Sensor {
     double told = 0.0;        // the ratio that was announced last
-    double least_lately = 0;  // of the scans in a row that are much noisier than was told
+    double least_lately = 0;  // the least ratio in the present row of scans much noisier than told
     int num_in_row = 0;
   };
   static bool IsNews(double ratio, Sensor& sensor);

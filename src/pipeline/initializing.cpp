@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// The largest of three standard deviations that belong together.
+// Returns the largest of three standard deviations that belong together.
 double LargestStd(const Estimate& estimate, int at) {
   return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
 }

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The mode before the first state is known. To build it is the reset: nothing of an earlier try is
-// left but the handover.
+// Runs the mode before the first state is known. To build it is the reset: nothing of an earlier
+// try is left but the handover.
 //
 // Does, over sweeps that it keeps and looks back on:
 //   1. velocity seed: correlative alignment of the first sweeps' bird's-eye views (FindVelocity),
 //   2. coarse track: the same sweeps are matched by a constant-velocity model, with the gyro's
-//   rates
-//      where they are trusted; once the motion is clear, again from the first one on, with the
-//      motion as a prior, since the first sweeps were skewed by a motion that was not known,
+//      rates where they are trusted; once the motion is clear, again from the first one on, with
+//      the motion as a prior, since the first sweeps were skewed by a motion that was not known,
 //   3. align: at rest from a second of inertial samples, in motion by least squares over the coarse
 //      track and the samples (moving_start.hpp).
 // Meanwhile ImuConventionMonitor judges units and axes. Without an IMU the motion of step 2 is all
@@ -38,8 +37,9 @@ struct InitializingParameters {
   double max_window_s = 3.5;
   std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move
   int min_samples_at_rest = 3;        // chosen: fewer have no spread
-  // Scans from which the motion may be known, and after which lidar-only odometry begins anyway.
-  // Chosen: the first ones are skewed by a motion that is not known; waiting longer loses them.
+  // The motion may be known after the first number of scans; lidar-only odometry begins anyway
+  // after the second. Chosen: the first ones are skewed by a motion that is not known; waiting
+  // longer loses them.
   std::size_t min_scans_for_motion = 4;
   std::size_t max_scans_for_motion = 8;
   // The motion is known when it is surer than this. Chosen: it skews a sweep of 0.1 s by 10 cm.
@@ -55,14 +55,14 @@ inline constexpr InitializingParameters kInitializing;
 
 class Initializing {
  public:
-  // `since`: the first sweep of an earlier try whose waiting time goes on.
+  // `since` is the first sweep of an earlier try whose waiting time goes on.
   Initializing(const ModeContext& context, Handover handover,
                std::optional<Timestamp> since = std::nullopt);
 
   // Index into context.sweeps of the sweep to match next; those before are looked back on.
   std::size_t next_sweep() const { return scans_.size(); }
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
-  // The outcome of that job. `insert` gets the pose for the map where the scan grows it.
+  // Takes the outcome of that job. `insert` gets the pose for the map where the scan grows it.
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
   [[nodiscard]] std::optional<Transition> StartSegment(const SegmentStarts& segment);
@@ -90,7 +90,7 @@ class Initializing {
   bool IsVeryCalm(Timestamp stamp) const;
   void ForgetOldestScan();
 
-  // initializing_convention.cpp
+  // These are in initializing_convention.cpp.
   bool IsInDoubt(Timestamp stamp) const;
   [[nodiscard]] std::optional<Transition> JudgeConvention(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2,
@@ -102,7 +102,7 @@ class Initializing {
   void TurnHandover(const ImuConvention& found);
   [[nodiscard]] Transition Reject(Timestamp stamp, const std::string& why) const;
 
-  // initializing_start.cpp
+  // These are in initializing_start.cpp.
   [[nodiscard]] std::optional<Transition> TryStart(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);

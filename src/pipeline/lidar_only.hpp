@@ -17,7 +17,7 @@ namespace lio {
 
 // Both are those of docs/experiments/relocalization.md.
 struct LidarOnlyParameters {
-  // Scans that go into a map unthinned. Chosen: with fewer it is thin, and its cells are
+  // So many scans go into a map unthinned. Chosen: with fewer it is thin, and its cells are
   // rank-deficient.
   int warm_up_scans = 10;
   // s. A body that is not seen goes on turning for so long. Chosen: after more
@@ -30,7 +30,7 @@ inline constexpr LidarOnlyParameters kLidarOnly;
 class LidarOnly {
  public:
   // Begins with the first sweep, along the seed's motion; after a loss at the handover's last fix.
-  // `inertial`: what the inertial filter knew, where this mode goes on in its world and its map.
+  // `inertial` is what the inertial filter knew, where this mode goes on in its world and its map.
   LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
             std::optional<StartState> inertial = std::nullopt);
 
@@ -67,9 +67,9 @@ class LidarOnly {
   MotionTrend trend_;
   std::optional<ConstantVelocityTracker> tracker_;  // from the first sweep on
   Vector3 up_map_ = Vector3::UnitZ();               // roughly
-  int num_scans_ = 0;                               // that have been tracked
-  std::optional<StartState> inertial_;              // of the filter that this mode goes on from
-  Vector3 g_world_ = Vector3::Zero();               // its gravity, which levelled the world
+  int num_scans_ = 0;                               // scans tracked so far
+  std::optional<StartState> inertial_;  // state of the filter that this mode goes on from
+  Vector3 g_world_ = Vector3::Zero();   // its gravity, which levelled the world
   bool is_imu_back_ = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From pipeline.method to the pair of parts that make it up.
+// Turns pipeline.method into the pair of parts that make it up.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The mode of the estimator. To build a mode is the reset; what it begins with comes by the
+// Defines the mode of the estimator. To build a mode is the reset; what it begins with comes by the
 // transition that asked for it (transition.hpp has the table).
 #pragma once
 
@@ -22,7 +22,7 @@ using Mode = std::variant<Initializing, Tracking, LidarOnly, Rejected>;
 
 ModeKind KindOf(const Mode& mode);
 TrackingStatus StatusOf(const Mode& mode);
-// Index of the sweep to match next in the queue of those that wait.
+// Returns the index of the sweep to match next in the queue of those that wait.
 std::size_t NextSweepOf(const Mode& mode);
 
 // The rule of the table, which is counted where the table calls it a restart: all restarts are

@@ -25,7 +25,7 @@ namespace lio {
 
 struct ModeContext {
   const Options& options;
-  double nis_limit;  // of the gate, from filter.gate_probability
+  double nis_limit;  // the gate's, from filter.gate_probability
   ClockNs clock;     // null: no stage times
   Counters& counters;
   OutputQueue& outputs;

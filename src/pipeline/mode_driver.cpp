@@ -116,7 +116,9 @@ ModeDriver::Next ModeDriver::Take(const AmbiguousClockStep& event) {
 ModeDriver::Next ModeDriver::Take(const ImuAbsent& event) {
   context_.clocks.Stop();
   context_.outputs.Notify(event.stamp, Notice::Severity::kWarning,
-                          event.evidence + ": lidar-only odometry");
+                          event.evidence +
+                              ": lidar-only odometry until they do; look at the IMU's "
+                              "driver, or set pipeline.use_imu to false");
   if (const auto* tracking = As<Tracking>()) return tracking->TakeImuAbsent(event);
   if (auto* lidar_only = As<LidarOnly>()) lidar_only->TakeImuAbsent();
   const auto* initializing = As<Initializing>();

@@ -22,7 +22,7 @@ class ModeDriver {
 
   // The sweep is that of next_sweep() in the context's queue.
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
-  // The outcome of the last job. The result has the pose for the map where the scan grows it.
+  // Takes the outcome of the last job. The result has the pose for the map where the scan grows it.
   [[nodiscard]] InsertTask FinishJob(const MatchOutcome& outcome);
 
   ModeKind kind() const { return KindOf(*mode_); }
@@ -45,7 +45,7 @@ class ModeDriver {
   Next Take(const StreamEnded& event);
   Next Take(const Notice& notice);
 
-  // Null where another mode runs.
+  // Returns null where another mode runs.
   template <class M>
   M* As() {
     return std::get_if<M>(mode_.get());

@@ -10,7 +10,7 @@
 namespace lio {
 
 struct MotionTrendParameters {
-  // Share of an error that comes again. Chosen: a body seldom accelerates alike for two sweeps of
+  // This share of an error comes again. Chosen: a body seldom accelerates alike for two sweeps of
   // 0.1 s; all of it would overshoot by as much as none of it lags.
   double repeated_share = 0.7;
   // Errors of this size are half believed, since a prior errs by as much when nothing accelerates.
@@ -23,12 +23,12 @@ inline constexpr MotionTrendParameters kMotionTrend;
 class MotionTrend {
  public:
   void Forget() { error_.setZero(); }
-  // The pose of a scan as a constant velocity predicted it, and as it was found.
+  // Takes the pose of a scan as a constant velocity predicted it, and as it was found.
   void Add(const Pose& T_map_imu_predicted, const Pose& T_map_imu_found) {
     error_ = LogSe3(T_map_imu_predicted.Inverse() * T_map_imu_found);
   }
   const Vector6& error() const { return error_; }
-  // The error of the next prediction, a right increment [translation (m); rotation (rad)].
+  // Returns the error of the next prediction, a right increment [translation (m); rotation (rad)].
   [[nodiscard]] Vector6 Expected() const {
     Vector6 expected;
     expected << Believed(error_.head<3>(), kMotionTrend.translation_noise_m),
@@ -37,7 +37,8 @@ class MotionTrend {
   }
 
  private:
-  // As much of it as is not noise: Wiener's filter with the error's own square for its variance.
+  // Returns as much of it as is not noise: Wiener's filter with the error's own square for its
+  // variance.
   static Vector3 Believed(const Vector3& error, double noise) {
     return error.squaredNorm() / (error.squaredNorm() + noise * noise) * error;
   }

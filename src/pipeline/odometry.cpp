@@ -37,7 +37,7 @@ StreamOptions MakeStreamOptions(const Options& options) {
 
 }  // namespace
 
-// The parts of the estimator. All but the mode outlive every mode.
+// Holds the parts of the estimator. All but the mode outlive every mode.
 struct Odometry::Impl {
   Impl(const Options& given, ClockNs given_clock, StartIn given_start_in,
        const Handover& handover = {})

@@ -26,9 +26,9 @@ struct OutageParameters {
   double min_speed_mps = 5.0;
   // A road climbs by at most this in its length. Chosen: but for a few streets none is steeper.
   double slope = 0.2;
-  // Change of roll and pitch, 1 sigma. Chosen: that slope, halved as it is seldom met.
+  // Roll and pitch change by this, 1 sigma. Chosen: that slope, halved as it is seldom met.
   double tilt_std_rad = 0.1;
-  // The turn rate while unseen, 1 sigma: that in a gap, ...
+  // The turn rate is unknown by this while unseen, 1 sigma, as in a gap, ...
   double turn_rate_std_radps = kFilterParameters.imu_outage.gap_gyro_std_radps;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;
@@ -37,7 +37,7 @@ struct OutageParameters {
   // Beyond this standard deviation, numbers in double precision would leave too few digits for the
   // millimetres of the next match. Arithmetic: 1e8 m^2 beside 1e-6 m^2.
   double max_std_m = 1e4;
-  // Scans that are sought before the map is given up. Chosen: with three for the velocity, less
+  // So many scans are sought before the map is given up. Chosen: with three for the velocity, less
   // than a second passes at 10 Hz.
   int max_scans_sought = 4;
   // The scan that is found is matched with large cells, which any ground and any wall fit. Those
@@ -57,23 +57,23 @@ struct OutageParameters {
 
 inline constexpr OutageParameters kOutage;
 
-// The state at `now`, driven on as before, with a covariance that holds a body that stopped, that
-// drove on or turned, and clocks that were set.
+// Returns the state at `now`, driven on as before, with a covariance that holds a body that
+// stopped, that drove on or turned, and clocks that were set.
 [[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);
 
 class OutageRecovery {
  public:
   enum class Stage : std::int8_t { kNone, kSeek, kCheck, kFindVelocity, kBeginMap, kConfirm };
 
-  // A scan that was fused while nothing is lost: what later ones are compared with.
+  // Takes a scan that was fused while nothing is lost: what later ones are compared with.
   void NoteMatch(const MatchResult& match) { last_match_ = match; }
-  // `before`: the estimate to which a place that turns out to be wrong falls back. `T_map_imu_seen`:
-  // where the last scan was matched. No search is believed in a scene that did not hold all
-  // directions: a new map begins at once.
+  // `before`: the estimate to which a place that turns out to be wrong falls back.
+  // `T_map_imu_seen`: where the last scan was matched. No search is believed in a scene that did
+  // not hold all directions: a new map begins at once.
   void Begin(const Estimate& before, const Pose& T_map_imu_seen);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
-  // The present stage asks this of matching. `T_map_imu_if_set`: the pose if no time passed.
+  // The present stage asks this of matching. `T_map_imu_if_set` is the pose if no time passed.
   void SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const;
 
   enum class Event : std::int8_t {
@@ -86,7 +86,7 @@ class OutageRecovery {
   [[nodiscard]] Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
-  // The distance of the scan that was found from the last one that was matched before.
+  // Returns the distance of the scan that was found from the last one that was matched before.
   double moved_m() const { return moved_m_; }
 
  private:
@@ -96,7 +96,7 @@ class OutageRecovery {
   bool MatchesAsBefore(const MatchResult& match) const;
 
   Stage stage_ = Stage::kNone;
-  int num_scans_ = 0;  // of the stage
+  int num_scans_ = 0;  // since the stage began
   int num_checked_ = 0;
   MatchResult last_match_;
   Estimate before_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator's outputs in order, until the program takes them.
+// Queues the estimator's outputs in order, until the program takes them.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ class PlaceKnowledge {
   // The place was known before it was lost.
   [[nodiscard]] bool was_inside() const { return was_inside_; }
 
-  // Completes a job of the mode. `may_find`: the filter tracks.
+  // Completes a job of the mode. `may_find` is true when the filter tracks.
   void Prepare(bool may_find, MatchJob& job) {
     if (job.map_action == MapAction::kClear) {
       if (is_inside()) state_ = State::kSeeking;

@@ -8,12 +8,12 @@
 
 namespace lio {
 
-// The error of the pose at an instant of the sweep, as a share of that at its middle.
+// Returns the error of the pose at an instant of the sweep, as a share of that at its middle.
 [[nodiscard]] inline double ShareOfPriorError(double from_mid_sweep_s, const MatchJob& job) {
   return 1.0 + from_mid_sweep_s / job.prior.since_last_fix_s;
 }
 
-// The trajectory over the sweep, bent so that its middle is corrected by a right increment
+// Returns the trajectory over the sweep, bent so that its middle is corrected by a right increment
 // [translation (m); rotation (rad)].
 [[nodiscard]] inline StampedPoses Bent(const MatchJob& job, const Vector6& correction) {
   StampedPoses bent = job.T_any_imu;

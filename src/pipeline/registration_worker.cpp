@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// The trajectory over the sweep, bent so that its middle is where the scan was found.
+// Returns the trajectory over the sweep, bent so that its middle is where the scan was found.
 StampedPoses BentTo(const Pose& found, const MatchJob& job) {
   return Bent(job, LogSe3(job.prior.T_map_imu.Inverse() * found));
 }
@@ -48,7 +48,7 @@ std::vector<float> SharesOfPriorError(const std::vector<float>& from_mid_sweep_s
   return shares;
 }
 
-// The turn rate that the scan was deskewed by, less its error as the match shows it.
+// Returns the turn rate that the scan was deskewed by, less its error as the match shows it.
 TurnRate Corrected(const TurnRate& error, const StampedPoses& motion) {
   const double span_s = SecondsBetween(motion.front().stamp, motion.back().stamp);
   const Quaternion turn = motion.front().pose.rotation.conjugate() * motion.back().pose.rotation;
@@ -67,7 +67,7 @@ struct RegistrationWorker::ScanInWork {
   ReducedScan reduced = {};
   StampedPoses motion;  // the trajectory that the points are deskewed by
   MatchOutcome outcome = {};
-  std::vector<Eigen::Vector3f> to_match = {};  // of outcome.points_imu
+  std::vector<Eigen::Vector3f> to_match = {};  // chosen from outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
   MatchBudget budget = MatchBudget(kRelocalization.max_matches_per_scan);
 

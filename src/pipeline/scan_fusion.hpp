@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The fusion of a match in the modes that grow a map: with the sensor-fixed errors that the drive
-// has shown so far, and beyond the gate where the filter itself must be wrong.
+// Fuses a match in the modes that grow a map: with the sensor-fixed errors that the drive has shown
+// so far, and beyond the gate where the filter itself must be wrong.
 #pragma once
 
 #include "pipeline/health.hpp"

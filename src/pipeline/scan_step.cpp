@@ -10,9 +10,10 @@
 namespace lio {
 namespace {
 
-// The errors that motion within the sweep leaves in the deskewed scan, counted from its middle.
-// Rotation: white gyro noise integrated to both sides has variance density^2 T / 12 in the mean;
-// translation: an error dv of the velocity shifts points by dv t, T^2 / 12 in the mean square.
+// Returns the errors that motion within the sweep leaves in the deskewed scan, counted from its
+// middle. Rotation: white gyro noise integrated to both sides has variance density^2 T / 12 in the
+// mean; translation: an error dv of the velocity shifts points by dv t, T^2 / 12 in the mean
+// square.
 Matrix6 DeskewCov(const Sweep& sweep, const FilterHistory& history, double gyro_density) {
   const double span_s = SecondsBetween(sweep.start, sweep.end);
   Matrix6 cov = Matrix6::Zero();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The two steps of a scan that every mode shares: the job that matches it, predicted by a filter,
-// and the fusion of what matching found. Pure functions of their arguments.
+// Makes the two steps of a scan that every mode shares: the job that matches it, predicted by a
+// filter, and the fusion of what matching found. They are pure functions of their arguments.
 #pragma once
 
 #include <optional>
@@ -20,21 +20,21 @@ struct ScanStepParameters {
   // A shift since the last located scan that is less sure than this is beyond what matching
   // reaches: correlative alignment betters the prior. Chosen: two of it leave the cells of 1 m.
   double align_prior_from_std_m = 0.7;
-  // The least time that a prior is taken to have run free, so that rates by it stay finite. Chosen:
-  // a tenth of a sweep at 10 Hz.
+  // A prior counts as having run free for this time at least, so that rates by it stay finite.
+  // Chosen: a tenth of a sweep at 10 Hz.
   double min_since_last_fix_s = 0.01;
 };
 
 inline constexpr ScanStepParameters kScanStep;
 
-// A job that tracks the sweep from the filter's prediction for its middle. `last_located`: the
-// middle of the last sweep that was located, if there is one.
+// Makes a job that tracks the sweep from the filter's prediction for its middle. `last_located` is
+// the middle of the last sweep that was located, if there is one.
 [[nodiscard]] MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
                                        std::optional<Timestamp> last_located);
 
 struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
-  // Factor on the covariance of matches, for errors that are alike from scan to scan.
+  // The covariance of matches is scaled by this, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
   // SensorFixedErrors::CovPerReplacement()
   Matrix6 sensor_error_cov = Matrix6::Zero();
@@ -52,7 +52,7 @@ struct FusionSettings {
                                      const FilterOptions& filter, FilterHistory& history,
                                      double& nis);
 
-// The report of the matching for registration.csv: all but the filter's part.
+// Returns the report of the matching for registration.csv: all but the filter's part.
 [[nodiscard]] ScanReport MakeScanReport(const MatchOutcome& outcome);
 
 // Adds the filter's time to the stage times, and their total.

@@ -31,17 +31,17 @@ inline constexpr SegmentJumpParameters kSegmentJump;
 struct SegmentJump {
   enum class Kind : std::int8_t { kGap, kClockSet, kUnseen, kSetFarBack };
   Kind kind = Kind::kGap;
-  double jump_s = 0.0;     // of the stamps
+  double jump_s = 0.0;     // jump of the stamps
   double unknown_s = 0.0;  // kGap, kClockSet: the time of which nothing is known
 
   // The clock was set by so much, beyond the time that may have passed.
   [[nodiscard]] Duration set_by() const { return Duration::FromSeconds(jump_s - unknown_s); }
 };
 
-// `before`: the stamp of the filter's newest state.
+// `before` is the stamp of the filter's newest state.
 [[nodiscard]] SegmentJump JudgeJump(Timestamp before, const SegmentStarts& segment);
 
-// The estimate at the segment's first sample after a gap or a clock that was set.
+// Returns the estimate at the segment's first sample after a gap or a clock that was set.
 [[nodiscard]] Estimate CarriedOver(const Estimate& before, const SegmentJump& jump, Timestamp first,
                                    const HistoryOptions& options);
 

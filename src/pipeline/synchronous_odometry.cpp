@@ -14,7 +14,8 @@ bool IsEarlier(const LidarPoint& a, const LidarPoint& b) {
   return a.t_offset_ns < b.t_offset_ns;
 }
 
-// As drivers and converters send it: points by time, the stamp that of the first one.
+// Brings a sweep into the form that drivers and converters send: points by time, the stamp that of
+// the first one.
 void Normalize(LidarSweep& sweep) {
   if (sweep.points.empty()) return;
   if (!std::is_sorted(sweep.points.begin(), sweep.points.end(), IsEarlier)) {

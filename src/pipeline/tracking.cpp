@@ -149,7 +149,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
 }
 
 bool Tracking::IsPriorSure(Timestamp middle) const {
-  return IsWithinReachOfMatching(history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
+  return IsWithinConvergenceBasin(history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
 }
 
 // Gives the scan's row and takes it off the queue.
@@ -183,7 +183,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   return report;
 }
 
-// The match as it is, before the filter.
+// Records the match as it is, before the filter.
 void Tracking::Examine(const MatchOutcome& outcome) const {
   MotionRecord& record = context_.examiner.record();
   if (outcome.match.degenerate_mask != 0 || outcome.is_relocalized) return record.Interrupt();
@@ -195,7 +195,7 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
              context_.stream.imu().Between(since - margin, middle + margin));
 }
 
-// The filters that stand beside this one.
+// Updates the filters that stand beside this one.
 void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise) {
   if (is_fused) {
     SettleClockStep(outcome);

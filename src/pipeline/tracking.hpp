@@ -29,7 +29,7 @@ class Tracking {
   Tracking(const ModeContext& context, Handover handover, const StartState& start, bool is_at_rest);
 
   void AddImu(const ImuReady& event);
-  void AddSweep(const Sweep& sweep);  // that joins an empty queue
+  void AddSweep(const Sweep& sweep);  // the queue before it must be empty
   void TakeClockStep(const AmbiguousClockStep& step);
   // Carries the state over a gap or a step of the clock, unsure of what happened in between.
   void StartSegment(const SegmentStarts& segment);
@@ -88,9 +88,9 @@ class Tracking {
   Health health_;
   KeyframePolicy keyframes_;
   ZeroVelocityUpdater zero_velocity_;
-  MotionTrend trend_;  // of what the inertial samples miss
+  MotionTrend trend_;  // trend of the motion that the inertial samples miss
   OutageRecovery outage_;
-  bool is_first_scan_;           // of an empty map
+  bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet
 };
 

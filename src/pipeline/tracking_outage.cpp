@@ -21,12 +21,14 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
   context_.outputs.Notify(first, Notice::Severity::kWarning,
-                          fmt::format("lost: {}; scans tell whether the body has moved", why));
+                          fmt::format("lost: {}; scans tell whether the body has moved, and no "
+                                      "pose is sure until they do; nothing need be done",
+                                      why));
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
 }
 
-// Where no scan was matched for so long that matching cannot search all the poses that the
-// inertial samples leave, the place is sought as after an outage, from the pose that they give.
+// The place is sought as after an outage, from the pose that the inertial samples give, if no scan
+// was matched for so long that matching cannot search all the poses that they leave.
 void Tracking::SeekAfterSilence(Timestamp end) {
   if (outage_.is_running() || context_.place.is_inside() || IsPriorSure(end)) return;
   outage_.Begin(history_.At(end), handover_.last_fix.T_map_imu);
@@ -72,8 +74,8 @@ void Tracking::BeginHistoryAt(const Estimate& estimate) {
   AddSamplesAfter(estimate.stamp);
 }
 
-// The samples that the stream has already. The history cannot refuse them: they rise, and it begins
-// before them.
+// Adds the samples that the stream has already. The history cannot refuse them: they rise, and it
+// begins before them.
 void Tracking::AddSamplesAfter(Timestamp stamp) {
   for (const ImuSample& sample : context_.stream.imu().samples()) {
     if (sample.stamp > stamp) (void)history_.AddImu(sample);

@@ -26,7 +26,8 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
   const Vector3& at = estimate.state.T_map_imu.translation;
   context_.outputs.Notify(
       sweep.end, Notice::Severity::kInfo,
-      fmt::format("found in the initial map, at x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f} deg",
+      fmt::format("found in the initial map, at x {:.2f}, y {:.2f}, z {:.2f} m, yaw {:.1f} deg; "
+                  "from now on poses in map are in its frame",
                   at.x(), at.y(), at.z(),
                   YawOf(estimate.state.T_map_imu.rotation) * 180.0 / std::numbers::pi));
 }

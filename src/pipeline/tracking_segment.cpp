@@ -78,8 +78,8 @@ void Tracking::SettleClockStep(const MatchOutcome& outcome) {
   ++context_.counters.num_clock_jumps;
   context_.outputs.Notify(
       outcome.sweep->end, Notice::Severity::kWarning,
-      fmt::format("stamps of all sensors went forth by {:.3f} s but nothing moved meanwhile: the "
-                  "clock was set, and the state is carried over",
+      fmt::format("stamps of all sensors went forward by {:.3f} s but nothing moved meanwhile: the "
+                  "clock was set, and the state is carried over; nothing need be done",
                   SecondsBetween(step->before, step->after)));
 }
 

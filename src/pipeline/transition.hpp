@@ -20,7 +20,7 @@ enum class ModeKind : std::int8_t { kInitializing, kTracking, kLidarOnly, kRejec
 enum class Trigger : std::int8_t {
   kStarted,            // the first state is known
   kNoImu,              // no inertial samples come, and the motion is known roughly
-  kRetry,              // what was tracked is of no use: other convention, window over
+  kRetry,              // the track is of no use: other convention, window over
   kSegmentStarts,      // after a gap of the inertial samples, or a step of their clock
   kContradicted,       // the configuration contradicts the data
   kLost,               // scans that see enough match nowhere
@@ -69,7 +69,7 @@ std::string_view NameOf(Trigger trigger);
 struct Transition {
   Trigger trigger = Trigger::kRetry;
   Handover handover = {};
-  // kStarted, kImuReturned; kImuAbsent: what the filter knew, biases and gravity included.
+  // The filter knew this at kStarted, kImuReturned and kImuAbsent, biases and gravity included.
   std::optional<StartState> start = std::nullopt;
   bool is_at_rest = false;  // kStarted: from a rest
   MotionSeed seed = {};     // kNoImu, kImuAbsent

@@ -12,7 +12,7 @@ bool IsMotionHidden(const std::vector<ImuSample>& samples) {
 
 UnseenMotion MotionByRigErrors(const RigBounds& bounds, const std::vector<ImuSample>& samples,
                                double speed_mps) {
-  Vector3 turn = Vector3::Zero();  // of its size about each axis
+  Vector3 turn = Vector3::Zero();  // sum of its size about each axis
   double max_rate_radps = 0.0;
   double span_s = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {

@@ -38,8 +38,8 @@ class YawDoubt {
 
  private:
   double var_ = 0.0;                 // rad^2, of all turns together
-  Vector3 sum_ = Vector3::Zero();    // of variance times z x pivot
-  Matrix3 outer_ = Matrix3::Zero();  // of variance times its square
+  Vector3 sum_ = Vector3::Zero();    // sum of variance times z x pivot
+  Matrix3 outer_ = Matrix3::Zero();  // sum of variance times its square
 };
 
 }  // namespace lio

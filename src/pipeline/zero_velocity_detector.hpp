@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Does the vehicle stand still? Judged after each matched scan, from the last window of inertial
-// samples and of scan matching together, by the limits of imu/rest.hpp.
+// Does the vehicle stand still? The detector answers after each matched scan, from the last window
+// of inertial samples and of scan matching together, by the limits of imu/rest.hpp.
 //
 // At rest all of this holds:
 //   - a straight line through where the window's scans were matched is short,
@@ -23,7 +23,7 @@
 
 namespace lio {
 
-// A matched scan, with the inertial samples of its sweep.
+// Holds a matched scan, with the inertial samples of its sweep.
 struct ZeroVelocityScan {
   Timestamp stamp;
   Vector3 position_map_m = Vector3::Zero();
@@ -39,7 +39,7 @@ class ZeroVelocityDetector {
   // The next scan finds the vehicle at rest.
   void BeginAtRest();
 
-  // As of the last scan, whose time is the estimate's.
+  // It judges as of the last scan, whose time is the estimate's.
   bool Judge(const Estimate& estimate, const Vector3& g_world);
 
  private:

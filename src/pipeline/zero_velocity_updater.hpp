@@ -31,7 +31,7 @@ class ZeroVelocityUpdater {
     if (is_at_rest) detector_.BeginAtRest();
   }
 
-  // After a scan that was fused. True: the filter took the velocity for zero.
+  // Call it after a scan that was fused. True: the filter took the velocity for zero.
   [[nodiscard]] bool AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world,
                                   FilterHistory& history);
   // The time before says nothing about now.
@@ -40,7 +40,7 @@ class ZeroVelocityUpdater {
     last_.reset();
   }
 
-  // Factor on the covariance of the next match.
+  // Returns the factor on the covariance of the next match.
   double match_cov_factor() const { return last_ ? kZeroVelocity.matches_alike : 1.0; }
 
  private:

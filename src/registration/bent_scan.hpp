@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A scan whose deskew follows the pose that is found. An error of a guessed motion both moves the
-// scan and bends it, and a rigid scan that is bent matches nothing. Here the pose of each point's
-// own instant takes its share of the correction (J. Dellenbach et al., "CT-ICP: Real-time Elastic
-// LiDAR Odometry with Loop Closure", ICRA 2022, does so with a pose at either end of the sweep).
+// Bends a scan so that its deskew follows the pose that is found. An error of a guessed motion both
+// moves the scan and bends it, and a rigid scan that is bent matches nothing. Here the pose of each
+// point's own instant takes its share of the correction (J. Dellenbach et al., "CT-ICP: Real-time
+// Elastic LiDAR Odometry with Loop Closure", ICRA 2022, does so with a pose at either end of the
+// sweep).
 #pragma once
 
 #include <algorithm>
@@ -19,12 +20,12 @@ class BentScan {
   // Borrows the input's points and shares; without shares the scan is rigid.
   explicit BentScan(const MatchInput& input);
 
-  // The input, with its points as they are seen when the guess is corrected to this pose.
+  // Returns the input, with its points as they are seen when the guess is corrected to this pose.
   [[nodiscard]] const MatchInput& At(const Pose& T_guess_imu);
 
  private:
-  // Steps of the share, whose points take one pose each. Chosen: with a correction of 3 deg a point
-  // at 10 m is off by 2 mm then, below the range noise.
+  // The share has so many steps, whose points take one pose each. Chosen: with a correction of 3
+  // deg a point at 10 m is off by 2 mm then, below the range noise.
   static constexpr std::size_t kNumSteps = 128;
 
   std::span<const Eigen::Vector3f> points_imu_;

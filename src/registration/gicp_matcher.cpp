@@ -17,7 +17,8 @@ namespace {
 
 using Correspondence = CorrespondenceParameters;
 
-// A point's last neighbour where there is none: not sought yet, or none within the first search.
+// A point has one of these as last neighbour where there is none: not sought yet, or none within
+// the first search.
 constexpr std::int32_t kUnknown = -1;
 constexpr std::int32_t kNowhere = -2;
 

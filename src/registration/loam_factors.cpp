@@ -55,7 +55,7 @@ struct AutoPoint {
 
 using PointJacobian = Eigen::Matrix<double, 3, 7>;
 
-// The moved point and its derivative by the seven numbers of the block:
+// Returns the moved point and its derivative by the seven numbers of the block:
 //   q p = p + 2 w v x p + 2 v x (v x p).
 Vector3 Move(const double* block, const Vector3& p, PointJacobian* jacobian) {
   const Eigen::Map<const Quaternion> rotation(block);

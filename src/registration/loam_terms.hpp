@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correspondences of one round of LOAM and what is done with them: linearised for a step and
-// for what is reported, or solved by Ceres. Target frame: the one that T_target_imu leads to.
+// Keeps the correspondences of one round of LOAM and what is done with them: linearised for a step
+// and for what is reported, or solved by Ceres. The target frame is the one that T_target_imu leads
+// to.
 #pragma once
 
 #include <span>
@@ -13,23 +14,23 @@
 
 namespace lio {
 
-// An edge point and its line.
+// Holds an edge point and its line.
 struct EdgeTerm {
   std::int32_t point = 0;
-  std::int32_t part = 0;  // of the target; terms of one part share its errors
+  std::int32_t part = 0;  // part of the target; terms of one part share its errors
   Vector3 on_line;
   Vector3 direction;           // unit
-  double direction_var = 0.0;  // of each of its two components across [rad^2]
+  double direction_var = 0.0;  // variance of each of its two components across [rad^2]
   double weight = 0.0;         // at the last linearisation, 1 / m^2
 };
 
-// A surface point and its plane.
+// Holds a surface point and its plane.
 struct PlaneTerm {
   std::int32_t point = 0;
   std::int32_t part = 0;
   Vector3 on_plane;
   Matrix3 axes;                // columns: normal, tangents
-  Eigen::Vector2d normal_var;  // of the normal's tilt toward either tangent [rad^2]
+  Eigen::Vector2d normal_var;  // variance of the normal's tilt toward either tangent [rad^2]
   double weight = 0.0;
 };
 
@@ -44,15 +45,15 @@ class LoamTerms {
   const std::vector<EdgeTerm>& edges() const { return edges_; }
   const std::vector<PlaneTerm>& planes() const { return planes_; }
 
-  // The pose after Ceres, from `T_target_imu`. `sweep_ratios`: of each point, as in
-  // loam_factors.hpp; empty: all 1.
+  // Returns the pose after Ceres, from `T_target_imu`. `sweep_ratios` are those of each point, as
+  // in loam_factors.hpp; empty: all 1.
   Pose Solve(std::span<const Eigen::Vector3f> points_imu, std::span<const float> sweep_ratios,
              const Pose& T_target_imu);
-  // Sets the terms' weights. Information in units of 1 / surface variance. Adds the terms' scores
-  // where a place for them is given.
+  // Sets the terms' weights. Information is in units of 1 / surface variance. Adds the terms'
+  // scores where a place for them is given.
   MatchSums Linearize(std::span<const Eigen::Vector3f> points_imu, const Pose& T_target_imu,
                       MatchScores* scores);
-  // The cost with the weights of the last Linearize.
+  // Returns the cost with the weights of the last Linearize.
   double FixedCorrespondenceCost(std::span<const Eigen::Vector3f> points_imu,
                                  const Pose& T_target_imu) const;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The loop that every matcher runs: step by step from the guess, with a correspondence radius that
+// Runs the loop of every matcher: step by step from the guess, with a correspondence radius that
 // shrinks, until the radius is zero and a step is small.
 #pragma once
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLever_m = CorrespondenceParameters::kLever_m;
 
-// Fixed odd rotation between the map's axes and the voxel grid's.
+// Turns the map's axes into the voxel grid's by a fixed odd rotation.
 const Pose& GridFromMap() {
   static const Pose kPose{ExpSo3(Vector3(NdtParameters::kGridRotation_rad.data())),
                           Vector3(NdtParameters::kGridTranslation_m.data())};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The term that one point adds to NDT's cost, matched to the surface patch of its cell
+// Gives the term that one point adds to NDT's cost, matched to the surface patch of its cell
 // (ndt_matcher.hpp has the formula).
 #pragma once
 
@@ -17,7 +17,7 @@ struct NdtRow {
   float weight = 0.f;                                   // 1 / m^2
 };
 
-// One row for a plane, two for a vertical structure.
+// Has one row for a plane, two for a vertical structure.
 struct NdtTerm {
   std::array<NdtRow, 2> rows;
   int num_rows = 1;
@@ -27,8 +27,8 @@ struct NdtTerm {
   [[nodiscard]] bool IsOutlier() const { return RobustKernel::IsOutlier(distance_sq); }
 };
 
-// `num_here`: this scan's points in the cell; `radius_var`: the correspondence radius, squared
-// [m^2].
+// `num_here` counts this scan's points in the cell; `radius_var` is the correspondence radius,
+// squared [m^2].
 [[nodiscard]] NdtTerm MakeNdtTerm(const SurfacePatch& patch, const Eigen::Vector3f& from_mean,
                                   float num_here, float radius_var);
 

@@ -40,7 +40,7 @@ Moments MomentsOf(const PointMap::Neighbours& neighbours) {
   return moments;
 }
 
-// The variance that range noise alone leaves in a mean.
+// Returns the variance that range noise alone leaves in a mean.
 double NoiseVar(const Moments& moments, const LoamOptions& options) {
   return options.surface_std_m * options.surface_std_m / moments.points_each;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The line or plane that is fitted to a few neighbouring map points; none where they are
-// rank-deficient or do not fit. Positions are relative to the query point.
+// Fits a line or plane to a few neighbouring map points; none where they are rank-deficient or do
+// not fit. Positions are relative to the query point.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@ namespace lio {
 struct LineFit {
   Vector3 centre;
   Vector3 direction;           // unit
-  double direction_var = 0.0;  // of each of its two components across [rad^2]
+  double direction_var = 0.0;  // variance of each of its two components across [rad^2]
 };
 
 struct PlaneFit {
   Vector3 centre;
   Vector3 normal;              // unit
   Matrix3 axes;                // columns: normal and the two tangents
-  Eigen::Vector2d normal_var;  // of the normal's tilt toward either tangent [rad^2]
+  Eigen::Vector2d normal_var;  // variance of the normal's tilt toward either tangent [rad^2]
 };
 
 [[nodiscard]] std::optional<LineFit> FitLine(const PointMap::Neighbours& neighbours,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A pose as one parameter block of Ceres: seven numbers qx qy qz qw tx ty tz, unit quaternion, on a
-// manifold of six dimensions. The tangent is this project's: [translation; rotation], acting on the
-// right, T(d) = T ExpSe3(d) (base/pose.hpp).
+// Defines a pose as one parameter block of Ceres: seven numbers qx qy qz qw tx ty tz, unit
+// quaternion, on a manifold of six dimensions. The tangent is this project's: [translation;
+// rotation], acting on the right, T(d) = T ExpSe3(d) (base/pose.hpp).
 #pragma once
 
 #include <ceres/manifold.h>

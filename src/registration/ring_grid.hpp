@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The points of one scan with their rings, for LOAM's scan-to-scan search: around a place, the
-// nearest point, the nearest one on the same ring and the nearest one on a neighbouring ring.
+// Keeps the points of one scan with their rings, for LOAM's scan-to-scan search: around a place,
+// the nearest point, the nearest one on the same ring and the nearest one on a neighbouring ring.
 #pragma once
 
 #include <array>
@@ -38,14 +38,14 @@ class RingGrid {
   const Eigen::Vector3f& point(std::int32_t i) const {
     return points_[static_cast<std::size_t>(i)].position;
   }
-  // Upper bound of the numbers of parts.
+  // Returns an upper bound of the numbers of parts.
   std::size_t num_parts() const { return voxels_.capacity(); }
 
  private:
   static constexpr float kVoxel_m = LoamScanParameters::kGridVoxel_m;
   struct Point {
     Eigen::Vector3f position;
-    std::int32_t next = -1;  // of the same voxel
+    std::int32_t next = -1;  // next point of the same voxel
     std::uint16_t ring = 0;
   };
   template <class Visit>

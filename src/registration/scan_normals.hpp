@@ -21,8 +21,9 @@ class ScanNormals {
 
   // Sums up a scan; forgets the one before.
   void SetScan(std::span<const Eigen::Vector3f> points);
-  // A point of the scan with its normal; without one where the surroundings are rank-deficient: too
-  // few points, points along a line, as those of a single ring are, or no surface.
+  // Returns a point of the scan with its normal; without one where the surroundings are
+  // rank-deficient: too few points, points along a line, as those of a single ring are, or no
+  // surface.
   [[nodiscard]] PointWithNormal At(const Eigen::Vector3f& point) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The test for a well-constrained translation. Trunks, bushes and edges look different from each
-// side, by some centimetres: they help only while the vehicle's translation is known no better.
+// Tests for a well-constrained translation. Trunks, bushes and edges look different from each side,
+// by some centimetres: they help only while the vehicle's translation is known no better.
 #pragma once
 
 #include "lio/registration/registration_parameters.hpp"

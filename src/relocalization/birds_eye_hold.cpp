@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-// A linear (Kalman) update of the imu's position along the level axes' x and y.
+// Makes a linear (Kalman) update of the imu's position along the level axes' x and y.
 void HoldAt(const FoundShift& found, const Quaternion& R_level_map, MatchResult& match) {
   const Matrix3 R_level_imu = (R_level_map * match.T_map_imu.rotation).toRotationMatrix();
   Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();

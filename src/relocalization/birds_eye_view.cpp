@@ -29,7 +29,8 @@ bool IsInView(float x, float y) {
   return std::abs(x) < kView.half_width_m && std::abs(y) < kView.half_width_m;
 }
 
-// The cell of a coordinate that is in view; the conversion rounds down, since no sum is negative.
+// Returns the cell of a coordinate that is in view; the conversion rounds down, since no sum is
+// negative.
 int CellOf(float coordinate) {
   return static_cast<int>((coordinate + kView.half_width_m) / kView.cell_m);
 }
@@ -42,7 +43,7 @@ std::size_t IndexOf(int x, int y, int side) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
 }
 
-// The cell and its eight neighbours.
+// Marks the cell and its eight neighbours.
 void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) {
   for (int y = at_y - 1; y <= at_y + 1; ++y) {
     for (int x = at_x - 1; x <= at_x + 1; ++x) {
@@ -51,7 +52,7 @@ void MarkAround(int at_x, int at_y, int side, std::vector<std::uint8_t>& cells) 
   }
 }
 
-// Ordered, so that the result depends on the points alone.
+// They are ordered, so that the result depends on the points alone.
 std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f> points) {
   std::map<std::pair<int, int>, Column> columns;
   for (const Eigen::Vector3f& point : points) {
@@ -67,7 +68,7 @@ std::map<std::pair<int, int>, Column> ColumnsOf(std::span<const Eigen::Vector3f>
   return columns;
 }
 
-// How many of the structures, moved by `shift`, satisfy the predicate of x and y.
+// Counts how many of the structures, moved by `shift`, satisfy the predicate of x and y.
 template <typename Predicate>
 int CountShifted(std::span<const Eigen::Vector2f> structures, const Eigen::Vector2f& shift,
                  Predicate is_counted) {

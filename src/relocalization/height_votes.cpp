@@ -19,7 +19,7 @@ std::int32_t BinOf(float height_m) {
   return FloorToInt(height_m / kHeight.bin_m);
 }
 
-// The best bins, each with its two neighbours, none nearer to a better one than a metre.
+// Returns the best bins, each with its two neighbours, none nearer to a better one than a metre.
 std::vector<float> PeaksOf(const std::vector<int>& votes, int first_bin) {
   const auto width = static_cast<int>(kHeight.apart_m / kHeight.bin_m);
   std::vector<std::pair<int, int>> sums;  // votes and bin, best first

@@ -21,7 +21,7 @@ float TurnBetween(float a_rad, float b_rad) {
   return std::abs(std::remainder(a_rad - b_rad, kWholeTurn_rad));
 }
 
-// The mean of the poses that score best.
+// Keeps the mean of the poses that score best.
 class MeanOfBest {
  public:
   void Add(int score, const Eigen::Vector3f& pose) {
@@ -44,7 +44,7 @@ class MeanOfBest {
 
 }  // namespace
 
-// A total order, so that the search depends on the points alone.
+// This is a total order, so that the search depends on the points alone.
 bool MapSearch::IsWorse::operator()(const Node& a, const Node& b) const {
   return std::tie(a.score, b.level, b.turn, b.y, b.x) <
          std::tie(b.score, a.level, a.turn, a.y, a.x);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Poses where a scan may be that was not found near its motion prior: after a time unseen, or after
-// the lidar's clock was set.
+// Gives poses where a scan may be that was not found near its motion prior: after a time unseen, or
+// after the lidar's clock was set.
 #pragma once
 
 #include <span>
@@ -11,26 +11,26 @@
 
 namespace lio {
 
-// A deskewed scan and its pose.
+// Holds a deskewed scan and its pose.
 struct PlacedScan {
   std::span<const Eigen::Vector3f> points_imu;
   Pose T_map_imu;
 };
 
-// Candidate poses of `now`, best first, by the bird's-eye views of both scans. The search covers
-// the way from the earlier pose to the prior `now.T_map_imu`, widened by the prior's covariance
-// `cov` (right error). The earlier pose itself comes last, for the clock may have jumped. Roll,
-// pitch and height are taken from the earlier pose and the prior.
+// Returns candidate poses of `now`, best first, by the bird's-eye views of both scans. The search
+// covers the way from the earlier pose to the prior `now.T_map_imu`, widened by the prior's
+// covariance `cov` (right error). The earlier pose itself comes last, for the clock may have
+// jumped. Roll, pitch and height are taken from the earlier pose and the prior.
 [[nodiscard]] std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& now,
                                                 const Matrix6& cov, const Quaternion& R_level_map);
 
-// The rotation R_level_map that turns up in the map to z.
+// Returns the rotation R_level_map that turns up in the map to z.
 [[nodiscard]] Quaternion LevelFromMap(const Vector3& up_map);
 
-// Covariance of a candidate's error, right error.
+// Returns the covariance of a candidate's error, right error.
 [[nodiscard]] Matrix6 CandidateCov();
 
-// The points in axes whose z is up; the origin stays at the sensor.
+// Returns the points in axes whose z is up; the origin stays at the sensor.
 [[nodiscard]] std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
                                                     const Quaternion& R_level_imu);
 

@@ -23,8 +23,8 @@ double SupportOf(const MatchResult& match) {
   return may_be_there ? ShareOf(match) * match.num_matched : 0.0;
 }
 
-// How well the scan fits the saved map there: the share of points that nothing contradicts, over
-// that in its own new map; less where the saved map shows little.
+// Says how well the scan fits the saved map there: the share of points that nothing contradicts,
+// over that in its own new map; less where the saved map shows little.
 double FitOf(const MatchResult& there, const MatchResult& in_new_map) {
   if (!there.IsUsable()) return 0.0;
   const double number = static_cast<double>(there.num_matched) / in_new_map.num_matched;

@@ -37,7 +37,7 @@ bool IsBetter(const ScoredPose& a, const ScoredPose& b) {
   return a.score > b.score;
 }
 
-// The best of all so far, best first; among equal ones those that came first stay.
+// Holds the best of all so far, best first; among equal ones those that came first stay.
 class Best {
  public:
   explicit Best(std::size_t max) : max_(max) {}

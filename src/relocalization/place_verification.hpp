@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Is a scan where a match says it is? Judged by the share of its points that lie on surfaces of the
-// map, and by their number, against those of the last scan that was located.
+// Is a scan where a match says it is? It is judged by the share of its points that lie on surfaces
+// of the map, and by their number, against those of the last scan that was located.
 #pragma once
 
 #include "lio/registration/scan_matcher.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A grid of planar poses around a middle, over which structures seen from above are laid.
+// Lays structures seen from above over a grid of planar poses around a middle.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace lio {
 
 struct PlanarGrid {
   PlanarPose middle;
-  // Steps to each side of the middle.
+  // The grid has so many steps to each side of the middle.
   int num_x = 0;
   int num_y = 0;
   int num_turns = 0;

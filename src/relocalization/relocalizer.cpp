@@ -22,7 +22,7 @@ double CoarseSupportOf(const MatchResult& match) {
   return share * match.num_matched;
 }
 
-// The guesses, moved to where a coarse match ends, best first, each place once.
+// Returns the guesses, moved to where a coarse match ends, best first, each place once.
 std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
                                    const MatchFrom& match_coarsely) {
   struct Candidate {
@@ -47,12 +47,12 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
 
 }  // namespace
 
-bool IsWithinReachOfMatching(const Matrix6& prior_cov) {
-  constexpr PlaceVerificationParameters kReach = kRelocalization.verification;
+bool IsWithinConvergenceBasin(const Matrix6& prior_cov) {
+  constexpr PlaceVerificationParameters kBasin = kRelocalization.verification;
   const double translation_var = prior_cov.topLeftCorner<3, 3>().diagonal().maxCoeff();
   const double rotation_var = prior_cov.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  return translation_var + kReach.lever_m * kReach.lever_m * rotation_var <
-         kReach.max_prior_std_m * kReach.max_prior_std_m;
+  return translation_var + kBasin.lever_m * kBasin.lever_m * rotation_var <
+         kBasin.max_prior_std_m * kBasin.max_prior_std_m;
 }
 
 std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
@@ -106,7 +106,7 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
   if (request.region == SearchRegion::kAlternative) return;
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
   const bool is_tracked = request.region == SearchRegion::kTracked;
-  const bool is_prior_sure = IsWithinReachOfMatching(prior.cov);
+  const bool is_prior_sure = IsWithinConvergenceBasin(prior.cov);
   const bool is_near_prior = is_prior_sure && found.match.IsUsable();
   if (is_near_prior ? HasPlenty(found.match, last)
                     : found.match.IsUsable() && IsLikely(found.match, last)) {

@@ -27,7 +27,8 @@ int ScoreAt(std::span<const PlacedView> earlier, const BirdsEyeView& now,
   return score;
 }
 
-// The score if nothing but the sensor's own pattern of beams were seen, which moves with it.
+// Returns the score if nothing but the sensor's own pattern of beams were seen, which moves with
+// it.
 int ScoreOfPattern(std::span<const PlacedView> earlier, const BirdsEyeView& now) {
   int score = 0;
   for (const PlacedView& other : earlier) {
@@ -50,7 +51,8 @@ std::vector<ScoredShift> ScoreAll(std::span<const PlacedView> earlier, const Bir
   return scored;
 }
 
-// Mean and covariance over all positions, each weighted by its likelihood (Olson 2009, eq. 10).
+// Returns mean and covariance over all positions, each weighted by its likelihood (Olson 2009, eq.
+// 10).
 FoundShift Summarise(const std::vector<ScoredShift>& scored, int peak, double chance) {
   double weight_sum = 0.0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -18,7 +18,7 @@ std::size_t IndexOf(int x, int y, const Eigen::Vector2i& size) {
          static_cast<std::size_t>(x);
 }
 
-// Half as many cells along x and y; each is marked where any of its four is.
+// Returns half as many cells along x and y; each is marked where any of its four is.
 Grid Halved(const Grid& grid, const Eigen::Vector2i& size, const Eigen::Vector2i& half) {
   Grid halved(IndexOf(0, half.y(), half), 0);
   for (int y = 0; y < size.y(); ++y) {

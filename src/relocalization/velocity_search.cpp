@@ -52,7 +52,7 @@ std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
       std::max(1, static_cast<int>(kVelocity.peak_width_m / (span_s * kVelocity.step_mps)));
   const int peak = scores_[static_cast<std::size_t>(best)];
   int rival = 0;
-  Eigen::Vector2f sum = Eigen::Vector2f::Zero();  // of the peak's flat top
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();  // sum over the peak's flat top
   int num = 0;
   for (int i = 0; i < kNumSteps * kNumSteps; ++i) {
     const int x = i % kNumSteps;

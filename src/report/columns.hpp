@@ -14,10 +14,11 @@ namespace lio {
 
 inline constexpr std::size_t kMaxRows = 20'000;  // half an hour at 10 Hz
 
-// The number with five digits, which is more than a plot shows; null for what is not finite.
+// Returns the number with five digits, which is more than a plot shows; null for what is not
+// finite.
 [[nodiscard]] nlohmann::ordered_json RoundedForPlot(double value);
 
-// Every how many rows one is kept, so that at most kMaxRows are.
+// Returns how many rows make one kept row, so that at most kMaxRows are kept.
 [[nodiscard]] std::size_t RowStride(std::size_t num_rows);
 
 class PlotColumns {

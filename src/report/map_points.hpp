@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The map's points for the page: thinned to what a picture from above shows.
+// Gives the map's points for the page: thinned to what a picture from above shows.
 #pragma once
 
 #include <Eigen/Core>

@@ -57,7 +57,7 @@ Json PathJson(const fs::path& folder, Timestamp begin) {
   return columns.json();
 }
 
-// Rows of notices.tsv: time, severity, text.
+// Reads rows of notices.tsv: time, severity, text.
 Json NoticesJson(const fs::path& file, Timestamp begin) {
   Json rows = Json::array();
   std::istringstream text(ReadAll(file));

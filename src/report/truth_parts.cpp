@@ -47,7 +47,7 @@ double Sigma(const Matrix6& cov, int i) {
   return std::sqrt(std::max(0.0, cov(i, i)));
 }
 
-// Estimate minus truth, in the level world; rotations in world axes, so that z is yaw.
+// Gives estimate minus truth, in the level world; rotations in world axes, so that z is yaw.
 Json ErrorsJson(const RunErrors& errors, Timestamp run_begin, Timestamp begin) {
   PlotColumns columns(begin);
   const std::size_t stride = RowStride(errors.instants.size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The parts of the page that need the truth: figures, the true path, and errors with the standard
-// deviations that the filter claims.
+// Makes the parts of the page that need the truth: figures, the true path, and errors with the
+// standard deviations that the filter claims.
 #pragma once
 
 #include <filesystem>

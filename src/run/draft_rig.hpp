@@ -14,7 +14,7 @@ namespace lio {
 struct SourceKnowledge {
   std::string lidar_name = "the lidar";  // its topic, where there is one
   std::string imu_name = "the IMU";
-  std::optional<Rig> rig;  // that of a known vehicle, named in `rig_reason`
+  std::optional<Rig> rig;  // the rig of a known vehicle, named in `rig_reason`
   std::string rig_reason;
   std::optional<Pose> T_imu_lidar;  // from /tf_static
   std::string extrinsic_reason;     // why it is known, or why it is not

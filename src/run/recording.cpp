@@ -26,7 +26,7 @@ fs::path WithoutSlash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-// The absolute path without a slash at its end, so that its parents have names.
+// Returns the absolute path without a slash at its end, so that its parents have names.
 fs::path WholePath(const fs::path& path) {
   return WithoutSlash(fs::absolute(path)).lexically_normal();
 }

@@ -15,8 +15,8 @@ constexpr double kGridStep_s = kScanParameters.deskew.grid_step_s;
 
 using Transform = Eigen::Matrix<float, 3, 4>;
 
-// The pose at `stamp`, constant beyond both ends. The search starts at `from`, which becomes the
-// segment found, so that ascending calls are linear in total.
+// Returns the pose at `stamp`, constant beyond both ends. The search starts at `from`, which
+// becomes the segment found, so that ascending calls are linear in total.
 Pose PoseAt(const StampedPoses& poses, Timestamp stamp, std::size_t& from) {
   while (from + 1 < poses.size() && poses[from + 1].stamp < stamp) ++from;
   if (from + 1 == poses.size() || stamp <= poses[from].stamp) return poses[from].pose;

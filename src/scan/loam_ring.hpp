@@ -22,7 +22,7 @@ class LoamRing {
 
   explicit LoamRing(const LoamFeatureOptions& options);
 
-  // The result for a point.
+  // Gives the result for a point.
   enum class Label : std::uint8_t { kPlain, kSharp, kLessSharp, kFlat, kOccluded, kGrazed };
 
   // `ring`: indices into `points`, in the order they were measured.
@@ -30,7 +30,7 @@ class LoamRing {
 
   std::size_t size() const { return position_.size(); }
   Label label(std::size_t i) const { return label_[i]; }
-  // True for points with a full window of neighbours: all but five at each end.
+  // Returns true for points with a full window of neighbours: all but five at each end.
   bool IsInside(std::size_t i) const { return i >= kHalfWindow && i + kHalfWindow < size(); }
 
  private:

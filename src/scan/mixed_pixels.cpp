@@ -68,7 +68,7 @@ void MixedPixelFinder::LinkByOrder() {
   }
 }
 
-// The range of a point if it lies beside `direction`, else zero.
+// Returns the range of a point if it lies beside `direction`, else zero.
 float MixedPixelFinder::RangeBeside(const Eigen::Vector3f& direction, std::uint32_t index) const {
   if (index == kNone) return 0.f;
   const Eigen::Vector3f position = PositionOf((*points_)[index]);

@@ -16,7 +16,7 @@ constexpr ThinningParameters kThinning = kScanParameters.thinning;
 
 struct Voxel {
   VoxelKey key;
-  float distance_sq;  // of the point from the voxel's centre, in voxels
+  float distance_sq;  // from the point to the voxel's centre, in voxels
 };
 
 Voxel VoxelOf(const LidarPoint& point, float inverse_voxel) {
@@ -91,8 +91,8 @@ void ScanReducer::MarkChosen() {
   });
 }
 
-// The chosen points by time, then ring. A key beside the index saves the sort from reading the
-// points.
+// Returns the chosen points by time, then ring. A key beside the index saves the sort from reading
+// the points.
 std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep) {
   MarkChosen();
   std::vector<Chosen> chosen;

@@ -15,12 +15,12 @@ namespace lio {
 // True when every point has ring 0: every spinning lidar has several beams.
 bool LacksRings(std::span<const LidarPoint> points);
 
-// The beam nearest in elevation for each point; 0 for non-finite points. `beam_elevations_rad`
-// ascends; throws std::invalid_argument when it is empty.
+// Returns the beam nearest in elevation for each point; 0 for non-finite points.
+// `beam_elevations_rad` ascends; throws std::invalid_argument when it is empty.
 std::vector<std::uint16_t> RingsFromElevation(std::span<const LidarPoint> points,
                                               std::span<const double> beam_elevations_rad);
 
-// True when all points have one and the same time.
+// Returns true when all points have one and the same time.
 bool LacksTimes(std::span<const LidarPoint> points);
 
 // The time of each point as a fraction 0..1 of the turn, from its azimuth alone: the sensor turns
@@ -28,9 +28,9 @@ bool LacksTimes(std::span<const LidarPoint> points);
 // anything.
 std::vector<float> TurnFractions(std::span<const LidarPoint> points);
 
-// Points ring after ring, each ring in the order of measurement: by time or, when the points lack
-// it, by azimuth as in TurnFractions. Ties are broken by position, so that with times the order of
-// the input does not matter.
+// Holds points ring after ring, each ring in the order of measurement: by time or, when the points
+// lack it, by azimuth as in TurnFractions. Ties are broken by position, so that with times the
+// order of the input does not matter.
 struct RingOrder {
   std::vector<std::uint32_t> points;  // indices
   std::vector<std::uint32_t> begin;   // in `points`, by ring, and the end of the last one

@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// A total order on points, so that ties do not depend on the order of arrival.
+// Defines a total order on points, so that ties do not depend on the order of arrival.
 inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
   if (a.t_offset_ns != b.t_offset_ns) return a.t_offset_ns < b.t_offset_ns;
   if (a.ring != b.ring) return a.ring < b.ring;
@@ -23,8 +23,8 @@ inline bool Precedes(const LidarPoint& a, const LidarPoint& b) {
 
 inline constexpr std::size_t kMaxSampled = kScanParameters.thinning.max_sampled;
 
-// A hash in 0..65535 of the point's time and ring; of its position, too, in clouds without times,
-// because otherwise whole rings would be drawn.
+// Returns a hash in 0..65535 of the point's time and ring; of its position, too, in clouds without
+// times, because otherwise whole rings would be drawn.
 inline std::uint32_t Sample(const LidarPoint& point) {
   std::uint32_t name = point.t_offset_ns + 0x9E3779B9u * (point.ring + 1u);
   if (point.t_offset_ns == 0) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Tuning constants of thinning, deskewing and LOAM's features that have no configuration key; keys
-// are in reduce_options.hpp and loam_feature_options.hpp. A comment gives the unit, the meaning and
-// the source; a value marked "chosen" has no measurement behind it.
+// Tunes thinning, deskewing and LOAM's features by constants without a configuration key; keys are
+// in reduce_options.hpp and loam_feature_options.hpp. A comment gives the unit, the meaning and the
+// source; a value marked "chosen" has no measurement behind it.
 #pragma once
 
 #include <cstddef>
@@ -18,30 +18,32 @@ struct ThinningParameters {
   // from a hall to a road within ten sweeps and does not answer to one sweep.
   double min_edge_ratio = 0.8;
   double max_edge_ratio = 1.25;
-  // Slots of the table of voxels at the beginning. Chosen: three a target point; it grows as
+  // The table of voxels begins with so many slots. Chosen: three a target point; it grows as
   // needed.
   std::size_t initial_slots = 1u << 14;
 };
 
 struct DeskewParameters {
-  // s. Grid of poses between which transforms are blended linearly. Physics: at 60 m and 1 rad/s
-  // the chord errs by 60 m (1 rad/s 1 ms)^2 / 8 = 0.01 mm; 30 ms would be 4 mm off.
+  // s. Transforms are blended linearly between poses of this grid. Physics: at 60 m and 1 rad/s the
+  // chord errs by 60 m (1 rad/s 1 ms)^2 / 8 = 0.01 mm; 30 ms would be 4 mm off.
   double grid_step_s = 1e-3;
 };
 
 struct LoamFeatureParameters {
-  // Neighbours on each side in the curvature. Zhang and Singh, RSS 2014; A-LOAM's constant.
+  // The curvature takes so many neighbours on each side. Zhang and Singh, RSS 2014; A-LOAM's
+  // constant.
   int half_window = 5;
-  // Points of the far surface that are left out at the border of a shadow. LOAM's published code.
+  // So many points of the far surface are left out at the border of a shadow. LOAM's published
+  // code.
   std::size_t shadow_points = 6;
-  // Steps on each side over which the slope of a surface is judged. Chosen: less judges the range
+  // The slope of a surface is judged over so many steps on each side. Chosen: less judges the range
   // noise, more smooths edges away.
   std::size_t slope_half_window = 2;
-  // Share of the rise that a single step may have in a slope; more is a jump. Chosen: 0.25 is even,
+  // A single step may have this share of the rise in a slope; more is a jump. Chosen: 0.25 is even,
   // 1 is a single jump; between, rough surfaces stay slopes.
   float max_step_share = 0.6f;
-  // Largest share of edges among the matched points. Chosen: edges are few and constrain directions
-  // that surfaces leave free.
+  // Edges are at most this share of the matched points. Chosen: edges are few and constrain
+  // directions that surfaces leave free.
   int edge_divisor = 2;
 };
 
@@ -51,7 +53,7 @@ struct MixedPixelParameters {
   // ground. docs/experiments/mixed_pixels.md tells what is found and lost so.
   float tolerance_m = 0.1f;
   float tolerance_per_range = 0.005f;
-  // Cosine of the largest angle to the beams beside it, 1 deg. Chosen: three beams of a coarse
+  // Neighbouring beams are at most 1 deg apart, given as a cosine. Chosen: three beams of a coarse
   // lidar (OS1-64, 0.35 deg); beams farther apart see different things.
   float min_cos = 0.99985f;
   // Points of a ring that step back in time by no more than this are in the order of measurement as

@@ -87,7 +87,7 @@ CarVibration::Shake CarVibration::Engine(double t_s, double speed_mps, double dt
   return Tone(amplitude, frequency_hz, engine_phase_rad_);
 }
 
-// The body's rocking after the engine has started or stopped.
+// Returns the body's rocking after the engine has started or stopped.
 CarVibration::Shake CarVibration::Rock(double t_s) const {
   const CarVibrationParameters& p = kCarVibration;
   Shake sum;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Takes the sensors along a way by hand, on a small robot or on a drone: how fast, how it leans,
-// sways and looks about. Used inside src/sim only.
+// sways and looks about. It is used inside src/sim only.
 #pragma once
 
 #include "sim/drive.hpp"

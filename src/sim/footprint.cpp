@@ -17,8 +17,8 @@ constexpr double kOnSurface_m = 0.05;
 
 struct Part {
   const Hit* hit = nullptr;
-  double share = 0.0;   // of the beam's light that falls on it
-  double energy = 0.0;  // of it that comes back
+  double share = 0.0;   // share of the beam's light that falls on it
+  double energy = 0.0;  // part of that light that comes back
 };
 
 Part MakePart(const Hit& hit, double share) {

@@ -41,8 +41,8 @@ void AddCut(Mesh& mesh, const std::array<const Corner*, 4>& tetrahedron, Materia
   }
 }
 
-// The six tetrahedra around the diagonal from corner 0 to corner 7; bit k of a corner's number
-// tells whether it is at the upper end of axis k.
+// These are the six tetrahedra around the diagonal from corner 0 to corner 7; bit k of a corner's
+// number tells whether it is at the upper end of axis k.
 void AddCell(Mesh& mesh, const std::array<const Corner*, 8>& c, Material material) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kBetween = {
       {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Meshes the surface of a place that is given by its signed distance, for caves and rough rock.
-// Used inside src/sim only.
+// Meshes the surface of a place that is given by its signed distance, for caves and rough rock. It
+// is used inside src/sim only.
 #pragma once
 
 #include <functional>

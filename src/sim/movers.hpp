@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// People and vehicles that move through a world.
+// Moves people and vehicles through a world.
 #pragma once
 
 #include <functional>

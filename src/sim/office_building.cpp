@@ -23,7 +23,7 @@ constexpr double kRoomFar_m = Shape::kHalfCorridor_m + Shape::kWall_m + Shape::k
 constexpr double kOuter_m = kRoomFar_m + 0.5 * kOuterWall_m;
 constexpr double kRoof_m = Shape::kNumStoreys * Shape::kStorey_m;
 
-// The rooms of one side of the corridor, by their doors and their walls to the east.
+// Holds the rooms of one side of the corridor, by their doors and their walls to the east.
 struct Rooms {
   double side;  // +1: north
   std::array<double, 4> doors_m;
@@ -34,7 +34,7 @@ constexpr std::array<Rooms, 2> kRooms = {{
     {-1.0, {Shape::kHighDoor_m, 12.0, 18.0, 22.5}, {9.0, 15.0, 21.0, Shape::kLength_m}},
 }};
 
-// An opening in a wall: its extent along the wall and its height.
+// Holds an opening in a wall: its extent along the wall and its height.
 struct Opening {
   double from = 0.0;
   double to = 0.0;
@@ -189,7 +189,7 @@ struct Flight {
   double x = 0.0;
   double z = 0.0;
   double direction = 1.0;
-  double side = 1.0;  // of y
+  double side = 1.0;  // sign of y
 };
 
 void AddFlight(Mesh& mesh, const Flight& flight) {

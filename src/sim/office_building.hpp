@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Makes an office building of three storeys that look alike: on each a corridor along x between
 // rooms, and at its western end a stairwell with two flights from storey to storey. The corridor's
-// middle is y = 0, the floor of the lowest storey z = 0. Used inside src/sim only.
+// middle is y = 0, the floor of the lowest storey z = 0. It is used inside src/sim only.
 #pragma once
 
 #include "lio/sim/mesh.hpp"
@@ -14,14 +14,14 @@ struct OfficeShape {
   static constexpr int kNumStoreys = 3;
   static constexpr double kStorey_m = 3.3;
   static constexpr double kSlab_m = 0.3;
-  static constexpr double kLength_m = 24.0;       // of the corridor, from x = 0
+  static constexpr double kLength_m = 24.0;       // length of the corridor, from x = 0
   static constexpr double kHalfCorridor_m = 0.8;  // it is 1.6 m wide
   static constexpr double kRoomDepth_m = 5.0;
   static constexpr double kWall_m = 0.12;
   static constexpr double kDoorWidth_m = 0.95;
   static constexpr double kDoorHeight_m = 2.05;
-  // The doors of the walk, by their middle: one of the lowest storey's northern rooms, one of the
-  // highest storey's southern rooms.
+  // The walk has these doors, by their middle: one of the lowest storey's northern rooms, one of
+  // the highest storey's southern rooms.
   static constexpr double kLowDoor_m = 4.5;
   static constexpr double kHighDoor_m = 6.0;
   // A flight has ten risers and nine treads. The first flight from a storey leads to -x at y < 0 up

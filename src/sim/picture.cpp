@@ -27,7 +27,7 @@ constexpr double kMargin = 1.12;  // factor on the path's extent
 
 using Colour = Eigen::Array3f;
 
-// An orthographic camera.
+// Holds an orthographic camera.
 struct Camera {
   Vector3 centre;
   Vector3 right;

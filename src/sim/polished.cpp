@@ -7,7 +7,7 @@
 namespace lio::sim {
 namespace {
 
-// The strength at the receiver.
+// Returns the strength at the receiver.
 double Received(const Echo& echo) {
   return BackscatterOf(echo) / (echo.range_m * echo.range_m);
 }

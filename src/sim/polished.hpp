@@ -12,13 +12,13 @@
 namespace lio::sim {
 
 struct PolishParameters {
-  double min_specular = 0.3;  // of a material that reflects as a mirror does. Chosen.
-  // Share of the light that a mirror returns at normal incidence; towards grazing it grows to all
+  double min_specular = 0.3;  // least of a material that reflects as a mirror does. Chosen.
+  // A mirror returns this share of the light at normal incidence; towards grazing it grows to all
   // by Schlick's formula. Two faces of glass of index 1.5 give 8 %, the clear coat of paint 4 %.
   double glass_reflectance = 0.08;
   double coat_reflectance = 0.04;
-  // One way through a window besides reflection: double glazing of float glass, whose iron takes
-  // 0.2 to 0.3 of the light near 900 nm a pane.
+  // One way through a window lets this share pass besides reflection: double glazing of float
+  // glass, whose iron takes 0.2 to 0.3 of the light near 900 nm a pane.
   double glass_transmittance = 0.55;
   // A pane's other face, and the frame of a pane modelled as a box, are skipped.
   float pane_m = 0.12f;

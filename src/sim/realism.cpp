@@ -15,7 +15,8 @@ struct Effect {
 
 const std::vector<Effect>& Effects() {
   static const std::vector<Effect> kEffects = {
-      // Gaps as wide as those between a parked car and the wall behind it, in both directions.
+      // Such gaps are as wide as those between a parked car and the wall behind it, in both
+      // directions.
       {"mixed-pixels",
        [](RecordOptions& o) {
          o.lidar_errors.has_footprint = true;
@@ -28,18 +29,18 @@ const std::vector<Effect>& Effects() {
          o.lidar_errors.range_walk = {0.004, 0.05};
        }},
       {"glass", [](RecordOptions& o) { o.lidar_errors.has_glass = true; }},
-      // 0.02 deg
+      // The beam table errs by 0.02 deg.
       {"beam-table", [](RecordOptions& o) { o.lidar_errors.beam_table_std_rad = 3.5e-4; }},
-      // 0.1 % of the speed
+      // The speed varies by 0.1 %.
       {"rotor", [](RecordOptions& o) { o.lidar_errors.rotor.speed_std_ratio = 1e-3; }},
-      // 0.01 deg
+      // The encoder errs by 0.01 deg.
       {"encoder", [](RecordOptions& o) { o.lidar_errors.rotor.encoder_std_rad = 1.23e-4; }},
       {"stamp-jitter",
        [](RecordOptions& o) {
          o.clock_errors.imu_jitter_std_s = 2e-4;
          o.clock_errors.lidar_jitter_std_s = 1e-4;
        }},
-      // 20 ppm: 1.2 ms a minute
+      // The clock drifts by 20 ppm: 1.2 ms a minute.
       {"clock-drift", [](RecordOptions& o) { o.clock_errors.drift_std_ratio = 2e-5; }},
       {"vibration", [](RecordOptions& o) { o.imu_effects.vibrates = true; }},
       {"engine", [](RecordOptions& o) { o.imu_effects.has_engine = true; }},

@@ -17,7 +17,7 @@ constexpr double kHalfHallLength_m = 22.0;
 constexpr double kHalfHallWidth_m = 13.5;
 constexpr double kHallHeight_m = 8.5;
 constexpr double kHallKnot_s = 0.1;
-// Largest yaw rate; swinging adds the rest.
+// This is the largest yaw rate; swinging adds the rest.
 constexpr double kFastest_radps = 285.0 / 180.0 * std::numbers::pi;
 constexpr double kRest_s = 2.5;
 

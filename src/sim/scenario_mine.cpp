@@ -15,16 +15,16 @@ namespace {
 
 constexpr double kHalfGallery_m = 1.7;
 constexpr double kGalleryHeight_m = 2.9;
-constexpr double kRounding_m = 0.9;  // of the corners between walls, roof and floor
+constexpr double kRounding_m = 0.9;  // radius of the corners between walls, roof and floor
 constexpr double kCell_m = 0.22;
 
-// A piece of a gallery's middle line, on the floor.
+// Holds a piece of a gallery's middle line, on the floor.
 struct Piece {
   Vector3 from_m;
   Vector3 to_m;
 };
 
-// The rock's roughness: waves of 0.5 to 5 m, the longer the higher.
+// Gives the rock's roughness: waves of 0.5 to 5 m, the longer the higher.
 class Roughness {
  public:
   explicit Roughness(Random& random) {
@@ -54,7 +54,7 @@ class Roughness {
   std::vector<Wave> waves_;
 };
 
-// The open room of all galleries.
+// Gives the open room of all galleries.
 class Galleries {
  public:
   explicit Galleries(Random& random) : roughness_(random) {}
@@ -106,7 +106,7 @@ class Galleries {
   std::vector<Piece> pieces_;
 };
 
-// A way that bends by up to 40 degrees every 12 to 24 m but keeps its general direction.
+// Returns a way that bends by up to 40 degrees every 12 to 24 m but keeps its general direction.
 Path Way(double length_m, Random& random) {
   std::vector<Vector2> points = {Vector2::Zero()};
   for (double along_m = 0.0; along_m < length_m;) {

@@ -76,7 +76,7 @@ class Floor {
 
  private:
   static constexpr double kStep_m = 0.02;
-  // The share of a flight that lies below the way at x.
+  // Returns the share of a flight that lies below the way at x.
   static double ClimbedShare(double x) {
     return std::clamp((Shape::kLandingEnd_m - x) / Shape::kFlight_m, 0.0, 1.0);
   }

@@ -13,12 +13,12 @@
 namespace lio::sim {
 namespace {
 
-constexpr int kRows = 6;    // of double racks
+constexpr int kRows = 6;    // rows of double racks
 constexpr int kBays = 14;   // in a row
-constexpr int kLevels = 4;  // of pallets, one above the other
+constexpr int kLevels = 4;  // pallets, one above the other
 constexpr double kBay_m = 2.7;
 constexpr double kLevel_m = 1.75;
-constexpr double kDepth_m = 2.3;  // of a double rack
+constexpr double kDepth_m = 2.3;  // depth of a double rack
 constexpr double kAisle_m = 3.0;
 constexpr double kPitch_m = kDepth_m + kAisle_m;
 constexpr double kRow_m = kBays * kBay_m;
@@ -139,7 +139,8 @@ void AddTraffic(World& world, Random& random) {
   }
 }
 
-// Up one aisle and down the next, from the first aisle on, in a loop over all of them.
+// The way leads up one aisle and down the next, from the first aisle on, in a loop over all of
+// them.
 Path Way(double length_m) {
   constexpr double kTurn_m = 2.2;  // from the racks' ends to the way across
   std::vector<Vector2> points = {{1.0, AisleMiddle(1)}};

@@ -138,7 +138,7 @@ bool Caster::IsBeyondEdge(const Hit& centre, const Ray& ray, const Hit& hit,
                           const Ray& sub_ray) const {
   if (centre.object != hit.object) return true;
   if (centre.object == Hit::kNothing) return false;
-  // The range at which the sub-ray meets the plane of the centre's surface, if it goes on.
+  // Returns the range at which the sub-ray meets the plane of the centre's surface, if it goes on.
   const float slope = centre.normal.dot(sub_ray.direction);
   const float straight = centre.normal.dot(ray.direction);
   const float continued_m = centre.range_m * straight / slope;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Places a solid of a mesh without turning it, the shortest way to say where. Used inside src/sim
-// only.
+// Places a solid of a mesh without turning it, the shortest way to say where. It is used inside
+// src/sim only.
 #pragma once
 
 #include "lio/base/pose.hpp"

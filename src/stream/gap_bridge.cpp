@@ -23,8 +23,8 @@ std::vector<ImuSample> Measured(const std::deque<ImuSample>& sent,
   return measured;
 }
 
-// Root mean square of one axis, from `mean`. Never zero, so that a made-up sample is told from a
-// measured one.
+// Returns the root mean square of one axis, from `mean`. It is never zero, so that a made-up sample
+// is told from a measured one.
 float StdAround(const Vector3& mean, const std::vector<ImuSample>& samples,
                 Vector3 ImuSample::*value) {
   double sum_sq = kStream.min_made_up_std * kStream.min_made_up_std;
@@ -32,8 +32,8 @@ float StdAround(const Vector3& mean, const std::vector<ImuSample>& samples,
   return static_cast<float>(std::sqrt(sum_sq / (3.0 * static_cast<double>(1 + samples.size()))));
 }
 
-// The time in which the correlation of the rates with later ones falls to 1/e, by that at one lag.
-// Zero where they hardly change.
+// Returns the time in which the correlation of the rates with later ones falls to 1/e, by that at
+// one lag. It is zero where they hardly change.
 double CorrelationTime_s(const Vector3& mean_w, const std::vector<ImuSample>& samples) {
   double covariance = 0.0;
   double variance = kStream.min_made_up_std * kStream.min_made_up_std;

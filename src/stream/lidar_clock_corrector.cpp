@@ -18,7 +18,8 @@ Duration MedianOf(std::vector<Duration> values) {
 
 }  // namespace
 
-std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Add(Arrival arrival, Timestamp newest_imu) {
+std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Add(Arrival arrival,
+                                                                   Timestamp newest_imu) {
   arrival.chunk.stamp = PutRight(arrival.chunk.stamp);
   const Judgement judgement = Judge(arrival.chunk.stamp, newest_imu);
   held_.push_back(std::move(arrival));
@@ -66,7 +67,8 @@ LidarClockCorrector::Judgement LidarClockCorrector::Judge(Timestamp chunk, Times
   return JudgeElsewhere(sight, newest_imu);
 }
 
-LidarClockCorrector::Judgement LidarClockCorrector::JudgeElsewhere(const Sight& sight, Timestamp newest_imu) {
+LidarClockCorrector::Judgement LidarClockCorrector::JudgeElsewhere(const Sight& sight,
+                                                                   Timestamp newest_imu) {
   if (elsewhere_.empty()) elsewhere_since_ = newest_imu;
   const bool has_moved_again = !elsewhere_.empty() && IsElsewhere(sight.lag, elsewhere_.front());
   if (has_moved_again || (elsewhere_.empty() && HasPaused(sight))) {
@@ -79,8 +81,8 @@ LidarClockCorrector::Judgement LidarClockCorrector::JudgeElsewhere(const Sight& 
     return Judgement::kUnclear;
   }
   // Clocks that were apart and now agree have been set right.
-  const bool is_set_right = Abs(UsualLag()) > kLidarClock.usual_lag &&
-                            Abs(MedianOf(elsewhere_)) < Abs(UsualLag());
+  const bool is_set_right =
+      Abs(UsualLag()) > kLidarClock.usual_lag && Abs(MedianOf(elsewhere_)) < Abs(UsualLag());
   if (!is_set_right) return Judgement::kStepped;
   Forget();
   return Judgement::kSteady;

@@ -28,7 +28,8 @@ bool ScanAssembler::SweepName::Names(const ScanChunk& chunk) const {
          chunk.stamp - first < kSweep.max_span && last - chunk.stamp < kSweep.max_span;
 }
 
-// Farther from the rest of its sweep than the sweep is long: a clock stepped in between.
+// A chunk is torn off when it is farther from the rest of its sweep than the sweep is long: a clock
+// stepped in between.
 bool ScanAssembler::IsTornOff(const ScanChunk& chunk, Timestamp last) const {
   if (span_ == Duration{}) return false;
   const Duration reach = span_ + kScanAssembler.jitter;
@@ -112,7 +113,8 @@ void ScanAssembler::CloseSegment(Timestamp end, Timestamp next_begin) {
   }
 }
 
-// The oldest, unless stamps have jumped: what was left of before the jump will never be whole.
+// Closes the oldest, unless stamps have jumped: what was left of before the jump will never be
+// whole.
 void ScanAssembler::CloseOneFor(Timestamp stamp) {
   const bool newest_is_apart = Abs(stamp - open_.back().name.first) > kScanAssembler.apart;
   const bool oldest_is_apart = Abs(stamp - open_.front().name.first) > kScanAssembler.apart;

@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-// The largest rate that a message can hold, in any of the units that the option allows.
+// Returns the largest rate that a message can hold, in any of the units that the option allows.
 double MaxRateSent(ImuUnits units) {
   ImuConvention convention = ConventionOf(units);
   convention.is_in_deg |= units == ImuUnits::kAutomatic;
@@ -148,8 +148,7 @@ Ledgers SensorStream::ledgers() const {
   const auto num_in_inbox =
       std::count_if(inbox_.messages.begin(), inbox_.messages.end(),
                     [](const Message& message) { return message.chunk.has_value(); });
-  ledgers.chunks.num_waiting =
-      num_in_inbox + static_cast<std::int64_t>(lidar_clock_.num_held());
+  ledgers.chunks.num_waiting = num_in_inbox + static_cast<std::int64_t>(lidar_clock_.num_held());
   ledgers.samples.num_waiting = std::ssize(inbox_.messages) - num_in_inbox +
                                 std::ssize(step_.result.accepted) + std::ssize(late_imu_) +
                                 static_cast<std::int64_t>(preprocessor_.num_held());
@@ -171,7 +170,7 @@ std::optional<StreamEvent> SensorStream::Next(std::size_t num_unmatched) {
   return event;
 }
 
-// One unit of work; false when there is none.
+// Does one unit of work; false when there is none.
 bool SensorStream::Advance(bool is_idle) {
   if (state_ == State::kWaitingForIdle) {
     if (!is_idle) return false;

@@ -37,9 +37,8 @@ ClockStep SensorStream::StampsOfStep() const {
 void SensorStream::JudgeBy(const Message& message) {
   const bool has_waited_long = step_.num_examined > kStream.max_judged_messages;
   if (message.chunk) {
-    const StepVerdict verdict =
-        arbiter_.Judge(StampsOfStep(), lidar_clock_.PutRight(message.chunk->stamp),
-                       step_.newest_examined);
+    const StepVerdict verdict = arbiter_.Judge(
+        StampsOfStep(), lidar_clock_.PutRight(message.chunk->stamp), step_.newest_examined);
     if (verdict.lidar == LidarClock::kStepped || has_waited_long) {
       EndStep();
     } else if (verdict.lidar == LidarClock::kSteady) {
@@ -69,7 +68,7 @@ void SensorStream::ShiftImuClock(Timestamp after_by_lidar) {
   Notify(
       step_.result.accepted.front().stamp, Notice::Severity::kWarning,
       fmt::format("the IMU's clock stepped by {:.3f} s and the lidar's did not: the IMU's stamps "
-                  "are now shifted by {:.3f} s",
+                  "are now shifted by {:.3f} s; nothing need be done",
                   step_.result.clock_step_s, imu_clock_shift_.Seconds()));
   state_ = State::kFlowing;
 }
@@ -113,7 +112,7 @@ void SensorStream::ForgetLateImu() {
   counters_->ledgers.samples.Settle(SampleFate::kForgotten, std::exchange(late_imu_, {}).size());
 }
 
-// An IMU that comes up after the lidar. A stray sample is none, and neither is one by another
+// Takes an IMU that comes up after the lidar. A stray sample is none, and neither is one by another
 // clock.
 void SensorStream::TakeLateImu(const ImuSample& sample) {
   ImuSample shifted = sample;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The constants of the stream: times after which messages are taken for late, missing or wrong.
+// Holds the constants of the stream: times after which messages are taken for late, missing or
+// wrong.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +23,11 @@ struct StreamParameters {
   // It is taken for no more than this. Chosen: a rate then lasts for 10 s, longer than any gap that
   // is bridged.
   double max_correlation = 0.99;
-  // rad/s and m/s^2. The least deviation that a made-up sample states, weighed as that of one
+  // rad/s and m/s^2. A made-up sample states this deviation at least, weighed as that of one
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;
-  // s. Raw samples that are kept for an initialization that looks back, twice. Chosen: 3.5 s of
-  // sweeps (InitializingParameters::max_window_s), and margin for those that wait.
+  // s. Raw samples are kept for so long, for an initialization that looks back, twice. Chosen: 3.5
+  // s of sweeps (InitializingParameters::max_window_s), and margin for those that wait.
   double imu_buffer_s = 6.0;
   // s. Sweeps alone for this long mean that the log has no IMU. Chosen: IMUs start within a second.
   double no_imu_after_s = 2.0;
@@ -44,21 +45,21 @@ struct StreamParameters {
   // A step of the inertial clock is held back so long, by its stamps, until a sweep tells whether
   // the lidar's clock stepped as well. Chosen: ten sweeps at 10 Hz; longer delays all poses.
   Duration wait_for_lidar{1'000'000'000};
-  // The same as a count of messages, where stamps do not advance. Chosen: some seconds of a 400 Hz
-  // IMU and a lidar's chunks.
+  // The same is bounded as a count of messages, where stamps do not advance. Chosen: some seconds
+  // of a 400 Hz IMU and a lidar's chunks.
   std::size_t max_judged_messages = 3000;
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
-  // The same of their points: 160 MB, ten seconds of a fast lidar; chosen.
+  // Their points are so many at most: 160 MB, ten seconds of a fast lidar; chosen.
   std::size_t max_waiting_points = 8 << 20;
-  // Raw samples that are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
+  // So many raw samples are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
   std::size_t max_imu_samples = 1 << 17;
 };
 
 inline constexpr StreamParameters kStream;
 
-// The bounds on an inertial sample before anything is integrated (imu_preprocessor.hpp).
+// Bounds an inertial sample before anything is integrated (imu_preprocessor.hpp).
 struct ImuPreprocessorParameters {
   // Chosen: 200 g, beyond any accelerometer that a vehicle carries.
   double max_force_mps2 = 2000.0;
@@ -66,8 +67,8 @@ struct ImuPreprocessorParameters {
   Duration jitter{80'000'000};
   // A sample is missing from here on. Arithmetic: half way between one step and two.
   double hole_in_mean_steps = 1.5;
-  // Samples in a row that tell of a time already told. Chosen: a stray stamp does not come five
-  // times; so the clock steps of docs/experiments/clock_steps.md were judged.
+  // So many samples in a row must tell of a time already told. Chosen: a stray stamp does not come
+  // five times; so the clock steps of docs/experiments/clock_steps.md were judged.
   std::size_t confirmations = 5;
   // s, share. A clock that is set right steps forward by as much as it had gone back, but for so
   // much, and no more than this share of it. Chosen, as before: a gap of another length is none.
@@ -76,10 +77,10 @@ struct ImuPreprocessorParameters {
 };
 inline constexpr ImuPreprocessorParameters kImuPreprocessor;
 
-// An axis at the end of its range (saturation_detector.hpp).
+// Tunes the finding of an axis at the end of its range (saturation_detector.hpp).
 struct SaturationParameters {
-  // Equal readings in a row. Chosen: fewer may be chance where readings are coarse; used in
-  // docs/experiments/gyro_saturation.md.
+  // So many equal readings in a row count. Chosen: fewer may be chance where readings are coarse;
+  // used in docs/experiments/gyro_saturation.md.
   int min_equal = 5;
   // No sensor's range is smaller. Chosen: an axis that never reads anything (2 deg/s), or gravity
   // without noise (1.2 g), is not saturated.
@@ -96,7 +97,7 @@ struct ClockStepParameters {
   Duration wild{5'000'000'000};
   // A lidar without chunks for so long is not seen. Chosen: ten sweeps at 10 Hz.
   Duration silence{1'000'000'000};
-  std::size_t num_chunks = 4;  // that are remembered; chosen: a step among them shows
+  std::size_t num_chunks = 4;  // chunks remembered; chosen: a step among them shows
   // Differences between the streams' stamps whose median counts. Chosen: the lidar may step a
   // message earlier, and the odd burst is outvoted.
   std::size_t num_lags = 9;
@@ -108,7 +109,7 @@ struct LidarClockParameters {
   // A chunk that lies farther off than this, beside the spread of lags, may come after a step.
   // Chosen: a message is delayed by less, and the estimated clock offset follows half of it.
   Duration least_step{100'000'000};
-  // Messages that tell the usual lag. Chosen: as ClockStepParameters::num_lags.
+  // So many messages tell the usual lag. Chosen: as ClockStepParameters::num_lags.
   std::size_t num_known = 9;
   // The step is believed when so many messages in so long a time bear it out. Chosen: three sweeps
   // at 10 Hz; a burst of late messages is over by then.
@@ -129,13 +130,13 @@ inline constexpr LidarClockParameters kLidarClock;
 
 // Which chunks make a sweep (scan_assembler.hpp).
 struct ScanAssemblerParameters {
-  Duration jitter{20'000'000};  // of a sweep's length; chosen: a fifth of one at 10 Hz
+  Duration jitter{20'000'000};  // spread of a sweep's length; chosen: a fifth of one at 10 Hz
   // Sweeps that follow each other are nearer. Chosen: two of kSweep.max_span.
   Duration apart{1'000'000'000};
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;
-  std::size_t max_points = 4 << 20;  // of a sweep; chosen: four times those of the largest lidars
+  std::size_t max_points = 4 << 20;  // in a sweep; chosen: four times those of the largest lidars
 };
 inline constexpr ScanAssemblerParameters kScanAssembler;
 

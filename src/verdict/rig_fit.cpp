@@ -157,9 +157,9 @@ RigFit::TurnAlignment RigFit::AlignTurns() const {
 
 RigFit::Row RigFit::TurnRow(const MotionStep& step, const RigErrors& errors) {
   const double dt = step.span_s();
-  const Vector3 turn =
-      step.turn_rad + (errors.offset_s - step.clock_correction_s) * step.rate_gain_radps -
-      dt * errors.gyro_bias_radps;
+  const Vector3 turn = step.turn_rad +
+                       (errors.offset_s - step.clock_correction_s) * step.rate_gain_radps -
+                       dt * errors.gyro_bias_radps;
   const Matrix3 E = errors.rotation.toRotationMatrix();
   Row row;
   row.stamp = step.to.stamp;

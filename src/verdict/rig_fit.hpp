@@ -17,7 +17,7 @@
 // bends.
 //
 // Sizes of the errors come from the residuals (their median). The covariance is that of the normal
-// equations plus the clustered sandwich with clusters of two seconds (White 1980; Liang and Zeger
+// equations plus the clustered sandwich with clusters of a second (White 1980; Liang and Zeger
 // 1986), because errors last. Nothing throws. Cost: some milliseconds a minute of drive.
 #pragma once
 
@@ -32,10 +32,13 @@
 namespace lio {
 
 struct RigFitParameters {
-  double short_span_s = 0.2;  // of a second difference to each side: two scans at 10 Hz. Chosen
-  // The same of a second one, for which noise is smaller.
+  // s. A second difference spans so much to each side: two scans at 10 Hz. Chosen.
+  double short_span_s = 0.2;
+  // s. The same of a second one, for which noise is smaller.
   double long_span_s = MotionEvidenceParameters{}.second_difference_span_s;
-  double cluster_s = 1.0;      // longer than a step of a walker and the lag of the map. Chosen
+  // s. Errors that are farther apart are independent. Measured: with two seconds the covariance is
+  // the same (docs/experiments/extrinsic.md); a step of a walker takes half a second.
+  double cluster_s = 1.0;
   std::size_t min_steps = 30;  // chosen: three seconds at 10 Hz, twice the parameters
   int num_iterations = 4;      // Gauss-Newton; linear but for the rotation. Chosen
   // Huber's threshold in standard deviations of one axis, for residuals of three. Customary, as in
@@ -113,7 +116,7 @@ class RigFit {
     Vector3 a_map_mps2 = Vector3::Zero();
     Matrix3 rotation_bend = Matrix3::Zero();  // second difference of R_map_imu, 1/s^2
     struct Part {
-      double share;    // of the triangular weight
+      double share;    // part of the triangular weight
       Vector3 f_mps2;  // mean specific force under it, in imu, without a further offset
       Vector3 jerk_mps3;
       Matrix3 R_map_imu;  // at the middle of the step

@@ -16,7 +16,7 @@ bool IsTokenCharacter(char c) {
          std::string_view("-._~").find(c) != std::string_view::npos;
 }
 
-// "localhost:8080" to "localhost", "[::1]:8080" to "[::1]".
+// Turns "localhost:8080" into "localhost", "[::1]:8080" into "[::1]".
 std::string_view WithoutPort(std::string_view authority) {
   const std::size_t colon = authority.rfind(':');
   const std::size_t bracket = authority.rfind(']');

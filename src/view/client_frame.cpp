@@ -73,7 +73,7 @@ void AddStates(const ViewState& view, const FrameBudget& budget, ClientCursor& c
   cursor.states.num += count;
 }
 
-// True when the client lacks the part; counts the ones that it will never see.
+// Returns true when the client lacks the part; counts the ones that it will never see.
 bool IsNew(std::uint32_t number, std::uint32_t& seen, std::uint32_t& num_left_out) {
   if (number == 0 || number == seen) return false;
   if (seen > 0 && number > seen + 1) num_left_out += number - seen - 1;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A message of the page to lio-view: a JSON object of these members, at most kMaxClientBytes long.
+// Reads a message of the page to lio-view: a JSON object of these members, at most kMaxClientBytes
+// long.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
 constexpr std::uint32_t kMagic = 0x3156494c;  // "LIV1"
-constexpr float kSteps = 65535.0F;            // of a u16
+constexpr float kSteps = 65535.0F;            // the largest u16
 constexpr float kFinestStep_m = 1e-4F;
 
 }  // namespace

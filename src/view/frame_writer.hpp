@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The binary frames from lio-view to its page; src/view/page/frames.js reads them. A frame is
+// Writes the binary frames from lio-view to its page; src/view/page/frames.js reads them. A frame
+// is
 //   u32 magic "LIV1", then sections: u32 kind, u32 size of the payload, payload padded to 4 bytes,
 // all little-endian. Payloads:
 //   kHello, kStatus, kTimeline  JSON

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Rows that only grow, so that a client which knows how many it has knows what it lacks. Their
-// number is bounded: when they are too many every second one goes, and of the next ones only every
-// second (fourth, eighth ...) is kept. Thinning and clearing begin a new generation, which
+// Holds rows that only grow, so that a client which knows how many it has knows what it lacks.
+// Their number is bounded: when they are too many every second one goes, and of the next ones only
+// every second (fourth, eighth ...) is kept. Thinning and clearing begin a new generation, which
 // clients take anew.
 #pragma once
 

@@ -17,7 +17,7 @@ class MessageFeed {
  public:
   MessageFeed(const Channels& channels, ViewHub& hub) : channels_(channels), hub_(hub) {}
 
-  // The channels that are looked at.
+  // Returns the channels that are looked at.
   [[nodiscard]] std::vector<std::string> Names() const;
   [[nodiscard]] bool Takes(std::string_view channel) const;
   void Take(std::string_view channel, ByteView bytes, std::int64_t recv_utime);

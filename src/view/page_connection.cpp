@@ -85,7 +85,7 @@ class PageConnection : public std::enable_shared_from_this<PageConnection> {
     });
   }
 
-  // False for a message that the page does not send.
+  // Returns false for a message that the page does not send.
   bool Handle() {
     const auto data = buffer_.cdata();
     const auto message = ParseClientMessage({static_cast<const char*>(data.data()), data.size()});

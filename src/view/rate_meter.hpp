@@ -15,8 +15,8 @@ class RateMeter {
   static constexpr std::size_t kMaxMessages = 10'000;  // bounds memory, and rates at 3 kHz
 
   void Add(std::int64_t utime);
-  // Over the window before `now_utime`, in messages a second. The window is shorter when the first
-  // message is younger, and a rate needs two messages.
+  // Returns the rate over the window before `now_utime`, in messages a second. The window is
+  // shorter when the first message is younger, and a rate needs two messages.
   [[nodiscard]] double RateHz(std::int64_t now_utime) const;
   void Clear() { *this = {}; }
 

@@ -16,7 +16,7 @@ struct Serving {
   const ViewHub& hub;
   LogPlayer* player = nullptr;
   ServerCounts counts;
-  int num_connections = 0;  // of all kinds
+  int num_connections = 0;  // all kinds together
   int num_pages = 0;        // WebSockets
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The parts of a frame that are text: lights, verdict, rates, latencies and losses.
+// Writes the parts of a frame that are text: lights, verdict, rates, latencies and losses.
 #pragma once
 
 #include <string>

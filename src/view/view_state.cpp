@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxPosition_m = 1e7;         // beyond are no places, and floats lose metres
 constexpr Duration kBackwards{1'000'000'000};  // stamps that go back further belong to another run
-constexpr float kMinStep_m = 0.02F;            // of the path: standing still makes it no longer
+constexpr float kMinStep_m = 0.02F;  // step of the path: standing still makes it no longer
 constexpr std::int64_t kFullCloudHolds_us = 2'000'000;
 
 bool IsPlace(const Vector3& position) {

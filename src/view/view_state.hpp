@@ -25,18 +25,18 @@ struct PathRow {
   float x_m = 0.0F;
   float y_m = 0.0F;
   float z_m = 0.0F;
-  float status = 0.0F;  // of TrackingStatus
+  float status = 0.0F;  // a TrackingStatus
 };
 
-// Velocity in world [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], NIS (0: no update).
+// Holds velocity in world [m/s], gyro bias [rad/s], accelerometer bias [m/s^2], NIS (0: no update).
 struct StateRow {
   static constexpr std::size_t kNumValues = 10;
   double t_s = 0.0;  // sensor time
   std::array<float, kNumValues> values{};
 };
 
-// The uncertainty of the position as an ellipsoid: its axes in map, and a standard deviation along
-// each.
+// Gives the uncertainty of the position as an ellipsoid: its axes in map, and a standard deviation
+// along each.
 struct PositionEllipsoid {
   Quaternion axes = Quaternion::Identity();
   Vector3 std_m = Vector3::Zero();
@@ -47,7 +47,7 @@ struct PositionEllipsoid {
 enum class ViewChannel { kOdometry, kOdometryImuRate, kCloud, kCloudFull, kStatus };
 inline constexpr std::size_t kNumViewChannels = 5;
 
-// A part with a number that grows when the part changes; 0: there is none.
+// Holds a part with a number that grows when the part changes; 0: there is none.
 template <class Part>
 struct Numbered {
   Part value{};
@@ -64,7 +64,7 @@ struct ViewedPose {
   std::int64_t recv_utime = 0;
 };
 
-// A place in a recording that is played.
+// Holds a place in a recording that is played.
 struct Timeline {
   double t_s = 0.0;
   double duration_s = 0.0;
@@ -85,7 +85,7 @@ class ViewState {
   ViewState() : ViewState(Limits{}) {}
   explicit ViewState(const Limits& limits);
 
-  // The messages of liod; recv_utime is the host's clock, or the recording's.
+  // Takes the messages of liod; recv_utime is the host's clock, or the recording's.
   void OnOdometry(const NavOutput& nav, std::int64_t recv_utime);
   void OnFilterState(const FilterReport& report);
   void OnRegistration(const ScanReport& report) { registration_.Set(report); }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of the page, which are compiled in.
+// Serves the files of the page, which are compiled in.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 namespace lio {
 
 struct WebFile {
-  std::string_view type;  // of its content
+  std::string_view type;  // MIME type
   std::string_view content;
 };
 
-// The file at a path such as "/" or "/main.js"; nothing for any other path.
+// Returns the file at a path such as "/" or "/main.js"; nothing for any other path.
 [[nodiscard]] std::optional<WebFile> FindWebFile(std::string_view path);
 
 }  // namespace lio

@@ -50,7 +50,7 @@ class CommandDeskTest : public LiveRunnerTest {
     const std::lock_guard lock(mutex_);
     return replies_[id];
   }
-  // As Play, from an event in the middle of the log on.
+  // Plays as Play does, from an event in the middle of the log on.
   void PlayFrom(const LiveRunner& runner, int first) {
     EventLogReader reader(kScene / "log.lcm");
     LogEvent event;

@@ -140,7 +140,7 @@ class LiveRunnerTest : public ::testing::Test {
     return std::count(text.begin(), text.end(), '\n');
   }
 
-  // Two closed scans, one growing, one not covered yet.
+  // Two scans are closed, one grows, one is not covered yet.
   static constexpr std::int64_t kMaxAhead = 4;
   static constexpr const char* kEndMark = "TEST_END";
 

@@ -98,7 +98,7 @@ TEST_F(LiveRunnerTest, EveryChannelOfOursIsPublished) {
   runner.Stop();
   while (bus_->Receive(std::chrono::milliseconds(0)) == ReceiveResult::kMessage) {
   }
-  EXPECT_GT(num_messages[channels.odometry], 40);  // of 60 scans, the first second being the start
+  EXPECT_GT(num_messages[channels.odometry], 40);  // 60 are sent, the first ten to start with
   EXPECT_EQ(num_messages[channels.state], num_messages[channels.odometry]);
   EXPECT_GE(num_messages[channels.registration], num_messages[channels.odometry]);
   EXPECT_GT(num_messages[channels.odometry_imu_rate], 400);

@@ -37,7 +37,7 @@ TEST(ChiSquare, NothingLiesBelowZero) {
   EXPECT_NEAR(ChiSquareQuantile6(0.0), 0.0, 1e-6);
 }
 
-// Printed tables of the distribution.
+// The tables of the distribution are printed ones.
 TEST(ChiSquare, QuantilesEqualTheTables) {
   EXPECT_NEAR(ChiSquareQuantile(0.95, 3), 7.815, 5e-4);
   EXPECT_NEAR(ChiSquareQuantile(0.99, 3), 11.345, 5e-4);

@@ -80,7 +80,7 @@ TEST(So3, JacobiansHaveFiniteDerivativesAtTheIdentity) {
   const JetVector zero = WithDerivatives(Vector3::Zero());
   const so3::Mat3<Jet> left = so3::LeftJacobian<Jet>(zero);
   const so3::Mat3<Jet> inverse = so3::LeftJacobianInverse<Jet>(zero);
-  for (int i = 0; i < 3; ++i) {  // of I + Hat(phi) / 2 and I - Hat(phi) / 2
+  for (int i = 0; i < 3; ++i) {  // derivatives of I + Hat(phi) / 2 and I - Hat(phi) / 2
     const Matrix3 hat = Hat(Vector3::Unit(i));
     for (int row = 0; row < 3; ++row) {
       for (int col = 0; col < 3; ++col) {

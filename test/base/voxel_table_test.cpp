@@ -14,7 +14,7 @@ struct Counted {
   int count = -1;
 };
 
-// Against std::map, through many random calls, with runs of keys that collide.
+// It is compared with std::map, through many random calls, with runs of keys that collide.
 TEST(VoxelTable, AgreesWithAPlainMapWhileItGrowsAndShrinks) {
   VoxelTable<Counted> table(4);
   std::map<VoxelKey, int> model;

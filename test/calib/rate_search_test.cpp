@@ -77,7 +77,7 @@ TEST(RateSearch, TurnsAcrossAHoleOrOutsideTheSamplesAreLeftOut) {
   auto samples = BiasedSamples(LookAbout, 8.0);
   const auto turns = LidarTurns(LookAbout, 0.0, 10.0);
   const int num_whole = RateSearch(samples, turns).At(0.0).num_turns;
-  EXPECT_NEAR(num_whole, 80, 1);  // of 100; the last may end just where the samples do
+  EXPECT_NEAR(num_whole, 80, 1);  // 100 are offered; the last may end just where the samples do
   std::erase_if(samples, [](const ImuSample& s) {
     const double t_s = test::SecondsOf(s.stamp);
     return t_s > 3.02 && t_s < 3.18;

@@ -26,7 +26,7 @@ namespace lio::test {
 
 enum class Map { kFixed, kGrown, kDrifts };
 
-// The measurement model of the filter.
+// Names the measurement model of the filter.
 enum class Belief {
   kMapPose,   // pose in the map, which blends as the map grows: the estimator's model
   kAbsolute,  // pose in the world, with white noise

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The promises of every registration method about its scores by beam direction.
+// Tests the promises of every registration method about its scores by beam direction.
 #include <gtest/gtest.h>
 
 #include <cmath>

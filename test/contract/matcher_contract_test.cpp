@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The promises of every registration method.
+// Tests the promises of every registration method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -300,7 +300,7 @@ TEST_P(MatcherContract, ShareOfNewContentFallsAsThePlaceBecomesKnown) {
 TEST_P(MatcherContract, MapStaysBounded) {
   Options options = test::MethodOptions(GetParam());
   options.ndt.max_cells = 2000;
-  options.loam.max_leaves = 1000;  // of each of two maps
+  options.loam.max_leaves = 1000;  // in each of two maps
   options.gicp.max_points = 12000;
   const std::size_t limit = GetParam() == MatchMethod::kGicp ? 12000 : 2000;
   MethodBench bench(options);

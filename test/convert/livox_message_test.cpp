@@ -21,7 +21,7 @@ struct LivoxPoint {
   std::uint8_t reflectivity = 0, tag = 0, line = 0;
 };
 
-// A petal of a rosette: four lines that look ahead, every fifth point without a return.
+// Returns a petal of a rosette: four lines that look ahead, every fifth point without a return.
 std::vector<LivoxPoint> Petal(int num) {
   std::vector<LivoxPoint> points;
   for (int i = 0; i < num; ++i) {

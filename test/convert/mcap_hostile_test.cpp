@@ -115,7 +115,7 @@ TEST_F(McapHostile, RecordsThatAreTooShortOrNameNoTopicAreCounted) {
     McapWriter writer(file_, {.compression = "", .chunk_bytes = chunk_bytes});
     writer.Write("/a", "a/B", NthStamp(0), {1});
     writer.WriteRecord(0x05, {1, 0});                            // a message without its header
-    writer.WriteRecord(0x05, std::vector<std::uint8_t>(30, 9));  // of channel 0x0909
+    writer.WriteRecord(0x05, std::vector<std::uint8_t>(30, 9));  // belongs to channel 0x0909
     writer.WriteRecord(0x03, {1, 0, 4, 0, 0, 0, 'a'});           // a schema whose name is cut
     writer.Write("/a", "a/B", Timestamp{-1}, {1});               // in the year 2554
     writer.Write("/a", "a/B", NthStamp(1), {1});

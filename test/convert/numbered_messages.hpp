@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Numbered messages that tests write into bags, and what they find when they read them back.
+// Makes numbered messages that tests write into bags, and what they find when they read them back.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Timestamp kTransformStamp{1'700'000'000'000'000'000};
 
-// A quarter turn about z, and a shift.
+// Returns a quarter turn about z, and a shift.
 Pose Mounted(const Vector3& translation) {
   return {Quaternion(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), translation};
 }

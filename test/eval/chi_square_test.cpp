@@ -7,7 +7,7 @@
 namespace lio {
 namespace {
 
-// 300 degrees: 253.912 and 349.874 in printed tables.
+// Printed tables have 253.912 and 349.874 for 300 degrees.
 TEST(ChiSquare, BandOfFiftyRunsOfSixDegrees) {
   const Band fifty = MeanBandPerDof(6, 50);
   EXPECT_NEAR(fifty.low, 253.912 / 300, 1e-5);

@@ -37,7 +37,7 @@ bool Agrees(const json& value, const json& schema) {
   });
 }
 
-// The schemas in a file's summary by the name of their type.
+// Returns the schemas in a file's summary by the name of their type.
 std::map<std::string, json> SchemasOf(const std::string& bytes) {
   constexpr std::size_t kMagicBytes = 8;
   constexpr int kSchema = 0x03;

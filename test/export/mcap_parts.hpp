@@ -43,7 +43,7 @@ struct McapPart {
   std::size_t end = 0;
 };
 
-// The records one behind another, of a file's bytes between its magics or of a chunk.
+// Returns the records one behind another, of a file's bytes between its magics or of a chunk.
 inline std::vector<McapPart> McapParts(std::string_view bytes, std::size_t begin, std::size_t end) {
   std::vector<McapPart> parts;
   while (begin < end) {

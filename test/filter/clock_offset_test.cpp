@@ -20,8 +20,8 @@ constexpr double kGyroDensity = 5e-4;
 struct Drive {
   test::SmoothMotion motion;
   double offset_s = 0.02;
-  double outlier_rad = 0.0;    // of every tenth scan
-  double extra_std_rad = 0.0;  // of each scan, beyond what matching claims
+  double outlier_rad = 0.0;    // error of every tenth scan
+  double extra_std_rad = 0.0;  // error of each scan, beyond what matching claims
   double imu_rate_hz = 100.0;
 
   void Run(ClockOffset& clock, int from_scan, int to_scan) {

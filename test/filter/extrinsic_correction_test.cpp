@@ -35,7 +35,8 @@ TEST(ExtrinsicCorrection, TheVelocityIsThatOfTheOtherBody) {
   const Estimate after = Corrected(before);
   EXPECT_LT(LogSe3((before.state.T_map_imu * kOldNew).Inverse() * after.state.T_map_imu).norm(),
             1e-9);
-  // The pose of the old body a moment later, by its velocity and rate, and that of the new one.
+  // This gives the pose of the old body a moment later, by its velocity and rate, and that of the
+  // new one.
   static constexpr double kMoment_s = 1e-4;
   const auto moved = [](const NavState& state, const Vector3& w_imu_radps) {
     const Vector3 v_imu = state.T_world_imu.rotation.conjugate() * state.v_world_imu;

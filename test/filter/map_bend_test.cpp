@@ -44,7 +44,7 @@ TEST(MapBend, TheStartsErrorIsThatOfBothRotations) {
     estimate.cov = test::RandomCovariance<kStateDim>(random, 0.01);
     Estimate marked = estimate;
     MarkMapStart(marked);
-    // The state after marking, by the errors of the state before it.
+    // Returns the state after marking, by the errors of the state before it.
     const auto marked_error = [&](const Eigen::VectorXd& error) -> Eigen::VectorXd {
       Estimate other = estimate;
       other.state = BoxPlus(estimate.state, error);

@@ -140,8 +140,8 @@ TEST(PoseUpdate, ALongDriftThatIsSeenLeavesTheMapInItsPlace) {
   const Vector6 drift_std = (Vector6() << 30, 30, 30, 0.05, 0.05, 0.05).finished();
   estimate.cov = drift * drift_std.cwiseAbs2().asDiagonal() * drift.transpose();
   const Pose T_world_map = estimate.state.T_world_imu * estimate.state.T_map_imu.Inverse();
-  const Pose seen = estimate.state.T_map_imu *
-                    ExpSe3((Vector6() << 25, -20, 5, 0.03, -0.02, 0.06).finished());
+  const Pose seen =
+      estimate.state.T_map_imu * ExpSe3((Vector6() << 25, -20, 5, 0.03, -0.02, 0.06).finished());
   (void)FusePose(estimate, Measure(seen, 0.01), kNoGate);
   const Pose after = estimate.state.T_world_imu * estimate.state.T_map_imu.Inverse();
   EXPECT_LT(LogSe3(T_world_map.Inverse() * after).head<3>().norm(), 0.02);

@@ -33,7 +33,7 @@ Vector9 Difference(const Preintegration& a, const Preintegration& b) {
   return d;
 }
 
-// The true relative motion over an interval.
+// Returns the true relative motion over an interval.
 Preintegration Truth(const SmoothMotion& motion, double from_s, double to_s) {
   const MotionPoint a = motion.At(from_s);
   const MotionPoint b = motion.At(to_s);

@@ -26,7 +26,7 @@ test::Motion Drive() {
 
 struct DriveCase {
   test::Motion motion = Drive();
-  test::Motion matched;   // what scan matching sees, where it is not the motion
+  test::Motion matched;   // motion that scan matching sees, if it is another
   ImuConvention sent_as;  // how the messages are to be read
   Vector3 g_world = test::kGravity;
   double to_s = 9.0;
@@ -36,7 +36,7 @@ struct DriveCase {
   double pose_std_m = 0.01;
   double pose_std_rad = 0.002;
   double clock_offset_s = 0.0;
-  Vector3 mount_error_rad = Vector3::Zero();  // of the rig's extrinsic
+  Vector3 mount_error_rad = Vector3::Zero();  // error of the rig's extrinsic
   double max_rate_radps = 100.0;              // the gyro saturates
 };
 

@@ -14,7 +14,7 @@
 namespace lio {
 namespace {
 
-// Standard deviations of the white noise from sample to sample.
+// Holds standard deviations of the white noise from sample to sample.
 struct Noise {
   Vector3 gyro_std_radps = Vector3::Constant(1e-3);
   Vector3 accel_std_mps2 = Vector3::Constant(0.02);
@@ -100,7 +100,7 @@ TEST(ImuNoiseEstimator, DoesNotTakeTheBodysOwnMotionForNoise) {
     return [hz](double t_s) { return std::sin(2.0 * std::numbers::pi * hz * t_s); };
   };
   const Noise noise;
-  // The body's springs at 1.5 Hz and a wheel's hop at 10 Hz, 1 m/s^2 each.
+  // The body's springs swing at 1.5 Hz and a wheel hops at 10 Hz, 1 m/s^2 each.
   for (const double hz : {1.5, 10.0}) {
     NoisyImu imu(100.0);
     const ImuNoise last = imu.Run(2.0, noise, swing(hz));

@@ -40,7 +40,7 @@ SmoothMotion BrakingMotion() {
   return motion;
 }
 
-// The inputs of the estimator, and the truth.
+// Holds the inputs of the estimator, and the truth.
 struct Case {
   std::vector<ImuSample> samples;
   std::vector<MatchedPose> poses;

@@ -104,7 +104,7 @@ class Info(unittest.TestCase):
 
     def test_damage_is_told_and_ends_with_5(self):
         whole = self.log.read_bytes()
-        middle = whole.index(b"\xed\xa1\xda\x01", len(whole) // 2)  # where a message begins
+        middle = whole.index(b"\xed\xa1\xda\x01", len(whole) // 2)  # the begin of a message
         damaged = support.WORK / "info-damaged.lcm"
         damaged.write_bytes(whole[:middle] + b"\x55" * 20000 + whole[middle + 20000:])
         done = support.run("lio-log", "info", damaged)

@@ -8,7 +8,7 @@ import unittest
 import support
 
 OFFSET_S = 0.02
-EXIT_NO_TRUST = 6  # where the offset is not known
+EXIT_NO_TRUST = 6  # the exit code when the offset is not known
 
 
 class ClockOffset(unittest.TestCase):

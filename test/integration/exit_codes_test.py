@@ -170,7 +170,7 @@ class ExitCodes(unittest.TestCase):
 
     def test_replay_goes_past_damage_says_how_much_and_ends_with_5(self):
         whole = (self.drive / "log.lcm").read_bytes()
-        middle = whole.index(b"\xed\xa1\xda\x01", len(whole) // 2)  # where a message begins
+        middle = whole.index(b"\xed\xa1\xda\x01", len(whole) // 2)  # the begin of a message
         damaged = self.folder / "damaged.lcm"
         damaged.write_bytes(whole[:middle] + b"\x55" * 20000 + whole[middle + 20000:])
         out = self.folder / "damaged-run"

@@ -15,7 +15,7 @@ import unittest
 import browser
 import support
 
-RADIUS_M, RATE_RADPS = 30.0, 0.1  # of the drive that lio_view_log writes
+RADIUS_M, RATE_RADPS = 30.0, 0.1  # as lio_view_log drives
 PATH_COLOUR = (0x22, 0xd3, 0xee)
 ABOVE_M = 60.0                    # half the height of the page's view from above
 

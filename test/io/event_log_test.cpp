@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 
 constexpr std::int64_t kHeaderBytes = 28;
-constexpr int kLengthAt = 24;  // of the data length, in the header
+constexpr int kLengthAt = 24;  // the data length's place in the header
 
 std::vector<std::uint8_t> Payload(std::size_t size, unsigned seed) {
   std::mt19937 random(seed);

@@ -44,7 +44,7 @@ void Put32(std::int32_t value, std::size_t at, Bytes& bytes) {
   for (int i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
 
-constexpr std::size_t kNumPointsAt = 36;  // of n_points in scan_t; n_bytes follows
+constexpr std::size_t kNumPointsAt = 36;  // the place of n_points in scan_t; n_bytes follows
 
 TEST(LcmCodec, FingerprintsAreThoseOfTheGeneratedTypes) {
   EXPECT_EQ(kImuFingerprint, static_cast<std::uint64_t>(imu_t::getHash()));

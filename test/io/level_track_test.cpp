@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 // The map is tilted by this against the world, as a start knows the vertical.
 const Quaternion kMapTilt = ExpSo3(Vector3(0.02, -0.01, 0.0));
 
-// A path of 100 m, level in world; in map it climbs.
+// The path has 100 m, level in world; in map it climbs.
 FilterReport ReportAt(double x_m) {
   FilterReport report;
   report.nav.stamp = {1'700'000'000'000'000'000 + static_cast<std::int64_t>(x_m * 1e9)};

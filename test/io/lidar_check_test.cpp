@@ -23,7 +23,7 @@ constexpr int kNumSweeps = 200;
 struct Scene {
   bool has_bonnet = false;
   bool has_floor = false;
-  double sweep_s = 0.1;  // that the points' times span, of 0.1 s between sweeps
+  double sweep_s = 0.1;  // span of the points' times; sweeps are 0.1 s apart
 };
 
 LidarPoint PointAt(double azimuth_deg, double elevation_rad, double range_m, int ring) {

@@ -46,7 +46,7 @@ TEST(StatusCounts, AreAbsentFromForeignAndDamagedBytes) {
   const Bytes bytes = EncodeStatus(ReportOfARun(), "1.0.0");
   EXPECT_FALSE(DecodeStatusCounts(ByteView(bytes).first(200)));
   for (const std::size_t at : {std::size_t{0}, std::size_t{37}, std::size_t{37 + 8 * 26}}) {
-    Bytes damaged = bytes;  // of the fingerprint, the first count and the first refusal
+    Bytes damaged = bytes;  // in the fingerprint, the first count or the first refusal
     damaged[at] ^= 0x7f;
     EXPECT_FALSE(DecodeStatusCounts(damaged)) << at;
   }

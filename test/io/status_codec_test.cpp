@@ -64,7 +64,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
   EXPECT_EQ(message.chunks_bad, report.counters.num_chunks_bad);
 }
 
-// The names of the type's int64 fields between "imu" and "bad_truncated", in their order.
+// Returns the names of the type's int64 fields between "imu" and "bad_truncated", in their order.
 std::vector<std::string> CountsOfTheType() {
   const std::filesystem::path source = LIO_SOURCE_DIR;
   const std::string type = test::ReadText(source / "lcmtypes" / "lio_status_t.lcm");

@@ -18,7 +18,7 @@ class TrajectoryFile : public ::testing::Test {
  protected:
   Trajectory Read(const std::string& text) { return ReadTrajectory(dir_.Write("t.txt", text)); }
 
-  // The message without the file's name.
+  // Returns the message without the file's name.
   std::string Fault(const std::string& text) {
     try {
       Read(text);

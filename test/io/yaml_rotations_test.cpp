@@ -36,7 +36,7 @@ TEST(YamlRotations, RollPitchYawTurnAboutTheFixedAxesInThisOrder) {
 
 TEST(YamlRotations, AnglesThatAreNoDegreesAreRefused) {
   Quaternion rotation = Quaternion::Identity();
-  EXPECT_EQ(Rpy("[0, 0]", rotation), "expects a list of 3 numbers, not of 2");
+  EXPECT_EQ(Rpy("[0, 0]", rotation), "expects a list of 3 numbers, not one of 2");
   EXPECT_THAT(Rpy("[0, 0, 400]", rotation), HasSubstr("-360 .. 360"));
   EXPECT_THAT(Rpy("[0, 0, .nan]", rotation), HasSubstr("number"));
   EXPECT_EQ(rotation.coeffs(), Quaternion::Identity().coeffs());

@@ -86,9 +86,9 @@ TEST(YamlValues, ChoicesAreListed) {
 TEST(YamlValues, VectorsHaveThreeNumbers) {
   ExpectTaken("[1, -2.5, 3e2]", Vector3(1, -2.5, 300));
   const Vector3 before(7, 8, 9);
-  ExpectRefused("[1, 2]", before, "expects a list of 3 numbers, not of 2");
-  ExpectRefused("[1, 2, 3, 4]", before, "expects a list of 3 numbers, not of 4");
-  ExpectRefused("[1, 2, z]", before, "expects a list of 3 numbers, not with 'z'");
+  ExpectRefused("[1, 2]", before, "expects a list of 3 numbers, not one of 2");
+  ExpectRefused("[1, 2, 3, 4]", before, "expects a list of 3 numbers, not one of 4");
+  ExpectRefused("[1, 2, z]", before, "expects a list of 3 numbers, not one with 'z'");
   ExpectRefused("1", before, "expects a list of 3 numbers, not '1'");
 }
 
@@ -102,7 +102,7 @@ TEST(YamlValues, QuaternionsHaveWFirst) {
   const Quaternion q = ParsedQuaternion("[0.1, 0.7, 0.5, 0.5]");
   EXPECT_EQ(q.coeffs(), Eigen::Vector4d(0.7, 0.5, 0.5, 0.1));  // Eigen's order; of norm 1
   Quaternion value(0, 1, 0, 0);
-  EXPECT_EQ(Parse("[1, 0, 0]", value), "expects a list of 4 numbers, not of 3");
+  EXPECT_EQ(Parse("[1, 0, 0]", value), "expects a list of 4 numbers, not one of 3");
   EXPECT_EQ(value.x(), 1.0);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Which cells of a GaussianMap count, as a plane or as a vertical structure.
+// Tests which cells of a GaussianMap count, as a plane or as a vertical structure.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -28,7 +28,8 @@ std::vector<Vector3> PostPoints(const Vector3& centre, double radius_m, double l
   return points;
 }
 
-// The points of a beam of this elevation, turning about the origin, in a crown around `centre`.
+// Returns the points of a beam of this elevation, turning about the origin, in a crown around
+// `centre`.
 std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_rad) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> depth(-0.4, 0.4);

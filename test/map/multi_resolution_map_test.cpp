@@ -49,7 +49,7 @@ TEST(MultiResolutionMap, RefusesNoLevelAndMoreThanAreCounted) {
 
 TEST(MultiResolutionMap, APointIsFoundAtTheFinestLevelThatShowsASurface) {
   MultiResolutionMap map(TwoLevels());
-  // 100 points a square metre: 25 in a cell of 0.5 m.
+  // The wall has 100 points a square metre: 25 in a cell of 0.5 m.
   map.Insert(Wall(5.3, 2.0, 1600), kSensor);
   const GaussianMap::Hit fine = FindOne(map, {5.3, 0.2, 0.2}, 0);
   ASSERT_NE(fine.cell, MultiResolutionMap::kNoCell);
@@ -62,7 +62,7 @@ TEST(MultiResolutionMap, APointIsFoundAtTheFinestLevelThatShowsASurface) {
 
 TEST(MultiResolutionMap, FewPointsShowASurfaceAtTheCoarseLevelAlone) {
   MultiResolutionMap map(TwoLevels());
-  // 10 points a square metre: 2 or 3 in a cell of 0.5 m.
+  // The wall has 10 points a square metre: 2 or 3 in a cell of 0.5 m.
   map.Insert(Wall(5.3, 2.0, 160), kSensor);
   int num_coarse = 0;
   int num_fine = 0;

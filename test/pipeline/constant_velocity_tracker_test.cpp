@@ -68,7 +68,7 @@ TEST(ConstantVelocityTracker, AVelocitySeedIsWhereItBegins) {
 // An earlier tracker looked along y and drove that way, which is x of the new one.
 TEST(ConstantVelocityTracker, AKnownMotionIsTakenIntoTheBodysAxes) {
   TrackerOptions options;
-  options.seed.v_imu_mps = Vector3(99, 99, 99);  // what is known counts
+  options.seed.v_imu_mps = Vector3(99, 99, 99);  // must not count: the motion is known
   options.seed.motion.emplace();
   options.seed.motion->T_world_imu = {ExpSo3(Vector3(0, 0, M_PI / 2)), Vector3(50, 60, 0)};
   options.seed.motion->v_world_imu = {0, 5, 0};
@@ -97,7 +97,7 @@ TEST(ConstantVelocityTracker, GoesStraightOnWithGrowingDoubt) {
   EXPECT_EQ(tracker.history().head().stamp, StampAt(4.0)) << "never backwards";
 }
 
-// 5 m/s on a circle: matched poses teach velocity and turn rate.
+// The body goes at 5 m/s on a circle: matched poses teach velocity and turn rate.
 TEST(ConstantVelocityTracker, WithoutAGyroPosesTeachTheTurnRate) {
   const auto circle = [](double t_s) {
     const double turned = 0.4 * t_s;

@@ -157,7 +157,8 @@ TEST_F(EstimateReportTest, TheBaseFrameIsThereWhereTheRigHasOne) {
   }
 }
 
-// The noise of one reading, over a lever of 2 m: (2 m)^2 density^2 / 10 ms across it.
+// The variance is the noise of one reading, over a lever of 2 m: (2 m)^2 density^2 / 10 ms across
+// it.
 TEST_F(EstimateReportTest, TheGyrosNoiseIsInTheVelocityOfTheBase) {
   options_.rig.T_base_imu = Pose{Quaternion::Identity(), Vector3(-2.0, 0, 0)};
   estimate_.state.T_world_imu.rotation.setIdentity();

@@ -19,7 +19,7 @@ using FindingKind = ImuConventionMonitor::Finding::Kind;
 const ImuConvention kTurned{false, false,
                             ExpSo3(Vector3(0, 0, M_PI / 2)).toRotationMatrix().array().round()};
 
-// From rest straight ahead with 2 m/s^2.
+// The body drives off from rest straight ahead with 2 m/s^2.
 Pose DriveOff(double t_s) {
   return {Quaternion::Identity(), Vector3(t_s * t_s, 0, 0)};
 }

@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3f> Seen(const Pose& T_world_imu, unsigned seed) {
 // The street as scans every metre show it, in axes that are turned and moved against the world.
 const Pose kInitialFromWorld{ExpSo3(Vector3(0, 0, 0.7)), Vector3(-20, 35, 4)};
 
-// Like map.pcd, it has one point per voxel of 0.2 m. Up to `to_m` along the street.
+// Like map.pcd, it has one point per voxel of 0.2 m. It reaches up to `to_m` along the street.
 InitialMap StreetMap(int to_m = 140) {
   constexpr double kVoxel_m = 0.2;
   InitialMap map;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The first state from the coarse track and the inertial samples.
+// Tests the first state from the coarse track and the inertial samples.
 #include <gtest/gtest.h>
 
 #include "pipeline/initializing.hpp"

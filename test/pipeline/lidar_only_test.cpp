@@ -196,7 +196,8 @@ TEST(LidarOnly, RelocalizedScanIsFusedButGrowsNoMapAndIsNoFix) {
 TEST(LidarOnly, BeginsAfterALossWhereTheMotionBeforeItLeads) {
   LidarOnlyBench b(kSpeed_mps, LostASecondAgo());
   const MatchJob job = b.NextJob();
-  // A second at 8 m/s, half of it before and half after half a second's turn; and half a sweep.
+  // The body goes for a second at 8 m/s, half of it before and half after half a second's turn; and
+  // for half a sweep.
   const Quaternion turn = ExpSo3(Vector3(0, 0, 0.1));
   const Vector3 ahead_m(kSpeed_mps, 0, 0);
   const Vector3 expected_m = Vector3(10, 0, 0) + 0.5 * (ahead_m + turn * ahead_m);

@@ -21,7 +21,7 @@ namespace lio::test {
 
 inline constexpr double kImuStep_s = 0.01;
 inline constexpr double kSweepSpan_s = 0.1;
-inline constexpr double kSpeed_mps = 8.0;  // of a car on a straight road
+inline constexpr double kSpeed_mps = 8.0;  // speed of a car on a straight road
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 
 inline Options WithoutImu() {
@@ -94,7 +94,7 @@ class ModeBench {
     return sweep;
   }
 
-  // The outcome of a worker that matches every scan to the centimetre.
+  // Returns the outcome of a worker that matches every scan to the centimetre.
   MatchOutcome Matched(const MatchJob& job, const Motion& motion) {
     MatchOutcome outcome = Unmatched(job);
     const Pose T_world_imu = motion(SecondsOf(job.sweep->middle()));
@@ -116,7 +116,7 @@ class ModeBench {
     return outcome;
   }
 
-  // The outcome for a scan of many points that matches the map nowhere.
+  // Returns the outcome for a scan of many points that matches the map nowhere.
   static MatchOutcome Unmatched(const MatchJob& job) {
     MatchOutcome outcome;
     outcome.sweep = job.sweep;

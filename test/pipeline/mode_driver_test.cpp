@@ -29,7 +29,7 @@ struct DriverBench {
     driver = std::make_unique<ModeDriver>(bench.context(), bench.place);
   }
 
-  // A sweep of the stream, after the samples that cover it.
+  // Feeds a sweep of the stream, after the samples that cover it.
   void FeedSweep() {
     const double end_s = sweep_start_s + kSweepSpan_s;
     if (has_imu) {
@@ -103,7 +103,7 @@ TEST(ModeDriver, AnImuThatFallsSilentIsToldAndEndsTracking) {
   EXPECT_EQ(b.driver->kind(), ModeKind::kLidarOnly);
   const auto notices = b.bench.Take<Notice>();
   ASSERT_FALSE(notices.empty());
-  EXPECT_EQ(notices.front().text, "no samples: lidar-only odometry");
+  EXPECT_TRUE(notices.front().text.starts_with("no samples: lidar-only odometry"));
   EXPECT_EQ(notices.front().severity, Notice::Severity::kWarning);
 }
 
@@ -117,7 +117,7 @@ TEST(ModeDriver, AnImuThatAppearsLetsTheStartBeginAnew) {
   EXPECT_EQ(b.bench.counters.num_restarts, 1);
 }
 
-// Before a start and after it, and once each.
+// A segment starts before a start and after it, and counts once each.
 TEST(ModeDriver, ASegmentThatStartsIsCountedAsARestart) {
   DriverBench b(Straight(0.0));
   const auto start_segment = [&] {

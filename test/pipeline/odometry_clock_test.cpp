@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator with lidar and IMU on clocks that differ.
+// Tests the estimator with lidar and IMU on clocks that differ.
 #include <gtest/gtest.h>
 
 #include <cmath>

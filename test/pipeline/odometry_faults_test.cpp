@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator as a whole on drives with every kind of fault.
+// Tests the estimator as a whole on drives with every kind of fault.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,7 +191,7 @@ TEST(Odometry, PublishedStampsNeverGoBack) {
   ExpectStampsIncrease(RunOdometry(WithClockStep(drive, 3.5, 10.0), test::DriveRig()));
 }
 
-// Each sensor by its own clock, one of them since the machine started.
+// Each sensor has its own clock, one of them since the machine started.
 TEST(OdometryFaults, ClocksFarApartAreTold) {
   for (const double lidar_ahead_s : {37.0, -37.0}) {
     Messages messages = StaticStartDrive();

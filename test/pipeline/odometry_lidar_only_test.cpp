@@ -50,7 +50,7 @@ TEST(OdometryLidarOnly, BeginsAMapAnewWhereThePathWasWhenLost) {
   EXPECT_GE(run.counters.num_restarts, 1);
   EXPECT_TRUE(HasNotice(run, "the map begins anew"));
   EXPECT_EQ(run.status, TrackingStatus::kOk);
-  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 5.0);  // of 6 m unseen
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 5.0);  // 6 m were driven unseen
   ASSERT_TRUE(run.scans.back().filter);
   const NavOutput& end = run.scans.back().filter->nav;
   EXPECT_GT(end.pose_cov(0, 0), 0.2);                         // in the world it is not sure ...

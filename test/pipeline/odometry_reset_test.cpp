@@ -29,7 +29,7 @@ class Feeder {
     job_out_ = std::exchange(worker_, std::nullopt);
     worker_.emplace(options_);
   }
-  // The outcome of a job from before the reset.
+  // Finishes a job from before the reset.
   void DoLate(const MatchJob& job) { worker_->Insert(odometry_.FinishJob(job_out_->Run(job))); }
 
   void Feed(const Messages& messages) {

@@ -244,7 +244,7 @@ TEST(OdometryScan, MatchesBeyondTheGateAreRefusedSoManyTimesInARow) {
 TEST(OdometryScan, AfterTenUnmatchedScansTheMapIsGrownAnyway) {
   const AlteredRun many(4.0, Reject);
   EXPECT_GE(many.num_altered_inserted, 10);
-  EXPECT_LE(many.num_altered_inserted, 15);  // of 25
+  EXPECT_LE(many.num_altered_inserted, 15);  // 25 came
   const AlteredRun few(4.0, [](MatchOutcome& outcome) {
     Reject(outcome);
     outcome.num_used = 150;

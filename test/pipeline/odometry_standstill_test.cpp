@@ -25,7 +25,7 @@ Messages DriveAlong(const test::Motion& motion, double to_s) {
   return SimulateDrive(test::Street(), drive);
 }
 
-// To and fro by 3 mm/s, as in a wind.
+// The body goes to and fro by 3 mm/s, as in a wind.
 Pose SwayingOnItsSprings(double t_s) {
   const Vector3 sway_m(8e-4 * std::sin(4.1 * t_s + 1.0), 6e-4 * std::sin(3.1 * t_s), 0.0);
   return {Quaternion::Identity(), sway_m};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator as a whole on simulated drives.
+// Tests the estimator as a whole on simulated drives.
 #include "lio/pipeline/odometry.hpp"
 
 #include <gtest/gtest.h>

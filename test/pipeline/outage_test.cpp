@@ -14,7 +14,7 @@ namespace {
 using test::StampAt;
 using Event = OutageRecovery::Event;
 
-// Ten metres a second along y, heading there, and sure of all of it.
+// The body goes ten metres a second along y, heading there, and is sure of all of it.
 Estimate HeadingAlongY() {
   Estimate estimate;
   estimate.stamp = StampAt(20.0);

@@ -24,7 +24,7 @@ std::shared_ptr<const Sweep> StreetSweepFrom(double start_s) {
   return sweep;
 }
 
-// The job with the true motion, the guess off by `guess_error` at the sweep's middle.
+// Returns the job with the true motion, the guess off by `guess_error` at the sweep's middle.
 MatchJob JobFor(const std::shared_ptr<const Sweep>& sweep,
                 const Vector6& guess_error = Vector6::Zero()) {
   MatchJob job;

@@ -49,7 +49,7 @@ class ScanFusionTest : public testing::Test {
     (void)bench_.examiner.Look(StampAt(40.0));
     ASSERT_TRUE(bench_.examiner.bounds());
   }
-  // The next scan, matched so far away from the truth.
+  // Returns the next scan, matched so far away from the truth.
   MatchOutcome MatchedAt(double x_m) {
     auto sweep = std::make_shared<Sweep>();
     sweep->start = StampAt(begin_s_);
@@ -96,7 +96,7 @@ TEST_F(ScanFusionTest, AMatchFarOffThatDoesNotSeeAllIsRefusedForGood) {
   }
 }
 
-// A hole of the samples, in the third scan's sweep.
+// The samples have a hole in the third scan's sweep.
 TEST_F(ScanFusionTest, AMatchFarOffIsFusedAtLastWhereTheSamplesHaveAHole) {
   FeedImu(-4.0, 0.3);
   FeedImu(0.45, 2.0);

@@ -28,7 +28,7 @@ SweepPtr SweepOf(double start_s, double end_s) {
 struct Unknown {
   Vector3 velocity_mps = Vector3::Zero();  // in world
   double gyro_bias_radps = 0.0;
-  double rotation_rad = 0.0;  // of the map pose
+  double rotation_rad = 0.0;  // error of the map pose
 };
 
 // A body that drives along world's x, its own x axis to the left of that, over two seconds. Its IMU
@@ -55,7 +55,7 @@ FilterHistory DrivenAlongX(const Unknown& unknown, double nis_limit = kNever) {
   return history;
 }
 
-// The scan from 0.95 to 1.05 s, matched `error` away from the truth.
+// Returns the scan from 0.95 to 1.05 s, matched `error` away from the truth.
 MatchOutcome Matched(const Vector6& error = Vector6::Zero()) {
   MatchOutcome outcome;
   outcome.sweep = SweepOf(0.95, 1.05);
@@ -176,7 +176,7 @@ TEST(FuseMatch, ErrorsThatAreAlikeFromScanToScanScaleTheWholeCovariance) {
 }
 
 // An error dv of the velocity shifts points by dv t about the middle: dv^2 T^2 / 12. World's x is
-// minus y in imu. Tolerance: the second order of the residual.
+// minus y in imu. The tolerance is the second order of the residual.
 TEST(FuseMatch, AnUnsureVelocityLeavesErrorsInTheDeskewedScan) {
   const Unknown unknown{Vector3(0.2, 0.0, 0.0)};
   const double by_deskew = 0.2 * 0.2 * 0.1 * 0.1 / 12.0;
@@ -184,7 +184,7 @@ TEST(FuseMatch, AnUnsureVelocityLeavesErrorsInTheDeskewedScan) {
   EXPECT_NEAR(VarianceOfMatch(0, unknown), 1e-6, 1e-9);
 }
 
-// White noise integrated to both sides of the middle: density^2 T / 12.
+// White noise is integrated to both sides of the middle: density^2 T / 12.
 TEST(FuseMatch, GyroNoiseLeavesErrorsInTheDeskewedScan) {
   FusionSettings settings;
   settings.gyro_density = 0.02;
@@ -193,7 +193,7 @@ TEST(FuseMatch, GyroNoiseLeavesErrorsInTheDeskewedScan) {
   EXPECT_NEAR(VarianceOfMatch(0, {}, settings), 1e-6, 1e-9);
 }
 
-// bias^2 T^2 / 12.
+// The variance is bias^2 T^2 / 12.
 TEST(FuseMatch, AnUnsureGyroBiasLeavesErrorsInTheDeskewedScan) {
   Unknown unknown;
   unknown.gyro_bias_radps = 0.05;

@@ -19,7 +19,7 @@ SegmentJump JumpTo(double first_s, Step step) {
   return JudgeJump(StampAt(10.0), segment);
 }
 
-// Ten metres a second along y, and sure of all of it.
+// The body goes ten metres a second along y, and is sure of all of it.
 Estimate SlidingAlongY() {
   Estimate estimate;
   estimate.stamp = StampAt(10.0);

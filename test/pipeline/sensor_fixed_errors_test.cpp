@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kNumDirections = 20;
 constexpr double kShare = 0.05;
 
-// A match with a score of each beam direction.
+// Returns a match with a score of each beam direction.
 MatchResult Match(std::vector<Vector6> scores) {
   MatchResult match;
   match.beam_scores = std::move(scores);

@@ -33,7 +33,8 @@ void Take(SynchronousOdometry& odometry, Taken& taken) {
   }
 }
 
-// One sweep of all its chunks, with a stamp before its first point and its points out of order.
+// Makes one sweep of all its chunks, with a stamp before its first point and its points out of
+// order.
 LidarSweep WholeSweep(const std::vector<ScanChunk>& chunks) {
   LidarSweep sweep;
   sweep.stamp = chunks.front().stamp - kEarly;

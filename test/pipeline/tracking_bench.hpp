@@ -14,7 +14,7 @@
 
 namespace lio::test {
 
-// The true state of a motion, as sure as after a second of rest.
+// Returns the true state of a motion, as sure as after a second of rest.
 inline StartState TrueStart(const Motion& motion, double at_s) {
   const MotionState truth = StateOf(motion, at_s);
   StartState start;
@@ -112,7 +112,7 @@ struct TrackingBench {
   bool goes_by_stream = true;
 };
 
-// Straight ahead, one second of it tracked.
+// Drives straight ahead; one second of it is tracked.
 struct AfterOneSecond : TrackingBench {
   AfterOneSecond() : TrackingBench(Straight(kSpeed_mps)) { EXPECT_FALSE(Match(10)); }
 };

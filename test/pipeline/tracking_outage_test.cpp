@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The way back from an outage, while tracking.
+// Tests the way back from an outage, while tracking.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The way into the initial map, while tracking.
+// Tests the way into the initial map, while tracking.
 #include <gtest/gtest.h>
 
 #include "pipeline/tracking.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Gaps of the inertial stream and steps of its clock, while tracking.
+// Tests gaps of the inertial stream and steps of its clock, while tracking.
 #include <gtest/gtest.h>
 
 #include "pipeline/tracking.hpp"
@@ -19,7 +19,7 @@ using test::XOf;
 
 using Step = ImuPreprocessor::Step;
 
-// Straight ahead, one second of it tracked; then a clock steps.
+// Drives straight ahead; one second of it is tracked, then a clock steps.
 struct StepAfterOneSecond : test::AfterOneSecond {
   // The clock now says so at the end of that second.
   void SetClock(double now_s, Step step) {

@@ -24,7 +24,7 @@ using test::Straight;
 using test::TrackingBench;
 using test::TrueStart;
 
-// Eight metres a second on a winding road.
+// The body goes eight metres a second on a winding road.
 Motion Winding() {
   return [road = test::WindingDrive(0.0)](double t_s) { return road(t_s + 6.0); };
 }

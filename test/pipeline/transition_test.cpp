@@ -12,7 +12,7 @@
 namespace lio {
 namespace {
 
-// The lines with an arrow between the marks of docs/design.md, without indentation.
+// Returns the lines with an arrow between the marks of docs/design.md, without indentation.
 std::multiset<std::string> DrawnTransitions() {
   std::ifstream page(LIO_SOURCE_DIR "/docs/design.md");
   std::multiset<std::string> drawn;
@@ -21,7 +21,7 @@ std::multiset<std::string> DrawnTransitions() {
     if (line == "<!-- transitions:begin -->") is_inside = true;
     if (line == "<!-- transitions:end -->") is_inside = false;
     if (!is_inside || line.find("-->") == std::string::npos || line.starts_with("<!--")) continue;
-    if (line.find("[*]") != std::string::npos) continue;  // where the diagram begins and ends
+    if (line.find("[*]") != std::string::npos) continue;  // begin or end of the diagram
     drawn.insert(line.substr(line.find_first_not_of(' ')));
   }
   return drawn;

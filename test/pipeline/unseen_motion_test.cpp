@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-// One second that turns at half a radian a second about z.
+// Returns one second that turns at half a radian a second about z.
 std::vector<ImuSample> Turning() {
   std::vector<ImuSample> samples;
   for (int i = 0; i <= 100; ++i) samples.push_back({test::StampAt(0.01 * i), Vector3(0, 0, 0.5)});

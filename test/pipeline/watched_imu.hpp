@@ -51,7 +51,7 @@ class Watched {
   ImuConventionMonitor monitor{rig, imu};
   Vector3 g_world = test::kGravity;
   Pose T_map_world;
-  test::Motion matched;  // what scan matching sees, where it is not the motion
+  test::Motion matched;  // motion that scan matching sees, if it is another
 
  private:
   ImuConvention sent_as_;

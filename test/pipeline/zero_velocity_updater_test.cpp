@@ -19,7 +19,7 @@ struct Belief {
   double speed_std_mps = 10.0;
 };
 
-// A filter of an IMU at rest, without noise, ten scans a second of a lidar at rest.
+// Feeds a filter of an IMU at rest, without noise, with ten scans a second of a lidar at rest.
 class RestingFilter {
  public:
   explicit RestingFilter(const Belief& belief = {})

@@ -180,7 +180,8 @@ TEST_F(LiodTest, SighupCompletesTheFilesAndGoesOnInTheNextFolder) {
   EXPECT_GT(num_imu, 0);
 }
 
-// A socket in place of systemd's. The daemon is told that the watchdog wants a word each second.
+// A socket stands in place of systemd's. The daemon is told that the watchdog wants a word each
+// second.
 TEST_F(LiodTest, SystemdHearsOfStartLifeAndEnd) {
   const std::string heard = Out("heard");
   const std::string listen =

@@ -7,7 +7,7 @@
 namespace lio {
 namespace {
 
-// Points at the corners of a sweep that began and ended half a sweep from its middle.
+// Puts points at the corners of a sweep that began and ended half a sweep from its middle.
 class BentScanTest : public testing::Test {
  protected:
   MatchInput Input() const {

@@ -94,7 +94,7 @@ TEST(DegenerateDirections, DegenerateDirectionHasALargeVariance) {
   const Matrix6 H = Without(FullInformation(random), along);
   const DirectionSplit split = SplitDirections(H, SmallNoise());
   const Matrix6 weak = DegenerateCovariance(split);
-  EXPECT_GT(weak(0, 0), 1e3);  // of (100 m)^2, less what of the direction is rotation
+  EXPECT_GT(weak(0, 0), 1e3);  // nearly (100 m)^2: a part of the direction is rotation
   EXPECT_LT((H * weak).norm(), 1e-6 * H.norm() * weak.norm()) << "along the weak one alone";
   const Matrix6 held = CovarianceFromScores(ObservableInverse(split), H);
   const Vector6 v = split.Scale().cwiseProduct(split.directions.col(0));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Promises of matching against keyframes alone; those of every matcher:
-// test/contract/matcher_contract_test.cpp.
+// Tests the promises of matching against keyframes alone; test/contract/matcher_contract_test.cpp
+// has those of every matcher.
 #include "lio/registration/gicp_matcher.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Promises of LOAM's matching against maps alone; those of every matcher:
-// test/contract/matcher_contract_test.cpp.
+// Tests the promises of LOAM's matching against maps alone; test/contract/matcher_contract_test.cpp
+// has those of every matcher.
 #include "lio/registration/loam_matcher.hpp"
 
 #include <gtest/gtest.h>

@@ -65,7 +65,7 @@ class LoamTermsTest : public ::testing::Test {
   MatchScores scores_;
 };
 
-// The gradient by central differences of the cost with constant weights.
+// The gradient is taken by central differences of the cost with constant weights.
 TEST_F(LoamTermsTest, GradientAndInformationAreTheCostsDerivatives) {
   const Pose at = kLoamTruth * ExpSe3(0.01 * Vector6::Ones());
   const MatchSums sums = LinearizeAt(at);

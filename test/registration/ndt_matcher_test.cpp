@@ -81,7 +81,8 @@ Vector6 ErrorOf(const MatchResult& result, const Pose& truth) {
   return LogSe3(truth.Inverse() * result.T_map_imu);
 }
 
-// Standard deviations: the given one in translation, a twentieth of it in rotation [rad].
+// The standard deviations are the given one in translation, and a twentieth of it in rotation
+// [rad].
 Vector6 DrawGuessError(std::mt19937_64& random, double std) {
   Vector6 error = std * test::RandomVector<6>(random);
   error.tail<3>() *= 0.05;

@@ -61,7 +61,7 @@ TEST(NdtTerm, BeyondFiveSigmaItIsAnOutlier) {
   EXPECT_TRUE(MakeNdtTerm(Floor(), {0, 0, -0.101f}, 0.f, 0.f).IsOutlier());
 }
 
-// Along x 2 cm of 2 cm, along y 10 cm of 5 cm: 1 + 4.
+// The point is off by 2 cm of 2 cm along x, by 10 cm of 5 cm along y: 1 + 4.
 TEST(NdtTerm, AVerticalStructureConstrainsTwoHorizontalDirections) {
   const NdtTerm term = MakeNdtTerm(Post(), {0.02f, 0.1f, 3.f}, 0.f, 0.f);
   ASSERT_EQ(term.num_rows, 2);

@@ -9,7 +9,7 @@
 namespace lio {
 namespace {
 
-constexpr float kPointsEach = 4.f;  // that each neighbour is the mean of
+constexpr float kPointsEach = 4.f;  // each neighbour is the mean of so many
 
 PointMap::Neighbours Of(const std::vector<Eigen::Vector3f>& points) {
   PointMap::Neighbours neighbours;
@@ -41,14 +41,14 @@ TEST(FitLine, FindsTheLineThroughItsPoints) {
   ASSERT_TRUE(line);
   EXPECT_LT((line->centre - Vector3(1, 2, 3)).norm(), 1e-6);
   EXPECT_NEAR(std::abs(line->direction.dot(Vector3(1, 2, 2) / 3.0)), 1.0, 1e-6);
-  // Five points, variance along 2 * 0.4^2: the noise over their sum.
+  // Five points have a variance along of 2 * 0.4^2: the noise over their sum.
   EXPECT_NEAR(line->direction_var, kNoiseVar / (5 * 2 * 0.16), 1e-7);
 }
 
 TEST(FitLine, ScatterAcrossMakesTheDirectionUnsure) {
   const auto line = FitLine(Of(PointsOnALine(0.4f, 0.15f)), kOptions);
   ASSERT_TRUE(line);
-  const double across_var = 0.15 * 0.15 * 0.2 * 0.8;  // of one point in five
+  const double across_var = 0.15 * 0.15 * 0.2 * 0.8;  // one point in five is off
   EXPECT_NEAR(line->direction_var, across_var / (5 * 2 * 0.16), 1e-5);
 }
 
@@ -72,7 +72,7 @@ TEST(FitLine, HowMuchLongerThanWideIsAnOption) {
 
 // --- planes
 
-// A cross of half width `half_m` in the plane across z, off it by `off_m` at its middle.
+// Makes a cross of half width `half_m` in the plane across z, off it by `off_m` at its middle.
 std::vector<Eigen::Vector3f> Cross(float half_m, float narrow_m, float off_m = 0.f) {
   return {{0, 0, 2 + off_m}, {half_m, 0, 2}, {-half_m, 0, 2}, {0, narrow_m, 2}, {0, -narrow_m, 2}};
 }
@@ -84,7 +84,8 @@ TEST(FitPlane, FindsThePlaneThroughItsPoints) {
   EXPECT_NEAR(std::abs(plane->normal.z()), 1.0, 1e-6);
   EXPECT_LT((plane->axes.transpose() * plane->axes - Matrix3::Identity()).norm(), 1e-6);
   EXPECT_EQ(plane->axes.col(0), plane->normal);
-  // Tilt toward the narrow side first: the noise over the sum of squares 2 * 0.4^2, 2 * 0.6^2.
+  // The tilt toward the narrow side comes first: the noise over the sum of squares 2 * 0.4^2, 2 *
+  // 0.6^2.
   EXPECT_NEAR(std::abs(plane->axes(1, 1)), 1.0, 1e-6);
   EXPECT_NEAR(plane->normal_var[0], kNoiseVar / (2 * 0.16), 1e-7);
   EXPECT_NEAR(plane->normal_var[1], kNoiseVar / (2 * 0.36), 1e-7);

@@ -10,7 +10,7 @@
 namespace lio {
 namespace {
 
-// Points in so many cells of a metre, a hundred in each.
+// Returns points in so many cells of a metre, a hundred in each.
 std::vector<Eigen::Vector3f> PointsIn(int num_cells) {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < num_cells; ++i) {

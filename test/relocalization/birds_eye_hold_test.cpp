@@ -11,7 +11,7 @@
 namespace lio {
 namespace {
 
-// Posts at random places beside a road along x, seen from a point on it.
+// Returns posts at random places beside a road along x, seen from a point on it.
 test::Points RoadsidePosts(float x_m) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> along(-60.f, 60.f);

@@ -15,7 +15,7 @@ using Points2 = std::vector<Eigen::Vector2f>;
 
 constexpr std::int64_t kUnlimited = 1'000'000'000;
 
-// Things at random places of a square of 300 m.
+// Returns things at random places of a square of 300 m.
 Points2 ThingsOfAWood() {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> coordinate(-150.f, 150.f);
@@ -27,7 +27,7 @@ Points2 ThingsOfAWood() {
   return things;
 }
 
-// The things within 30 m of `pose`, in its axes.
+// Returns the things within 30 m of `pose`, in its axes.
 Points2 SeenFrom(const PlanarPose& pose, const Points2& things) {
   Points2 seen;
   for (const Eigen::Vector2f& thing : things) {

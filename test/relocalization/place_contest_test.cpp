@@ -87,7 +87,7 @@ TEST(PlaceContest, NoneOfTwoPlacesThatLookAlikeWins) {
 
 TEST(PlaceContest, OnlyPlaceThatFitsBadlyDoesNotWin) {
   Scenery scenery;
-  scenery.num_matched_here = 800;  // of 1000 that come to a surface
+  scenery.num_matched_here = 800;  // 1000 come to a surface
   PlaceContest contest(CloudSample{}, {At(31.0)});
   EXPECT_FALSE(Decide(contest, scenery));
 }

@@ -19,7 +19,7 @@ Eigen::Matrix2f TurnBy(float angle_rad) {
   return Eigen::Rotation2Df(angle_rad).toRotationMatrix();
 }
 
-// Posts at random places, as seen from `sensor`.
+// Returns posts at random places, as seen from `sensor`.
 Points WoodSeenFrom(const PlanarPose& sensor, unsigned seed = 4) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> coordinate(-50.f, 50.f);

@@ -15,7 +15,7 @@ namespace {
 
 using test::Points;
 
-// Posts at random places around the origin, and the ground.
+// Returns posts at random places around the origin, and the ground.
 Points WoodAroundTheOrigin(unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> coordinate(-35.f, 35.f);

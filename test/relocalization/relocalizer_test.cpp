@@ -84,12 +84,12 @@ class RelocalizerTest : public ::testing::Test {
   Relocalizer relocalizer_;
 };
 
-TEST(ReachOfMatching, APriorIsWithinReachByPointsTwentyMetresAway) {
+TEST(ConvergenceBasin, HoldsAPriorByPointsTwentyMetresAway) {
   Matrix6 cov = Matrix6::Zero();
   cov.diagonal() << Vector3::Constant(1.0), Vector3::Constant(0.0064);  // 1 m and 20 m * 0.08
-  EXPECT_TRUE(IsWithinReachOfMatching(cov));
+  EXPECT_TRUE(IsWithinConvergenceBasin(cov));
   cov.diagonal().head<3>().setConstant(2.25);
-  EXPECT_FALSE(IsWithinReachOfMatching(cov));
+  EXPECT_FALSE(IsWithinConvergenceBasin(cov));
 }
 
 TEST_F(RelocalizerTest, AScanFarFromItsPriorIsFound) {

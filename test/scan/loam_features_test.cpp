@@ -104,7 +104,7 @@ TEST(LoamFeatures, VerticalCornersOfHousesArePicked) {
     const Vector3 p = PositionOf(cast.sweep.points[i]);
     num_near += (p - corner).head<2>().norm() < 0.06 && cast.hits[i].object == 1;
   }
-  EXPECT_GE(num_near, 8);  // of the rings that meet it
+  EXPECT_GE(num_near, 8);  // rings meet it
 }
 
 TEST(LoamFeatures, FlatPointsLieOnPlanes) {

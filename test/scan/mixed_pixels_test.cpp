@@ -45,7 +45,7 @@ int NumMixed(const Sweep& sweep) {
   return num;
 }
 
-// A near surface before a far one, with one return between them at the edge.
+// Returns a near surface before a far one, with one return between them at the edge.
 double AcrossEdge(double azimuth) {
   if (std::abs(azimuth) < 0.5 * kStep_rad) return 12.7;
   return azimuth < 0.0 ? 10.0 : 16.0;

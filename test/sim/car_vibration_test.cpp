@@ -30,7 +30,7 @@ Trajectory Parked(double duration_s) {
   return Trajectory(plan);
 }
 
-// Root mean square of the acceleration's three axes together, and of the rate's.
+// Returns the root mean square of the acceleration's three axes together, and of the rate's.
 CarVibration::Shake RmsOf(CarVibration& car, double begin_s, double end_s, double speed_mps) {
   CarVibration::Shake sum;
   int num = 0;

@@ -52,7 +52,7 @@ std::vector<Errors> ErrorsInTheStreet(const std::string& model, const ImuEffects
   return ErrorsOn(*street.trajectory, street.begin_s, setup, 15.0);
 }
 
-// The spread over 100 units of an error at the end of some time at rest, level.
+// Returns the spread over 100 units of an error at the end of some time at rest, level.
 Errors SpreadAtRest(const std::string& model, const ImuEffects& effects, double seconds) {
   MotionPlan plan;
   plan.knots.resize(4);
@@ -103,7 +103,7 @@ TEST(ImuEffects, EngineAndWheelsShakeADrivingCar) {
     ++num;
   }
   ASSERT_GT(num, 500);
-  // A tone of 0.05 + 0.005 * 10 m/s^2, and the wheels' 0.02.
+  // The engine adds a tone of 0.05 + 0.005 * 10 m/s^2, and the wheels 0.02.
   EXPECT_GT(std::sqrt(sum_sq / num), 0.05);
   EXPECT_LT(std::sqrt(sum_sq / num), 0.12);
   EXPECT_GT(std::sqrt(gyro_sq / num), 5e-5);

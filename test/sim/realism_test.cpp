@@ -27,7 +27,7 @@ RecordOptions OptionsOf(Realism realism, const std::vector<std::string>& without
   return options;
 }
 
-// Only this effect of the field, without the errors of the data sheet.
+// Switches on this effect of the field alone, without the errors of the data sheet.
 RecordOptions Only(const std::string& effect) {
   std::vector<std::string> without = FieldEffects();
   std::erase(without, effect);
@@ -50,7 +50,7 @@ SimulatedSweep SweepIn(const World& world, const RecordOptions& options) {
       .Sweep(0);
 }
 
-// The range of a point less that of the room's surface along the same beam.
+// Returns the range of a point less that of the room's surface along the same beam.
 double RoomError(const LidarPoint& point) {
   const Vector3 p(point.x_m, point.y_m, point.z_m);
   const double height_m = p.z() > 0.0 ? 7.0 : 2.0;
@@ -89,7 +89,7 @@ TEST(Realism, AnUnknownEffectIsAnsweredWithTheKnownOnes) {
   }
 }
 
-// All switches and sizes that effects set.
+// Prints all switches and sizes that effects set.
 std::string Described(const RecordOptions& options) {
   const LidarErrors& lidar = options.lidar_errors;
   const ImuEffects& imu = options.imu_effects;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The mean and the standard deviation of what a test measures many times.
+// Computes the mean and the standard deviation of what a test measures many times.
 #pragma once
 
 namespace lio::test {

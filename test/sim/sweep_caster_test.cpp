@@ -36,13 +36,13 @@ SweepHits CastIn(const World& world, const LidarSetup& setup) {
   return CastSweep({setup, directions, rotor, scene, trajectory}, rotor.ColumnsOf(0));
 }
 
-// The angle between a column and straight ahead.
+// Returns the angle between a column and straight ahead.
 double AngleOf(std::size_t column) {
   const double turned = 2.0 * M_PI * static_cast<double>(column) / 3600.0;
   return std::min(turned, 2.0 * M_PI - turned);
 }
 
-// A board of 2 m 10 m ahead, in front of a wall at 14 m.
+// Makes a board of 2 m 10 m ahead, in front of a wall at 14 m.
 World BoardBeforeWall() {
   World world;
   AddBox(world.fixed, UprightPose({14.5, 0, -50}, 0.0), {1, 100, 100}, Material::kBrick);

@@ -16,7 +16,7 @@ namespace {
 
 using test::StampAt;
 
-// Six seconds at 100 Hz, with this rate about z.
+// Feeds six seconds at 100 Hz, with this rate about z.
 GapBridge After(const std::function<double(double)>& rate_radps) {
   std::deque<ImuSample> sent;
   for (int i = 0; i <= 600; ++i) {

@@ -259,7 +259,7 @@ TEST(ImuPreprocessor, RepeatsAreNoStepOfTheClock) {
       num_accepted += result.accepted.size();
     }
   }
-  EXPECT_EQ(num_accepted, 600u);  // that they are repeats is seen where they are kept
+  EXPECT_EQ(num_accepted, 600u);  // the buffer of samples drops repeats, not this class
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using test::SecondsOf;
 using test::StampAt;
 
 constexpr double kPeriod_s = 0.1;
-constexpr double kLag_s = 0.03;  // of a chunk behind the sample that came last
+constexpr double kLag_s = 0.03;  // delay of a chunk behind the sample that came last
 
 // Chunks each 0.1 s, and what comes out.
 class ChunkFeed {

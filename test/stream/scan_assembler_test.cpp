@@ -116,7 +116,7 @@ TEST(ScanAssembler, MissingChunkMakesASmallerCountedSweep) {
   for (const int index : {0, 1, 3}) a.Add(MakeChunk(0, index));
   for (const ScanChunk& chunk : MakeSweep(1)) a.Add(chunk);
   EXPECT_FALSE(a.assembler.Take().has_value()) << "the missing chunk may still come";
-  a.Add(MakeChunk(2, 0));  // of the sweep after the next one
+  a.Add(MakeChunk(2, 0));  // begins the sweep after the next one
   const std::vector<Sweep> sweeps = a.TakeAll();
   ASSERT_EQ(sweeps.size(), 2u);
   EXPECT_EQ(sweeps[0].num_missing_chunks, 1);

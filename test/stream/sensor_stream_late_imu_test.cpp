@@ -28,7 +28,7 @@ SensorMessages LateImu(double from_s, double to_s) {
   return Silenced(Sensors(0.0, to_s), Sensor::kImu, 0.0, from_s);
 }
 
-// The messages that arrive before the IMU's sample of `until_s`.
+// Feeds the messages that arrive before the IMU's sample of `until_s`.
 void FeedBefore(StreamRun& run, const SensorMessages& messages, double until_s) {
   for (const SensorMessage& message : messages) {
     if (!message.chunk && message.taken_s > until_s - 1e-6) return;

@@ -72,7 +72,7 @@ TEST(SensorStreamLoneClock, ChunksThatAreHeldAtARejectionAreAccountedFor) {
 
 // Samples are missing around the step: only the lidar knows for how long.
 TEST(SensorStreamLoneClock, ImuClockThatStepsAloneInAPauseIsSetByTheLidar) {
-  constexpr double kTolerance_s = 0.03;  // of the sweeps' steady delay
+  constexpr double kTolerance_s = 0.03;  // the sweeps' steady delay
   StreamRun run;
   const SensorMessages paused = Silenced(Sensors(0.0, 4.0), Sensor::kImu, 2.0, 2.5);
   run.Feed(Stepped(paused, Sensor::kImu, 2.5, -3.0));

@@ -55,7 +55,7 @@ inline void GrowMap(MethodBench& bench, const std::vector<Sweep>& sweeps) {
   }
 }
 
-// Within the map of the drive.
+// The pose lies within the map of the drive.
 inline const Pose kTruth = SensorAt(0.17, 0.21, 0.05, 0.013, -0.007);
 
 inline std::string NameOfMethod(const testing::TestParamInfo<MatchMethod>& info) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Stamps of tests that count seconds from stamp 0.
+// Makes stamps for tests that count seconds from stamp 0.
 #pragma once
 
 #include "lio/base/time.hpp"

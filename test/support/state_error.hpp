@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The difference of two states, by the conventions of filter/nav_state.hpp.
+// Returns the difference of two states, by the conventions of filter/nav_state.hpp.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"

@@ -46,7 +46,7 @@ std::vector<std::string> Lines(const std::vector<StreamEvent>& events);
 // Seconds that are counted from kEpoch and summed differ by less.
 inline constexpr double kRounding_s = 1e-6;
 
-// The largest difference between neighbours, to either side.
+// Returns the largest difference between neighbours, to either side.
 double LargestStep_s(const std::vector<Timestamp>& stamps);
 
 // A stream and the events that it has given so far.
@@ -61,7 +61,7 @@ struct StreamRun {
   void Feed(const SensorMessages& messages, bool is_idle = true);
   void Finish();
 
-  // Events of one kind, in order.
+  // Returns events of one kind, in order.
   template <class Event>
   std::vector<Event> Of() const {
     std::vector<Event> found;
@@ -70,7 +70,7 @@ struct StreamRun {
     }
     return found;
   }
-  std::vector<Timestamp> MeasuredStamps() const;  // of inertial samples that are not made up
+  std::vector<Timestamp> MeasuredStamps() const;  // excludes inertial samples that were made up
   std::vector<Timestamp> SweepStarts() const;
 
   Counters counters;

@@ -37,7 +37,7 @@ struct SimulatedVelodyne {
     beam.fire_us = channel * (is_hdl32e ? 1.152 : 2.304);
     return beam;
   }
-  // Clockwise from straight ahead, at a time since the beginning.
+  // Returns the azimuth clockwise from straight ahead, at a time since the beginning.
   [[nodiscard]] double AzimuthDeg(double time_us) const {
     return std::fmod(100.0 + 360e-6 / turn_s * time_us, 360.0);
   }

@@ -13,10 +13,10 @@
 namespace lio::test {
 
 struct RigDrive {
-  Pose T_imu_lidar;             // the truth
-  Pose T_configured;            // the rig's
-  double clock_offset_s = 0.0;  // to be added to the lidar's stamps
-  double clock_correction_s = 0.0;  // what the estimate has added to them already
+  Pose T_imu_lidar;                 // the truth
+  Pose T_configured;                // the rig's
+  double clock_offset_s = 0.0;      // to be added to the lidar's stamps
+  double clock_correction_s = 0.0;  // added to them already by the estimate
   double duration_s = 40.0;
   double gyro_unit = 1.0;  // samples read so many times the rate
   double position_std_m = 0.002;
@@ -43,8 +43,8 @@ inline MotionRecord RecordDrive(const RigDrive& drive, const Motion& motion = Tu
   std::mt19937_64 random(1);
   MotionRecord record;
   for (double t_s = 1.0; t_s < drive.duration_s; t_s += kScanPeriod_s) {
-    std::vector<ImuSample> samples =
-        ExactSamples(motion, t_s - kScanPeriod_s - 0.05, t_s + drive.clock_correction_s + 0.05, 0.005);
+    std::vector<ImuSample> samples = ExactSamples(motion, t_s - kScanPeriod_s - 0.05,
+                                                  t_s + drive.clock_correction_s + 0.05, 0.005);
     for (ImuSample& sample : samples) sample.w_imu_radps *= drive.gyro_unit;
     record.Add({StampAt(t_s + drive.clock_correction_s), MatchedPose(drive, motion, t_s, random)},
                Duration::FromSeconds(drive.clock_correction_s), samples);

@@ -49,7 +49,7 @@ TEST(RigFindings, RestIsNotChecked) {
 TEST(RigFindings, WrongRotationIsNamedAndItsFixKeepsTheTranslation) {
   RigDrive drive = RightDrive();
   drive.T_configured.rotation = ExpSo3(Vector3(0.0, 0.0, 0.09)) * drive.T_configured.rotation;
-  drive.T_imu_lidar.translation.setZero();  // where no lever arm tells of the rotation
+  drive.T_imu_lidar.translation.setZero();  // no lever arm tells of the rotation
   drive.T_configured.translation.setZero();
   const RigFindings findings = FindingsOf(drive);
   ASSERT_EQ(findings.causes.size(), 1U);

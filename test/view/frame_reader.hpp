@@ -48,7 +48,7 @@ class PayloadReader {
   std::size_t at_ = 0;
 };
 
-// The payloads of a frame by their kind. `frame` must outlive them.
+// Returns the payloads of a frame by their kind. `frame` must outlive them.
 inline std::map<Section, PayloadReader> Sections(const Bytes& frame) {
   PayloadReader reader(frame);
   if (reader.U32() != 0x3156494c) throw std::runtime_error("no frame");

@@ -19,7 +19,7 @@ namespace {
 using test::NavAt;
 using test::UtimeAt;
 
-// Ten seconds of odometry at 10 Hz, among other messages.
+// Writes ten seconds of odometry at 10 Hz, among other messages.
 class LogPlayerTest : public ::testing::Test {
  protected:
   LogPlayerTest() {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Messages of a daemon for the tests of lio-view.
+// Makes messages of a daemon for the tests of lio-view.
 #pragma once
 
 #include <vector>
@@ -28,7 +28,7 @@ inline std::int64_t UtimeAt(double t_s) {
   return kStart_us + static_cast<std::int64_t>(t_s * 1e6);
 }
 
-// A registered cloud of `num` points a metre apart along x, from `first` on.
+// Returns a registered cloud of `num` points a metre apart along x, from `first` on.
 inline ScanChunk CloudOf(std::int32_t seq, int num, float first = 0.0F) {
   ScanChunk chunk;
   chunk.stamp = Timestamp::FromMicroseconds(kStart_us);

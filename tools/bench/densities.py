@@ -24,7 +24,7 @@ KEYS = {"gyro": "rig.imu.gyro_noise_density", "accel": "rig.imu.accel_noise_dens
 # 1 sigma of a sample, as the issue has it of carriers shaken hard; from the middle on.
 SHAKING = {"accel": 0.6, "gyro": 0.01}
 FAULT = "shaking:start=30,accel={accel},gyro={gyro}".format(**SHAKING)
-RATE_HZ = 100.0  # of the Xsens
+RATE_HZ = 100.0  # the Xsens'
 WRONG = ("gyro x 10", "gyro / 10", "accel x 10", "accel / 10")
 ROWS = ("right", *WRONG, "shaken, told", "shaken, not told")
 

@@ -26,8 +26,8 @@
 namespace lio {
 namespace {
 
-constexpr std::size_t kUtimeOffset = 8;     // of odometry_t and imu_t, behind the fingerprint
-constexpr std::size_t kScanSeqOffset = 16;  // of odometry_t
+constexpr std::size_t kUtimeOffset = 8;     // in odometry_t and imu_t, behind the fingerprint
+constexpr std::size_t kScanSeqOffset = 16;  // in odometry_t
 constexpr int kQueueCapacity = 10'000;
 constexpr double kBinsPerDecade = 5.0;
 

@@ -18,7 +18,7 @@ import time
 GROUP, PORT = "239.255.76.67", 7667
 LOSS_OF_PACKETS = 0.02
 LATE_SHARE, LATE_S = 0.25, 0.002
-HEADER_BYTES = 28  # of IP and UDP
+HEADER_BYTES = 28  # IP and UDP
 
 
 def open_input():

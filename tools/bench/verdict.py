@@ -183,7 +183,7 @@ class Matrix:
         self.gives_errors = gives_errors
         self.verdicts, self.errors = {}, {}
         self.num_right = self.num_wrong = 0
-        self.counts = collections.Counter()  # of (right cause, first cause)
+        self.counts = collections.Counter()  # key: (right cause, first cause)
 
     def add(self, folder, setup, column, expected):
         overlay = SETUPS[setup][0](*read_extrinsic(folder)) if setup in SETUPS else "{}\n"

@@ -11,7 +11,7 @@
 
 namespace lio {
 
-// The words of --time-offset.
+// Holds the words of --time-offset.
 struct TimeOffsetWish {
   bool is_automatic = false;
   double offset_s = 0.0;  // added to the estimate's stamps
@@ -29,7 +29,7 @@ struct ScoredRun {
 [[nodiscard]] ScoredRun ScoreRun(const Trajectory& truth, const std::string& run,
                                  const EvaluationOptions& options, const TimeOffsetWish& wish);
 
-// The table for people, and the same rows with commas.
+// Returns the table for people, and the same rows with commas.
 [[nodiscard]] std::string ComparisonText(const std::vector<ScoredRun>& runs);
 [[nodiscard]] std::string ComparisonCsv(const std::vector<ScoredRun>& runs);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Helpers that the commands of lio-eval share.
+// Helps the commands of lio-eval.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -9,7 +9,7 @@ class Case:
     name: str
     sim: tuple = ()       # arguments of lio-sim; empty for a real log
     real: str = ""        # a file of the shared data
-    config: str = ""      # of a real log
+    config: str = ""      # configuration for a real log
     replay: tuple = ()    # further arguments of lio-replay
     lag: int = 0          # messages by which each match is late, as on a busy daemon
 

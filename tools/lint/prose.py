@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: MIT
 """Counts faults of prose, and fails when there are more than tools/lint/prose.txt says.
 
-  wide_lines    lines of README.md and docs/ above 100 columns
+  wide_lines    lines above 100 columns in README.md, CHANGELOG.md, CONTRIBUTING.md and docs/
   no_subject    sentences whose first word is a preposition or a pronoun that stands for the subject
-                (of the points ... instead of the points ...): in comments and docstrings of
-                include, src, tools, test and examples, and in what the programs print, which is the
-                literals of include, src and tools
+                (of the points ... instead of the points ...): in comments and docstrings, in the
+                texts that programs and pages print, and in the same pages of Markdown (paragraphs,
+                lists and headings; no tables and no code). A comment, a text or a heading may not
+                begin so in lower case either. A question may.
   --list NAME   print each place of one of them"""
 import ast
 import io
@@ -20,19 +21,28 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = "tools/lint/prose.txt"
 MAX_COLUMNS = 100
 # At the beginning of the text, or behind the end of a sentence.
-FIRST_WORD = re.compile(r"(?:^|(?<=[.:;?!] )|(?<=[.:;?!]\) ))[^\w\s]*"
-                        r"(?:Of|What|Where|That|By|With)\b[^?]*?(?=[.:;!?]|$)")
+SENTENCE = (r"(?:^[^\w\s]*(?i:{words})|(?:^|(?<=[.:;?!] )|(?<=[.:;?!]\) ))[^\w\s]*(?:{more}))\b"
+            r"[^?]*?(?=[.:;!?]|$)")
+WORDS = "of|what|where|that"
+FIRST_WORD = re.compile(SENTENCE.format(words=WORDS, more="Of|What|Where|That|By|With"))
+# A page may begin a sentence with By or With: its sentences are long enough for a subject behind.
+FIRST_WORD_OF_PAGE = re.compile(SENTENCE.format(words=WORDS, more="Of|What|Where|That"))
 SPDX = re.compile(r"\W*SPDX-")
 CPP_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*')
 CPP_LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
-CPP_SUFFIXES = (".cpp", ".hpp")
+CPP_SUFFIXES = (".cpp", ".hpp", ".js", ".lcm")
+SHELL_SUFFIXES = (".py", ".sh", ".cmake", ".yaml")
+MARKDOWN_MARK = re.compile(r"^\s*(?:#+|[-*]|\d+\.)\s+")
 SHELL_COMMENT = re.compile(r"(?:^|(?<=\s))#[^\n]*")
 COMMENT_MARK = re.compile(r"^(//+|#+)\s*")
 
 
+def pages():
+    return [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+
+
 def wide_lines():
-    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-    for page in pages:
+    for page in pages():
         for number, line in enumerate(page.read_text().splitlines(), 1):
             if len(line) > MAX_COLUMNS:
                 yield page, number, f"{len(line)} columns"
@@ -46,7 +56,7 @@ def comments_of(path):
             if token.type == tokenize.COMMENT:
                 yield token.start[0], token.string, not token.line[:token.start[1]].strip()
         return
-    pattern = CPP_COMMENT if path.suffix in (".cpp", ".hpp") else SHELL_COMMENT
+    pattern = CPP_COMMENT if path.suffix in CPP_SUFFIXES else SHELL_COMMENT
     for number, line in enumerate(text.splitlines(), 1):
         for match in pattern.finditer(line):
             if not match.group().startswith('"'):
@@ -85,14 +95,38 @@ def literals(path):
         yield [(number, "".join(parts).replace("\\n", " "))]
 
 
+def paragraphs(path):
+    """Each heading, paragraph and entry of a list of a page; neither tables nor code."""
+    block, is_code = [], False
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        mark = MARKDOWN_MARK.match(line)
+        is_fence = line.lstrip().startswith("```")
+        is_code = is_code != is_fence
+        is_prose = line.strip() and not is_code and not is_fence and line[0] not in "|<" and (
+            mark or block or not line.startswith("    "))
+        if block and (mark or not is_prose):
+            yield block
+            block = []
+        if is_prose:
+            block.append((number, MARKDOWN_MARK.sub("", line).strip()))
+        if line.startswith("#"):
+            yield block
+            block = []
+    if block:
+        yield block
+
+
 def files_of(*folders):
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*")
-                  if path.suffix in (*CPP_SUFFIXES, ".py", ".sh") or path.name == "CMakeLists.txt")
+                  if path.suffix in (*CPP_SUFFIXES, *SHELL_SUFFIXES)
+                  or path.name == "CMakeLists.txt")
 
 
 def texts():
     """Everything that is to be plain English, as lines with their numbers."""
-    for path in files_of("include", "src", "tools", "test", "examples"):
+    folders = ("include", "src", "tools", "test", "examples", "cmake", "config", "lcmtypes")
+    single = [ROOT / name for name in ("CMakeLists.txt", ".clang-tidy", ".ci/run")]
+    for path in [*single, *files_of(*folders)]:
         for block in comment_blocks(path):
             yield path, block
         for block in docstrings(path) if path.suffix == ".py" else ():
@@ -103,12 +137,14 @@ def texts():
 
 
 def no_subject():
-    for path, block in texts():
+    blocks = [*((FIRST_WORD, *text) for text in texts()),
+              *((FIRST_WORD_OF_PAGE, page, block) for page in pages() for block in paragraphs(page))]
+    for pattern, path, block in blocks:
         begins, text = [], ""
         for number, line in block:
             begins.append((len(text), number))
             text += line + " "
-        for match in FIRST_WORD.finditer(text):
+        for match in pattern.finditer(text):
             number = [number for begin, number in begins if begin <= match.start()][-1]
             if not text[match.end():].startswith("?"):
                 yield path, number, match.group()

@@ -33,7 +33,7 @@ constexpr const char* kAboutCalibrate =
 
 constexpr double kDegrees = 180.0 / M_PI;
 
-// The results of a pass over the log.
+// Holds the results of a pass over the log.
 struct Pass {
   std::vector<ImuSample> samples;
   StampedPoses sweeps;  // T_map_lidar at the middle of each sweep
@@ -72,8 +72,8 @@ Pass ReadLog(const CalibrateArguments& arguments, const Options& options, int nu
   return pass;
 }
 
-// The path of the lidar: poses from matching, angular rates from the gyro, expressed in the lidar
-// frame and in the lidar's clock.
+// Returns the path of the lidar: poses from matching, angular rates from the gyro, expressed in the
+// lidar frame and in the lidar's clock.
 SweepPath PathOf(const Pass& pass, const RotationCalibration& found) {
   std::vector<ImuSample> rates;
   const Quaternion R_lidar_imu = found.R_imu_lidar.conjugate();

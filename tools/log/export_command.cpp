@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-log export: liod's messages of a log as files that other programs open (docs/export.md).
+// lio-log export writes liod's messages of a log as files that other programs open
+// (docs/export.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -87,14 +88,14 @@ CLI::App* AddExportCommand(CLI::App& app, ExportArguments& arguments) {
   command->add_option("--csv", arguments.csv_folder, "folder for tables")->type_name("DIR");
   command->add_option("--ply", arguments.ply_file, "points of the map to write")->type_name("FILE");
   command->add_option("--tum", arguments.tum_file, "path in world to write")->type_name("FILE");
-  command->add_option("--compression", arguments.compression, "of the MCAP file")
+  command->add_option("--compression", arguments.compression, "compression of the MCAP file")
       ->type_name("zstd|lz4|none")
       ->capture_default_str()
       ->check(CLI::IsMember({"zstd", "lz4", "none"}).description(""));
   command->add_flag("--inputs", arguments.with_inputs,
                     "MCAP: the inertial samples and the sweeps as they came, too");
   arguments.channel_prefix = kDefaultChannelPrefix;
-  command->add_option("--channel-prefix", arguments.channel_prefix, "of liod's channels")
+  command->add_option("--channel-prefix", arguments.channel_prefix, "prefix of liod's channels")
       ->type_name("TEXT")
       ->capture_default_str();
   return command;

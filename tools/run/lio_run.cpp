@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// lio-run: a recording of any kind to a path, a verdict and a page with plots.
+// lio-run turns a recording of any kind into a path, a verdict and a page with plots.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

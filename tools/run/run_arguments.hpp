@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The command line of lio-run.
+// Reads the command line of lio-run.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ class App;
 
 namespace lio {
 
-// The first part of --help.
+// This is the first part of --help.
 extern const char* const kAbout;
 
 struct RunArguments {

@@ -70,7 +70,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "whoever asks must name it: 16 to 128 letters and digits")
       ->type_name("TEXT")
       ->envname("LIO_VIEW_TOKEN");
-  app.add_option("--channel-prefix", arguments.channel_prefix, "of liod's channels")
+  app.add_option("--channel-prefix", arguments.channel_prefix, "prefix of liod's channels")
       ->type_name("TEXT")
       ->capture_default_str()
       ->check(NameUpTo(40));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Units of angles: radians inside, degrees where people read and write them.
+// Defines units of angles: radians inside, degrees where people read and write them.
 #pragma once
 
 #include <numbers>

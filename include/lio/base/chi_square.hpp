@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Quantiles of the chi-square distribution, by Boost.Math: gates on a squared, normalized
+// Gives quantiles of the chi-square distribution, by Boost.Math: gates on a squared, normalized
 // innovation compare it with one (Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to
 // Tracking and Navigation", 2001, section 5.4).
 #pragma once

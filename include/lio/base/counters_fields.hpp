@@ -18,7 +18,7 @@ struct CounterField {
   std::string_view meaning;
 };
 
-// In the order of Counters, which is the order of status_t on the wire as well.
+// The counters are in the order of Counters, which is the order of status_t on the wire as well.
 inline constexpr std::array kCounterFields = std::to_array<CounterField>({
     {"num_imu", &Counters::num_imu, "inertial samples that arrived"},
     {"num_imu_nonfinite", &Counters::num_imu_nonfinite,

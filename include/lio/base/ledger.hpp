@@ -67,7 +67,7 @@ struct Ledger {
   [[nodiscard]] std::int64_t Of(Fate fate) const {
     return num_settled[static_cast<std::size_t>(fate)];
   }
-  // Zero when the ledger closes.
+  // Returns zero when the ledger closes.
   [[nodiscard]] std::int64_t Unaccounted() const {
     return std::accumulate(num_settled.begin(), num_settled.end(), num_received - num_waiting,
                            [](std::int64_t rest, std::int64_t num) { return rest - num; });

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An event for people, e.g. why the initialization still waits, with the fix where there is one.
+// Holds an event for people, e.g. why the initialization still waits, with the fix where there is
+// one.
 #pragma once
 
 #include <cstdint>

@@ -21,8 +21,9 @@ struct Block {
 
 class Workers {
  public:
-  // Indices of the loop in a block. Chosen: the 2500 points of a match are 20 blocks, enough for
-  // threads to share; smaller ones cost more to hand out. Sums depend on it in their last bits.
+  // A block has so many indices of the loop. Chosen: the 2500 points of a match are 20 blocks,
+  // enough for threads to share; smaller ones cost more to hand out. Sums depend on it in their
+  // last bits.
   static constexpr std::size_t kBlockSize = 128;
 
   // At most `num_threads` run at once, the caller's among them, and never more than TBB has (one a
@@ -34,7 +35,7 @@ class Workers {
   // thread in order. An exception that it throws comes out here.
   void ForEachBlock(std::size_t count, const std::function<void(const Block&)>& work) const;
 
-  // The sum of block_sum(block) over the blocks, in their order.
+  // Returns the sum of block_sum(block) over the blocks, in their order.
   template <class Sum, class BlockSum>
   [[nodiscard]] Sum SumOverBlocks(std::size_t count, const BlockSum& block_sum) const {
     std::vector<Sum> sums((count + kBlockSize - 1) / kBlockSize);

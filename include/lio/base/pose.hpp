@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Rigid motions. T_target_source maps source coordinates to target coordinates,
+// Defines rigid motions. T_target_source maps source coordinates to target coordinates,
 //   p_target = T_target_source * p_source,
 // and is the pose of source in target; adjacent names cancel when composing.
 // Tangent vectors are ordered [translation (m); rotation (rad)], and perturbations act on the
@@ -48,7 +48,8 @@ struct Pose {
   return LeftJacobianInverseSe3(-t);
 }
 
-// The pose at `fraction` (0..1) of the way from a to b: geodesic rotation, linear translation.
+// Returns the pose at `fraction` (0..1) of the way from a to b: geodesic rotation, linear
+// translation.
 [[nodiscard]] Pose Interpolate(const Pose& a, const Pose& b, double fraction);
 
 }  // namespace lio

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// SO(3) on any scalar: double for the estimator (base/rotation.hpp has the same functions under
-// names of their own), ceres::Jet for cost functions. Rotation vectors are in radians, Jacobians
-// are by perturbations as base/rotation.hpp defines them. Every function is finite and has the
-// right derivative at the identity, too.
-// Source: Sola, Deray, Atchuthan, "A micro Lie theory", arXiv 1812.01537, eqs. (132)-(146).
+// Defines SO(3) on any scalar: double for the estimator (base/rotation.hpp has the same functions
+// under names of their own), ceres::Jet for cost functions. Rotation vectors are in radians,
+// Jacobians are by perturbations as base/rotation.hpp defines them. Every function is finite and
+// has the right derivative at the identity, too. Source: Sola, Deray, Atchuthan, "A micro Lie
+// theory", arXiv 1812.01537, eqs. (132)-(146).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,8 @@ inline constexpr double kSmallAngle_rad = 1e-4;
 // under the rounding of a double.
 inline constexpr double kSmallJacobianAngle_rad = 1e-2;
 
-// The square root, with a derivative of zero where x is zero: that of an even function's argument.
+// Returns the square root, with a derivative of zero where x is zero: that of an even function's
+// argument.
 template <class T>
 T Root(const T& x) {
   using std::sqrt;
@@ -42,14 +43,14 @@ template <class T>
   return m;
 }
 
-// Rotation by |phi| about phi.
+// Returns the rotation by |phi| about phi.
 template <class T>
 [[nodiscard]] Eigen::Quaternion<T> Exp(const Vec3<T>& phi) {
   using std::cos;
   using std::sin;
   const T angle_sq = phi.squaredNorm();
   const T angle = Root(angle_sq);
-  // sin(angle/2) / angle
+  // The scale is sin(angle/2) / angle.
   const T scale =
       angle < T(kSmallAngle_rad) ? T(T(0.5) - angle_sq / T(48.0)) : T(sin(T(0.5) * angle) / angle);
   const Vec3<T> v = scale * phi;

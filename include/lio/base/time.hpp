@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Instants and spans of time as integer nanoseconds: stamps never lose digits, and only differences
-// become seconds in floating point.
+// Holds instants and spans of time as integer nanoseconds: stamps never lose digits, and only
+// differences become seconds in floating point.
 #pragma once
 
 #include <cmath>
@@ -29,12 +29,12 @@ constexpr Duration Abs(Duration d) {
   return d < Duration{} ? -d : d;
 }
 
-// Sensor time since the epoch of the sensor's clock, UNIX time where the source has it.
+// Counts sensor time since the epoch of the sensor's clock, UNIX time where the source has it.
 struct Timestamp {
   std::int64_t ns = 0;
 
   static constexpr Timestamp FromMicroseconds(std::int64_t utime) { return {utime * 1000}; }
-  // Truncated toward minus infinity, as the wire's `utime` is.
+  // Truncates toward minus infinity, as the wire's `utime` does.
   constexpr std::int64_t Microseconds() const {
     return ns >= 0 ? ns / 1000 : -((-ns + 999) / 1000);
   }
@@ -45,7 +45,7 @@ struct Timestamp {
   friend constexpr Duration operator-(Timestamp a, Timestamp b) { return {a.ns - b.ns}; }
 };
 
-// Seconds from `from` to `to`.
+// Returns the seconds from `from` to `to`.
 constexpr double SecondsBetween(Timestamp from, Timestamp to) {
   return (to - from).Seconds();
 }

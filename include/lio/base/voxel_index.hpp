@@ -16,7 +16,7 @@ class VoxelIndex {
  public:
   static constexpr std::int32_t kNone = -1;
 
-  // The voxel's number; kNone where it is not in use.
+  // Returns the voxel's number; kNone where it is not in use.
   [[nodiscard]] std::int32_t Find(VoxelKey key) const { return numbers_.Find(key).voxel; }
   // Fetches what Find() and FindOrAdd() will look at.
   void Prefetch(VoxelKey key) const { numbers_.Prefetch(key); }
@@ -31,7 +31,7 @@ class VoxelIndex {
   void Clear() { *this = {}; }
 
   [[nodiscard]] std::size_t size() const { return numbers_.size(); }
-  // Upper bound of the numbers given so far.
+  // Returns an upper bound of the numbers given so far.
   [[nodiscard]] std::size_t capacity() const { return nodes_.size(); }
   [[nodiscard]] bool IsUsed(std::int32_t voxel) const { return node(voxel).is_used; }
   [[nodiscard]] VoxelKey key(std::int32_t voxel) const { return node(voxel).key; }

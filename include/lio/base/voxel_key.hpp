@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Integer names of voxels: three signed 21-bit coordinates packed into 64 bits, and a hash of them.
+// Names voxels by integers: three signed 21-bit coordinates packed into 64 bits. A hash of them is
+// here, too.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,17 +24,17 @@ template <class Float>
   return truncated - (x < static_cast<Float>(truncated) ? 1 : 0);
 }
 
-// A voxel's coordinates along x, y, z.
+// Holds a voxel's coordinates along x, y, z.
 using VoxelCell = std::array<std::int32_t, 3>;
 
-// Can the voxel around a point be named, whose coordinates are given in voxel edges? False for
-// coordinates that are not numbers, too.
+// Can the voxel around a point be named, whose coordinates are given in voxel edges? Returns false
+// for coordinates that are not numbers, too.
 [[nodiscard]] inline bool IsVoxel(const Eigen::Vector3d& scaled) {
   return (scaled.array().abs() < kVoxelCoordinateLimit - 1).all();
 }
 
-// The voxel around a point whose coordinates are given in voxel edges, clamped to the limit. A
-// coordinate that is no number lies at the upper limit.
+// Returns the voxel around a point whose coordinates are given in voxel edges, clamped to the
+// limit. A coordinate that is no number lies at the upper limit.
 [[nodiscard]] inline VoxelCell VoxelOf(const Eigen::Vector3d& scaled) {
   const auto coordinate = [](double x) {
     constexpr double kLimit = kVoxelCoordinateLimit;
@@ -56,13 +57,13 @@ inline constexpr int kBlockEdge = 4;
          (static_cast<std::uint64_t>(z + kVoxelCoordinateLimit) & kMask);
 }
 
-// Fibonacci hashing. The product's high bits depend on all three coordinates, so they are brought
-// to the low end, which tables take.
+// Uses Fibonacci hashing. The product's high bits depend on all three coordinates, so they are
+// brought to the low end, which tables take.
 [[nodiscard]] inline std::uint64_t HashVoxel(VoxelKey key) {
   return __builtin_bswap64(key * 0x9E3779B97F4A7C15ull);
 }
 
-// visit(x, y, z) for all voxels from `low` to `high`, both included, x fastest.
+// Calls visit(x, y, z) for all voxels from `low` to `high`, both included, x fastest.
 template <class Visit>
 void ForEachVoxel(const VoxelCell& low, const VoxelCell& high, const Visit& visit) {
   for (std::int32_t z = low[2]; z <= high[2]; ++z) {

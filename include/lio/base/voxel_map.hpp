@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one hashed container of voxels and what they hold. The contents are its user's policy:
-// Gaussian cells, blocks of means or of points of keyframes, moments, chains of points. Each type
-// of content has an array of its own beside VoxelIndex, so that a search that reads one does not
-// fetch the others.
+// This is the one hashed container of voxels and what they hold. The contents are its user's
+// policy: Gaussian cells, blocks of means or of points of keyframes, moments, chains of points.
+// Each type of content has an array of its own beside VoxelIndex, so that a search that reads one
+// does not fetch the others.
 #pragma once
 
 #include <cstddef>
@@ -30,13 +30,15 @@ class VoxelMap : private VoxelIndex {
   using VoxelIndex::size;
   using VoxelIndex::Touch;
 
-  // As VoxelIndex::FindOrAdd; a new voxel holds Content{} of each type. It invalidates references.
+  // Works as VoxelIndex::FindOrAdd; a new voxel holds Content{} of each type. It invalidates
+  // references.
   Added FindOrAdd(VoxelKey key) {
     const Added added = VoxelIndex::FindOrAdd(key);
     if (added.is_new) (Renew(std::get<std::vector<Contents>>(contents_), added.voxel), ...);
     return added;
   }
-  // The content of a number below capacity(); that of a removed voxel is what was left there.
+  // Returns the content of a number below capacity(); that of a removed voxel is what was left
+  // there.
   template <class Content>
   [[nodiscard]] Content& Of(std::int32_t voxel) {
     return std::get<std::vector<Content>>(contents_)[static_cast<std::size_t>(voxel)];

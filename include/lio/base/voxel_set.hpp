@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A set of voxels, for thinning. No allocation once warm.
+// Holds a set of voxels, for thinning. It allocates nothing once warm.
 #pragma once
 
 #include "lio/base/voxel_table.hpp"
@@ -10,7 +10,7 @@ namespace lio {
 class VoxelSet {
  public:
   void Clear() { table_.Clear(); }
-  // False when the key was in it already.
+  // Returns false when the key was in it already.
   bool Insert(VoxelKey key) { return table_.FindOrAdd(key).is_new; }
   [[nodiscard]] std::size_t size() const { return table_.size(); }
 

@@ -10,8 +10,7 @@
 // noise and the map's drift. Both standard deviations are estimated from the residuals. Output:
 // estimates with covariance, scaled up when residuals are larger than the model expects. Failure:
 // no result but a reason when lidar and gyro do not agree, a result with a reason when the motion
-// does not determine everything. Nothing throws.
-// Cost: about 0.3 s for a minute at 10 Hz and 100 Hz.
+// does not determine everything. Nothing throws. A minute at 10 Hz and 100 Hz costs about 0.3 s.
 // Sources: rotation from vectors: Kabsch, Acta Cryst. 1976 (Wahba's problem); preintegration:
 // Forster et al., TRO 2017. Method and figures: docs/calibration.md; constants:
 // calibration_parameters.hpp.
@@ -26,7 +25,8 @@
 
 namespace lio {
 
-// The lidar's attitude by scan matching at the middle of a sweep, in a map that does not move.
+// Holds the lidar's attitude by scan matching at the middle of a sweep, in a map that does not
+// move.
 struct SweepRotation {
   Timestamp stamp;  // by the lidar's clock
   Quaternion R_map_lidar = Quaternion::Identity();
@@ -50,8 +50,8 @@ struct RotationCalibration {
   double sweep_std_rad = 0.0;        // error of a sweep's rotation, per axis
   double turn_std_rad = 0.0;         // further error of a turn, per axis
   double residual_ratio = 0.0;       // root of the normalized mean squared residual; about 1
-  double correlation = 0.0;          // of the turn rates at the offset of the search, 0..1
-  double turn_rate_rms_radps = 0.0;  // of the motion about its mean
+  double correlation = 0.0;          // between the turn rates, at the offset of the search, 0..1
+  double turn_rate_rms_radps = 0.0;  // root mean square about the mean
   int num_turns = 0;
 };
 

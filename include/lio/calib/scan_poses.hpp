@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar-only odometry for calibration: the lidar's pose in the map at each sweep's middle, by the
-// lidar's own clock.
+// Runs lidar-only odometry for calibration: it gives the lidar's pose in the map at each sweep's
+// middle, by the lidar's own clock.
 //
 // Does: assembles sweeps, predicts by constant velocity (constant_velocity_tracker.hpp), deskews,
 // matches against the map, inserts keyframes. No extrinsic is used: the lidar is the body. Given a

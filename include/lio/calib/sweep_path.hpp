@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The lidar's path through sweeps whose poses are known, for deskewing in a second pass of scan
-// matching. T_map_lidar, metres, by the lidar's clock.
+// matching. Poses are T_map_lidar, in metres, by the lidar's clock.
 //
 // Rotation is the gyro's, integrated from the nearest known pose; translation is the natural cubic
 // spline through the known positions. Deskewing by constant velocity instead leaves millimetres of
@@ -25,7 +25,7 @@ class SweepPath {
   SweepPath(StampedPoses known, std::vector<ImuSample> rates_lidar);
 
   Pose At(Timestamp stamp) const;
-  // The poses at both stamps and at every rate between them.
+  // Returns the poses at both stamps and at every rate between them.
   StampedPoses Between(Timestamp from, Timestamp to) const;
 
  private:

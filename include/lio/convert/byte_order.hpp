@@ -16,7 +16,7 @@ namespace lio {
 
 static_assert(std::endian::native == std::endian::little);
 
-// The T that begins at `bytes`; sizeof(T) bytes must be there.
+// Returns the T that begins at `bytes`; sizeof(T) bytes must be there.
 template <typename T>
 [[nodiscard]] T LoadAs(const std::uint8_t* bytes, bool big_endian = false) {
   static_assert(std::is_arithmetic_v<T>);

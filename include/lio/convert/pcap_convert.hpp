@@ -18,7 +18,7 @@ struct PcapOptions {
   std::filesystem::path input;
   std::filesystem::path output;
   std::optional<std::string> sensor;              // "192.168.1.201:2368", of several
-  std::optional<std::filesystem::path> metadata;  // of an Ouster; default: the capture's .json
+  std::optional<std::filesystem::path> metadata;  // Ouster only; default: the capture's .json
   std::optional<std::filesystem::path> imu;       // default: ImuFileBeside
   bool whole_scans = false;
   std::function<void(double)> progress;  // called with the share done, 0..1; may be empty
@@ -28,7 +28,7 @@ struct PcapLosses {
   std::int64_t num_packets_lost = 0;     // on the way to the capturing host: no fault of the file
   std::int64_t num_packets_damaged = 0;  // whose content contradicts their format
   std::int64_t num_frames_cut = 0;       // captured with fewer bytes than were sent, or malformed
-  std::int64_t num_fragments_lost = 0;   // of datagrams that are not whole
+  std::int64_t num_fragments_lost = 0;   // parts of datagrams that never became whole
   std::int64_t num_imu_damaged = 0;      // samples that cannot be read
   std::string fault;                     // why the capture ends early; empty when it does not
 };
@@ -40,11 +40,11 @@ struct PcapReport {
   StreamStats lidar;
   StreamStats imu;
   AccelerometerStats accelerometer;
-  std::string imu_text;             // where the samples are from; empty without any
-  std::optional<Pose> T_imu_lidar;  // where the sensor's description tells it
+  std::string imu_text;             // names the source of the samples; empty without any
+  std::optional<Pose> T_imu_lidar;  // as the sensor's description tells it, if it does
   std::int64_t num_points = 0;
   std::int64_t num_packets = 0;
-  std::int64_t num_datagrams_other = 0;  // of other senders, ports or kinds
+  std::int64_t num_datagrams_other = 0;  // from other senders, to other ports or of other kinds
   std::int64_t num_frames_other = 0;     // no UDP over IPv4
   std::int64_t num_parts_of_turns = 0;   // left out, at the capture's ends and at gaps
   std::int64_t num_events = 0;
@@ -60,7 +60,7 @@ struct PcapReport {
   }
 };
 
-// A file of inertial samples beside drive.pcap: drive.imu.csv, .lcm, .bag, .db3 or .mcap.
+// Returns a file of inertial samples beside drive.pcap: drive.imu.csv, .lcm, .bag, .db3 or .mcap.
 [[nodiscard]] std::optional<std::filesystem::path> ImuFileBeside(
     const std::filesystem::path& capture);
 

@@ -21,7 +21,7 @@ enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 enum class StampMeaning { kSweepStart, kSweepEnd };
 [[nodiscard]] std::string_view Name(StampMeaning meaning);  // "sweep start", "sweep end"
 
-// The way in which a raw point time becomes an instant.
+// Says how a raw point time becomes an instant.
 enum class TimeAnchor {
   kEpoch,       // raw counts from the epoch of the stamps' clock
   kStamp,       // stamp + raw

@@ -55,7 +55,8 @@ struct RosCloud {
   std::uint32_t point_step = 0;
   std::uint32_t row_step = 0;  // at least width * point_step after decoding
   ByteView data;
-  // The value of the bits 0 and 1, or 2 and 3, of field "tag" that marks noise; 0: none does.
+  // A point is noise when the bits 0 and 1, or 2 and 3, of its field "tag" have this value; 0: none
+  // is.
   std::uint8_t noise_tag = 0;
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{height} * width; }

@@ -47,7 +47,7 @@ class RosSchema {
   };
 
   [[nodiscard]] bool ParseLine(std::string_view line, Message& message) const;
-  // The index into messages_ of the first message of each type.
+  // Gives the index into messages_ of the first message of each type.
   using MessageIndex = std::unordered_map<std::string, std::size_t>;
   [[nodiscard]] static bool LinkField(Field& field, const std::string& package,
                                       const MessageIndex& index);

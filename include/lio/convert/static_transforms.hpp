@@ -47,7 +47,7 @@ class FrameTree {
 };
 
 struct MountedSensors {
-  std::string lidar_frame;  // of the headers; empty when there was no message
+  std::string lidar_frame;  // frame id in the headers; empty when there was no message
   std::string imu_frame;
   bool has_static_transforms = false;
   std::optional<Pose> T_imu_lidar;  // from /tf_static, where it connects the two frames

@@ -21,8 +21,8 @@ struct PathAlignment {
   Pose T_truth_estimate;  // p_truth = T_truth_estimate * p_estimate
   bool used_attitude =
       false;  // the path alone did not fix the rotation: it is straight, or at rest
-  // Uncertainty of the rotation: residual RMS over the path's spread across its main direction. It
-  // is 0 when the rotation came from attitudes.
+  // The rotation is uncertain by this: residual RMS over the path's spread across its main
+  // direction. It is 0 when the rotation came from attitudes.
   double rotation_uncertainty_deg = 0;
 };
 

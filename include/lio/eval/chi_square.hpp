@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The bands in which means of chi-square values lie: Bar-Shalom, Li, Kirubarajan, "Estimation with
-// Applications to Tracking and Navigation", 2001, section 5.4.
+// Gives the bands in which means of chi-square values lie: Bar-Shalom, Li, Kirubarajan, "Estimation
+// with Applications to Tracking and Navigation", 2001, section 5.4.
 #pragma once
 
 namespace lio {

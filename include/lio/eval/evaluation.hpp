@@ -61,8 +61,8 @@ struct Evaluation {
   double path_length_m = 0;
   double duration_s = 0;  // 0 when paired by index
   AbsoluteErrors ape;
-  // Angle between the verticals of truth and estimate, both in body axes; no alignment is used.
-  // Like the height, it needs stamped files: poses of KITTI files are in camera axes.
+  // This is the angle between the verticals of truth and estimate, both in body axes; no alignment
+  // is used. Like the height, it needs stamped files: poses of KITTI files are in camera axes.
   std::optional<ErrorStats> tilt_deg;
   std::vector<RpeRow> rpe;
   StepErrors step;

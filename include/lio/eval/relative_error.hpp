@@ -27,12 +27,12 @@ struct StepErrors {
 [[nodiscard]] StepErrors ComputeStepErrors(const Association& association);
 
 // Compares each pair with the one nearest to `interval_s` later, if it is within half a median
-// interval of it. Empty when paired by index, or when the recording is too short.
+// interval of it. It is empty when paired by index, or when the recording is too short.
 [[nodiscard]] std::optional<RelativeErrors> ComputeRpeOverTime(const Association& association,
                                                                double interval_s);
 
-// Compares each pair with the first one whose path is longer by `length_m`. Empty when the path is
-// shorter.
+// Compares each pair with the first one whose path is longer by `length_m`. It is empty when the
+// path is shorter.
 [[nodiscard]] std::optional<RelativeErrors> ComputeRpeOverDistance(const PosePairs& pairs,
                                                                    double length_m);
 
@@ -47,8 +47,8 @@ struct SegmentErrors {
   double rotation_deg_per_100m = 0;
 };
 struct Drift {
-  // False for a path below 100 m, whose segments are a tenth as long (10 .. 80 m), and below 10 m a
-  // hundredth.
+  // It is false for a path below 100 m, whose segments are a tenth as long (10 .. 80 m), and below
+  // 10 m a hundredth.
   bool is_kitti_lengths = true;
   int num_segments = 0;  // 0: the path is too short for any
   double translation_percent = 0;

@@ -22,28 +22,28 @@ struct ExportOptions {
 };
 
 struct ExportCounts {
-  std::int64_t num_messages = 0;   // that were taken out
-  std::int64_t num_refused = 0;    // of the same channels, but malformed
+  std::int64_t num_messages = 0;   // written to the export
+  std::int64_t num_refused = 0;    // malformed ones on the same channels
   std::int64_t num_points = 0;     // PLY
   std::int64_t skipped_bytes = 0;  // damage of the log
 };
 
-// An MCAP file with Foxglove's well-known types in JSON (docs/export.md has the topics), which
-// Foxglove and Lichtblick open as it is. These four throw InputError where the log has nothing of
-// it, OutputError and WriteError as OutputFile does.
+// Writes an MCAP file with Foxglove's well-known types in JSON (docs/export.md has the topics),
+// which Foxglove and Lichtblick open as it is. These four throw InputError where the log has
+// nothing of it, OutputError and WriteError as OutputFile does.
 ExportCounts ExportMcap(const std::filesystem::path& log, const std::filesystem::path& file,
                         const ExportOptions& options);
 
-// A table for each kind of message, in a folder that is made: odometry.csv, odometry_imu.csv,
-// state.csv, registration.csv, status.csv. Tables without a row are not written.
+// Writes a table for each kind of message, in a folder that is made: odometry.csv,
+// odometry_imu.csv, state.csv, registration.csv, status.csv. Tables without a row are not written.
 ExportCounts ExportCsv(const std::filesystem::path& log, const std::filesystem::path& folder,
                        const ExportOptions& options);
 
-// The points of all registered clouds, the first one in each voxel of 0.2 m.
+// Writes the points of all registered clouds, the first one in each voxel of 0.2 m.
 ExportCounts ExportPly(const std::filesystem::path& log, const std::filesystem::path& file,
                        const ExportOptions& options);
 
-// The path in world, as LIO_ODOM has it.
+// Writes the path in world, as LIO_ODOM has it.
 ExportCounts ExportTum(const std::filesystem::path& log, const std::filesystem::path& file,
                        const ExportOptions& options);
 

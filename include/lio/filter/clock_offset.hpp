@@ -36,7 +36,7 @@ class ClockOffset {
     Timestamp stamp;                                // corrected, IMU clock
     double moved_by_s = 0.0;                        // the correction in `stamp`
     Quaternion R_map_imu = Quaternion::Identity();  // by registration
-    double rotation_var = 0.0;                      // of R_map_imu, rad^2 per axis
+    double rotation_var = 0.0;                      // variance of R_map_imu, rad^2 per axis
     Vector3 gyro_bias = Vector3::Zero();            // rad/s, imu
     double gyro_density = 0.0;                      // noise, rad/s/sqrt(Hz)
   };
@@ -52,12 +52,12 @@ class ClockOffset {
   double move_by_s() const { return move_by_s_; }
 
  private:
-  // The measurement by a turn between neighbouring scans.
+  // A turn between neighbouring scans gives this measurement.
   struct Turn {
     Vector3 rate_change_radps = Vector3::Zero();
     double rate_change_std_radps = 0.0;
     Vector3 innovation_rad = Vector3::Zero();  // at the estimated offset
-    double claimed_var = 0.0;                  // of the innovation, by matching and gyro, rad^2
+    double claimed_var = 0.0;  // the innovation's, as matching and gyro claim it, rad^2
   };
 
   void Update(const Scan& scan);
@@ -69,9 +69,9 @@ class ClockOffset {
   double var_s2_ =
       kFilterParameters.clock_offset.max_std_s * kFilterParameters.clock_offset.max_std_s;
   double move_by_s_ = 0.0;
-  int num_turns_ = 0;      // that have been fused
+  int num_turns_ = 0;      // turns fused so far
   bool is_found_ = false;  // stamps are moved
-  // The variance of a turn beyond what is claimed, rad^2 per axis.
+  // A turn varies by this beyond what is claimed, rad^2 per axis.
   double unclaimed_var_ =
       kFilterParameters.clock_offset.turn_std_rad * kFilterParameters.clock_offset.turn_std_rad;
   std::optional<Scan> last_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The error-state filter over a sliding window of time: every event (inertial sample, pose, zero
-// velocity, rebase) with the estimate after it, ordered by stamp.
+// Runs the error-state filter over a sliding window of time: it keeps every event (inertial sample,
+// pose, zero velocity, rebase) with the estimate after it, ordered by stamp.
 //
 // An event that comes late is inserted at its own stamp and all later events are replayed, so the
 // result does not depend on the order of arrival. Events of equal stamp are ordered by kind:
@@ -32,7 +32,8 @@ enum class EventOutcome {
   kGated,        // the innovation is beyond the gate: the estimate is unchanged
 };
 
-// Settings of one history; defaults of the last two groups are those of filter_parameters.hpp.
+// Holds settings of one history; defaults of the last two groups are those of
+// filter_parameters.hpp.
 struct HistoryOptions {
   ProcessNoise noise;
   // m/s^2; zero when the samples hold no gravity. Standard gravity (CGPM 1901).
@@ -40,7 +41,7 @@ struct HistoryOptions {
   double span_s = 3.0;       // length of the window, s; as FilterOptions::history_s
   double nis_limit = 22.46;  // gate of poses: 99.9 % of chi-square with 6 degrees of freedom
   double zero_velocity_nis_limit = kChiSquare3At999;  // their gate: the same of 3; customary
-  // Upper bounds of the inflation, as InflationParameters. A bound of one switches it off: for
+  // Inflation is bounded by these, as InflationParameters says. A bound of one switches it off: for
   // poses whose errors are white, or whose consistency is checked elsewhere.
   CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,
                                     kFilterParameters.inflation.max_factor};
@@ -56,7 +57,8 @@ class FilterHistory {
   // `result`, when given, is filled under kApplied and kGated.
   [[nodiscard]] EventOutcome AddPose(Timestamp stamp, const PoseEvent& event,
                                      UpdateResult* result = nullptr);
-  // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. Gated like poses.
+  // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. It is gated like
+  // poses.
   [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
   // Forgets the velocity for one that is known in imu, with `variance` per axis, (m/s)^2.
   [[nodiscard]] EventOutcome AddVelocity(Timestamp stamp, const Vector3& v_imu_mps,
@@ -78,27 +80,29 @@ class FilterHistory {
 
   const Estimate& head() const { return nodes_.back().posterior; }
   Timestamp start_stamp() const { return start_stamp_; }
-  // The estimate at `stamp` after all events up to it; before the window the oldest estimate.
+  // Returns the estimate at `stamp` after all events up to it; before the window the oldest
+  // estimate.
   Estimate At(Timestamp stamp) const;
-  // T_world_imu at both stamps and at every event strictly between them.
+  // Returns T_world_imu at both stamps and at every event strictly between them.
   StampedPoses Trajectory(Timestamp from, Timestamp to) const;
-  // Standard deviation per axis of the gyro's error in proportion to its rate at `stamp`, rad/s.
+  // Returns the standard deviation per axis of the gyro's error in proportion to its rate at
+  // `stamp`, rad/s.
   double RateErrorStd(Timestamp stamp) const;
-  // The measured samples with stamps after `from` up to `to`.
+  // Returns the measured samples with stamps after `from` up to `to`.
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 
  private:
   enum class Kind { kImu, kPose, kZeroVelocity, kVelocity, kRebase, kNoise };
   struct Node {
     Timestamp stamp;
-    Timestamp imu_stamp;  // of the last measured sample up to here
+    Timestamp imu_stamp;  // the last measured sample up to here
     Kind kind = Kind::kImu;
     ImuSample sample;  // measured, or interpolated at the stamp of another event
     PoseEvent pose;
     double velocity_var = 0.0;  // (m/s)^2; of both kinds of velocities
     Vector3 v_imu_mps = Vector3::Zero();
     UpdateResult update;
-    ImuNoise new_noise;             // of kNoise
+    ImuNoise new_noise;             // kNoise only
     ImuNoise noise;                 // shown after the event
     CovarianceInflation inflation;  // after the event
     RateError rate_error;           // after the event
@@ -111,15 +115,15 @@ class FilterHistory {
   void Replay(std::size_t from);
   void Step(std::size_t at);
   static void FuseIn(Node& node, const HistoryOptions& options);
-  // `before`: the node that the step begins at. `in_gap_s`: as of the node that it ends at; zero
-  // outside of gaps.
+  // `before` is the node that the step begins at. `in_gap_s` is that of the node that it ends at;
+  // zero outside of gaps.
   void StepTo(Estimate& estimate, const Node& before, const ImuSample& to, double in_gap_s) const;
   // True when `stamp`, just before the node of index `at`, is in a gap between measured samples.
   bool IsInGap(Timestamp stamp, std::size_t at) const;
   // Gives Node::in_gap_s at `stamp`, just before the node of index `at`.
   double InGap_s(Timestamp stamp, std::size_t at) const;
-  // The sample at `stamp`, interpolated between the node before index `at` and the first measured
-  // sample from `at` on.
+  // Returns the sample at `stamp`, interpolated between the node before index `at` and the first
+  // measured sample from `at` on.
   ImuSample SampleAt(Timestamp stamp, std::size_t at) const;
   std::size_t FirstAfter(Timestamp stamp) const;
   void Trim();

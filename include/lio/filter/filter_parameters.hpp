@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's tuning constants: those that no configuration key holds. Keys are in
+// Holds the filter's tuning constants: those that no configuration key holds. Keys are in
 // filter_options.hpp, the noise of the sensors is in sensor/rig.hpp, and what one FilterHistory may
 // be given otherwise is HistoryOptions. A comment gives the unit, the meaning and the source; a
 // value marked "chosen" has no measurement behind it.
@@ -12,16 +12,17 @@
 
 namespace lio {
 
-// NIS-based covariance inflation of poses from registration (docs/filter.md, Pose update).
+// Tunes the NIS-based covariance inflation of poses from registration (docs/filter.md, Pose
+// update).
 struct InflationParameters {
-  // Share of a new NIS in the factor. Chosen: ten poses, one second at 10 Hz; more follows faster
-  // and is noisier.
+  // A new NIS has this share in the factor. Chosen: ten poses, one second at 10 Hz; more follows
+  // faster and is noisier.
   double rate_per_pose = 0.1;
   // A larger NIS (3 degrees of freedom) counts as this. Chosen: a wrong match alone multiplies the
   // factor by 4.2 at most.
   double max_nis = 100.0;
-  // Largest factor on the covariance. Measured on 32 drives of the simulator with 1, 3 and 9;
-  // without a cap the filter diverged on EuRoC V1_01 (docs/experiments/nis_inflation.md).
+  // The covariance grows by this factor at most. Measured on 32 drives of the simulator with 1, 3
+  // and 9; without a cap the filter diverged on EuRoC V1_01 (docs/experiments/nis_inflation.md).
   double max_factor = 9.0;
 };
 
@@ -41,22 +42,23 @@ struct ForcedUpdateParameters {
 struct ImuOutageParameters {
   // Samples that are farther apart have a gap between them: as sensor/gap.hpp defines it.
   Duration gap = kImuGap.sparse;
-  // Unknown acceleration (m/s^2) and rate (rad/s) in a gap, 1 sigma: those of a walking person.
-  // Found on 24 simulated walks, with StreamParameters::mean_before_gap_s
+  // Acceleration (m/s^2) and rate (rad/s) are unknown by this in a gap, 1 sigma, as for a walking
+  // person. Found on 24 simulated walks, with StreamParameters::mean_before_gap_s
   // (docs/experiments/imu_gaps.md).
   double gap_accel_std_mps2 = 3.0;
   double gap_gyro_std_radps = 0.5;
   // s. The error of a saturated sample lasts this long. Chosen: one sweep at 10 Hz, after which a
   // scan tells.
   double saturated_s = 0.1;
-  // Acceleration (m/s^2) and rate (rad/s) beyond the end of the range, 1 sigma. The rate is
-  // measured: drives with clipped gyros keep their path, and a sports hall with 2 rad/s beyond the
-  // range is lost (docs/experiments/gyro_saturation.md). The acceleration is chosen: 1 g.
+  // Acceleration (m/s^2) and rate (rad/s) lie this far beyond the end of the range, 1 sigma. The
+  // rate is measured: drives with clipped gyros keep their path, and a sports hall with 2 rad/s
+  // beyond the range is lost (docs/experiments/gyro_saturation.md). The acceleration is chosen: 1
+  // g.
   double saturated_accel_std_mps2 = 10.0;
   double saturated_gyro_std_radps = 2.0;
 };
 
-// The estimator of the clock offset between lidar and IMU (docs/filter.md, Clock offset).
+// Tunes the estimator of the clock offset between lidar and IMU (docs/filter.md, Clock offset).
 struct ClockOffsetParameters {
   // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
   // finds larger offsets.
@@ -67,19 +69,21 @@ struct ClockOffsetParameters {
   // rad/s. Turns whose rate changes less are left out. Chosen above the sway of a car's body on a
   // straight road; rates of single samples needed 0.05 (docs/experiments/clock_offset.md).
   double min_rate_change_radps = 0.02;
-  // The same limit in standard deviations of the change. Statistics: noise of the rate makes the
-  // estimate too small by 1/(1 + sigmas^2), here 3 %.
+  // The change must also exceed so many of its standard deviations. Statistics: noise of the rate
+  // makes the estimate too small by 1/(1 + sigmas^2), here 3 %.
   double min_rate_change_sigmas = 6.0;
-  // rad. Error of a turn beyond what registration and gyro claim, 1 sigma, before the drive has
+  // rad. A turn errs by this beyond what registration and gyro claim, 1 sigma, before the drive has
   // shown it. Chosen; it matters for the first seconds.
   double turn_std_rad = 1e-3;
-  // Turns over which that error is learned. Chosen: five seconds at 10 Hz.
+  // This error is learned over so many turns. Chosen: five seconds at 10 Hz.
   double num_turns_remembered = 50.0;
   // A single turn counts for no more than so many times the variance. Chosen: three sigmas.
   double max_scatter_ratio = 9.0;
-  // s/sqrt(s). Random walk of the offset. Chosen: oscillators differ by about 10 us per second.
+  // s/sqrt(s). The offset walks at random by this. Chosen: oscillators differ by about 10 us per
+  // second.
   double walk_s_per_sqrt_s = 2e-5;
-  // s. Standard deviation at the start, and its upper bound. Chosen: 2.5 of it are max_offset_s.
+  // s. The standard deviation starts at this value, its upper bound. Chosen: 2.5 of it are
+  // max_offset_s.
   double max_std_s = 0.02;
   // s. Below this standard deviation the stamps are moved. Chosen: an offset of 2 ms turns a scan
   // by 2 mrad at 1 rad/s.
@@ -87,10 +91,10 @@ struct ClockOffsetParameters {
   // Standard deviations. The stamps are moved before that where they are off for sure. Statistics:
   // without an offset one estimate in 370 of a normal distribution lies so far from zero.
   double sure_sigmas = 3.0;
-  // Turns before stamps are moved. Chosen: one wrong match, or two, do not show an offset.
+  // Stamps are moved after so many turns. Chosen: one wrong match, or two, do not show an offset.
   int min_turns = 5;
-  // s per scan. Largest change of the correction. Chosen: it turns a scan by 2 mrad at 1 rad/s
-  // (tested by ClockOffset.StampsAreMovedSlowly).
+  // s per scan. The correction changes by this at most. Chosen: it turns a scan by 2 mrad at 1
+  // rad/s (tested by ClockOffset.StampsAreMovedSlowly).
   double max_step_s = 2e-3;
   // s. An offset is announced that is known so well (one standard deviation), and so large that it
   // matters. Chosen: 1 cm at 10 m/s, and three standard deviations of it.

@@ -16,11 +16,12 @@ namespace lio {
 // Remembers the estimate's rotation between world and map as that of the map's start.
 void MarkMapStart(Estimate& estimate);
 
-// The tilt by which the map at the body's place has bent since its start: a rotation vector, rad,
-// along world's axes, without the part about the vertical, which gravity does not show.
+// Returns the tilt by which the map at the body's place has bent since its start: a rotation
+// vector, rad, along world's axes, without the part about the vertical, which gravity does not
+// show.
 [[nodiscard]] Vector3 MapBend(const NavState& state);
 
-// T_map_imu turned about the imu so that `share` of the bend is taken back.
+// Returns T_map_imu turned about the imu so that `share` of the bend is taken back.
 [[nodiscard]] Pose LevelMapPose(const NavState& state, double share);
 
 }  // namespace lio

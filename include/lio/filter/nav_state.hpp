@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The filter's state and the conventions of its errors. Error-state form: Sola, arXiv 1711.02508.
+// Defines the filter's state and the conventions of its errors. Error-state form: Sola, arXiv
+// 1711.02508.
 //
 // Frames: world (z up, gravity-aligned, origin at the imu's first pose), imu (the body), map (the
 // frame of the map that scans are matched against; it starts as world and drifts from it).
@@ -34,7 +35,7 @@ inline constexpr int kMapStart = 21;  // the rotation between world and map at t
 inline constexpr int kStateDim = 24;
 
 using ErrorVector = Eigen::Matrix<double, kStateDim, 1>;
-// Covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
+// Holds the covariance of the first four blocks: position, rotation, velocity, gyro bias; 12x12.
 using NavCov = Eigen::Matrix<double, kAccelBias, kAccelBias>;
 using ErrorMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 
@@ -47,13 +48,13 @@ struct NavState {
   Quaternion R_world_map_start = Quaternion::Identity();  // map_bend.hpp
 };
 
-// state (+) error, by the conventions above.
+// Returns state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
 
 // Injects an error that a measurement has shown: BoxPlus to first order. A motion that both poses
-// lack moves both alike, exactly, however far: the rotation and place of world and map to each other
-// change by the difference of the two poses' errors alone. BoxPlus would leave half the product of
-// the motion's turn and shift between them, 0.5 m after 30 m and 2 deg of drift.
+// lack moves both alike, exactly, however far: the rotation and place of world and map to each
+// other change by the difference of the two poses' errors alone. BoxPlus would leave half the
+// product of the motion's turn and shift between them, 0.5 m after 30 m and 2 deg of drift.
 NavState Inject(const NavState& state, const ErrorVector& error);
 // d (error about Inject(state, error)) / d (error about state), at `error`.
 ErrorMatrix InjectJacobian(const NavState& state, const ErrorVector& error);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The pose of a scan as the filter fuses it: with the inflation that the poses before it have
+// Fuses the pose of a scan as the filter does: with the inflation that the poses before it have
 // shown, and beyond the gate where that is asked for. The update itself is in pose_update.hpp.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace lio {
 
-// NIS-based covariance inflation: factors (1 or more) on the translation and rotation blocks of a
-// pose's covariance, from the NIS of about the last ten poses. Errors that persist (a clock offset,
-// a loose mount, a wrong extrinsic) make registration's covariances too small; inflation weighs
-// such poses less instead of gating every other one. docs/filter.md, Pose update.
+// Inflates covariances by NIS: it holds factors (1 or more) on the translation and rotation blocks
+// of a pose's covariance, from the NIS of about the last ten poses. Errors that persist (a clock
+// offset, a loose mount, a wrong extrinsic) make registration's covariances too small; inflation
+// weighs such poses less instead of gating every other one. docs/filter.md, Pose update.
 struct CovarianceInflation {
   double translation = 1.0;
   double rotation = 1.0;

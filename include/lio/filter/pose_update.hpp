@@ -50,8 +50,8 @@ void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 void MakeMapTheWorld(Estimate& estimate);
 
 // Fuses a general linear measurement, for the initialization: residual = H error + noise of
-// covariance `R`. `H` is n x kStateDim, `R` n x n, `residual` n. Joseph form, injection and reset;
-// never gated.
+// covariance `R`. `H` is n x kStateDim, `R` n x n, `residual` n. It uses the Joseph form, injection
+// and reset, and never gates.
 void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,
                 const Eigen::MatrixXd& R);
 

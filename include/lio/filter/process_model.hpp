@@ -14,7 +14,7 @@
 
 namespace lio {
 
-// Continuous-time noise densities; ImuRig in sensor/rig.hpp has their units.
+// Holds continuous-time noise densities; ImuRig in sensor/rig.hpp has their units.
 struct ProcessNoise {
   double gyro_density = 0.0;
   double accel_density = 0.0;
@@ -24,7 +24,7 @@ struct ProcessNoise {
   ImuNoise shown = {};
 };
 
-// The power spectral densities that the filter counts on, per axis of imu.
+// Returns the power spectral densities that the filter counts on, per axis of imu.
 Vector3 GyroPsd(const ProcessNoise& noise);
 Vector3 AccelPsd(const ProcessNoise& noise);
 
@@ -42,7 +42,7 @@ void Propagate(Estimate& estimate, const ImuSample& from, const ImuSample& to,
 void AllowUnseenMotion(Estimate& estimate, const Vector6& motion_var_imu,
                        const Vector3& velocity_var_imu);
 
-// The same with a motion of any covariance in imu.
+// Does the same with a motion of any covariance in imu.
 void AddUnseenMotion(Estimate& estimate, const Matrix6& motion_cov_imu);
 
 // Forgets the velocity for one that is known in imu, with `cov_world` besides: an error of the
@@ -57,8 +57,8 @@ void ForgetBiases(Estimate& estimate);
 // its pose is fused: the residual is then zero, whatever the distance and the turn.
 void MoveTo(const Pose& T_map_imu, Estimate& estimate);
 
-// The sample at `stamp` by linear interpolation, constant beyond both ends; saturated when either
-// is.
+// Returns the sample at `stamp` by linear interpolation, constant beyond both ends; saturated when
+// either is.
 ImuSample InterpolateSample(const ImuSample& a, const ImuSample& b, Timestamp stamp);
 
 }  // namespace lio

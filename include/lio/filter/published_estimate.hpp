@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimate as it is published: in world, which is level, and in map, which never jumps.
+// Turns the estimate into what is published: in world, which is level, and in map, which never
+// jumps.
 //
 // The filter keeps correcting the tilt of T_world_imu while it separates tilt from accelerometer
 // bias: by tenths of a degree, with a consumer IMU by a degree, which a hundred metres from the
@@ -19,10 +20,10 @@ struct WorldEstimate {
   NavCov cov = NavCov::Zero();            // as in nav_state.hpp, 12x12
 };
 
-// The filter's own world pose and covariance.
+// Returns the filter's own world pose and covariance.
 WorldEstimate InWorld(const Estimate& estimate);
-// The map's pose as if the map's frame were world. `cov` is the mean square error of that use:
-// the filter's covariance plus the square of the known difference between the two poses.
+// Returns the map's pose as if the map's frame were world. `cov` is the mean square error of that
+// use: the filter's covariance plus the square of the known difference between the two poses.
 WorldEstimate WithMapAsWorld(const Estimate& estimate);
 
 struct MapVelocity {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The gyro's error in proportion to the rate: scale, misalignment, a wrong unit by per cents. It is
-// no noise of the samples, and no bias, and at 300 deg/s the 0.5 % of a consumer unit are 2.6 mrad
-// a scan, ten times what a match knows. Its size is learned from the poses: a turn by `turn_rad`
-// since the last one leaves a residual r with |r|^2 = tr(S) + 3 s^2 turn^2, S the innovation's
-// covariance without it and s the standard deviation of the ratio per axis. s^2 is the
+// Estimates the gyro's error in proportion to the rate: scale, misalignment, a wrong unit by per
+// cents. It is no noise of the samples, and no bias, and at 300 deg/s the 0.5 % of a consumer unit
+// are 2.6 mrad a scan, ten times what a match knows. Its size is learned from the poses: a turn by
+// `turn_rad` since the last one leaves a residual r with |r|^2 = tr(S) + 3 s^2 turn^2, S the
+// innovation's covariance without it and s the standard deviation of the ratio per axis. s^2 is the
 // least-squares estimate over the turns, which large ones decide.
 #pragma once
 
@@ -16,15 +16,15 @@ struct RateErrorParameters {
   // Standard deviation of the ratio before the drive has shown it: industrial units have 0.05 to
   // 0.1 % by their data sheets (Xsens MTi-10: 0.05 %).
   double prior_std_ratio = 1e-3;
-  // The weight of that, as that of one scan with this turn [rad]. Chosen: a scan at 170 deg/s and
-  // 10 Hz; slower turns hardly show the error, nor suffer from it.
+  // The prior weighs as one scan with this turn [rad]. Chosen: a scan at 170 deg/s and 10 Hz;
+  // slower turns hardly show the error, nor suffer from it.
   double prior_turn_rad = 0.3;
-  // Turns of that size that are remembered. Chosen: two seconds of them at 10 Hz.
+  // So many turns of that size are remembered. Chosen: two seconds of them at 10 Hz.
   double num_turns_remembered = 20.0;
   // Upper bound of the ratio: uncalibrated consumer units have 3 % (InvenSense MPU-9250). A wrong
   // match counts for no more than it.
   double max_std_ratio = 0.05;
-  // s. The interval of poses before two have come: lidars turn at 10 Hz.
+  // s. Poses have this interval before two have come: lidars turn at 10 Hz.
   double first_interval_s = 0.1;
 };
 
@@ -32,16 +32,16 @@ class RateError {
  public:
   // The body turned at this rate for dt_s; from here on its noise counts.
   void Turn(double rate_radps, double dt_s);
-  // A pose came. `residual_rad`: rotation part of its residual; `cov`: of the innovation's
-  // rotation, what Turn() added to it included.
+  // A pose came. `residual_rad` is the rotation part of its residual; `cov` that of the
+  // innovation's rotation, with what Turn() added to it.
   void AddPose(const Vector3& residual_rad, const Matrix3& cov);
   // The pose was fused: what the body turns from here on shows at the next one.
   void BeginTurn();
 
-  // Per axis.
+  // Returns the ratio per axis.
   [[nodiscard]] double std_ratio() const;
-  // The power spectral density per axis [(rad/s)^2/Hz] whose white noise has the error's variance
-  // at the next pose.
+  // Returns the power spectral density per axis [(rad/s)^2/Hz] whose white noise has the error's
+  // variance at the next pose.
   [[nodiscard]] double Psd(double rate_radps) const;
 
  private:
@@ -49,8 +49,8 @@ class RateError {
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
   double interval_s_ = RateErrorParameters{}.first_interval_s;  // between fused poses
-  double weight_sum_ = 0.0;                                     // of turn^4
-  double product_sum_ = 0.0;  // of turn^2 times the error's square
+  double weight_sum_ = 0.0;                                     // sum of turn^4
+  double product_sum_ = 0.0;  // sum of turn^2 times the error's square
 };
 
 }  // namespace lio

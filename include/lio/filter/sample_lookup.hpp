@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Look-up in inertial samples that ascend in time: by stamp, interpolated, and insertion in order.
+// Looks inertial samples up that ascend in time: by stamp or interpolated; and inserts in order.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace lio {
 
-// The first sample that is not before `stamp`, or the end.
+// Returns the first sample that is not before `stamp`, or the end.
 template <class Samples>
 auto FirstNotBefore(const Samples& samples, Timestamp stamp) {
   return std::lower_bound(std::begin(samples), std::end(samples), stamp,
                           [](const ImuSample& sample, Timestamp t) { return sample.stamp < t; });
 }
 
-// The sample at `stamp`: linear between two samples, constant before the first and after the last.
-// Needs at least one sample.
+// Returns the sample at `stamp`: linear between two samples, constant before the first and after
+// the last. Needs at least one sample.
 template <class Samples>
 ImuSample SampleAt(const Samples& samples, Timestamp stamp) {
   const auto after = FirstNotBefore(samples, stamp);

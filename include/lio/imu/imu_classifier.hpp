@@ -5,14 +5,14 @@
 //
 // Does: scores each of the 192 conventions (24 turns of the axes, 2 units of rates, 2 of forces,
 // gravity or none) against poses from scan matching; motion_evidence.hpp has the scores, which are
-// chi-squares. They are scaled so that the best convention fits.
-// Verdict: the expected convention is given up only when it is far worse than the best; another is
-// found only when no other does nearly as well. When several do, the one that differs from the
-// expected in the fewest points is taken, if there is only one. Rest and straight roads decide
-// nothing, and nothing is decided that a clock offset of up to two sweeps would explain as well.
-// Limits: forces without gravity in g cannot be told from those in m/s^2 unless the drive is
-// lively. Cost: about 0.3 ms per verdict over 10 s at 10 Hz. Nothing throws. Constants:
-// imu_convention_parameters.hpp; the method: docs/filter.md.
+// chi-squares. They are scaled so that the best convention fits. Verdict: the expected convention
+// is given up only when it is far worse than the best; another is found only when no other does
+// nearly as well. When several do, the one that differs from the expected in the fewest points is
+// taken, if there is only one. Rest and straight roads decide nothing, and nothing is decided that
+// a clock offset of up to two sweeps would explain as well. Limits: forces without gravity in g
+// cannot be told from those in m/s^2 unless the drive is lively. A verdict over 10 s at 10 Hz costs
+// about 0.3 ms. Nothing throws. Constants: imu_convention_parameters.hpp; the method:
+// docs/filter.md.
 #pragma once
 
 #include <limits>
@@ -55,11 +55,11 @@ class ImuClassifier {
   // `in_doubt`: other evidence contradicts the expected convention, too, so it is given up sooner.
   [[nodiscard]] ImuVerdict Judge(bool in_doubt = false) const;
 
-  // True when the body moves and the rates under the expected convention were lately many times
-  // those of scan matching: such a gyro only misleads the motion prior.
+  // Returns true when the body moves and the rates under the expected convention were lately many
+  // times those of scan matching: such a gyro only misleads the motion prior.
   bool IsGyroAbsurd() const;
-  // True when another convention fits slightly better. When the poses are wrong rather than the
-  // convention, as when scans hold to the rings of a standstill, no other fits better.
+  // Returns true when another convention fits slightly better. When the poses are wrong rather than
+  // the convention, as when scans hold to the rings of a standstill, no other fits better.
   bool FavoursAnother() const;
   bool HasMoved() const { return evidence_.HasMoved(); }
 
@@ -98,11 +98,12 @@ class ImuClassifier {
 enum class ForceAtRest { kMetric, kInG, kWithoutGravity, kUnclear };
 ForceAtRest JudgeForceAtRest(const Vector3& mean_f_sent, double gravity_mps2);
 
-// The standard deviation of the rates' noise [rad/s] on the noisiest axis, from their second
-// differences: independent of the motion while it is smooth over three samples. 0 below three.
+// Returns the standard deviation of the rates' noise [rad/s] on the noisiest axis, from their
+// second differences: independent of the motion while it is smooth over three samples. 0 below
+// three.
 double RateNoise(std::span<const ImuSample> samples);
-// True for samples, taken as rad/s, whose noise agrees with the rig's gyro only if they are in
-// deg/s.
+// Returns true for samples, taken as rad/s, whose noise agrees with the rig's gyro only if they are
+// in deg/s.
 bool IsNoiseOfDegrees(std::span<const ImuSample> samples, const ImuRig& imu);
 
 }  // namespace lio

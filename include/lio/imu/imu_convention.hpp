@@ -19,7 +19,7 @@ inline constexpr double kMaxGyroRate_radps = kImuConventionParameters.max_gyro_r
 struct ImuConvention {
   bool is_in_g = false;    // else m/s^2
   bool is_in_deg = false;  // else rad/s
-  // Rotation from the axes of the messages to the imu axes of rig.T_imu_lidar: one of the 24 turns.
+  // Rotates the axes of the messages into the imu axes of rig.T_imu_lidar: one of the 24 turns.
   Matrix3 R_imu_sent = Matrix3::Identity();
 
   bool operator==(const ImuConvention&) const = default;
@@ -27,7 +27,7 @@ struct ImuConvention {
   double rate_scale() const;   // rad/s per unit sent
 };
 
-// The rotations of a cube onto itself; the first is the identity.
+// A cube has so many rotations onto itself; the first is the identity.
 inline constexpr std::size_t kNumQuarterTurns = 24;
 std::array<Matrix3, kNumQuarterTurns> QuarterTurns();
 
@@ -35,7 +35,7 @@ std::array<Matrix3, kNumQuarterTurns> QuarterTurns();
 ImuSample ToSi(const ImuConvention& convention, ImuSample sent);
 ImuSample FromSi(const ImuConvention& convention, ImuSample sample);
 
-// The convention that a configuration states; SI under kAutomatic.
+// Returns the convention that a configuration states; SI under kAutomatic.
 ImuConvention ConventionOf(ImuUnits units);
 ImuUnits UnitsOf(const ImuConvention& convention);  // never kAutomatic; ignores the axes
 

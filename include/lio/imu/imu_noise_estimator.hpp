@@ -20,8 +20,8 @@
 namespace lio {
 
 struct ImuNoiseParameters {
-  // s. Samples to look at. Chosen: 30 degrees of freedom at 100 Hz tell a variance to a quarter;
-  // longer lags behind a road that changes.
+  // s. An estimate looks at samples over this time. Chosen: 30 degrees of freedom at 100 Hz tell a
+  // variance to a quarter; longer lags behind a road that changes.
   double window_s = 1.0;
   // Faster units are averaged down to this. Chosen: below most sensors' own low-pass filters.
   double max_rate_hz = 100.0;

@@ -28,7 +28,7 @@ class MotionEvidence {
   // Adds a matched pose, later than the one before, and the samples since that pose, as sent.
   void AddPose(const StampedPose& T_map_imu, std::span<const ImuSample> sent);
 
-  // The motion from one pose to the next.
+  // Holds the motion from one pose to the next.
   struct Step {
     int map = 0;
     StampedPose from, to;    // T_map_imu
@@ -36,10 +36,10 @@ class MotionEvidence {
     Vector3 w_sent, f_sent;  // means, in the messages' units and axes
     Matrix3 R_map_imu;       // at the middle of the step
     double span_s() const { return SecondsBetween(from.stamp, to.stamp); }
-    // The turn by the rates minus the turn by the poses, rad, imu.
+    // Returns the turn by the rates minus the turn by the poses, rad, imu.
     Vector3 TurnError(const Matrix3& R_imu_sent, double rate_scale) const;
   };
-  // The acceleration of the path at one pose, by positions and by forces.
+  // Holds the acceleration of the path at one pose, by positions and by forces.
   struct Bend {
     int map = 0;
     double weight = 0.0;  // below 1, because neighbouring bends share positions
@@ -51,18 +51,19 @@ class MotionEvidence {
   };
 
   const std::vector<Step>& steps() const { return steps_; }
-  // The evidence with samples taken `num_steps` later, as if the clocks differed by so much.
+  // Returns the evidence with samples taken `num_steps` later, as if the clocks differed by so
+  // much.
   MotionEvidence Shifted(double num_steps) const;
   std::vector<Bend> FindBends() const;
   bool HasMoved() const;  // over the last recent_steps steps
 
-  // Chi-square of the turns, minimized over the gyro bias.
+  // Returns the chi-square of the turns, minimized over the gyro bias.
   double RateScore(const Matrix3& R_imu_sent, double rate_scale) const;
   // Chi-square of the bends, minimized over the direction of gravity in each map.
   static double ForceScore(std::span<const Bend> bends, const Matrix3& R_imu_sent,
                            double force_scale, double gravity_mps2);
 
-  // Root mean square error of rates, and of forces, that a score stands for.
+  // Returns the root mean square error of rates, and of forces, that a score stands for.
   double RateError_radps(double score) const;
   static double ForceError_mps2(std::span<const Bend> bends, double score);
 

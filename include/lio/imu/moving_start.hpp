@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Initialization in motion: the filter's first state from poses by scan matching alone, over one
-// and a half to three seconds, aligned with the inertial samples between them.
+// Initializes in motion: it finds the filter's first state from poses by scan matching alone, over
+// one and a half to three seconds, aligned with the inertial samples between them.
 //
 // Does: maximum a posteriori estimate of every pose and velocity of the window, of gravity's
 // direction (two degrees of freedom; its length is the rig's) and of both biases, by least squares
@@ -11,8 +11,7 @@
 // the correlations of tilt, velocity and biases. Position and yaw are zero by definition: the map
 // begins there. When the poses scatter more than their covariances say, the covariance is scaled by
 // that. Failure: `start` is absent, and `why_not` names the data that are missing or do not agree.
-// Throws std::invalid_argument without samples (Preintegrate).
-// Cost: about 3 ms for 20 poses at 200 Hz.
+// Throws std::invalid_argument without samples (Preintegrate). 20 poses at 200 Hz cost about 3 ms.
 // Differs from Qin, Li, Shen, "VINS-Mono", TRO 2018, section V: scale is known, and poses and the
 // accelerometer's bias are estimated, too. Constants: initialization_parameters.hpp.
 #pragma once
@@ -26,7 +25,7 @@
 
 namespace lio {
 
-// A pose from scan matching, in any one frame that does not move.
+// Holds a pose from scan matching, in any one frame that does not move.
 struct MatchedPose {
   Timestamp stamp;
   Pose T_any_imu;
@@ -36,8 +35,8 @@ struct MatchedPose {
 struct MovingStart {
   std::optional<StartState> start;
   std::string why_not;
-  // Agreement of scan matching and IMU: root of the median squared residual of the poses over its
-  // expected value. About 1 when both are as their covariances say.
+  // Scan matching and IMU agree by this measure: root of the median squared residual of the poses
+  // over its expected value. It is about 1 when both are as their covariances say.
   double residual_ratio = 0.0;
 };
 

@@ -37,7 +37,7 @@ struct RestAtStart {
   double max_turn_rad = 0.01;
   // ... but where the IMU is calmer than any ride, traffic and bare ground may deceive it by more,
   // and a vehicle that moves without shaking at all is fast. Chosen: no more than an idling engine
-  // (RestOnTheWay::idle), and ten times what traffic on a simulated motorway feigned.
+  // (RestOnTheWay::idle), and ten times the shift that traffic on a simulated motorway caused.
   VibrationLevel calm{0.005, 0.05};
   double max_shift_calm_m = 0.5;
 };

@@ -19,8 +19,8 @@
 
 namespace lio {
 
-// True when the measured forces contain gravity. The setting `automatic` decides by the mean force
-// at rest or in smooth motion: whether its length is nearer to g than to zero.
+// Returns true when the measured forces contain gravity. The setting `automatic` decides by the
+// mean force at rest or in smooth motion: whether its length is nearer to g than to zero.
 bool GravityPresent(const ImuStatistics& statistics, const Rig& rig);
 
 struct StartState {
@@ -29,12 +29,13 @@ struct StartState {
   std::string how;                    // for messages to users
 };
 
-// The state at `stamp`; the vehicle stood still during all of `samples`. Tilt comes from the mean
-// force, the gyro bias from the mean rate. Throws std::invalid_argument without samples.
+// Returns the state at `stamp`; the vehicle must have stood still during all of `samples`. Tilt
+// comes from the mean force, the gyro bias from the mean rate. Throws std::invalid_argument without
+// samples.
 [[nodiscard]] StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp,
                                      const Rig& rig);
 
-// The last known position, attitude and velocity of the body.
+// Holds the last known position, attitude and velocity of the body.
 struct LastFix {
   Timestamp stamp;
   Pose T_world_imu;
@@ -42,10 +43,10 @@ struct LastFix {
   Pose T_map_imu;
   Matrix6 pose_cov = Matrix6::Zero();  // position (m, world), right rotation error (rad)
 };
-// Least uncertainty of the pose at which a new initialization continues, 1 sigma per axis.
+// The pose at which a new initialization continues is uncertain by this at least, 1 sigma per axis.
 inline constexpr double kPlacedStd_m = kInitializationParameters.at_rest.continued_std_m;
 inline constexpr double kPlacedStd_rad = kInitializationParameters.at_rest.continued_std_rad;
-// The time since the fix, in seconds, limited to how long a velocity may be extrapolated.
+// Returns the time since the fix, in seconds, limited to how long a velocity may be extrapolated.
 double CoastedSince_s(const LastFix& earlier, Timestamp now);
 // Rotates the fix into a level world: its roll and pitch become those of `R_level_imu`, a rotation
 // from imu to any level frame, and its velocity turns along. Yaw, position and T_map_imu stay.
@@ -56,11 +57,11 @@ void Level(const Quaternion& R_level_imu, LastFix& point);
 // the fix's plus kPlacedStd and the error of the extrapolation.
 void PlaceInWorld(const LastFix& earlier, bool has_gravity, Estimate& estimate);
 
-// The rotation from imu to world that takes `up_imu` to world's z axis by the shortest way and then
-// makes the yaw of imu's x axis zero.
+// Returns the rotation from imu to world that takes `up_imu` to world's z axis by the shortest way
+// and then makes the yaw of imu's x axis zero.
 Quaternion LevelledRotation(const Vector3& up_imu);
 
-// A message to users: "started <how>: imu tilted by ...".
+// Returns a message to users: "started <how>: imu tilted by ...".
 std::string DescribeStart(const char* how, const Estimate& estimate, bool has_gravity);
 
 }  // namespace lio

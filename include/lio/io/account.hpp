@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The account of a run: what became of every message and scan, from the bytes that came to the
-// estimate. It closes, or says by how much it does not.
+// Composes the account of a run: what became of every message and scan, from the bytes that came to
+// the estimate. It closes, or says by how much it does not.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace lio {
 
-// Messages between the decoder and the estimator; all zero in a replay.
+// Counts messages between the decoder and the estimator; all are zero in a replay.
 struct TransitCounters {
   std::int64_t num_dropped = 0;   // the queue was full
   std::int64_t num_given_up = 0;  // the daemon had to end before they were looked at
@@ -27,16 +27,16 @@ struct TransitCounters {
 };
 
 struct Account {
-  Ledgers ledgers;  // of the estimator, with what waits
+  Ledgers ledgers;  // the estimator's, with what still waits
   TransitCounters imu;
   TransitCounters chunks;
 };
 
-// The object "account" of stats.json, without its key.
+// Returns the object "account" of stats.json, without its key.
 [[nodiscard]] std::string AccountJson(const Account& account, const InputCounters& input);
 
-// Samples, chunks and scans that were received but have no fate, in a sentence; empty when the
-// account closes.
+// Returns the number of samples, chunks and scans that were received but have no fate, in a
+// sentence; empty when the account closes.
 [[nodiscard]] std::string WhyOpen(const Account& account, const InputCounters& input);
 
 }  // namespace lio

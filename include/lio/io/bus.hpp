@@ -45,7 +45,7 @@ class Bus {
   // Waits up to `timeout` for a message and hands it to its handlers.
   [[nodiscard]] virtual ReceiveResult Receive(std::chrono::milliseconds timeout) = 0;
 
-  // False when the transport refused the message.
+  // Returns false when the transport refused the message.
   [[nodiscard]] virtual bool Publish(const std::string& channel, ByteView data) = 0;
 
   // How many messages were above kMaxMessageBytes, and for how many a handler threw. Neither got
@@ -61,13 +61,13 @@ class Bus {
 // Opens an LCM transport at EffectiveUrl(url). Throws TransportError when LCM cannot open it.
 [[nodiscard]] std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
 
-// A bus whose messages come back to its own subscribers, in order.
+// Returns a bus whose messages come back to its own subscribers, in order.
 [[nodiscard]] std::unique_ptr<Bus> OpenMemoryBus();
 
-// A bus that takes every message and delivers none.
+// Returns a bus that takes every message and delivers none.
 [[nodiscard]] std::unique_ptr<Bus> OpenNullBus();
 
-// The UDP port that OpenLcmBus(url) listens on; 0 when the URL is not udpm://.
+// Returns the UDP port that OpenLcmBus(url) listens on; 0 when the URL is not udpm://.
 [[nodiscard]] int UdpPort(const std::string& url);
 
 }  // namespace lio

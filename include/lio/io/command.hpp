@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The commands that the daemon takes on LIO_CMD, and its replies on LIO_REPLY.
+// Defines the commands that the daemon takes on LIO_CMD, and its replies on LIO_REPLY.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ inline constexpr int kNumCommandActions = 7;
 struct Command {
   std::int64_t request_id = 0;
   CommandAction action = CommandAction::kCloudFullOff;
-  // kResetAtPose: as they came, finite or not; the rotation is not normalized.
+  // kResetAtPose: numbers as they came, finite or not; the rotation is not normalized.
   Pose T_world_imu = {};
   std::optional<Matrix6> pose_cov =
       std::nullopt;       // [position in world (m); right rotation error (rad)]

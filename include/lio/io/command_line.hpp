@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The parts that the command lines of all programs share: exit codes, errors in one line, and
+// Defines what the command lines of all programs share: exit codes, errors in one line, and
 // --config, --set and --print-options of the programs that run the pipeline.
 #pragma once
 
@@ -41,7 +41,7 @@ using TextCheck = std::function<std::string(const std::string&)>;
 [[nodiscard]] TextCheck NumberWithin(double least, double most);
 [[nodiscard]] TextCheck NumberFromZero();
 [[nodiscard]] TextCheck NumberAboveZero();
-[[nodiscard]] TextCheck WholeNumberFromZero();  // of 64 bits
+[[nodiscard]] TextCheck WholeNumberFromZero();  // fits 64 bits
 // The option takes a name of at most so many characters.
 [[nodiscard]] TextCheck NameUpTo(std::size_t max_characters);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The clock for the stage times of the estimator.
+// Reads the clock for the stage times of the estimator.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace lio {
 
-// CPU time of the calling thread. One call takes about 0.3 us, the time of a system call.
+// Returns the CPU time of the calling thread. One call takes about 0.3 us, the time of a system
+// call.
 [[nodiscard]] inline std::int64_t ThreadCpuNs() {
   std::timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

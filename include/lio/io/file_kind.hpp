@@ -13,8 +13,8 @@ namespace lio {
 enum class FileKind : std::int8_t {
   kOther,
   kLcmLog,
-  kRosBag,         // of ROS 1 or 2 (SQLite or MCAP), a file or a folder
-  kCapture,        // of a network, pcap or pcapng
+  kRosBag,         // ROS 1 or 2 (SQLite or MCAP), a file or a folder
+  kCapture,        // network capture, pcap or pcapng
   kKittiRaw,       // the folder of a drive
   kKittiOdometry,  // the folder of a sequence
   kLogFolder,      // log.lcm with config.yaml beside it, as lio-sim writes them
@@ -27,14 +27,16 @@ enum class FileKind : std::int8_t {
 // and a device may never end. A path that does not exist passes.
 void RefuseIrregular(const std::filesystem::path& path);
 
-// The steady path in a run's folder: trajectory_level.tum, or trajectory.tum without gravity.
+// Returns the steady path in a run's folder: trajectory_level.tum, or trajectory.tum without
+// gravity.
 [[nodiscard]] std::filesystem::path PathOfRun(const std::filesystem::path& folder);
 
-// One line that says what `path` is and which command takes it; empty for logs and for kOther.
+// Returns one line that says what `path` is and which command takes it; empty for logs and for
+// kOther.
 [[nodiscard]] std::string WhyNoLog(const std::filesystem::path& path);
-// The same for what is no trajectory; empty for kOther.
+// Returns the same for what is no trajectory; empty for kOther.
 [[nodiscard]] std::string WhyNoTrajectory(const std::filesystem::path& path);
-// The same for what need not be converted; empty for all but logs and results.
+// Returns the same for what need not be converted; empty for all but logs and results.
 [[nodiscard]] std::string WhyNoRecording(const std::filesystem::path& path);
 
 }  // namespace lio

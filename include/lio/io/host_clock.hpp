@@ -8,7 +8,7 @@
 
 namespace lio {
 
-// Microseconds since the epoch.
+// Returns microseconds since the epoch.
 [[nodiscard]] inline std::int64_t HostUtime() {
   using std::chrono::microseconds;
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// --initial-map and --initial-pose of the programs that can start in a map saved before.
+// Reads --initial-map and --initial-pose for the programs that can start in a map saved before.
 #pragma once
 
 #include <filesystem>
@@ -25,9 +25,9 @@ struct InitialMapArguments {
 // `arguments` must outlive the app.
 void AddInitialMapArguments(CLI::App& app, InitialMapArguments& arguments);
 
-// The points of a PCD or PLY file that has x, y and z as floats, without those that are no numbers.
-// Throws InputError, naming the file, when it is missing, damaged or of another kind, or has points
-// that nobody can start in.
+// Returns the points of a PCD or PLY file that has x, y and z as floats, without those that are no
+// numbers. Throws InputError, naming the file, when it is missing, damaged or of another kind, or
+// has points that nobody can start in.
 [[nodiscard]] std::vector<Eigen::Vector3f> LoadMapPoints(const std::filesystem::path& path);
 
 // Loads the map where one is asked for. Nothing means that the program goes on; otherwise it ends

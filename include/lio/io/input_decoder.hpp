@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The names of the channels, and the decoding of the input channels, which lio-replay and liod
-// share so that both count alike.
+// Names the channels and decodes the input channels, which lio-replay and liod share so that both
+// count alike.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace lio {
 
 inline constexpr const char* kDefaultChannelPrefix = "LIO_";
 
-// The feature set of LOAM that a cloud holds; in the order of Channels::features.
+// Names the feature set of LOAM that a cloud holds; in the order of Channels::features.
 enum class FeatureSet { kCornerSharp, kCornerLessSharp, kSurfFlat, kSurfLessFlat, kRemoved };
 inline constexpr std::size_t kNumFeatureSets = 5;
 
@@ -37,8 +37,8 @@ struct InputCounters {
   std::int64_t num_chunks_received = 0;
   std::int64_t num_chunks_taken = 0;
   std::array<std::int64_t, kNumDecodeStatuses> num_refused{};  // by DecodeStatus; kOk stays 0
-  // The same of one channel. Messages that the bus found too large are in neither, since nobody
-  // looked at their channel.
+  // These count the same for one channel. Messages that the bus found too large are in neither,
+  // since nobody looked at their channel.
   std::array<std::int64_t, kNumDecodeStatuses> num_imu_refused{};
   std::array<std::int64_t, kNumDecodeStatuses> num_chunks_refused{};
   std::int64_t num_imu_missing = 0;  // gaps in imu_t.seq: lost before they arrived
@@ -46,10 +46,10 @@ struct InputCounters {
   [[nodiscard]] std::int64_t TotalRefused() const;
 };
 
-// One thread at a time.
+// Serves one thread at a time.
 class InputDecoder {
  public:
-  // False when the bytes were refused, which is counted.
+  // Returns false when the bytes were refused, which is counted.
   [[nodiscard]] bool Imu(ByteView bytes, ImuSample& sample);
   [[nodiscard]] bool Chunk(ByteView bytes, ScanChunk& chunk);
   // Counts a message that was refused unread.

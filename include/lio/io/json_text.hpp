@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// JSON as text, whatever its strings hold.
+// Writes JSON as text, whatever its strings hold.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 
 namespace lio {
 
-// One line. Bytes that are no UTF-8, which a note or a file's name may have, are replaced.
+// Returns one line. Bytes that are no UTF-8, which a note or a file's name may have, are replaced.
 [[nodiscard]] inline std::string TextOf(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -32,9 +32,9 @@ inline constexpr int kNumDecodeStatuses = 6;
 
 inline constexpr std::size_t kMaxMessageBytes = 8u << 20;
 
-// The fingerprints: the first eight bytes of each message, big-endian, which also stand for the
-// version of its type. A released type is never edited, so these never change; a test compares
-// them.
+// These are the fingerprints: the first eight bytes of each message, big-endian, which also stand
+// for the version of its type. A released type is never edited, so these never change; a test
+// compares them.
 inline constexpr std::uint64_t kImuFingerprint = 0x4116ba332106780e;
 inline constexpr std::uint64_t kScanFingerprint = 0x8a84c8aeb5c1b9ef;
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The path of a run as it looks when the run is over: the steady path in map, turned once, rigidly
-// and about its origin, so that it is level by the last estimate. It keeps its shape, and its
-// height does not drift by the tilt that the start did not know. Its stamps and its body are those
-// of the last estimates of clock offset and extrinsic, before these were found too. Written at the
-// end as trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them,
-// trajectory_level.rows.
+// Writes the path of a run as it looks when the run is over: the steady path in map, turned once,
+// rigidly and about its origin, so that it is level by the last estimate. It keeps its shape, and
+// its height does not drift by the tilt that the start did not know. Its stamps and its body are
+// those of the last estimates of clock offset and extrinsic, before these were found too. It is
+// written at the end as trajectory_level.tum and covariance_level.csv; until then rows wait in a
+// file beside them, trajectory_level.rows.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ class LevelTrack {
   // path stays in the map's frame: that of a map saved before.
   explicit LevelTrack(const std::filesystem::path& folder, bool turns_map = true);
 
-  // `clock_correction`: what the estimated clock offset has added to the stamp.
+  // `clock_correction` is what the estimated clock offset has added to the stamp.
   void Add(const FilterReport& filter, Duration clock_correction);
-  // From the map's frame to the level one, by the last row; the identity when no gravity was felt
-  // and where the map is not turned.
+  // Turns the map's frame into the level one, by the last row; the identity when no gravity was
+  // felt and where the map is not turned.
   [[nodiscard]] Quaternion R_level_map() const;
   // Until then the last rows may be in memory alone.
   void Flush();
@@ -40,7 +40,7 @@ class LevelTrack {
     double T_map_imu[7] = {};    // translation, then rotation x y z w
     double T_world_imu[7] = {};  // likewise
     double T_imu_lidar[7] = {};  // in use
-    double pose_cov[36] = {};    // of T_world_imu
+    double pose_cov[36] = {};    // covariance of T_world_imu
   };
 
   static void Put(const Pose& pose, double (&to)[7]);

@@ -23,8 +23,8 @@ class LidarCheck {
   // The causes that were found come last, since they seldom cost accuracy; of a kind that the
   // verdict names already there is none.
   void AddTo(Verdict& verdict) const;
-  // The causes that were found, none of which takes more trust than `leaves` says. The vehicle's
-  // own returns can only be told from the surroundings after a way of some length.
+  // Returns the causes that were found, none of which takes more trust than `leaves` says. The
+  // vehicle's own returns can only be told from the surroundings after a way of some length.
   [[nodiscard]] std::vector<Cause> Find(double path_m) const;
 
  private:
@@ -49,8 +49,8 @@ class LidarCheck {
   std::vector<Cell> cells_;
   std::optional<std::int32_t> scan_;
   std::optional<Timestamp> scan_begin_;
-  double span_s_ = 0.0;         // of the points of the present sweep
-  std::vector<double> shares_;  // of the time between sweeps that the points of each span
+  double span_s_ = 0.0;         // time from the first to the last point of the present sweep
+  std::vector<double> shares_;  // share of the time between sweeps that each one's points span
   int num_scans_ = 0;
   int num_sampled_ = 0;  // whose near returns were looked at
 };

@@ -16,8 +16,8 @@ namespace lio {
 class RingElevations {
  public:
   void Add(const LidarPoint& point);
-  // The median elevation of each ring [rad], ring 0 first; empty where the points carry no rings or
-  // some ring between has no point.
+  // Returns the median elevation of each ring [rad], ring 0 first; empty where the points carry no
+  // rings or some ring between has no point.
   [[nodiscard]] std::vector<double> Medians() const;
 
  private:
@@ -33,7 +33,7 @@ struct LidarGuess {
 [[nodiscard]] LidarGuess GuessLidar(std::span<const double> elevations_rad,
                                     std::span<const BeamTable> known);
 
-// The tables of all models that are known.
+// Returns the tables of all models that are known.
 [[nodiscard]] std::vector<BeamTable> KnownLidars();
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The inertial samples and scan chunks of a log, decoded, in the log's order.
+// Gives the inertial samples and scan chunks of a log, decoded, in the log's order.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ struct LoadResult {
 // the last bit. Optional groups that are absent are shown in comments.
 [[nodiscard]] std::string PrintOptions(const Options& options);
 
-// The same without the number of threads, which changes no result.
+// Prints the same without the number of threads, which changes no result.
 [[nodiscard]] std::string PrintResultOptions(const Options& options);
 
 }  // namespace lio

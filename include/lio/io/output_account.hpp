@@ -15,7 +15,7 @@ namespace lio {
 
 // The counts of messages in a message of LIO_STATUS.
 struct StatusCounts {
-  std::int64_t start_utime = 0;  // of the daemon
+  std::int64_t start_utime = 0;  // when the daemon started
   Counters counters;             // without ledgers
   std::int64_t num_refused = 0;
   std::int64_t num_queue_dropped = 0;
@@ -24,7 +24,7 @@ struct StatusCounts {
   [[nodiscard]] std::int64_t NumReceived() const;
 };
 
-// Absent where the bytes are no status_t of this version.
+// It is absent where the bytes are no status_t of this version.
 [[nodiscard]] std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes);
 
 class OutputAccount {

@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kStatusFingerprint = 0xa1b05be9f809c31a;
 // Unless the result is kOk the outputs are unchanged or half filled and must not be used. Fields
 // that the message does not have keep their defaults. Numbers are finite, quaternions of unit norm
 // and enumerators known; other values are refused as kBadFormat.
-[[nodiscard]] DecodeStatus DecodeOdometry(ByteView bytes, NavOutput& nav);  // of all five channels
+[[nodiscard]] DecodeStatus DecodeOdometry(ByteView bytes, NavOutput& nav);  // for all five channels
 [[nodiscard]] DecodeStatus DecodeFilterState(ByteView bytes, FilterReport& report);
 [[nodiscard]] DecodeStatus DecodeRegistration(ByteView bytes, ScanReport& report);
 [[nodiscard]] DecodeStatus DecodeStatusReport(ByteView bytes, StatusReport& report);

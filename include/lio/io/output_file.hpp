@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A file that is written in whole rows and names itself in errors.
+// Writes a file in whole rows, and names it in errors.
 #pragma once
 
 #include <cstdio>

@@ -14,8 +14,8 @@ namespace lio {
 // naming the file when it cannot, WriteError when it cannot be written in full.
 void WritePcd(const std::filesystem::path& path, std::span<const Eigen::Vector3f> points);
 
-// The points of any PCD file with x, y and z. Throws std::runtime_error naming the file when it
-// cannot be read.
+// Returns the points of any PCD file with x, y and z. Throws std::runtime_error naming the file
+// when it cannot be read.
 [[nodiscard]] std::vector<Eigen::Vector3f> LoadPcd(const std::filesystem::path& path);
 
 }  // namespace lio

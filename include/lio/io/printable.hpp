@@ -12,7 +12,7 @@ namespace lio {
 // line and changes nothing in a terminal.
 [[nodiscard]] std::string Printable(std::string_view text);
 
-// The same of the first `max_bytes`; "..." stands for the rest.
+// Returns the same of the first `max_bytes`; "..." stands for the rest.
 [[nodiscard]] std::string Excerpt(std::string_view text, std::size_t max_bytes = 60);
 
 }  // namespace lio

@@ -19,7 +19,7 @@ class ProgressBar {
   // Cheap to call often: draws only when the percentage changes.
   void Update(std::int64_t done);
 
-  // The bar as text, e.g. "replay [####----]  50 %"; `percent` 0..100.
+  // Returns the bar as text, e.g. "replay [####----] 50 %"; `percent` 0..100.
   [[nodiscard]] static std::string Draw(const std::string& label, int percent);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Quantiles of any number of positive values in bounded memory, e.g. of the computing times of the
-// scans of a run that lasts for days.
+// Gives quantiles of any number of positive values in bounded memory, e.g. of the computing times
+// of the scans of a run that lasts for days.
 //
 // The first kMaxExact values are kept, and their quantiles are exact. After them the values are
 // counted in bins whose edges grow by 1 % from bin to bin, and a quantile is the middle of its bin:
@@ -18,20 +18,20 @@ namespace lio {
 class QuantileSketch {
  public:
   static constexpr std::size_t kMaxExact = 4096;  // 32 kB; seven minutes of scans at 10 Hz
-  // The bins' range. Values outside it are counted at its ends.
+  // The bins have this range. Values outside it are counted at its ends.
   static constexpr double kMinBinned = 1e-6;
   static constexpr double kMaxBinned = 1e6;
 
   void Add(double value);
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  // The value of rank round(fraction * (count - 1)) among the sorted values; `fraction` is within
-  // 0 .. 1. Throws std::logic_error when there are no values.
+  // Returns the value of rank round(fraction * (count - 1)) among the sorted values; `fraction` is
+  // within 0 .. 1. Throws std::logic_error when there are no values.
   [[nodiscard]] double Quantile(double fraction) const;
   [[nodiscard]] double min() const { return min_; }  // 0 when there are no values
   [[nodiscard]] double max() const { return max_; }
 
-  // Memory of the values or of their bins: at most 32 kB.
+  // Returns the memory of the values or of their bins: at most 32 kB.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

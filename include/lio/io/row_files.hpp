@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The files of a run that have a row for each scan or sample: trajectories, covariances, states.csv
-// and registration.csv in one folder (run_writer.hpp says which).
+// Writes the files of a run that have a row for each scan or sample: trajectories, covariances,
+// states.csv and registration.csv in one folder (run_writer.hpp says which).
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,8 @@ namespace lio {
 class RowFiles {
  public:
   // Creates the folder when it is missing and overwrites its files. Throws std::runtime_error
-  // naming the file when it cannot; the others throw WriteError when a file could not be written
-  // in full.
-  // `turns_map`: LevelTrack.
+  // naming the file when it cannot; the others throw WriteError when a file could not be written in
+  // full. For `turns_map` see LevelTrack.
   RowFiles(const std::filesystem::path& folder, bool has_base, bool turns_map = true);
 
   // A row that is not later than the one before is left out and counted. `trust` is that of the run

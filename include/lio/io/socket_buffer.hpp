@@ -22,10 +22,11 @@ inline constexpr int kEnoughReceiveBytes = 2 << 20;  // less loses scans (docs/m
 // net.core.rmem_max does (getsockopt reports twice that), or 0 when `fd` is no socket.
 [[nodiscard]] int RaiseReceiveBuffer(int fd, int wanted_bytes);
 
-// The number of datagrams that the kernel has dropped at this socket; nothing when it is unknown.
+// Returns the number of datagrams that the kernel has dropped at this socket; nothing when it is
+// unknown.
 [[nodiscard]] std::optional<std::int64_t> KernelDrops(int fd);
 
-// The two commands with which an administrator allows buffers of kWantedReceiveBytes.
+// Returns the two commands with which an administrator allows buffers of kWantedReceiveBytes.
 [[nodiscard]] std::string ReceiveBufferAdvice();
 
 }  // namespace lio

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon's report on LIO_STATUS.
+// Holds the daemon's report on LIO_STATUS.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ struct StatusReport {
 // `version` reads "major.minor.patch".
 [[nodiscard]] Bytes EncodeStatus(const StatusReport& report, const std::string& version);
 
-// The 64-bit FNV-1a hash of a text, e.g. of the printed options
+// Returns the 64-bit FNV-1a hash of a text, e.g. of the printed options
 // (http://www.isthe.com/chongo/tech/comp/fnv).
 [[nodiscard]] std::uint64_t Fnv1a(std::string_view text);
 

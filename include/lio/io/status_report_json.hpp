@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The daemon's status as JSON, for viewers and exports.
+// Writes the daemon's status as JSON, for viewers and exports.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -14,11 +14,11 @@
 
 namespace lio {
 
-// The middle value, the upper one of the two in the middle; 0 for none.
+// Returns the middle value, the upper one of the two in the middle; 0 for none.
 [[nodiscard]] double UpperMedian(std::vector<double> values);
 
-// The stamp of an event in a log; a time more than 146 years from the epoch, which is damage, is
-// moved there, so that differences of two do not overflow.
+// Returns the stamp of an event in a log; a time more than 146 years from the epoch, which is
+// damage, is moved there, so that differences of two do not overflow.
 [[nodiscard]] Timestamp ReceiveStamp(std::int64_t utime);
 
 class StreamStats {
@@ -58,8 +58,8 @@ class AccelerometerStats {
   [[nodiscard]] double quiet_mean_mps2() const;  // mean norm in the quietest second
   double largest_rate_radps() const { return largest_rate_; }
   std::int64_t num_nonfinite() const { return num_nonfinite_; }
-  // "specific force in m/s^2, gravity present", or what the samples look like instead and what to
-  // do.
+  // Returns "specific force in m/s^2, gravity present", or what the samples look like instead and
+  // what to do.
   [[nodiscard]] std::string Suggestion() const;
 
  private:

@@ -39,10 +39,10 @@ void TellCutLine(const std::filesystem::path& file);
 void WriteTum(const std::filesystem::path& file, const StampedPoses& poses);
 void WriteKitti(const std::filesystem::path& file, const StampedPoses& poses);
 
-// One row without line end; all numbers have 9 decimals.
+// Returns one row without line end; all numbers have 9 decimals.
 [[nodiscard]] std::string TumRow(const StampedPose& pose);
 
-// The stamp in seconds with 9 decimals, exact.
+// Returns the stamp in seconds with 9 decimals, exact.
 [[nodiscard]] std::string StampText(Timestamp stamp);
 
 // Parses decimal seconds, also in exponent form, and rounds to the nearest nanosecond. Gives

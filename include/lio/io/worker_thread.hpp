@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The threads of the daemon and of the viewer. An exception that leaves a thread's body ends that
-// thread and not the process: it is reported in words, so that the run can end in order, with its
-// files complete.
+// Runs the threads of the daemon and of the viewer. An exception that leaves a thread's body ends
+// that thread and not the process: it is reported in words, so that the run can end in order, with
+// its files complete.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace lio {
 
-// Called with one line, e.g. "the match thread failed: std::bad_alloc". Must not throw.
+// It is called with one line, e.g. "the match thread failed: std::bad_alloc". Must not throw.
 using OnFault = std::function<void(const std::string& fault)>;
 
 // Runs `body` on the calling thread. Returns nothing when it ended well, otherwise one line that
@@ -31,12 +31,12 @@ class WorkerThread {
   WorkerThread(const WorkerThread&) = delete;
   WorkerThread& operator=(const WorkerThread&) = delete;
 
-  // Once only. Throws std::system_error when the system has no thread left.
+  // It runs once only. Throws std::system_error when the system has no thread left.
   void Start(std::function<void()> body);
   // Waits for the body to end. Does nothing before Start and after an earlier Join.
   void Join();
-  // Waits for the body to end, but no longer than `timeout`; false when it is still running.
-  // True before Start.
+  // Waits for the body to end, but no longer than `timeout`; false when it is still running. It
+  // returns true before Start.
   [[nodiscard]] bool EndsWithin(std::chrono::milliseconds timeout) const;
 
  private:

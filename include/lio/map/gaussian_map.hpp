@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of surface patches, the normal-distributions transform of the scans: hashed voxels,
-// each with the running mean and covariance of the points that fell into it, and from them, where
-// they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
+// Holds a bounded map of surface patches, the normal-distributions transform of the scans: hashed
+// voxels, each with the running mean and covariance of the points that fell into it, and from them,
+// where they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
 //
 // A cell whose points show neither is rank-deficient and does not count: cells filled from a
 // standing vehicle hold single scan rings, which look like lines and hold the vehicle back by
@@ -26,8 +26,8 @@
 
 namespace lio {
 
-// The part of a cell that matching reads: one cache line. Vectors are in the map's frame, `mean`
-// from the voxel's centre.
+// Holds the part of a cell that matching reads: one cache line. Vectors are in the map's frame,
+// `mean` from the voxel's centre.
 struct alignas(64) SurfacePatch {
   // A plane constrains the pose along `normal`, which points to the side it was seen from. A
   // vertical structure constrains it in two horizontal directions: along `normal`, and along
@@ -65,7 +65,7 @@ class GaussianMap {
            patch(cell).num_points >= static_cast<float>(options_.max_cell_points);
   }
 
-  // The vertical's direction in the map's frame, of any length.
+  // Sets the vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
   // Adds a scan taken from `sensor_map`; then drops cells that are too far from there and, beyond
@@ -80,7 +80,7 @@ class GaussianMap {
                   const Workers& workers = Workers(1));
 
   std::size_t num_cells() const { return voxels_.size(); }
-  // Upper bound of cell indices, for scratch arrays beside the map.
+  // Returns an upper bound of cell indices, for scratch arrays beside the map.
   std::size_t cell_capacity() const { return voxels_.capacity(); }
   std::size_t memory_bytes() const { return voxels_.memory_bytes(); }
 
@@ -91,7 +91,7 @@ class GaussianMap {
   };
   struct Sums {
     Vector3 mean = Vector3::Zero();                         // from the voxel's centre
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // of deviations from the mean
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
     std::int32_t fitted_at = 0;  // num_points when the patch was last computed
@@ -104,7 +104,7 @@ class GaussianMap {
   Place PlaceOf(const Vector3& point_map) const;
   // Finds or makes each place's cell.
   void FindCells();
-  // `view_of(i)`: along the beam that saw the point, unit; or zero.
+  // `view_of(i)` points along the beam that saw the point, unit; or is zero.
   template <class ViewOf>
   void Add(std::span<const Vector3> points_map, const ViewOf& view_of, const Workers& workers);
   template <class ViewOf>
@@ -116,7 +116,7 @@ class GaussianMap {
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
-  // gaussian_map_patch.cpp
+  // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
@@ -126,12 +126,12 @@ class GaussianMap {
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
   VoxelMap<SurfacePatch, Sums> voxels_;
-  // Scratch of Insert.
+  // Insert() uses these as scratch.
   std::vector<Place> places_;
-  std::vector<std::int32_t> cells_;  // of the places
+  std::vector<std::int32_t> cells_;  // one per place
   std::vector<std::int32_t> touched_cells_;
   std::size_t num_kept_ = 0;
-  std::size_t sweep_position_ = 0;  // where the walk over all cells for far ones goes on
+  std::size_t sweep_position_ = 0;  // next cell of the walk that looks for far ones
   std::uint32_t scan_number_ = 0;
 };
 

@@ -12,8 +12,8 @@
 
 namespace lio {
 
-// `normal`: unit. `view`: along the beams that saw the surface, of any length; a view of zero or of
-// no numbers counts as grazing.
+// `normal` is a unit vector. `view` points along the beams that saw the surface, of any length; a
+// view of zero or of no numbers counts as grazing.
 [[nodiscard]] inline bool IsGrazing(const Eigen::Vector3f& normal, const Eigen::Vector3f& view) {
   return !(std::abs(normal.dot(view)) > GrazingIncidenceParameters::kMinSine * view.norm());
 }

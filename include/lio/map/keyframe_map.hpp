@@ -19,7 +19,8 @@
 namespace lio {
 
 struct KeyframeMapOptions {
-  // Edge. Chosen: about the distance of nearest points; it sets the time of a search alone.
+  // Voxels have this edge. Chosen: about the distance of nearest points; it sets the time of a
+  // search alone.
   double voxel_m = 0.5;
   int max_points = 1000000;  // memory bound; as GicpOptions
   // Keyframes farther from the newest one are dropped; as GicpOptions.
@@ -46,11 +47,11 @@ class KeyframeMap {
     std::int32_t point = -1;  // for point(); -1: none within the radius
     Eigen::Vector3f from_query = Eigen::Vector3f::Zero();  // map axes
   };
-  // `near`: a point of the submap that may be the nearest, as it was a moment ago; -1: none known.
-  // The better it is the shorter the search; the result is the same but for ties.
+  // `near` is a point of the submap that may be the nearest, as it was a moment ago; -1: none
+  // known. The better it is the shorter the search; the result is the same but for ties.
   [[nodiscard]] Hit FindNearest(const Vector3& query_map, double radius_m,
                                 std::int32_t near = -1) const;
-  // Normal in the map's frame; the position is from the corner of the point's block.
+  // The normal is in the map's frame; the position is from the corner of the point's block.
   [[nodiscard]] const PointWithNormal& point(std::int32_t point) const {
     return points_[ToIndex(point)].value;
   }
@@ -58,7 +59,7 @@ class KeyframeMap {
   // How many points of all keyframes lie in the voxel around a point.
   [[nodiscard]] int CountAt(const Vector3& point_map) const;
 
-  // The keyframe nearest to a place; none: -1.
+  // Holds the keyframe nearest to a place; none: -1.
   struct Nearest {
     std::int32_t keyframe = -1;
     Pose T_map_kf;
@@ -74,7 +75,7 @@ class KeyframeMap {
   static constexpr std::int32_t kNone = -1;
   using Blocks = VoxelBlocks<std::int32_t>;  // the first node of each voxel's chain
 
-  // Some points of one voxel, in a chain.
+  // Holds some points of one voxel, in a chain.
   struct Node {
     std::array<float, kNodeSize> x{}, y{}, z{};  // from the block's corner
     std::array<std::int32_t, kNodeSize> point{};
@@ -102,7 +103,7 @@ class KeyframeMap {
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
-  // keyframe_map_search.cpp
+  // These are in keyframe_map_search.cpp.
   void SearchAround(Search& search, int radius_voxels) const;
   void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;

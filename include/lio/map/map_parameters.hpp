@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The maps' constants that are no configuration keys: units, meaning and where each value comes
-// from. They are compile-time constants, so that inner loops cost nothing for them.
+// Holds the maps' constants that are no configuration keys: units, meaning and where each value
+// comes from. They are compile-time constants, so that inner loops cost nothing for them.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,25 @@ namespace lio {
 // A cell of GaussianMap counts as a plane or as a thin vertical structure only when its points
 // show one.
 struct GaussianMapParameters {
-  // A plane's variance along its normal over that of its narrower tangent, at most. Chosen: 3 cm of
-  // noise on the narrowest plane have 0.06, the crown of a bush 1.
+  // A plane's variance along its normal is at most this share of that along its narrower tangent.
+  // Chosen: 3 cm of noise on the narrowest plane have 0.06, the crown of a bush 1.
   static constexpr double kMaxThicknessRatio = 0.1;
-  // A plane's standard deviation along its narrower tangent over the voxel's edge, at least.
-  // Chosen: a single ring is a few centimetres wide, and a cell that is evenly filled has 0.29.
+  // A plane's standard deviation along its narrower tangent is at least this share of the voxel's
+  // edge. Chosen: a single ring is a few centimetres wide, and a cell that is evenly filled has
+  // 0.29.
   static constexpr double kMinWidthPerVoxel = 0.12;
-  // Standard deviation of a plane's normal [rad], at most. Chosen: half a cell of 1 m off its
+  // A plane's normal may err by this standard deviation [rad]. Chosen: half a cell of 1 m off its
   // middle the plane is 2.5 cm unsure, less than the floor of its thickness.
   static constexpr double kMaxNormalStd_rad = 0.05;
-  // A vertical structure's standard deviation along the vertical over the voxel's edge, at least:
-  // half of an evenly filled cell's. Used in docs/experiments/vertical_structures.md; chosen.
+  // A vertical structure's standard deviation along the vertical is at least this share of the
+  // voxel's edge: half of an evenly filled cell's. It is used in
+  // docs/experiments/vertical_structures.md; chosen.
   static constexpr double kMinHeightPerVoxel = 0.15;
   // A vertical structure's larger horizontal standard deviation over the voxel's edge, at most: a
-  // wider one is cut off by the cell's sides. Used in the same experiment; chosen.
+  // wider one is cut off by the cell's sides. It is used in the same experiment; chosen.
   static constexpr double kMaxVerticalWidthPerVoxel = 0.2;
-  // Floor of a vertical structure's horizontal standard deviation [m]. Chosen: the side from which
-  // a trunk is seen moves its mean by about that much.
+  // A vertical structure's horizontal standard deviation counts as this at least [m]. Chosen: the
+  // side from which a trunk is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
   // So many points a cell remembers that shows no surface yet, so that the rings of a stop do not
   // hide what is seen while driving off. Measured against 2000: docs/experiments/narrow_places.md.
@@ -54,25 +56,26 @@ struct GaussianMapParameters {
   static constexpr std::size_t kFarCellsWalk_scans = 64;
 };
 
-// Levels of cells of half the size each.
+// Bounds the levels, each with cells of half the size.
 struct MultiResolutionParameters {
-  // Cells of the finer levels farther away than this many of their edges are dropped. Arithmetic:
-  // the beams of spinning lidars are 0.35 deg and more apart, 0.7 of an edge there, and a cell has
-  // one ring at most.
+  // Cells of the finer levels are dropped when farther away than this many of their edges.
+  // Arithmetic: the beams of spinning lidars are 0.35 deg and more apart, 0.7 of an edge there, and
+  // a cell has one ring at most.
   static constexpr double kMaxDistance_edges = 120.0;
   // A level serves a guess that may be off by this share of its cells' edge, one standard
   // deviation. Chosen: most points then lie in their own cell.
   static constexpr double kMaxOff_edges = 0.25;
 };
 
-// Between a surface and the beams that saw it: docs/experiments/grazing_incidence.md.
+// Bounds the angle between a surface and the beams that saw it:
+// docs/experiments/grazing_incidence.md.
 struct GrazingIncidenceParameters {
-  // Sine of the least angle, 3.4 deg. Measured, as are 0.045 to 0.09, which give the same results:
-  // docs/experiments/grazing_incidence.md.
+  // This is the sine of the least angle, 3.4 deg. Measured, as are 0.045 to 0.09, which give the
+  // same results: docs/experiments/grazing_incidence.md.
   static constexpr float kMinSine = 0.06f;
 };
 
-// The two sheets of slabs and walls in a cloud without viewpoints.
+// Tells the two sheets of slabs and walls apart in a cloud without viewpoints.
 struct SurfaceSidesParameters {
   // Neighbours of a point count up to there [m]. Chosen: floors of buildings are 0.2 to 0.4 m
   // thick.
@@ -83,17 +86,17 @@ struct SurfaceSidesParameters {
   // Points nearer to a sheet than this lie on it [m]. Chosen: three times the range noise of 2 cm;
   // partition walls are 0.1 m thick and more.
   static constexpr float kOwnSheet_m = 0.07f;
-  // Standard deviation of the other sheet across itself, at most [m]. Chosen: twice the range
+  // The other sheet's standard deviation across itself is at most this [m]. Chosen: twice the range
   // noise; furniture spreads wider.
   static constexpr float kMaxSheetStd_m = 0.05f;
   // Nothing joins the sheets if so small a share of points is nearer than the gap [m]. Chosen: the
   // thinnest floors are thicker, and a fifth of a wall that stands on a floor is nearer.
   static constexpr float kGap_m = 0.15f;
   static constexpr float kMaxShareInGap = 0.08f;
-  // Share of a voxel's points that have a side for it to hold. Chosen: half of them are of the
-  // other sheet, and those at beams and edges have none.
+  // A side holds when this share of a voxel's points has it. Chosen: half of them are of the other
+  // sheet, and those at beams and edges have none.
   static constexpr double kMinShare = 0.2;
-  // Points of the other sheet, at least. Chosen: three define a plane, and one more tests it.
+  // The other sheet needs so many points. Chosen: three define a plane, and one more tests it.
   static constexpr int kMinPoints = 4;
 };
 
@@ -101,14 +104,15 @@ struct KeyframeMapParameters {
   // Factor on height differences where keyframes are ranked by distance, so that the storeys above
   // and below do not take places in the submap. Chosen: a storey counts as 10 m.
   static constexpr double kHeightFactor = 3.0;
-  // Bound of a search [voxels]. Arithmetic: 4 m with the voxel of 0.5 m, twice the largest standard
-  // deviation that a search allows for (CorrespondenceParameters::kMaxStd_m).
+  // A search goes this far at most [voxels]. Arithmetic: 4 m with the voxel of 0.5 m, twice the
+  // largest standard deviation that a search allows for (CorrespondenceParameters::kMaxStd_m).
   static constexpr int kMaxSearch_voxels = 8;
 };
 
 struct PointMapParameters {
-  // Bound of a search [voxels]. Arithmetic: 4.8 m with the leaf of 0.4 m, more than twice the
-  // largest standard deviation that a search allows for (CorrespondenceParameters::kMaxStd_m).
+  // A search goes this far at most [voxels]. Arithmetic: 4.8 m with the leaf of 0.4 m, more than
+  // twice the largest standard deviation that a search allows for
+  // (CorrespondenceParameters::kMaxStd_m).
   static constexpr int kMaxSearch_voxels = 12;
 };
 

@@ -22,7 +22,7 @@ class MultiResolutionMap {
  public:
   static constexpr std::int32_t kNoCell = GaussianMap::kNoCell;
 
-  // From the one to the other, both included; the finest level is 0.
+  // Holds the range from one level to another, both included; the finest level is 0.
   struct Levels {
     std::size_t finest = 0;
     std::size_t coarsest = 0;
@@ -42,7 +42,8 @@ class MultiResolutionMap {
   [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
     return levels_[LevelOf(cell)].IsFrozen(InLevel(cell));
   }
-  // The finest level whose cells are so large that a point may be off by `std_m`, one sigma.
+  // Returns the finest level whose cells are so large that a point may be off by `std_m`, one
+  // sigma.
   [[nodiscard]] std::size_t LevelFor(double std_m) const;
   [[nodiscard]] std::size_t LevelOf(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) % levels_.size();
@@ -52,13 +53,13 @@ class MultiResolutionMap {
   // Adds a scan taken from `sensor_map`, to all levels from `finest` on.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1), std::size_t finest = 0);
-  // As GaussianMap::InsertKept(), in all levels.
+  // Does the same as GaussianMap::InsertKept(), in all levels.
   void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
                   const Workers& workers = Workers(1));
 
   std::size_t num_levels() const { return levels_.size(); }
   std::size_t num_cells() const;
-  // Upper bound of cell numbers, for scratch arrays beside the map.
+  // Returns an upper bound of cell numbers, for scratch arrays beside the map.
   std::size_t cell_capacity() const;
   std::size_t memory_bytes() const;
 

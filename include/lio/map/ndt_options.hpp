@@ -1,22 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Configuration of the normal-distributions map and of its matcher.
+// Configures the normal-distributions map and its matcher.
 #pragma once
 
 #include <cstddef>
 
 namespace lio {
 
-// Most resolutions of a map. Chosen: cells of 0.125 m with the default edge, which range noise
-// fills.
+// A map has so many resolutions at most. Chosen: cells of 0.125 m with the default edge, which
+// range noise fills.
 inline constexpr std::size_t kMaxMapLevels = 4;
 
 struct NdtOptions {
-  // Edge of the largest cells; larger ones catch from farther, smaller ones hold two surfaces less
-  // often. Chosen with num_levels: docs/experiments/narrow_places.md.
+  // The largest cells have this edge; larger ones catch from farther, smaller ones hold two
+  // surfaces less often. Chosen with num_levels: docs/experiments/narrow_places.md.
   double voxel_m = 1.0;
-  // Resolutions; each level's cells are half as large as the next one's. Measured: one loses metres
-  // in an office, three gain nothing (docs/experiments/narrow_places.md).
+  // The map has so many resolutions; each level's cells are half as large as the next one's.
+  // Measured: one loses metres in an office, three gain nothing
+  // (docs/experiments/narrow_places.md).
   int num_levels = 2;
   // A cell with fewer points does not count. Chosen: a covariance of fewer has a normal by chance.
   int min_cell_points = 6;
@@ -32,10 +33,10 @@ struct NdtOptions {
   // deviation of some millimetres; less costs an iteration.
   double converged_step_m = 1e-3;
   double converged_step_rad = 1e-4;
-  // Floor of a cell's thickness. Chosen: range noise of 2 cm (data sheets) and roughness; with less
-  // the flattest cells count for all.
+  // A cell's thickness counts as this at least. Chosen: range noise of 2 cm (data sheets) and
+  // roughness; with less the flattest cells count for all.
   double min_surface_std_m = 0.03;
-  // The map's memory bound; the least recently seen cells go first. Chosen: about 100 MB.
+  // This bounds the map's memory; the least recently seen cells go first. Chosen: about 100 MB.
   int max_cells = 400000;
   // Cells farther from the vehicle are dropped. Chosen: beyond LidarRig::max_range_m.
   double max_distance_m = 200.0;

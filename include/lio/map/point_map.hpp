@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of points for nearest-neighbour search: voxels, each the running mean of the points
-// that fell into it. Not safe for concurrent use while inserting.
+// Holds a bounded map of points for nearest-neighbour search: voxels, each the running mean of the
+// points that fell into it. Not safe for concurrent use while inserting.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace lio {
 struct PointMapOptions {
   double voxel_m = 0.4;       // edge; as LoamOptions::surface_leaf_m
   int max_voxel_points = 20;  // a voxel with as many is frozen; as LoamOptions::max_leaf_points
-  // The memory bound; blocks without new points for longest go first. Chosen: half of
+  // This bounds the memory; blocks without new points for longest go first. Chosen: half of
   // LoamOptions::max_leaves, which LOAM sets instead.
   int max_voxels = 100000;
   double max_distance_m = 200.0;  // blocks farther away are dropped; as NdtOptions::max_distance_m
@@ -25,7 +25,8 @@ struct PointMapOptions {
 
 class PointMap {
  public:
-  using Mean = Eigen::Vector4f;  // of a voxel's points, from the block's corner [m]; their number
+  // Holds the mean of a voxel's points, from the block's corner [m], and their number.
+  using Mean = Eigen::Vector4f;
   static constexpr int kMaxNeighbours = 8;  // room in Neighbours; as the range of num_neighbours
 
   // Throws std::invalid_argument when an option is out of its range.
@@ -42,11 +43,11 @@ class PointMap {
     int count = 0;
   };
 
-  // The `wanted` nearest points among the 27 voxels around the query, or, where these hold fewer,
-  // among all within `radius_m`; none beyond that radius.
+  // Returns the `wanted` nearest points among the 27 voxels around the query, or, where these hold
+  // fewer, among all within `radius_m`; none beyond that radius.
   [[nodiscard]] Neighbours FindNearest(const Vector3& query_map, int wanted, double radius_m) const;
 
-  // The voxel around a point, for the share of new content.
+  // Holds the voxel around a point, for the share of new content.
   struct Content {
     VoxelKey key = 0;  // an integer name of the voxel
     int num_points = 0;
@@ -59,7 +60,7 @@ class PointMap {
   void Insert(std::span<const Vector3> points_map, const Vector3& centre_map);
 
   [[nodiscard]] std::size_t num_voxels() const { return num_voxels_; }
-  // Upper bound of block indices, for scratch arrays beside the map.
+  // Returns an upper bound of block indices, for scratch arrays beside the map.
   [[nodiscard]] std::size_t block_capacity() const { return blocks_.capacity(); }
   [[nodiscard]] std::size_t memory_bytes() const { return blocks_.memory_bytes(); }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A point with the plane that was fitted to its surroundings.
+// Holds a point with the plane that was fitted to its surroundings.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,12 @@ struct PointWithNormal {
   Eigen::Vector3f position;                          // m
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, either side; zero: rank-deficient
   float thickness_var = 0.f;                         // along the normal [m^2]
-  float normal_var = 0.f;                            // of the normal's tilt [rad^2]
-  // Variance of the surface's distance from its plane at one metre [m^2]; at another distance it
+  float normal_var = 0.f;                            // variance of the normal's tilt [rad^2]
+  // The surface's distance from its plane varies by this at one metre [m^2]; at another distance it
   // goes with the distance's fourth power.
   float bend_var = 0.f;
 
-  // False where the surroundings are rank-deficient: too few points, or on a line.
+  // Returns false where the surroundings are rank-deficient: too few points, or on a line.
   [[nodiscard]] bool HasNormal() const { return thickness_var > 0.f; }
 };
 

@@ -14,8 +14,8 @@
 
 namespace lio {
 
-// For each point the unit normal towards the side that its surface is seen from; zero where the
-// points do not tell.
+// Returns for each point the unit normal towards the side that its surface is seen from; zero where
+// the points do not tell.
 [[nodiscard]] std::vector<Eigen::Vector3f> SurfaceSides(std::span<const Eigen::Vector3f> points,
                                                         const Workers& workers = Workers(1));
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The hashed voxel map whose voxels lie in blocks of 4 x 4 x 4, so that a search passes over empty
-// space 64 voxels at a time. A voxel's content is the map's policy: a mean in PointMap, a chain of
-// points in KeyframeMap. Positions are kept relative to their block's corner, so that precision
-// does not depend on the distance from the origin.
+// Holds the hashed voxel map whose voxels lie in blocks of 4 x 4 x 4, so that a search passes over
+// empty space 64 voxels at a time. A voxel's content is the map's policy: a mean in PointMap, a
+// chain of points in KeyframeMap. Positions are kept relative to their block's corner, so that
+// precision does not depend on the distance from the origin.
 #pragma once
 
 #include <algorithm>
@@ -25,14 +25,14 @@ class VoxelBlocks {
   struct Block {
     std::uint64_t occupied = 0;            // a bit a voxel: x + 4 y + 16 z
     VoxelCell at{};                        // in blocks
-    std::array<PerVoxel, kVoxels> voxels;  // of the occupied ones alone
+    std::array<PerVoxel, kVoxels> voxels;  // valid where occupied
   };
 
-  // `voxel_m`: the edge; `margin_voxels`: how far a search goes beyond a voxel.
+  // `voxel_m` is the edge; `margin_voxels` tells how far a search goes beyond a voxel.
   VoxelBlocks(double voxel_m, int margin_voxels)
       : voxel_m_(voxel_m), inverse_voxel_(1.0 / voxel_m), margin_(margin_voxels) {}
 
-  // Coordinates in voxels.
+  // Returns coordinates in voxels.
   [[nodiscard]] Vector3 Scaled(const Vector3& point_map) const {
     return inverse_voxel_ * point_map;
   }
@@ -46,12 +46,12 @@ class VoxelBlocks {
       return std::abs(v) < kVoxelCoordinateLimit - 2 * margin_;
     });
   }
-  // The voxel's bit and place in its block.
+  // Returns the voxel's bit and place in its block.
   [[nodiscard]] static std::int32_t InBlock(const VoxelCell& voxel) {
     return (voxel[0] & 3) + 4 * (voxel[1] & 3) + 16 * (voxel[2] & 3);
   }
 
-  // The number of the block around a voxel, kNone where there is none.
+  // Returns the number of the block around a voxel, kNone where there is none.
   [[nodiscard]] std::int32_t Find(const VoxelCell& voxel) const {
     return blocks_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
   }
@@ -75,8 +75,8 @@ class VoxelBlocks {
   [[nodiscard]] Vector3 CornerOf(const Block& block) const {
     return kBlockEdge * voxel_m_ * Vector3(block.at[0], block.at[1], block.at[2]);
   }
-  // visit(number, block) for all blocks that hold voxels from `low` to `high`, both included, by
-  // place, x fastest.
+  // Calls visit(number, block) for all blocks that hold voxels from `low` to `high`, both included,
+  // by place, x fastest.
   template <class Visit>
   void ForEachBlock(const VoxelCell& low, const VoxelCell& high, const Visit& visit) const {
     ForEachVoxel(BlockOf(low), BlockOf(high), [&](std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -86,9 +86,9 @@ class VoxelBlocks {
   }
 
   [[nodiscard]] bool IsUsed(std::int32_t number) const { return blocks_.IsUsed(number); }
-  // The block that was touched longest ago, kNone when there is none.
+  // Returns the block that was touched longest ago, kNone when there is none.
   [[nodiscard]] std::int32_t oldest() const { return blocks_.oldest(); }
-  // Upper bound of the numbers.
+  // Returns an upper bound of the numbers.
   [[nodiscard]] std::size_t capacity() const { return blocks_.capacity(); }
   [[nodiscard]] std::size_t memory_bytes() const { return blocks_.memory_bytes(); }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar odometry by a model of constant velocity and turn rate, built from the filter itself:
+// Runs lidar odometry by a model of constant velocity and turn rate, built from the filter itself:
 // inertial samples without gravity, wide process noise. In lidar-only operation the velocity is
 // constant in the imu's axes, and the samples read the force that turns it; in the first seconds
 // before the inertial filter starts it is constant in the world, and they read none. The turn rate
@@ -21,7 +21,7 @@ struct ConstantVelocityParameters {
   // The velocity turns with the body for so long without a sweep, then it is constant in the world:
   // nobody walks in circles. Chosen: a turn of a walker or of a car at a crossing is half done.
   Duration follows_turn_for{500'000'000};
-  Duration step{10'000'000};  // of the propagation; chosen: a tenth of a sweep at 10 Hz
+  Duration step{10'000'000};  // propagation step; chosen: a tenth of a sweep at 10 Hz
   // Process noise. Chosen: a vehicle's velocity changes by 0.5 m/s in a sweep of 0.1 s, 1 sigma; a
   // walker's does. The turn rate walks as the drive shows, within these bounds: a car's changes by
   // 0.3 rad/s, that of what a hand holds by 1.3 rad/s. Measured: the bounds and the factor keep the
@@ -30,18 +30,19 @@ struct ConstantVelocityParameters {
   double min_turn_accel_density = 1.0;  // rad/s^2/sqrt(Hz)
   double max_turn_accel_density = 4.0;
   double start_turn_accel_density = 3.0;  // before a turn was seen; chosen: nearer to the larger
-  // Density by the root mean square of turn error / (time since the last scan)^(3/2). A rate that
-  // walks at random would give 0.7; bodies turn smoothly, so that errors of the model last.
+  // The density is this times the root mean square of turn error / (time since the last
+  // scan)^(3/2). A rate that walks at random would give 0.7; bodies turn smoothly, so that errors
+  // of the model last.
   double density_per_error = 4.4;
-  double turn_error_rate = 0.02;  // of the mean, a scan; chosen: 5 s at 10 Hz
+  double turn_error_rate = 0.02;  // weight of a scan in the mean; chosen: 5 s at 10 Hz
   // Nothing is known. Chosen: a vehicle in a city, one that turns.
   double start_velocity_std_mps = 15.0;
   double start_turn_rate_std_radps = 1.0;
   // A velocity seed is good to a metre per second or so (velocity_search.hpp). Measured at nine
   // starts on a motorway: with 4 m/s matching strayed from the right velocity.
   double velocity_seed_std_mps = 1.5;
-  // The motion of an earlier tracker, some seconds old. Chosen: a car brakes by as much in a
-  // second.
+  // An earlier tracker's motion, some seconds old, errs by this. Chosen: a car brakes by as much in
+  // a second.
   double known_velocity_std_mps = 2.0;
   double known_turn_rate_std_radps = 0.3;
   // A time of unknown length without sweeps. Chosen: it is taken for half a second, over which a
@@ -57,16 +58,17 @@ struct ConstantVelocityParameters {
 
 inline constexpr ConstantVelocityParameters kConstantVelocity;
 
-// The motion as far as it is known before anything is matched.
+// Holds the motion as far as it is known before anything is matched.
 struct MotionSeed {
-  // Velocity seed: by correlative alignment of bird's-eye views, in the imu's axes [m/s].
+  // The velocity seed comes from correlative alignment of bird's-eye views, in the imu's axes
+  // [m/s].
   std::optional<Vector3> v_imu_mps;
-  // Motion prior: velocity and, without a gyro, turn rate of an earlier tracker's state.
+  // The motion prior is velocity and, without a gyro, turn rate of an earlier tracker's state.
   std::optional<NavState> motion;
 };
 
 struct TrackerOptions {
-  double span_s = HistoryOptions{}.span_s;        // of its history
+  double span_s = HistoryOptions{}.span_s;        // length of its history
   double nis_limit = HistoryOptions{}.nis_limit;  // gate of poses
   // A gyro's rate at the start: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;

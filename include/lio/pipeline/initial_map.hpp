@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A map saved before, to start in.
+// Holds a map saved before, to start in.
 #pragma once
 
 #include <Eigen/Core>

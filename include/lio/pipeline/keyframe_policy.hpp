@@ -32,7 +32,7 @@ class KeyframePolicy {
  private:
   bool HasMoved(const Pose& T_map_imu) const;
 
-  std::optional<Pose> last_;  // where the map was last grown after moving
+  std::optional<Pose> last_;  // pose at which the map was last grown after moving
   int num_here_ = 0;          // scans that grew it since
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The messages between the filter and the registration worker. Each is complete in itself, so they
-// may cross threads.
+// Defines the messages between the filter and the registration worker. Each is complete in itself,
+// so they may cross threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,12 +23,13 @@
 
 namespace lio {
 
-// Match the scan near the prior.
+// Asks to match the scan near the prior.
 struct Track {
-  // Better the prior by correlative alignment of the bird's-eye view with the last located scan's
-  // (for a prior of unsure shift).
+  // True betters the prior by correlative alignment of the bird's-eye view with the last located
+  // scan's (for a prior of unsure shift).
   bool aligns_prior = false;
-  // Hold directions that the match leaves degenerate by the bird's-eye views of earlier scans.
+  // True holds directions that the match leaves degenerate by the bird's-eye views of earlier
+  // scans.
   bool holds_degenerate = false;
 };
 
@@ -36,7 +37,7 @@ struct Track {
 // since the map was cleared.
 struct FindVelocity {};
 
-// Track; where the scan is not found near the prior, search for it.
+// Asks to track; where the scan is not found near the prior, to search for it.
 struct Relocalize {
   Track track;
   SearchRequest search;
@@ -55,7 +56,8 @@ struct MatchJob {
   MotionPrior prior;
   MapAction map_action = MapAction::kKeep;
   bool refines_deskew = false;  // match, deskew again along what was found, match again
-  // Bend the scan along with the pose that is found, as nothing else measured the motion within it.
+  // True bends the scan along with the pose that is found, as nothing else measured the motion
+  // within it.
   bool bends_scan = false;
   // The extrinsic that trajectory and prior are of. Absent: the rig has it.
   std::optional<Pose> T_imu_lidar = std::nullopt;
@@ -69,23 +71,23 @@ struct MatchOutcome {
   MatchResult match;
   bool is_relocalized = false;           // located by the search, not near the prior
   bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
-  std::optional<Vector3> v_map_imu_mps;  // of FindVelocity; absent while no velocity is clear
+  std::optional<Vector3> v_map_imu_mps;  // answers FindVelocity; absent while no velocity is clear
   std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
-  std::optional<FoundPlace> place;       // of the map in the initial map, with seeks_place
+  std::optional<FoundPlace> place;       // the map's place in the initial map, with seeks_place
   int num_matches = 0;                   // full matches of the scan against the map
-  int num_coarse_matches = 0;            // of a few hundred of its points
+  int num_coarse_matches = 0;            // the same with a few hundred of its points
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
-  std::vector<FeatureTag> tags;                  // of each point; empty where the method needs none
-  std::shared_ptr<const LoamFeatures> features;  // of the sweep, where the method has them
+  std::vector<FeatureTag> tags;                  // one a point; empty where the method needs none
+  std::shared_ptr<const LoamFeatures> features;  // the sweep's, where the method has them
   StageTimes stage_ns{};                         // kInsert: of the scan before
 };
 
 struct InsertTask {
   std::vector<Eigen::Vector3f> points_imu;
   std::optional<Pose> T_map_imu;      // absent: do not insert
-  std::vector<FeatureTag> tags = {};  // of each point; empty where the method needs none
+  std::vector<FeatureTag> tags = {};  // one a point; empty where the method needs none
 };
 
 }  // namespace lio

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The estimator: the first file to read. A single-threaded state machine that takes samples and
-// chunks in the order they arrive and returns outputs. Matching a scan is handed out as a job, so
-// that a daemon can run it on another thread while the filter goes on:
+// Runs the estimator; this is the first file to read. It is a single-threaded state machine that
+// takes samples and chunks in the order they arrive and returns outputs. Matching a scan is handed
+// out as a job, so that a daemon can run it on another thread while the filter goes on:
 //
 //   odometry.AddImu(sample); odometry.AddChunk(chunk);           // filter thread
 //   while (auto job = odometry.NextJob()) {                      // at most one job in flight
@@ -38,8 +38,8 @@ struct MatchJob;      // registration_worker.hpp
 struct MatchOutcome;  // registration_worker.hpp
 struct InsertTask;    // registration_worker.hpp
 
-// One accepted scan: rows of the trajectories, covariances and registration.csv. `filter` is
-// absent before the start.
+// Reports one accepted scan: rows of the trajectories, covariances and registration.csv. `filter`
+// is absent before the start.
 struct ScanOutput {
   std::optional<FilterReport> filter;
   ScanReport scan;
@@ -47,10 +47,11 @@ struct ScanOutput {
 
 using Output = std::variant<ScanOutput, NavOutput, Notice>;
 
-// The map of the first scans: their own, or one that the registration worker was given.
+// Tells which map the first scans go into: their own, or one that the registration worker was
+// given.
 enum class StartIn : std::int8_t { kNewMap, kInitialMap };
 
-// A pose of the body that somebody else knows.
+// Holds a pose of the body that somebody else knows.
 struct GivenPose {
   Pose T_world_imu;
   // [position in world (m); right rotation error (rad)]; the least that a start has is added.

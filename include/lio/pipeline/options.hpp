@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Every module's options in one value, and what is wrong with it.
+// Holds every module's options in one value, and tells what is wrong with it.
 #pragma once
 
 #include <string>
@@ -59,7 +59,8 @@ struct Options {
   FilterOptions filter;
 };
 
-// One thing wrong with the options; `key` is the dotted path of the field, e.g. "ndt.voxel_m".
+// Holds one thing wrong with the options; `key` is the dotted path of the field, e.g.
+// "ndt.voxel_m".
 struct OptionFault {
   std::string key;
   std::string message;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Every option named once: key, field, meaning with unit, and limits as data. Loading, printing,
-// range checks and config/default.yaml all come from here, so a new option is one line here and
-// one in its struct (a test counts the fields of both).
+// Names every option once: key, field, meaning with unit, and limits as data. Loading, printing,
+// range checks and config/default.yaml all come from here, so a new option is one line here and one
+// in its struct (a test counts the fields of both).
 //
 //   VisitFields(visitor, options) calls visitor(key, field, meaning) or
 //   visitor(key, field, meaning, range) for each field in order. A field may be a struct of fields
@@ -41,14 +41,14 @@ inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto"
 template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<LoamTarget>{"map", "scan"};
 
-// Structs whose fields VisitFields lists.
+// Accepts structs whose fields VisitFields lists.
 template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>
 inline constexpr bool kIsGroup =
     kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, Extrinsic, PipelineOptions,
-             StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions,
-             GicpOptions, FilterOptions>;
+             StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions, GicpOptions,
+             FilterOptions>;
 
 template <class T, class Struct>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
@@ -71,8 +71,8 @@ inline constexpr std::string_view kExtrinsicStdKeys[] = {"std_m", "std_deg"};
 
 template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<Extrinsic> auto& o) {
-  using PartOfPose = std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(o)>>,
-                                        const Pose, Pose>;
+  using PartOfPose =
+      std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(o)>>, const Pose, Pose>;
   VisitFields(visit, static_cast<PartOfPose&>(o));
   visit("std_m", o.std_m, "how well the translation is known, 1 sigma of an axis [m]; 0: exactly",
         Range{0, 100});

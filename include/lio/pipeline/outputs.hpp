@@ -27,20 +27,20 @@ enum class TrackingStatus : std::int8_t {
 
 enum class OdometrySource : std::int8_t { kScanUpdate = 0, kImuPropagated = 1 };
 
-// The state of the rig's base frame. Covariances are those of NavOutput, for base.
+// Holds the state of the rig's base frame. Covariances are those of NavOutput, for base.
 struct BaseMotion {
   Pose T_world_base;
   Matrix6 pose_cov = Matrix6::Zero();
-  Vector3 v_world_base_mps = Vector3::Zero();  // of base's origin
+  Vector3 v_world_base_mps = Vector3::Zero();  // velocity of base's origin
   Matrix3 velocity_cov = Matrix3::Zero();
   Vector3 w_base_radps = Vector3::Zero();  // bias-corrected rate, in base
   Pose T_map_base;
   Matrix6 map_pose_cov = Matrix6::Zero();
 };
 
-// The state at one instant: in world, which is level, and in map, which is steady. Covariances:
-// position and velocity in world, rotation error on the right (R_true = R Exp(d)), order
-// [position; rotation].
+// Holds the state at one instant: in world, which is level, and in map, which is steady.
+// Covariances: position and velocity in world, rotation error on the right (R_true = R Exp(d)),
+// order [position; rotation].
 struct NavOutput {
   Timestamp stamp;
   std::int64_t scan_seq = -1;  // the last scan that was fused
@@ -56,8 +56,8 @@ struct NavOutput {
   std::optional<BaseMotion> base;          // with rig.T_base_imu
 };
 
-// The filter in full, once a scan. Error order: position, rotation, velocity, gyro bias, accel
-// bias, then the right error of T_map_imu [translation; rotation].
+// Reports the filter in full, once a scan. Errors are ordered position, rotation, velocity, gyro
+// bias, accel bias, then the right error of T_map_imu [translation; rotation].
 struct FilterReport {
   NavOutput nav;
   Vector3 v_map_imu_mps = Vector3::Zero();
@@ -74,14 +74,14 @@ struct FilterReport {
   ImuNoiseRatios imu_noise;  // zero where it is not known
   double nis = 0.0;          // normalised innovation squared of the last update
   int nis_dof = 0;           // 0: no update
-  Eigen::MatrixXd cov;       // that of the pose and velocity in `nav`
+  Eigen::MatrixXd cov;       // covariance of the pose and velocity in `nav`
 };
 
 enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };
 inline constexpr int kNumStages = 7;
 using StageTimes = std::array<std::int64_t, kNumStages>;  // ns of CPU work, indexed by Stage
 
-// One registration: a row of registration.csv.
+// Reports one registration: a row of registration.csv.
 struct ScanReport {
   Timestamp stamp;            // sweep end
   Duration clock_correction;  // in the stamp, by the estimated clock offset
@@ -89,10 +89,10 @@ struct ScanReport {
   int num_raw = 0;
   int num_used = 0;
   int num_matched = 0;           // points
-  LevelCounts num_matched_at{};  // of them by level of the map, finest first; method ndt
+  LevelCounts num_matched_at{};  // the same by level of the map, finest first; method ndt
   int num_matches = 0;         // full matches against the map, of guesses and after another deskew
-  int num_coarse_matches = 0;  // of a few hundred points, which rank the candidates of a search
-  int iterations = 0;          // of the last match
+  int num_coarse_matches = 0;  // with a few hundred points, to rank the candidates of a search
+  int iterations = 0;          // in the last match
   MatchStatus status = MatchStatus::kConverged;
   bool fused = false;
   double residual_rms_m = 0.0;
@@ -102,7 +102,7 @@ struct ScanReport {
   StageTimes stage_ns{};
 };
 
-// Registered points for viewers: in the map's frame.
+// Holds registered points for viewers, in the map's frame.
 struct RegisteredCloud {
   Timestamp stamp;
   std::int64_t scan_seq = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The part of the estimator that works on points: reduce, deskew, match, insert. It owns the map
-// and takes self-contained jobs, so that it may run on a thread of its own. One job at a time, in
-// order.
+// Runs the part of the estimator that works on points: reduce, deskew, match, insert. It owns the
+// map and takes self-contained jobs, so that it may run on a thread of its own. Jobs run one at a
+// time, in order.
 #pragma once
 
 #include <memory>
@@ -36,7 +36,7 @@ class RegistrationWorker {
   [[nodiscard]] bool is_in_map() const { return !initial_ || initial_->is_inside(); }
 
  private:
-  struct ScanInWork;  // what the steps of one job share
+  struct ScanInWork;  // shared by the steps of one job
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
@@ -56,7 +56,7 @@ class RegistrationWorker {
   void SeekPlace(ScanInWork& scan);
   void TakeDensePoints(ScanInWork& scan);
 
-  Pose T_imu_lidar_;  // of the last job
+  Pose T_imu_lidar_;  // the last job's
   ClockNs clock_;
   bool warms_up_densely_;  // a new map gets all points of a sweep: only NDT's cells want them
   PointFilter filter_;

@@ -68,7 +68,7 @@ class SynchronousOdometry {
   void KeepMapClouds(bool keeps);
   [[nodiscard]] std::vector<std::vector<Eigen::Vector3f>> TakeMapClouds();
 
-  const Counters& counters() const;  // of everything that was lost, refused or odd
+  const Counters& counters() const;  // all that was lost, refused or odd
   TrackingStatus status() const;
 
  private:

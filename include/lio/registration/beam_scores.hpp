@@ -43,7 +43,7 @@ class BeamScores {
     by_direction_[kElevations + OctantOf(view)] += score;
   }
 
-  // The elevations' sums, then the octants'.
+  // Returns the elevations' sums, then the octants'.
   [[nodiscard]] std::vector<Vector6> ByDirection() const {
     std::vector<Vector6> sums;
     sums.reserve(kNumDirections);

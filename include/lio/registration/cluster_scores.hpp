@@ -14,14 +14,14 @@
 
 namespace lio {
 
-// `kDims`: the number of unknowns.
+// `kDims` is the number of unknowns.
 template <int kDims>
 class ClusterScores {
  public:
   using Score = Eigen::Matrix<float, kDims, 1>;
   using Square = Eigen::Matrix<double, kDims, kDims>;
 
-  // Forgets all scores. `num_parts`: upper bound of the parts' numbers.
+  // Forgets all scores. `num_parts` is an upper bound of the parts' numbers.
   void Reset(std::size_t num_parts) {
     for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
     parts_.clear();
@@ -41,7 +41,7 @@ class ClusterScores {
     by_part_[i] += score;
   }
 
-  // Sum over parts of score score^T.
+  // Returns the sum over parts of score score^T.
   [[nodiscard]] Square SumOfSquares() const {
     Square sum = Square::Zero();
     for (const std::int32_t part : parts_) {
@@ -51,7 +51,8 @@ class ClusterScores {
     return sum;
   }
 
-  // The same, corrected for the estimated dimensions: of the gradient of the whole cost.
+  // Returns the same, corrected for the estimated dimensions: that of the gradient of the whole
+  // cost.
   [[nodiscard]] Square Covariance() const {
     const auto num_parts = static_cast<double>(parts_.size());
     return num_parts / std::max(1.0, num_parts - kDims) * SumOfSquares();

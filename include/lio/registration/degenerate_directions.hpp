@@ -16,8 +16,8 @@ namespace lio {
 
 struct DirectionSplit {
   double metres_per_rad = 1.0;  // scales rotations to the size of translations
-  // Eigenvalues of the scaled information: those of degenerate directions first, either part
-  // ascends.
+  // Holds the eigenvalues of the scaled information: those of degenerate directions first, either
+  // part ascends.
   Vector6 eigenvalues = Vector6::Zero();
   Matrix6 directions = Matrix6::Identity();  // columns, scaled coordinates
   unsigned degenerate_mask = 0;              // bit i: direction i is degenerate
@@ -31,32 +31,33 @@ struct DirectionSplit {
   }
 };
 
-// The root mean square of the levers at which the matched points hold the rotation: about as far as
-// the surroundings are. 1 where there is no information.
+// Returns the root mean square of the levers at which the matched points hold the rotation: about
+// as far as the surroundings are. 1 where there is no information.
 [[nodiscard]] double MetresPerRad(const Matrix6& information);
 
-// `information`: the Hessian of the cost, right error. `noise_information`: the part of it that the
-// noise of the map's normals induces by itself. `sure_information`: the part of it that this noise
-// does not induce; it needs no margin above the noise.
+// `information` is the Hessian of the cost, right error. `noise_information` is the part of it that
+// the noise of the map's normals induces by itself. `sure_information`: the part of it that this
+// noise does not induce; it needs no margin above the noise.
 [[nodiscard]] DirectionSplit SplitDirections(const Matrix6& information,
                                              const Matrix6& noise_information,
                                              const Matrix6& sure_information = Matrix6::Zero());
 
-// The Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
+// Returns the Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
 [[nodiscard]] Vector6 StepInObservableDirections(const DirectionSplit& split,
                                                  const Vector6& gradient);
 
-// A step without its part along the degenerate directions, [translation; rotation].
+// Returns a step without its part along the degenerate directions, [translation; rotation].
 [[nodiscard]] Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step);
 
-// The inverse of the information within the observable directions, zero along the degenerate ones.
+// Returns the inverse of the information within the observable directions, zero along the
+// degenerate ones.
 [[nodiscard]] Matrix6 ObservableInverse(const DirectionSplit& split);
 
-// The sandwich H^-1 S H^-1, with the inverse as ObservableInverse() has it. S: covariance of the
-// gradient.
+// Returns the sandwich H^-1 S H^-1, with the inverse as ObservableInverse() has it. S is the
+// covariance of the gradient.
 [[nodiscard]] Matrix6 CovarianceFromScores(const Matrix6& inverse, const Matrix6& score_cov);
 
-// A variance of (100 m)^2 along the degenerate directions, zero along the observable ones.
+// Returns a variance of (100 m)^2 along the degenerate directions, zero along the observable ones.
 [[nodiscard]] Matrix6 DegenerateCovariance(const DirectionSplit& split);
 
 }  // namespace lio

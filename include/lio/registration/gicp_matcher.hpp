@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Direct matching of a scan against a submap of keyframes, plane to plane (generalized ICP). Each
+// Matches a scan directly against a submap of keyframes, plane to plane (generalized ICP). Each
 // point p is paired with its nearest neighbour q; e = q - T p is their offset, b the direction
 // along which both surfaces constrain it best, and the cost is
 //   sum of rho((b . e)^2 / s) / 2,  s = b' (C_q + R C_p R') b + k a^4 + radius^2.
@@ -55,7 +55,7 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   double openness_m() const { return openness_m_; }
 
  private:
-  // A point of the scan and its neighbour on the map.
+  // Holds a point of the scan and its neighbour on the map.
   struct Pair {
     std::int32_t point = 0;
     std::int32_t target = 0;
@@ -88,14 +88,14 @@ class GicpMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::unique_ptr<ScanNormals> normals_;
   std::vector<PointWithNormal> source_;  // the scan's points that are matched
   std::vector<std::int32_t> near_;       // each one's last neighbour; kUnknown, kNowhere
-  std::vector<Pair> pairs_;              // of the current iteration, in the points' order
+  std::vector<Pair> pairs_;              // in the current iteration, in the points' order
   Pose paired_at_;                       // the pairs' offsets are for this pose
   Pose sought_at_;                       // the neighbours were sought at this pose
   bool is_far_off_ = false;              // MatchInput::is_far_off
   bool has_rank_deficient_ = false;      // source_ includes points without a normal
   bool uses_rank_deficient_ = false;     // they count in the present sums
   MatchScores scores_;
-  Pose T_imu_lidar_;         // of the scan that is matched
+  Pose T_imu_lidar_;         // the matched scan's
   double openness_m_ = 0.0;  // smoothed median range; 0: no scan yet
 };
 

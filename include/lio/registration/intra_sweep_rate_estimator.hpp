@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The turn rate within a sweep: the terms of a match at its solution, solved once more with the
-// rate free. A scan that was deskewed by a turn rate off by e [rad/s] has each point rotated by t
-// e, with t the point's time after the middle of the sweep: a term's row gains t (p x n), beside
-// its derivative by the pose, [n; p x n]. The covariance is the clustered sandwich
+// Estimates the turn rate within a sweep: it solves the terms of a match at its solution once more
+// with the rate free. A scan that was deskewed by a turn rate off by e [rad/s] has each point
+// rotated by t e, with t the point's time after the middle of the sweep: a term's row gains t (p x
+// n), beside its derivative by the pose, [n; p x n]. The covariance is the clustered sandwich
 // (cluster_scores.hpp), as for the pose. docs/experiments/intra_sweep_rate.md has figures.
 #pragma once
 
@@ -22,7 +22,7 @@ class IntraSweepRateEstimator {
   // of the sweep [s].
   void Add(std::int32_t part, const PoseScores::Score& row, float residual_m, float weight,
            float from_mid_sweep_s);
-  // The correction to add to the turn rate that the scan was deskewed by. `curvature_ratio`: that
+  // The correction to add to the turn rate that the scan was deskewed by. `curvature_ratio` is that
   // of MatchSums.
   [[nodiscard]] TurnRate Solve(double curvature_ratio) const;
 

@@ -38,7 +38,7 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
 
  private:
   void Associate(const MatchInput& input, const Pose& T_map_imu, const SearchRadius& radius);
-  // The pose after Gauss-Newton steps with the correspondences of one round.
+  // Returns the pose after Gauss-Newton steps with the correspondences of one round.
   Pose SolveRound(const MatchInput& input, Pose T_map_imu);
   double NewContentShare(const MatchInput& input, const Pose& T_map_imu) const;
   void Finish(const MatchInput& input, const Pose& T_map_imu, MatchResult& result);
@@ -46,7 +46,7 @@ class LoamMatcher final : public ScanMatcher, public MatchDiagnostics {
   LoamOptions options_;
   PointMap edge_map_;
   PointMap surface_map_;
-  std::unique_ptr<LoamTerms> terms_;  // of the current round
+  std::unique_ptr<LoamTerms> terms_;  // in the current round
   MatchScores scores_;                // by block, the edge map's after the surface map's
 };
 

@@ -21,18 +21,18 @@ struct LoamOptions {
   double min_line_ratio = 3.0;     // largest to second eigenvalue of a line's points; A-LOAM's
   double max_plane_error_m = 0.2;  // a plane fits none of its points worse; A-LOAM's
   double huber_m = 0.1;            // residuals above count linearly; A-LOAM's
-  // Standard deviation of an edge point's distance from its edge. Chosen: the beams' gap decides
-  // where an edge is hit.
+  // An edge point's distance from its edge has this standard deviation. Chosen: the beams' gap
+  // decides where an edge is hit.
   double edge_std_m = 0.1;
-  // Standard deviation of a surface point's distance. Chosen: range noise and roughness.
+  // A surface point's distance has this standard deviation. Chosen: range noise and roughness.
   double surface_std_m = 0.03;
-  int max_iterations = 4;  // of one round; A-LOAM's
+  int max_iterations = 4;  // per round; A-LOAM's
   // Correspondences are sought anew in each. Chosen, A-LOAM always has 2: rounds end by converging.
   int max_rounds = 8;
   // A round's step smaller than both ends the match. Chosen: as NdtOptions.
   double converged_step_m = 1e-3;
   double converged_step_rad = 1e-4;
-  // Each map's memory bound; the least recently seen go first. Chosen: some ten megabytes.
+  // This bounds each map's memory; the least recently seen go first. Chosen: some ten megabytes.
   int max_leaves = 200000;
   // Leaves farther from the vehicle are dropped. Chosen: beyond LidarRig::max_range_m.
   double max_distance_m = 150.0;

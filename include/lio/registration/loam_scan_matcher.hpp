@@ -30,7 +30,7 @@ class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
   ~LoamScanMatcher() override;
 
   MatchResult Match(const MatchInput& input) override;
-  // Matches a scan that is not deskewed. `sweep_ratios`: one for each point of the input.
+  // Matches a scan that is not deskewed. `sweep_ratios` has one for each point of the input.
   MatchResult MatchSkewed(const MatchInput& input, std::span<const float> sweep_ratios);
   void Insert(const ScanView& scan, const Pose& T_map_imu) override;
   void Clear() override;
@@ -49,7 +49,7 @@ class LoamScanMatcher final : public ScanMatcher, public MatchDiagnostics {
   Pose T_map_last_;  // the pose of the last scan
   std::unique_ptr<RingGrid> edges_;
   std::unique_ptr<RingGrid> surfaces_;
-  std::unique_ptr<LoamTerms> terms_;  // of the current round
+  std::unique_ptr<LoamTerms> terms_;  // in the current round
   MatchScores scores_;                // by part, the edges' after the surfaces'
 };
 

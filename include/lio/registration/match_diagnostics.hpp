@@ -14,8 +14,8 @@ class MatchDiagnostics {
  public:
   virtual ~MatchDiagnostics() = default;
 
-  // The cost at a pose, with the correspondences and weights of the last Match(), which had this
-  // input. Its second derivative at the solution is MatchResult::information.
+  // Returns the cost at a pose, with the correspondences and weights of the last Match(), which had
+  // this input. Its second derivative at the solution is MatchResult::information.
   [[nodiscard]] virtual double FixedCorrespondenceCost(const MatchInput& input,
                                                        const Pose& T_map_imu) const = 0;
 };

@@ -19,7 +19,7 @@ enum class MatchStatus : std::int8_t {
   kDegenerate = 5,  // converged, with degenerate directions
 };
 
-// A count for each level of a map of several resolutions, finest first.
+// Counts for each level of a map of several resolutions, finest first.
 using LevelCounts = std::array<int, kMaxMapLevels>;
 
 }  // namespace lio

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From the terms of a least-squares match at its solution to its report: information, covariance,
-// degenerate directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the map, n a
-// unit direction of the map and w a robust weight that the derivative takes as constant.
+// Turns the terms of a least-squares match at its solution into its report: information,
+// covariance, degenerate directions. One term is w (n . e(T))^2 / 2 with e a point's offset on the
+// map, n a unit direction of the map and w a robust weight that the derivative takes as constant.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,8 @@ namespace lio {
 
 using Vector6f = Eigen::Matrix<float, 6, 1>;
 
-// Derivative of n . (T p) by the right perturbation of T, for n given in the imu's axes.
+// Returns the derivative of n . (T p) by the right perturbation of T, for n given in the imu's
+// axes.
 inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
   Vector6f row;  // [n; p x n], both in the imu's axes
   row << n.x(), n.y(), n.z(), p.y() * n.z() - p.z() * n.y(), p.z() * n.x() - p.x() * n.z(),
@@ -37,7 +38,7 @@ class RobustKernel {
     curvature_ = 1.f - 4.f * root_ * distance_sq / Parameters::kWidthSq;
   }
   [[nodiscard]] float weight() const { return root_ * root_; }  // 1 for an inlier
-  // The robust cost's second derivative over the weight.
+  // Returns the robust cost's second derivative over the weight.
   [[nodiscard]] float curvature() const { return curvature_; }
 
   // Beyond five standard deviations a residual does not count at all.
@@ -74,25 +75,25 @@ struct MatchSums {
   // gradient.
   Vector6f AddRow(const Vector6f& row, float residual_m, float weight, const RobustKernel& kernel);
   void operator+=(const MatchSums& other);
-  // The robust cost's own curvature over that of the cost with constant weights: below one.
+  // Returns the robust cost's own curvature over that of the cost with constant weights: below one.
   [[nodiscard]] double curvature_ratio() const;
 
   TermSum information;
   TermSum noise_information;  // the part that the noise of the map's normals induces by itself
   TermSum sure_information;   // the part that no noise of normals induces: of vertical structures
   Vector6 gradient = Vector6::Zero();
-  double weight_sum = 0.0;       // of the robust weights, 1 for an inlier
+  double weight_sum = 0.0;       // sum of the robust weights, 1 for an inlier
   double residual_sq_sum = 0.0;  // weighted so [m^2]
-  double curvature_sum = 0.0;    // of the robust cost
-  double information_sum = 0.0;  // of the cost with constant weights
+  double curvature_sum = 0.0;    // sum for the robust cost
+  double information_sum = 0.0;  // sum for the cost with constant weights
   int num_matched = 0;
 };
 
 [[nodiscard]] DirectionSplit SplitDirections(const MatchSums& sums);
 
-// The scores of a match at its solution.
+// Holds the scores of a match at its solution.
 struct MatchScores {
-  PoseScores by_part;  // of the map
+  PoseScores by_part;  // one per part of the map
   BeamScores by_beam;
 
   void Reset(std::size_t num_parts, const Pose& T_imu_lidar) {
@@ -106,9 +107,9 @@ struct MatchScores {
 };
 
 // Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
-// turns kConverged into kDegenerate where a direction is degenerate. `score_cov`: covariance of the
-// whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at the
-// solution, within the observable directions.
+// turns kConverged into kDegenerate where a direction is degenerate. `score_cov` is the covariance
+// of the whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at
+// the solution, within the observable directions.
 [[nodiscard]] Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov,
                                 MatchResult& result);
 
@@ -122,8 +123,8 @@ void TakeLastStep(const Vector6& step, MatchResult& result);
 void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
                  MatchResult& result);
 
-// The mean over matched points of (points that this scan adds to a voxel) / (points in it after),
-// which is MatchResult::new_content_share.
+// Takes the mean over matched points of (points that this scan adds to a voxel) / (points in it
+// after), which is MatchResult::new_content_share.
 class NewContentMean {
  public:
   // A matched point in a voxel of so many points, to which the scan adds so many ...

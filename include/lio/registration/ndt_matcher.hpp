@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Normal-distributions matching: every point against the surface patch of the voxel that it falls
+// Matches by normal distributions: every point against the surface patch of the voxel that it falls
 // into (gaussian_map.hpp).
 //
 // The cost is the sum over points of rho(d^2 / s), d the distance from the patch's plane and s its
@@ -40,7 +40,7 @@ struct NdtTerm;
 
 class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
  public:
-  // The same results to the last bit on any number of threads.
+  // Gives the same results to the last bit on any number of threads.
   explicit NdtMatcher(const NdtOptions& options, int num_threads = 1);
 
   MatchResult Match(const MatchInput& input) override;
@@ -52,12 +52,12 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
-  // The patch that a point is matched to.
+  // Holds the patch that a point is matched to.
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
-    Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // of the patch, grid axes
+    Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // mean to point, grid axes
   };
-  // The rows that a point adds to the problem at the solution.
+  // Holds the rows that a point adds to the problem at the solution.
   struct PointScore {
     struct OfRow {
       Vector6f gradient;
@@ -78,9 +78,9 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   // is wide, all but the coarsest where it is narrow.
   static constexpr int kNumFiner = 1;
   [[nodiscard]] MultiResolutionMap::Levels LevelsInUse() const;
-  // Those for a correspondence radius. A guess that may be far off is followed by large cells to
-  // the end: small ones hold points that are half a cell off elsewhere, and a place is then not
-  // found again.
+  // Returns the levels for a correspondence radius. A guess that may be far off is followed by
+  // large cells to the end: small ones hold points that are half a cell off elsewhere, and a place
+  // is then not found again.
   [[nodiscard]] MultiResolutionMap::Levels LevelsFor(const MatchInput& input,
                                                      double radius_m) const;
   std::vector<Vector3> InGrid(std::span<const Eigen::Vector3f> points,
@@ -94,12 +94,12 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     const CellCount& count = cell_counts_[static_cast<std::size_t>(cell)];
     return count.count_number == count_number_ ? count.num_points : 1;
   }
-  // `view`: along the beam, in grid axes, of any length.
+  // `view` points along the beam, in grid axes, with any length.
   Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
                       std::span<PointScore> scores) const;
-  // `share`: how much of a step the point takes (MatchInput::shares_of_correction).
+  // `share` tells how much of a step the point takes (MatchInput::shares_of_correction).
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       float share, const Eigen::Matrix3f& to_imu, MatchSums& sums,
                       PointScore* score);
@@ -113,15 +113,15 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MultiResolutionMap map_;
   PlaceWidth width_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
-  std::vector<Pair> pairs_;               // of the current iteration, one a point
+  std::vector<Pair> pairs_;               // in the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell
-  std::vector<PointScore> scores_;        // of the last match, one a point
+  std::vector<PointScore> scores_;        // in the last match, one a point
   MatchScores gradients_;                 // by cell and by beam
   std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
-  std::int32_t count_number_ = 0;  // of the last count; older counts are void
+  std::int32_t count_number_ = 0;  // number of the last count; older counts are void
 };
 
 }  // namespace lio

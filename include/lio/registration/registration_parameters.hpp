@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The constants of registration that are no configuration keys: units, meaning and where each value
-// comes from ("chosen" where no experiment tells). They are compile-time constants, so that inner
-// loops cost nothing for them.
+// Holds the constants of registration that are no configuration keys: units, meaning and where each
+// value comes from ("chosen" where no experiment tells). They are compile-time constants, so that
+// inner loops cost nothing for them.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@ namespace lio {
 // How far from its predicted place a point may have its counterpart on the map, from the covariance
 // of the guess.
 struct CorrespondenceParameters {
-  // Range at which rotations and translations are compared [m]: a rotation error moves a point by
+  // Rotations and translations are compared at this range [m]: a rotation error moves a point by
   // its range times the angle. Chosen: between a room's ranges and a street's.
   static constexpr double kLever_m = 20.0;
-  // Factor on the correspondence radius after each step of a match. Chosen: after three steps 3 %
-  // are left; a smaller one leaves points behind that were not yet caught.
+  // The correspondence radius shrinks by this factor after each step of a match. Chosen: after
+  // three steps 3 % are left; a smaller one leaves points behind that were not yet caught.
   static constexpr double kShrink = 0.3;
-  // Upper bound of the standard deviation [m]. Chosen: beyond it most nearest neighbours are of
+  // The standard deviation is at most this [m]. Chosen: beyond it most nearest neighbours are of
   // other surfaces.
   static constexpr double kMaxStd_m = 2.0;
   // A radius below this is taken as zero [m]. Chosen: a third of the floor of a surface's thickness
@@ -29,14 +29,14 @@ struct CorrespondenceParameters {
   static constexpr double kSearchSigmas = 3.0;
 };
 
-// Which directions of a pose a match observes.
+// Tunes which directions of a pose count as observed by a match.
 struct DegeneracyParameters {
   // A direction is observable when its information is this many times what the noise of the map's
   // normals alone induces. Measured: observable directions of streets have 40 times and more, the
   // axis of a corridor 0.05 to 1.6; 5 and 10 give the same results
   // (docs/experiments/covariance_of_a_match.md).
   static constexpr double kMinInformationRatio = 8.0;
-  // Standard deviation that is reported along degenerate directions [m, at the scale of
+  // This standard deviation is reported along degenerate directions [m, at the scale of
   // DirectionSplit]. Chosen: far above every prior of the filter, and not so far that matrices lose
   // digits.
   static constexpr double kDegenerateStd_m = 100.0;
@@ -47,8 +47,8 @@ struct DegeneracyParameters {
 
 // Geman-McClure's kernel, w = 1 / (1 + d^2 / width)^2, d in standard deviations.
 struct RobustKernelParameters {
-  // Width, squared. Chosen: the kernel's influence w d is largest at d = 1.63, within which nine of
-  // ten normal errors lie.
+  // This is the kernel's width, squared. Chosen: the kernel's influence w d is largest at d = 1.63,
+  // within which nine of ten normal errors lie.
   static constexpr float kWidthSq = 8.f;
   // A residual beyond five standard deviations, squared here, has no weight at all. Chosen: the
   // kernel would leave it 0.06.
@@ -60,8 +60,8 @@ struct MatchParameters {
   // Fewer matched points than these end a match. Chosen: six unknowns, with outliers among the
   // points.
   static constexpr int kMinMatched = 50;
-  // Lower bound of the robust cost's curvature over its information. Chosen: below it most terms
-  // are outliers; it bounds how far they widen the covariance.
+  // The robust cost's curvature is at least this share of its information. Chosen: below it most
+  // terms are outliers; it bounds how far they widen the covariance.
   static constexpr double kMinCurvatureRatio = 0.3;
   // The step that is left at the solution is taken when it is shorter than this [m and rad as one
   // norm]. Chosen: five times NDT's step that ends the iterations.
@@ -83,7 +83,7 @@ struct PlaceWidthParameters {
   // in 1400 (docs/experiments/narrow_views.md).
   static constexpr double kNarrowBelow = 60.0;
   static constexpr double kWideAbove = 90.0;
-  // Share of a new scan in the mean. Chosen: ten scans; views change within a second.
+  // A new scan has this share in the mean. Chosen: ten scans; views change within a second.
   static constexpr double kRate = 0.1;
   // More cells than this count as so many, and scans of fewer points tell nothing. Chosen: it is
   // far above both limits, and counting costs little in a wide place.
@@ -91,37 +91,37 @@ struct PlaceWidthParameters {
 };
 
 struct NdtParameters {
-  // Standard deviation of the error that all points of a vertical structure share [m], since the
+  // All points of a vertical structure share an error of this standard deviation [m], since the
   // visible part of a trunk depends on the side. Chosen: about half a trunk's width; used in
   // docs/experiments/vertical_structures.md.
   static constexpr double kSharedVerticalStd_m = 0.15;
-  // Standard deviation of the errors that all points of a ring share [m], which tilt a cell's plane
+  // All points of a ring share errors of this standard deviation [m], which tilt a cell's plane
   // however many points it has. A laser's bias is 3 to 10 mm; fitted within that to scenes of the
   // tests: 3 mm takes a tunnel's axis for observed, 6 mm an open road's posts for noise.
   static constexpr float kAlikeStd_m = 0.005f;
-  // Cap of a^2 / l, a point's squared distance from a patch's mean over the patch's variance.
-  // Chosen: two standard deviations off its middle a patch is extrapolated.
+  // Caps a^2 / l, a point's squared distance from a patch's mean over the patch's variance. Chosen:
+  // two standard deviations off its middle a patch is extrapolated.
   static constexpr float kMaxLeverSq = 4.f;
   // The counts of points by cell hold while no point within CorrespondenceParameters::kLever_m has
   // moved farther [m]. Chosen: 5 % of a cell's edge; they set weights alone.
   static constexpr double kCountsHold_m = 0.05;
-  // The fixed rotation [rad, rotation vector] and translation [m] between the map's axes and the
-  // voxel grid's. Chosen: any odd ones do, so that no floor or wall lies on a voxel face, where
+  // The map's axes are turned by this rotation [rad, rotation vector] and translation [m] against
+  // the voxel grid's. Chosen: any odd ones do, so that no floor or wall lies on a voxel face, where
   // noise would split it.
   static constexpr std::array<double, 3> kGridRotation_rad{0.31, -0.23, 0.41};
   static constexpr std::array<double, 3> kGridTranslation_m{0.37, 0.41, 0.29};
 };
 
 struct GicpParameters {
-  // Variance of a surface across its normal [m^2]: how far a surface is taken to extend. It counts
+  // A surface varies by this across its normal [m^2]: so far it is taken to extend. It counts
   // against a pair whose normals differ. Segal et al. (RSS 2009) take 1 here, too, and 0.001 along
   // the normal, in place of which we have the thickness.
   static constexpr float kTangentVar_m2 = 1.f;
-  // Variance added for a point without a normal [m^2]. Chosen: it may lie on an edge, 0.2 m off its
-  // neighbour's plane.
+  // A point without a normal has this variance added [m^2]. Chosen: it may lie on an edge, 0.2 m
+  // off its neighbour's plane.
   static constexpr float kNoNormalVar_m2 = 0.04f;
-  // Least cosine between two normals of one surface. Chosen: 45 deg, half way between a wall and
-  // the next one.
+  // Two normals of one surface have at least this cosine between them. Chosen: 45 deg, half way
+  // between a wall and the next one.
   static constexpr float kMinCosine = 0.7f;
   // Neighbours are sought this far [m] beyond where the guess may be off, or this share of the
   // range where that is more. Chosen: the keyframes' points are so far apart, two beams of an
@@ -131,29 +131,29 @@ struct GicpParameters {
   // Points of one voxel of this edge share the errors of the normals [m]. Chosen: the voxel over
   // which normals are fitted is 0.7 m.
   static constexpr double kClusterVoxel_m = 1.0;
-  // Factor on the number of iterations where the guess may be far off. Chosen; a lidar-only
-  // walk of 15 s had an APE of 88 cm without it and 7 cm with it.
+  // The number of iterations grows by this factor where the guess may be far off. Chosen; a
+  // lidar-only walk of 15 s had an APE of 88 cm without it and 7 cm with it.
   static constexpr int kFarOffIterationFactor = 3;
   // Neighbours are kept while no point within CorrespondenceParameters::kLever_m has moved farther
   // [m]. Chosen: a hundredth of the map's voxel.
   static constexpr double kKeepPairs_m = 5e-3;
-  // Share of the old value when a scan's median range is smoothed. Chosen: ten scans, so that one
-  // bus alongside makes no keyframes.
+  // The old value keeps this share when a scan's median range is smoothed. Chosen: ten scans, so
+  // that one bus alongside makes no keyframes.
   static constexpr double kOpennessKeep = 0.9;
 };
 
-// The plane that is fitted around a scan's point, from the moments of 3 x 3 x 3 voxels.
+// Bounds the plane that is fitted around a scan's point, from the moments of 3 x 3 x 3 voxels.
 struct ScanNormalParameters {
-  // Points of the 27 voxels together. Chosen: as NdtOptions::min_cell_points.
+  // The 27 voxels need so many points together. Chosen: as NdtOptions::min_cell_points.
   static constexpr double kMinPoints = 6.0;
-  // Variance along the normal over that of the narrower tangent, at most: as for the cells of NDT
-  // (GaussianMapParameters).
+  // The variance along the normal is at most this share of that along the narrower tangent: as for
+  // the cells of NDT (GaussianMapParameters).
   static constexpr double kMaxThicknessRatio = 0.1;
-  // Standard deviation along the narrower tangent over the voxel's edge, at least. Chosen: a single
-  // ring is narrower, and three voxels evenly filled have 0.87.
+  // The standard deviation along the narrower tangent is at least this share of the voxel's edge.
+  // Chosen: a single ring is narrower, and three voxels evenly filled have 0.87.
   static constexpr double kMinWidthPerVoxel = 0.3;
-  // Standard deviation of the normal, at most. Chosen: twice that of NDT's cells, since a scan has
-  // fewer points than the map.
+  // The normal may err by this standard deviation. Chosen: twice that of NDT's cells, since a scan
+  // has fewer points than the map.
   static constexpr double kMaxNormalStd_rad = 0.1;
   // A surface z = k x^2 / 2 seen over [-a, a] is a^2 / 3 wide and k^2 a^4 / 45 thick, both
   // variances; a distance o away it has bent by k o^2 / 2, whose square is this times thickness /
@@ -162,8 +162,8 @@ struct ScanNormalParameters {
   // Points that are this many voxels from the next level's range count there, too. Arithmetic: the
   // neighbours of a point on the border, which lie in 3 x 3 x 3 voxels.
   static constexpr float kOverlap_voxels = 2.f;
-  // Levels of voxels, each twice as coarse as the one before. Arithmetic: with 0.7 m and 0.03 rad
-  // up to 750 m.
+  // There are so many levels of voxels, each twice as coarse as the one before. Arithmetic: with
+  // 0.7 m and 0.03 rad up to 750 m.
   static constexpr std::size_t kNumLevels = 6;
 };
 
@@ -176,8 +176,8 @@ struct LoamParameters {
   // Residuals beyond this [m] and what the guess may be off do not count. Chosen: three times
   // LoamOptions::huber_m.
   static constexpr double kGate_m = 0.3;
-  // Factor on the number of rounds where the guess may be far off. Chosen; a lidar-only walk of 15
-  // s had an APE of 206 cm without it and 2.5 cm with it.
+  // The number of rounds grows by this factor where the guess may be far off. Chosen; a lidar-only
+  // walk of 15 s had an APE of 206 cm without it and 2.5 cm with it.
   static constexpr int kFarOffRoundFactor = 3;
   // Later rounds go half their step. Chosen: two sets of neighbours may alternate; half of
   // LoamOptions::max_rounds.
@@ -185,11 +185,12 @@ struct LoamParameters {
   // Points of a line or a plane spread at least this much over the map's leaf, as a standard
   // deviation. Chosen: less is a piece of one scan ring.
   static constexpr double kMinWidthPerLeaf = 0.3;
-  // Standard deviation of a plane's normal [rad], at most: as for ScanNormalParameters.
+  // A plane's normal may err by this standard deviation [rad]: as for ScanNormalParameters.
   static constexpr double kMaxNormalStd_rad = 0.1;
 };
 
-// Scan to scan: A-LOAM's neighbours, and bounds that keep noise from tilting lines and planes.
+// Tunes scan-to-scan matching: A-LOAM's neighbours, and bounds that keep noise from tilting lines
+// and planes.
 struct LoamScanParameters {
   // Fewer matched features end a match. Chosen: a scan has fewer of them than of surface points
   // (MatchParameters::kMinMatched).
@@ -199,20 +200,20 @@ struct LoamScanParameters {
   static constexpr double kMinSearch_m = 1.0;
   static constexpr double kSearchPerRange = 0.06;
   static constexpr double kMaxSearch_m = 5.0;  // A-LOAM: DISTANCE_SQ_THRESHOLD of 25 m^2
-  // Least distance of the second point of a line or the third of a plane, on another ring, and of a
-  // plane's second point, on the same ring [m]. Chosen: the range noise of 2 cm tilts shorter ones
-  // by degrees.
+  // The second point of a line or the third of a plane, on another ring, and a plane's second
+  // point, on the same ring, are at least this far off [m]. Chosen: the range noise of 2 cm tilts
+  // shorter ones by degrees.
   static constexpr float kMinAcross_m = 0.5f;
   static constexpr float kMinBaseline_m = 1.f;
-  // Least sine of the angle at the first of a plane's three points. Chosen: at less, 6 deg, they
-  // are nearly a line.
+  // The angle at the first of a plane's three points has at least this sine. Chosen: at less, 6
+  // deg, they are nearly a line.
   static constexpr double kMinTriangle = 0.1;
   static constexpr int kMaxRingGap = 3;  // rings apart, at most; A-LOAM: NEARBY_SCAN of 2.5
-  // Edge of the voxels of the search grid [m]: as long as the least search (kMinSearch_m).
+  // Voxels of the search grid have this edge [m]: as long as the least search (kMinSearch_m).
   static constexpr float kGridVoxel_m = 1.f;
 };
 
-// Prior standard deviations for the rate within a sweep, as used in
+// Sets the prior standard deviations for the rate within a sweep, as used in
 // docs/experiments/intra_sweep_rate.md.
 struct IntraSweepRateParameters {
   // Chosen: the pose is where matching left it; they only keep directions that nothing holds.

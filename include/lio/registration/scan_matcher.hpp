@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Scan-to-map registration: one interface, several methods. A matcher owns its map. The pose it
-// measures is that of the imu in the map's frame, at the sweep's middle; points come in the imu
-// frame at that instant, already deskewed.
+// Defines scan-to-map registration: one interface, several methods. A matcher owns its map. The
+// pose it measures is that of the imu in the map's frame, at the sweep's middle; points come in the
+// imu frame at that instant, already deskewed.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@
 
 namespace lio {
 
-// Points of a scan and, for methods that use features, the kind of each.
+// Holds points of a scan and, for methods that use features, the kind of each.
 struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
-  std::span<const FeatureTag> tags = {};  // of each point; empty where the method needs none
+  std::span<const FeatureTag> tags = {};  // one a point; empty where the method needs none
   Vector3 sensor_imu = Vector3::Zero();   // the lidar's place
 };
 
@@ -34,16 +34,17 @@ struct TurnRate {
 struct MatchInput {
   std::span<const Eigen::Vector3f> points_imu;
   Pose T_map_imu_guess;
-  // Right error of the guess, [translation; rotation]: sets the correspondence radius. It is not a
-  // prior: it stays out of the cost.
+  // The guess has this right error, [translation; rotation]: it sets the correspondence radius. It
+  // is not a prior: it stays out of the cost.
   Matrix6 guess_cov = Matrix6::Zero();
   bool is_far_off = false;  // the guess may be far off: take more iterations before giving up
-  std::span<const FeatureTag> tags = {};                  // of points_imu
+  std::span<const FeatureTag> tags = {};                  // one per point of points_imu
   std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to fit normals in
-  // Standard deviation of the guessed translation since the last scan. Things that look different
-  // from each side (trunks, bushes) are left out where it is known better than they can tell.
+  // The guessed translation since the last scan has this standard deviation. Things that look
+  // different from each side (trunks, bushes) are left out where it is known better than they can
+  // tell.
   double shift_std_m = 1.0;
-  // The time of each of points_imu; given only where the rate within the sweep is asked for.
+  // Each of points_imu has its time here; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
   // How much of the correction of the guess each point's own instant takes, of points_imu: 1 at the
   // instant that the points are deskewed to. Empty: the scan is rigid. Only the method ndt bends
@@ -64,25 +65,27 @@ struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
   Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
-  Matrix6 cov = Matrix6::Zero();  // of T_map_imu, right error; 100 m along degenerate directions
+  Matrix6 cov = Matrix6::Zero();  // error of T_map_imu, right; 100 m along degenerate directions
   Matrix6 observable_cov =
       Matrix6::Zero();                    // the same without the part along degenerate directions
-  Vector6 eigenvalues = Vector6::Zero();  // of the information, rotations scaled to metres
+  Vector6 eigenvalues = Vector6::Zero();  // the information's, rotations scaled to metres
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   int num_matched = 0;
   LevelCounts num_matched_at{};  // by level of the map, finest first; method ndt
-  // Points where the map has a surface, near or far from it; 0 where the method does not tell.
+  // So many points lie where the map has a surface, near or far from it; 0 where the method does
+  // not tell.
   int num_in_map = 0;
   int iterations = 0;
   double residual_rms_m = 0.0;
-  // The error of the turn rate that the scan was deskewed by; where asked for and the method can.
+  // The turn rate that the scan was deskewed by errs by this; given where asked for and the method
+  // can.
   std::optional<TurnRate> turn_rate_error;
   // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
   std::vector<Vector6> beam_scores;
-  // How far a unit of gradient shifts the pose, right error: the robust cost's curvature inverted,
+  // A unit of gradient shifts the pose by this, right error: the robust cost's curvature inverted,
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
-  double new_content_share = 1.0;  // of the matched cells after this scan is inserted: 0..1
+  double new_content_share = 1.0;  // 0..1, share of the matched map that this scan brings
 
   [[nodiscard]] bool IsUsable() const {
     return status == MatchStatus::kConverged || status == MatchStatus::kDegenerate;
@@ -101,7 +104,7 @@ class ScanMatcher {
     return false;
   }
   virtual void Clear() = 0;
-  // The vertical's direction in the map, to some 10 deg; to be called before the first Insert().
+  // Sets the vertical's direction in the map, to some 10 deg; call it before the first Insert().
   virtual void SetUp(const Vector3& /*up_map*/) {}
   struct MapSize {
     std::size_t num_cells = 0;

@@ -18,13 +18,13 @@ namespace lio {
 class BirdsEyeHold {
  public:
   // Corrects pose and covariance of a usable match with degenerate directions, and remembers the
-  // scan's view where it is some way from the last one. `points_imu`: deskewed, at the pose's
-  // instant; `R_level_map`: turns up in the map to z.
+  // scan's view where it is some way from the last one. `points_imu` are deskewed, at the pose's
+  // instant; `R_level_map` turns up in the map to z.
   void Apply(std::span<const Eigen::Vector3f> points_imu, const Quaternion& R_level_map,
              MatchResult& match);
 
  private:
-  std::vector<PlacedView> views_;  // of the last scans, some way apart, in level axes
+  std::vector<PlacedView> views_;  // from the last scans, some way apart, in level axes
 };
 
 }  // namespace lio

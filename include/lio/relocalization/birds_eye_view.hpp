@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The vertical structures of a scan (posts, trees, walls, cars), seen from above. Two views laid
-// over each other tell a velocity or a place before matching can. Ground is left out, since a
+// Shows the vertical structures of a scan (posts, trees, walls, cars), seen from above. Two views
+// laid over each other tell a velocity or a place before matching can. Ground is left out, since a
 // spinning lidar's rings on it move with the sensor. Points are in metres, in axes whose z is up to
 // about 10 deg, with the origin at the sensor; those within 60 m of it to each side count.
 #pragma once
@@ -18,14 +18,14 @@ class BirdsEyeView {
  public:
   explicit BirdsEyeView(std::span<const Eigen::Vector3f> points);
 
-  // One point for each structure, at most a few hundred, evenly chosen. Structures in a row, as of
-  // a wall or a rail, are left out unless there are few others.
+  // Returns one point for each structure, at most a few hundred, evenly chosen. Structures in a
+  // row, as of a wall or a rail, are left out unless there are few others.
   const std::vector<Eigen::Vector2f>& structures() const { return structures_; }
   // How many of these structures, moved by `shift`, have one of this view within about a quarter of
   // a metre.
   [[nodiscard]] int NumNear(std::span<const Eigen::Vector2f> structures,
                             const Eigen::Vector2f& shift) const;
-  // The same within one to two metres.
+  // Counts the same within one to two metres.
   [[nodiscard]] int NumRoughlyNear(std::span<const Eigen::Vector2f> structures,
                                    const Eigen::Vector2f& shift) const;
   // Are there enough structures to lay the view over another one?
@@ -42,7 +42,7 @@ class BirdsEyeView {
   std::vector<std::uint8_t> roughly_near_;  // the same, of larger cells
 };
 
-// At most `max` of them, evenly over their order.
+// Returns at most `max` of them, evenly over their order.
 [[nodiscard]] std::vector<Eigen::Vector2f> SpreadEvenly(
     const std::vector<Eigen::Vector2f>& structures, std::size_t max);
 

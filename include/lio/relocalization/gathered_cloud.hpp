@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The points of the scans so far, in the new map that they make, thinned: what is looked for in a
-// map saved before. It shows more of the place than one scan does, and from several viewpoints.
+// Gathers the points of the scans so far, in the new map that they make, thinned: what is looked
+// for in a map saved before. It shows more of the place than one scan does, and from several
+// viewpoints.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +14,9 @@
 
 namespace lio {
 
-// The cloud around the body at one instant, in the axes of its map.
+// Holds the cloud around the body at one instant, in the axes of its map.
 struct CloudSample {
-  Vector3 centre_map = Vector3::Zero();     // where the body was
+  Vector3 centre_map = Vector3::Zero();     // the body's position
   std::vector<Eigen::Vector2f> structures;  // things that stand up, seen from above
   std::vector<Eigen::Vector3f> points;      // evenly chosen; from the centre
 };

@@ -19,7 +19,7 @@ class HeightVotes {
  public:
   explicit HeightVotes(std::span<const Eigen::Vector3f> points_map);
 
-  // Heights of the cloud's axes in the map [m], those with most votes first; at most four.
+  // Returns heights of the cloud's axes in the map [m], those with most votes first; at most four.
   [[nodiscard]] std::vector<float> Find(std::span<const Eigen::Vector3f> points,
                                         const PlanarPose& pose) const;
 

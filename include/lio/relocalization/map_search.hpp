@@ -20,7 +20,7 @@
 namespace lio {
 
 struct ScoredPlace {
-  PlanarPose pose;  // of the axes of the structures in those of the map
+  PlanarPose pose;  // the structures' axes in those of the map
   int score = 0;    // structures that lie on one of the map, or beside it
 };
 
@@ -37,13 +37,13 @@ class MapSearch {
 
   // Goes on for at most about so many look-ups. True: the search is over.
   bool GoOn(std::int64_t max_lookups);
-  // Best first, at most 40, no two of them the same.
+  // They stand best first, at most 40, no two of them the same.
   [[nodiscard]] const std::vector<ScoredPlace>& places() const { return places_; }
 
  private:
-  // All shifts of a square of 2^level cells, at one turn.
+  // Holds all shifts of a square of 2^level cells, at one turn.
   struct Node {
-    std::int32_t score = 0;  // of no place of the node can more structures lie on the map
+    std::int32_t score = 0;  // upper bound: no place of the node has more structures on the map
     std::int16_t x = 0;      // cell that `centre` comes to, the least of the square
     std::int16_t y = 0;
     std::int16_t turn = 0;

@@ -12,10 +12,10 @@
 namespace lio {
 
 struct BirdsEyeViewParameters {
-  float half_width_m = 60.f;  // of the view's square; chosen: farther off a VLP-16 sees little
+  float half_width_m = 60.f;  // half of the view's square; chosen: farther off a VLP-16 sees little
   float column_m = 0.5f;      // edge of a column of points; chosen: wider than trunks and posts
   float min_height_m = 0.4f;  // from a column's lowest to its highest point; chosen: above kerbs
-  // Edge of the cells that say how near is near. Chosen: matching converges from there.
+  // Cells of this edge say how near is near. Chosen: matching converges from there.
   float cell_m = 0.25f;
   int coarse_cell = 4;  // edge of the coarse cells, in cells; chosen: 1 m, as the coarse step
   std::size_t min_structures = 20;   // chosen: fewer do not tell one place from another
@@ -29,18 +29,18 @@ struct BirdsEyeViewParameters {
 };
 
 struct VelocitySearchParameters {
-  float step_mps = 0.5f;     // of the grid; chosen: 5 cm between two sweeps, well within a cell
-  int max_steps = 90;        // to each side: 45 m/s; chosen: faster than cars drive on motorways
+  float step_mps = 0.5f;  // step of the grid; chosen: 5 cm between two sweeps, well within a cell
+  int max_steps = 90;     // to each side: 45 m/s; chosen: faster than cars drive on motorways
   float peak_width_m = 1.f;  // chosen: what is farther from the best shift is a rival
-  // Lead of the best score over its rivals, in roots of the score. Chosen: two standard deviations
+  // The best score leads its rivals by so many roots of the score. Chosen: two standard deviations
   // of a count; nine starts on a motorway are all clear by it.
   double min_lead = 2.0;
   // Scores above this share of the best are averaged. Measured at nine starts on a motorway,
   // with ConstantVelocityParameters::velocity_seed_std_mps: five begin at the first try, two
   // before.
   double flat_top = 0.88;
-  // Scans from which a velocity is believed. Measured: a single pair is ambiguous among repeating
-  // structures (docs/experiments/starts_in_motion.md).
+  // A velocity is believed from so many scans on. Measured: a single pair is ambiguous among
+  // repeating structures (docs/experiments/starts_in_motion.md).
   std::size_t min_scans = 3;
 };
 
@@ -64,86 +64,87 @@ struct PlaceSearchParameters {
 // docs/experiments/open_road.md.
 struct ShiftSearchParameters {
   float step_m = 0.25f;    // chosen: a cell of the view
-  double min_std_m = 0.2;  // of a result; chosen: about a cell's width
+  double min_std_m = 0.2;  // lower bound of a result's; chosen: about a cell's width
   // A score that is lower by its chance is e^-6 as likely. Chosen with the starts of that page.
   double log_odds = 6.0;
-  double range_sigmas = 3.0;  // of the match, that are searched, ... statistics: 99.7 %
+  double range_sigmas = 3.0;  // searched around the match, ... statistics: 99.7 %
   double min_range_m = 1.5;   // ... at least, ... chosen: six steps, so that a peak shows its sides
   double max_range_m = 5.0;   // ... at most; chosen by cost
-  std::size_t max_views = 8;  // of earlier scans; chosen by cost, used in that page
+  std::size_t max_views = 8;  // from earlier scans; chosen by cost, used in that page
   float view_spacing_m = 1.5f;  // between them; chosen: posts look new; used in that page
 };
 
 struct PlaceCandidateParameters {
-  double range_sigmas = 2.0;  // of the prior, that are searched; chosen by cost: 95 % of each axis
+  double range_sigmas = 2.0;  // searched around the prior; chosen by cost: 95 % of each axis
   double max_shift_m = 60.0;  // chosen: farther off less than half of the views overlaps
-  // Standard deviation of a candidate. Chosen: a fine step and what structures lack in place, and
-  // about a coarse step of the turn.
+  // A candidate has this standard deviation. Chosen: a fine step and what structures lack in place,
+  // and about a coarse step of the turn.
   double std_m = 0.5;
   double std_rad = 0.03;
 };
 
 struct PlaceVerificationParameters {
-  // A prior with a smaller standard deviation, felt by points at the lever, is within reach of
-  // matching.
+  // A prior with a smaller standard deviation, felt by points at the lever, is within the basin of
+  // convergence of matching.
   double max_prior_std_m = CorrespondenceParameters::kMaxStd_m;
   double lever_m = CorrespondenceParameters::kLever_m;
-  // Share of the points on a surface of the map, of those that come to one, over the last scan's.
-  // Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
+  // This share of the points that come to a surface of the map must lie on it, over the last scan's
+  // share. Measured: 98 % lie on it at the true pose on the worst walks, 78 % at most elsewhere
   // (docs/experiments/relocalization.md).
   double min_share = 0.9;
-  // The same from an unsure prior, for a scan that may be bent. Measured: as min_share.
+  // The same holds from an unsure prior, for a scan that may be bent. Measured: as min_share.
   double likely_share = 0.8;
   double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
   // As many end the search and overrule inertial prediction. Chosen; used in
   // docs/experiments/clock_steps.md.
   double plenty_number = 0.6;
   double apart_m = 0.5;  // chosen: two poses nearer than this are not told apart by matching
-  // Times the points on surfaces, for a better match. Chosen; used in
+  // A better match has so many times the points on surfaces. Chosen; used in
   // docs/experiments/clock_steps.md.
   double clearly_more = 1.2;
   double much_nearer = 0.3;  // times as far, for a match near one of two poses; chosen: a third
 };
 
-// Things that stand up in a cloud, in voxels.
+// Tunes the search for things that stand up in a cloud, in voxels.
 struct StandingPointsParameters {
   float voxel_m = 1.f;     // chosen: lower than any ceiling is above its floor
-  int min_points = 5;      // of a voxel that shows their spread; chosen: fewer spread by chance
-  float min_std_m = 0.2f;  // of their height; chosen: a wall through the whole voxel has 0.29
+  int min_points = 5;      // a voxel's spread needs so many; chosen: fewer spread by chance
+  float min_std_m = 0.2f;  // their spread in height; chosen: a wall through the voxel has 0.29
   float column_m = BirdsEyeViewParameters{}.column_m;  // edge; a column gives one structure
 };
 
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  float cell_m = 0.5f;  // of the finest grid; chosen: matching converges from there
+  float cell_m = 0.5f;  // edge of the finest cells; chosen: matching converges from there
   int num_levels = 7;   // chosen: cells of 0.5 to 32 m, a few of which cover a map
-  // Binary logarithm of the cells that a block of shifts is wide in its grid. Chosen: all
+  // A block of shifts is two to this power cells wide in its grid. Chosen: all
   // grids take three times the memory of the finest then; fewer bound a score looser.
   int log2_cells_per_block = 2;
   int max_cells_per_side = 8192;    // chosen by memory: 4 km, whose grids take 220 MB
-  float max_coordinate_m = 100e3f;  // of a map's point; arithmetic: a float holds 8 mm there
+  float max_coordinate_m = 100e3f;  // bound on a map's points; arithmetic: a float holds 8 mm there
   float step_rad = 0.0175f;         // chosen: a cell at 30 m
-  // Fine steps to each side, over what a score is the same. Arithmetic: four of
-  // PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts as well.
+  // A place is refined by so many fine steps to each side, over which its score is the same.
+  // Arithmetic: four of PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts
+  // as well.
   int num_refine_steps = 4;
   float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
   std::size_t max_structures = 120;  // chosen: bounds the cost
-  float max_range_m = 40.f;          // of structures; chosen: a step of the turn is 0.7 m there
-  double min_share = 0.4;  // of the structures, in the map; chosen: scans see new things, too
-  double min_score_ratio = VelocitySearchParameters{}.flat_top;  // of the best score
+  float max_range_m = 40.f;  // range of structures; chosen: a step of the turn is 0.7 m there
+  double min_share = 0.4;    // share of structures in the map; chosen: scans see new things, too
+  double min_score_ratio = VelocitySearchParameters{}.flat_top;  // share of the best score
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
-  std::size_t max_nodes = 4'000'000;  // that wait; chosen by memory: 48 MB
-  // Look-ups in a grid for one scan. Chosen by time: about 20 ms; a search of a street of 440 m
-  // takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
+  std::size_t max_nodes = 4'000'000;  // nodes that wait; chosen by memory: 48 MB
+  // One scan pays for so many look-ups in a grid. Chosen by time: about 20 ms; a search of a street
+  // of 440 m takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
   std::int64_t max_lookups_per_scan = 4'000'000;
 };
 
 struct HeightVotesParameters {
   float column_m = MapSearchParameters{}.cell_m;  // edge of a column of the map
-  float bin_m = 0.25f;           // of heights; chosen: matching converges from half a metre
-  std::size_t max_points = 400;  // that vote; chosen: bounds the cost
-  double min_vote_ratio = 0.6;   // of those for the best height; chosen: storeys look nearly alike
+  float bin_m = 0.25f;           // height of a bin; chosen: matching converges from half a metre
+  std::size_t max_points = 400;  // voters; chosen: bounds the cost
+  double min_vote_ratio = 0.6;   // share of the best height's; chosen: storeys look nearly alike
   float apart_m = 1.f;          // chosen: two heights nearer than this are one, no storey is as low
   std::size_t max_heights = 4;  // storeys that are tried; chosen by cost
 };
@@ -156,22 +157,22 @@ struct GatheredCloudParameters {
 };
 
 struct PlaceContestParameters {
-  // Points of a coarse match. Chosen: 50 of them must come to a surface
+  // A coarse match has so many points. Chosen: 50 of them must come to a surface
   // (MatchParameters::kMinMatched), and in a strange place few do.
   int num_coarse_points = 800;
   int max_coarse_per_scan = 20;    // coarse matches of a scan; chosen: some milliseconds
   std::size_t max_contenders = 8;  // places that are followed; chosen: two matches a scan, in turn
-  double min_support_ratio = 0.5;  // of the best coarse match, to be followed; chosen: half
-  // Standard deviation of a place that matched the scan before. Chosen: above what a scan's match
-  // moves it by, below max_step_m and max_step_rad.
+  double min_support_ratio = 0.5;  // share of the best coarse match, to be followed; chosen: half
+  // A place that matched the scan before has this standard deviation. Chosen: above what a scan's
+  // match moves it by, below max_step_m and max_step_rad.
   double settled_std_m = 0.1;
   double settled_std_rad = 0.01;
-  // Share of the points on surfaces of those that come to one, over that of the scan in its own new
-  // map. Measured: 0.96 and more at right places, 0.94 at most one storey off
+  // This share of the points that come to a surface must lie on it, over that of the scan in its
+  // own new map. Measured: 0.96 and more at right places, 0.94 at most one storey off
   // (docs/experiments/start_in_a_map.md).
   double min_fit = 0.95;
-  // Points on surfaces, over those in the scan's own new map; with fewer the fit is worse. Chosen:
-  // a saved map has fewer points on near things than the last scans have.
+  // So many points must lie on surfaces, over those in the scan's own new map; with fewer the fit
+  // is worse. Chosen: a saved map has fewer points on near things than the last scans have.
   double min_number_ratio = 0.6;
   // A right place stays where it is from scan to scan. Chosen: three settled_std_m, and two of the
   // turn.
@@ -179,8 +180,8 @@ struct PlaceContestParameters {
   double max_step_rad = 0.02;
   int num_checks = 5;        // scans in a row that must say so; chosen: half a second
   int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
-  // A beaten rival's share of points that contradict it, over the winner's, ... Chosen; no wrong
-  // place won by it (docs/experiments/start_in_a_map.md).
+  // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
+  // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
   double min_residual_ratio = 1.5;
   double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things
   int max_scans = 30;            // then the search begins anew; chosen: three seconds at 10 Hz
@@ -193,8 +194,8 @@ struct PlaceSeekerParameters {
   // in view, or two seconds have brought more of them.
   double again_after_m = 2.0;
   int again_after_scans = 20;
-  // Around a guess, to each side, of its yaw, and up and down. Chosen: a parking lot's error by
-  // hand or GNSS, 30 deg, and less than half a storey.
+  // The search goes so far around a guess, to each side, of its yaw, and up and down. Chosen: a
+  // parking lot's error by hand or GNSS, 30 deg, and less than half a storey.
   float guess_range_m = 10.f;
   float guess_range_rad = 0.5f;
   float guess_range_up_m = 1.5f;
@@ -213,11 +214,12 @@ struct RelocalizationParameters {
   GatheredCloudParameters gathered;
   PlaceContestParameters contest;
   PlaceSeekerParameters seeker;
-  double aligned_std_m = 0.5;  // of a prior that was aligned; chosen: 5 m/s over a sweep
-  // Full matches for one scan: from the prior, two of a search, after the deskew was refined.
-  // Chosen by cost: up to 16 ran before, and found places no better.
+  double aligned_std_m = 0.5;  // an aligned prior's; chosen: 5 m/s over a sweep
+  // One scan has so many full matches: from the prior, two of a search, after the deskew was
+  // refined. Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;
-  // Points of a coarse match, which ranks candidates. Chosen: an eighth of a full match's.
+  // A coarse match, which ranks candidates, has so many points. Chosen: an eighth of a full
+  // match's.
   int num_coarse_points = 300;
   // A place nearer than both of these to one that was tried is the same. Chosen: matching converges
   // from there.

@@ -25,7 +25,7 @@ namespace lio {
 using MatchInInitial = std::function<MatchResult(std::span<const Eigen::Vector3f> points,
                                                  const Pose& T_initial_guess, const Matrix6& cov)>;
 
-// A scan that the new map has located.
+// Holds a scan that the new map has located.
 struct LocatedScan {
   std::span<const Eigen::Vector3f> points_imu;  // to match
   const MatchResult& match;                     // in the new map
@@ -33,16 +33,16 @@ struct LocatedScan {
 
 struct FoundPlace {
   Pose T_initial_map;
-  Matrix6 cov = Matrix6::Zero();  // of the body's pose in the saved map, right error
+  Matrix6 cov = Matrix6::Zero();  // pose of the body in the saved map, right error
 };
 
 class PlaceContest {
  public:
   PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map);
 
-  // Ranks some more places. True: all are ranked.
+  // Ranks some more places; true when all are ranked. True: all are ranked.
   [[nodiscard]] bool Rank(const MatchInInitial& match);
-  // After ranking. At most `max_matches` matches of the scan.
+  // Call it after ranking. It makes at most `max_matches` matches of the scan.
   [[nodiscard]] std::optional<FoundPlace> Check(const LocatedScan& scan,
                                                 const MatchInInitial& match, int max_matches);
   // No place can win any more.
@@ -51,10 +51,10 @@ class PlaceContest {
  private:
   struct Contender {
     Pose T_initial_map;
-    double support = 0.0;  // of the coarse match
+    double support = 0.0;  // share of points that the coarse match found
     int num_checks = 0;
     int num_good_in_a_row = 0;
-    double fit_sum = 0.0;  // of scans: 1 where one fits as well as its new map
+    double fit_sum = 0.0;  // sum over scans: 1 where one fits as well as its new map
     Matrix6 cov = Matrix6::Zero();
 
     [[nodiscard]] double fit() const { return num_checks == 0 ? 1.0 : fit_sum / num_checks; }

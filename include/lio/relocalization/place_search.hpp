@@ -15,20 +15,20 @@
 
 namespace lio {
 
-// The pose of the later view in the axes of the earlier one, in which a point p of the later view
-// appears at R(turn) p + shift.
+// Holds the pose of the later view in the axes of the earlier one, in which a point p of the later
+// view appears at R(turn) p + shift.
 struct PlanarPose {
   Eigen::Vector2f shift_m = Eigen::Vector2f::Zero();
   float turn_rad = 0.f;
 };
 
-// The range of a search, to each side of its middle.
+// Holds the range of a search, to each side of its middle.
 struct PlanarRange {
   Eigen::Vector2f shift_m = Eigen::Vector2f::Zero();
   float turn_rad = 0.f;
 };
 
-// At most twelve poses; none where a view has too few structures.
+// Returns at most twelve poses; none where a view has too few structures.
 [[nodiscard]] std::vector<PlanarPose> FindPlaces(const BirdsEyeView& earlier,
                                                  const BirdsEyeView& later,
                                                  const PlanarPose& middle,

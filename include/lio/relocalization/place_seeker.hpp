@@ -23,7 +23,7 @@
 
 namespace lio {
 
-// The parts of a saved map that the search needs. Its z axis must be up to about 10 deg.
+// Holds the parts of a saved map that the search needs. Its z axis must be up to about 10 deg.
 struct PlaceIndex {
   // Throws std::invalid_argument when the points spread over more than 4 km.
   explicit PlaceIndex(std::span<const Eigen::Vector3f> points_map);
@@ -32,7 +32,7 @@ struct PlaceIndex {
   HeightVotes heights;
 };
 
-// A rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.
+// Holds a rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.
 struct PlaceGuess {
   Vector3 position_m = Vector3::Zero();
   double yaw_rad = 0.0;
@@ -41,7 +41,7 @@ struct PlaceGuess {
 struct PlaceMatching {
   MatchInInitial match;
   MatchInInitial match_coarsely;
-  int max_matches = 0;  // of this scan, not coarse ones
+  int max_matches = 0;  // full matches allowed for this scan
 };
 
 class PlaceSeeker {
@@ -52,7 +52,7 @@ class PlaceSeeker {
 
   // The new map was cleared.
   void Clear();
-  // `all_points_imu`: of the scan, more than are matched.
+  // `all_points_imu` are those of the scan, more than are matched.
   [[nodiscard]] std::optional<FoundPlace> Add(const LocatedScan& scan,
                                               std::span<const Eigen::Vector3f> all_points_imu,
                                               const PlaceMatching& matching);
@@ -68,7 +68,7 @@ class PlaceSeeker {
   GatheredCloud cloud_;
   int num_scans_ = 0;        // since the last search began
   bool has_sought_ = false;  // in this new map
-  CloudSample sample_;       // of the search
+  CloudSample sample_;       // sought in the initial map
   std::optional<MapSearch> search_;
   std::optional<PlaceContest> contest_;
   bool is_ranked_ = false;  // the contest's places are

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Everything that is known of where a scan may be besides the motion prior, by bird's-eye views:
-// its velocity before anything is mapped, a better prior by its shift since the last scan, its
-// place after it was lost, its position along degenerate directions. It knows no map: what needs
-// one calls back.
+// Keeps everything that is known of where a scan may be besides the motion prior, by bird's-eye
+// views: its velocity before anything is mapped, a better prior by its shift since the last scan,
+// its place after it was lost, its position along degenerate directions. It knows no map: what
+// needs one calls back.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@
 
 namespace lio {
 
-// Deskewed points in imu at `stamp`, the sweep's middle.
+// Holds deskewed points in imu at `stamp`, the sweep's middle.
 struct DeskewedScan {
   Timestamp stamp;
   std::span<const Eigen::Vector3f> points_imu;
@@ -40,7 +40,7 @@ struct CandidateMatcher {
 
 // Is a pose predicted so well that matching from it finds the scan, if it is there? The covariance
 // is of [position (m); rotation (rad)].
-[[nodiscard]] bool IsWithinReachOfMatching(const Matrix6& prior_cov);
+[[nodiscard]] bool IsWithinConvergenceBasin(const Matrix6& prior_cov);
 
 class Relocalizer {
  public:
@@ -53,12 +53,13 @@ class Relocalizer {
   // Forgets all scans: the map was cleared.
   void Clear() { *this = Relocalizer(); }
 
-  // In the map's axes, from this and all scans that were given since Clear(); absent while no
-  // velocity is clear. The prior gives only its rotation and its vertical.
+  // The velocity is in the map's axes, from this and all scans that were given since Clear();
+  // absent while no velocity is clear. The prior gives only its rotation and its vertical.
   [[nodiscard]] std::optional<Vector3> FindVelocity(const DeskewedScan& scan,
                                                     const MotionPrior& prior);
 
-  // The prior with its position by the shift since the last located scan, where that is clear.
+  // Returns the prior with its position by the shift since the last located scan, where that is
+  // clear.
   [[nodiscard]] MotionPrior Align(const DeskewedScan& scan, const MotionPrior& prior) const;
 
   // Finds the scan's place if `near_prior`, its match from the prior, is not the place; returns
@@ -68,7 +69,7 @@ class Relocalizer {
                              const MotionPrior& prior, const MatchResult& near_prior,
                              const CandidateMatcher& matcher);
 
-  // Corrects degenerate directions of a usable match. `points_imu`: all of the scan.
+  // Corrects degenerate directions of a usable match. `points_imu` are all of the scan's.
   void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
                       MatchResult& match);
 

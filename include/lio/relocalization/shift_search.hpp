@@ -17,7 +17,7 @@
 namespace lio {
 
 struct PlacedView {
-  Eigen::Vector2f position_m;  // of the sensor, in axes that all share
+  Eigen::Vector2f position_m;  // the sensor's, in axes that all share
   BirdsEyeView view;
 };
 
@@ -26,10 +26,10 @@ struct FoundShift {
   Eigen::Matrix2d cov;  // m^2
 };
 
-// The position that `now` was seen from, searched up to `range_m` around `guess_m` in x and y.
-// Absent where there are too few structures; where the views agree as well unshifted (along plain
-// walls a sensor sees its own rings, which move with it, and at rest there is nothing to find); and
-// where the best position is at the border of the range.
+// Returns the position that `now` was seen from, searched up to `range_m` around `guess_m` in x and
+// y. The result is absent where there are too few structures; where the views agree as well
+// unshifted (along plain walls a sensor sees its own rings, which move with it, and at rest there
+// is nothing to find); and where the best position is at the border of the range.
 [[nodiscard]] std::optional<FoundShift> FindShift(std::span<const PlacedView> earlier,
                                                   const BirdsEyeView& now,
                                                   const Eigen::Vector2f& guess_m, float range_m);

@@ -22,7 +22,7 @@ class StructurePyramid {
   // Cells are counted from a corner beyond all points.
   [[nodiscard]] Eigen::Vector2i CellOf(const Eigen::Vector2f& point) const;
   [[nodiscard]] Eigen::Vector2f CentreOf(const Eigen::Vector2i& cell) const;
-  // Cells of the finest grid along x and y.
+  // Returns the number of cells of the finest grid along x and y.
   [[nodiscard]] const Eigen::Vector2i& size() const { return size_; }
   // At level 0: does a thing stand within a cell of there? At level k: may one, for `cell` moved by
   // anything from zero to 2^k - 1 cells along x and y?

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Places where a lost scan was matched in vain, so that the search for the next scan goes on with
-// others. A place is kept as its offset from the motion prior of its scan, which moves as the
-// sensor does.
+// Remembers places where a lost scan was matched in vain, so that the search for the next scan goes
+// on with others. A place is kept as its offset from the motion prior of its scan, which moves as
+// the sensor does.
 #pragma once
 
 #include <vector>

@@ -10,7 +10,7 @@
 // rail, traffic that goes along); the sum over pairs of different spacing in time leaves one
 // velocity. Points are in metres, in axes whose z is up to about 10 deg and which do not turn
 // between the scans, with the origin at the sensor. All scans are skewed alike, which does little
-// harm. The velocity is taken as constant. Cost: about 15 ms for a pair of scans.
+// harm. The velocity is taken as constant. A pair of scans costs about 15 ms.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,11 +25,11 @@ namespace lio {
 
 class VelocitySearch {
  public:
-  // `stamp`: when the sensor was at the points' origin. Scans come in order of time.
+  // `stamp` tells when the sensor was at the points' origin. Scans come in order of time.
   void Add(Timestamp stamp, std::span<const Eigen::Vector3f> points);
 
-  // The velocity in x and y [m/s]. Absent when none agrees clearly better than the rest: there are
-  // few structures, they look alike along the way, or there are fewer than two scans.
+  // Returns the velocity in x and y [m/s]. Absent when none agrees clearly better than the rest:
+  // there are few structures, they look alike along the way, or there are fewer than two scans.
   [[nodiscard]] std::optional<Eigen::Vector2f> Find() const;
   std::size_t num_scans() const { return scans_.size(); }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The page that shows a run: report.html, one file that needs neither a network nor other files.
+// Writes the page that shows a run: report.html, one file that needs neither a network nor other
+// files.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +26,8 @@ struct ReportInputs {
 [[nodiscard]] nlohmann::ordered_json ReportData(const std::filesystem::path& folder,
                                                 const ReportInputs& inputs);
 
-// The whole page as text: of ReportData, or of {"runs": [ReportData, ...]} for several runs on one
-// page.
+// Returns the whole page as text: of ReportData, or of {"runs": [ReportData, ...]} for several runs
+// on one page.
 [[nodiscard]] std::string ReportPage(const nlohmann::ordered_json& data);
 
 // Writes folder/report.html. Throws std::runtime_error as ReportData does, and when the file cannot

@@ -27,15 +27,15 @@ struct DiagnosisRequest {
 
 struct Diagnosis {
   PreparedRecording recording;
-  std::vector<std::string> faults;  // of the configuration; where there are any, all below is empty
+  std::vector<std::string> faults;  // faults of the configuration; if any, all below is empty
   Verdict verdict;                  // with the rig as it was given
   std::string refusal;    // why that rig contradicts the recording; empty when it does not
-  std::string complaint;  // what was wrong with the log; empty when nothing was
+  std::string complaint;  // names what was wrong with the log; empty when nothing was
   // The causes whose fixes are laid over the rig, in this order: each left at least as much trust
   // as there was before. One pass takes the first fix without a look at what it does.
   std::vector<Cause> treated;
   bool is_checked = false;  // a replay had all these fixes
-  Verdict with_fixes;       // of that replay; that of the given rig where there is no fix
+  Verdict with_fixes;       // the verdict of that replay; where there is no fix, the given rig's
   Options options;          // with these fixes
 };
 

@@ -34,7 +34,7 @@ class Replay {
   void Run(LogInput& input);
 
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
-  // After Run only.
+  // Call it after Run only.
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }
   // Says why the configuration contradicts the log; empty when it does not.
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
@@ -55,7 +55,7 @@ class Replay {
   RegistrationWorker worker_;
   MapCloud map_;
   LidarCheck lidar_check_;
-  std::optional<MatchOutcome> outcome_;  // of the last match, until it is taken
+  std::optional<MatchOutcome> outcome_;  // from the last match, until it is taken
   int num_messages_to_wait_ = 0;         // messages to read before it is taken
   std::int64_t decode_ns_ = 0;
   bool has_told_failure_ = false;

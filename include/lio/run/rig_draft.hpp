@@ -24,7 +24,7 @@ struct RigDraft {
   std::string noise_reason;
 };
 
-// The draft as YAML, which LoadOptions takes. Comments name what is assumed.
+// Returns the draft as YAML, which LoadOptions takes. Comments name what is assumed.
 [[nodiscard]] std::string RigDraftYaml(const RigDraft& draft);
 
 }  // namespace lio

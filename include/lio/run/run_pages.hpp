@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The pages of runs that are finished: of one, or of several side by side.
+// Writes the pages of runs that are finished: of one, or of several side by side.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace lio {
 
-// The truth that the run was scored with: truth.tum in its folder, else the file that its eval.json
-// names; nothing when neither is there.
+// Returns the truth that the run was scored with: truth.tum in its folder, else the file that its
+// eval.json names; nothing when neither is there.
 [[nodiscard]] std::optional<std::filesystem::path> TruthOfRun(const std::filesystem::path& folder);
 
 // Writes out/report.html with all runs, each compared with `truth` or else with its own. Throws

@@ -9,8 +9,8 @@
 // and order, in the imu frame at `reference`, metres. Model: between poses rotation is geodesic and
 // translation linear; the poses are sampled on a grid of about 1 ms (DeskewParameters), between
 // which transforms are blended linearly: the error at 60 m and 1 rad/s is below 0.01 mm. Failure:
-// throws std::invalid_argument without poses. Cost: linear, no allocation but the result; safe from
-// several threads.
+// throws std::invalid_argument without poses. The cost is linear, with no allocation but the
+// result; it is safe from several threads.
 #pragma once
 
 #include <vector>

@@ -11,12 +11,12 @@
 //
 // Inputs: points in the lidar frame, metres, in any order; a ring is put in order by time, or by
 // azimuth where the points have no time, and begins where its largest gap ends. Non-finite and
-// unwanted points (range, own vehicle) are ignored. Nothing throws. Result: indices into the
-// sweep's points, by ring and then along the ring; the same set for any order of the points.
-// Sources: Zhang and Singh, "LOAM", RSS 2014, section V-A; A-LOAM's constants.
-// Differences: the surface's slope is judged by four steps of the ring together and against the
-// beam's own angular step, so that neither range noise nor the sensor's resolution decides.
-// Cost: linear but for sorting; pure, safe from several threads.
+// unwanted points (range, own vehicle) are ignored. Nothing throws. The result has indices into the
+// sweep's points, by ring and then along the ring; it is the same set for any order of the points.
+// Sources: Zhang and Singh, "LOAM", RSS 2014, section V-A; A-LOAM's constants. Differences: the
+// surface's slope is judged by four steps of the ring together and against the beam's own angular
+// step, so that neither range noise nor the sensor's resolution decides. The cost is linear but for
+// sorting; the function is pure and safe from several threads.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,8 @@ struct LoamFeatures {
   std::vector<std::uint32_t> less_flat;  // one per voxel; may include flat ones
   std::vector<std::uint32_t> occluded;   // left out: at the border of an occlusion
   std::vector<std::uint32_t> grazed;     // left out: grazing incidence
-  // Ring of each point of the sweep, rebuilt from elevation; empty where the sweep has rings.
+  // Each point of the sweep has its ring here, rebuilt from elevation; empty where the sweep has
+  // rings.
   std::vector<std::uint16_t> rebuilt_rings;
 };
 

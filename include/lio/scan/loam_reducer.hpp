@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Reduces a sweep for LOAM: all edge points, and surface points thinned to about the target number,
-// the flattest first. Points in the lidar frame, metres, each at its own instant.
+// the flattest first. Points are in the lidar frame, metres, each at its own instant.
 #pragma once
 
 #include <vector>

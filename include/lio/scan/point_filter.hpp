@@ -26,7 +26,7 @@ class PointFilter {
   // Needs a finite `point`.
   bool IsWanted(const LidarPoint& point) const { return IsInRange(point) && !IsOwnVehicle(point); }
 
-  // Branch-free, because the outcome is unpredictable.
+  // It is branch-free, because the outcome is unpredictable.
   bool IsInRange(const LidarPoint& point) const {
     const float range_sq = point.x_m * point.x_m + point.y_m * point.y_m + point.z_m * point.z_m;
     return (range_sq >= min_sq_) & (range_sq <= max_sq_);

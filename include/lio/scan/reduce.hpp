@@ -21,13 +21,13 @@ class ScanReducer final : public SweepReducer {
  public:
   ScanReducer(const ReduceOptions& options, const LidarRig& rig);
 
-  // Adapts the voxel edge for the next call to options.target_points. Cost: linear; after the
+  // Adapts the voxel edge for the next call to options.target_points. The cost is linear; after the
   // first calls only the result is allocated.
   ReducedScan Reduce(const Sweep& sweep) override;
 
  private:
-  // The point chosen for a voxel: its distance from the voxel's centre, squared and in voxels, as a
-  // float's bits, which order as it does; below them its index in the sweep.
+  // Holds the point chosen for a voxel: its distance from the voxel's centre, squared and in
+  // voxels, as a float's bits, which order as it does; below them its index in the sweep.
   using Choice = std::uint64_t;
   struct Chosen {
     std::uint64_t key = 0;  // time, then ring

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The configuration keys `reduce.*`: how a sweep is thinned before it is deskewed and matched. The
-// numbers of points trade accuracy for time; docs/results.md has the speed at these.
+// Holds the configuration keys `reduce.*`: how a sweep is thinned before it is deskewed and
+// matched. The numbers of points trade accuracy for time; docs/results.md has the speed at these.
 #pragma once
 
 namespace lio {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The points that a registration method uses of a sweep, and the interface of reducers: one per
-// method.
+// Defines the points that a registration method uses of a sweep, and the interface of reducers: one
+// per method.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace lio {
 
-// A return that will be used: lidar frame at its own instant.
+// Holds a return that will be used: lidar frame at its own instant.
 struct ScanPoint {
   Eigen::Vector3f position;       // m
   std::uint32_t t_offset_ns = 0;  // after the sweep's start
@@ -38,10 +38,11 @@ class SweepReducer {
   virtual ReducedScan Reduce(const Sweep& sweep) = 0;
 };
 
-// The edge of the thinning grid for the next sweep, m, when this one kept `num_kept` points.
+// Returns the edge of the thinning grid for the next sweep, m, when this one kept `num_kept`
+// points.
 float AdaptedVoxel(const ReduceOptions& options, float voxel_m, std::size_t num_kept);
 
-// About `wanted` of the indices below `count`, evenly spread and ascending; all when fewer.
+// Returns about `wanted` of the indices below `count`, evenly spread and ascending; all when fewer.
 std::vector<std::uint32_t> SpreadIndices(std::size_t count, int wanted);
 
 }  // namespace lio

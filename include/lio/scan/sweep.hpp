@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One turn of the lidar, assembled from its chunks. Points in the lidar frame at their own
-// instants.
+// Holds one turn of the lidar, assembled from its chunks. Points are in the lidar frame at their
+// own instants.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,10 @@ struct Sweep {
   std::int64_t decode_ns = 0;      // CPU time of decoding its messages
   std::vector<LidarPoint> points;  // in the order of the chunks, offsets from `start`
 
-  // The instant for which matching measures the pose. Motion errors within the sweep then act over
-  // half a sweep to either side; with the end as reference their variance would be four times as
-  // large and correlated with the filter's process noise (docs/filter.md, Covariance of a match).
+  // Returns the instant for which matching measures the pose. Motion errors within the sweep then
+  // act over half a sweep to either side; with the end as reference their variance would be four
+  // times as large and correlated with the filter's process noise (docs/filter.md, Covariance of a
+  // match).
   Timestamp middle() const { return start + Duration{(end - start).ns / 2}; }
 
   // Adds to both stamps.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The one definition of a gap: a time without messages of a stream that its clock did not cause. (A
-// clock that was set is a clock step; stream/clock_step_arbiter.hpp tells the two apart.) The
-// length of a gap decides what follows from it, and every module takes the lengths from here:
+// Holds the one definition of a gap: a time without messages of a stream that its clock did not
+// cause. (A clock that was set is a clock step; stream/clock_step_arbiter.hpp tells the two apart.)
+// The length of a gap decides what follows from it, and every module takes the lengths from here:
 //
 //   samples apart by
 //     30 ms    sparse      process noise is added, and turns say    filter/filter_history,
@@ -53,13 +53,13 @@ struct ImuGapParameters {
 inline constexpr ImuGapParameters kImuGap;
 
 struct ScanGapParameters {
-  // From the end of one sweep to the start of the next. Chosen: two missing sweeps of a 10 Hz lidar
-  // leave 200 ms; the rest is for stamps that jitter.
+  // Sweeps are missing when one starts so long after the end of the one before. Chosen: two missing
+  // sweeps of a 10 Hz lidar leave 200 ms; the rest is for stamps that jitter.
   Duration missing{250'000'000};
-  // From one matched pose to the next. Chosen: one of a 10 Hz lidar may be lacking, and half a
-  // period is for stamps that jitter.
+  // No step joins two matched poses that are so far apart. Chosen: one of a 10 Hz lidar may be
+  // lacking, and half a period is for stamps that jitter.
   Duration unjoined{250'000'000};
-  // From the end of one sweep to the end of another. Chosen: five periods at 10 Hz.
+  // Sweeps are unrelated when their ends are so far apart. Chosen: five periods at 10 Hz.
   Duration unrelated{500'000'000};
 };
 inline constexpr ScanGapParameters kScanGap;

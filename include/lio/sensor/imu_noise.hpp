@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The white noise of an IMU as power spectral densities, per axis of imu: densities squared. Zero
-// where it is not known.
+// Holds the white noise of an IMU as power spectral densities, per axis of imu: densities squared.
+// It is zero where it is not known.
 #pragma once
 
 #include "lio/base/rotation.hpp"
@@ -13,8 +13,8 @@ struct ImuNoise {
   Vector3 accel_psd = Vector3::Zero();  // (m/s^2)^2/Hz
 };
 
-// How many times the noise density that the samples show is that of the rig, on the noisiest axis;
-// zero where it is not known.
+// Tells how many times the noise density that the samples show is that of the rig, on the noisiest
+// axis; zero where it is not known.
 struct ImuNoiseRatios {
   double gyro = 0.0;
   double accel = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One inertial sample: angular rate and specific force in the imu frame, SI units.
+// Holds one inertial sample: angular rate and specific force in the imu frame, SI units.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ImuSample {
   bool is_force_saturated = false;  // likewise for the force
   bool is_saturated() const { return is_rate_saturated || is_force_saturated; }
   // The true rate and force may be so far off, for all of a gap that a made-up sample fills, 1
-  // sigma per axis. Zero for a measured one.
+  // sigma per axis. A measured one has zero.
   float made_up_w_std_radps = 0.f;
   float made_up_f_std_mps2 = 0.f;
   bool is_made_up() const { return made_up_w_std_radps > 0.f; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// One whole turn of the lidar, as a program that links the estimator hands it over.
+// Holds one whole turn of the lidar, as a program that links the estimator hands it over.
 #pragma once
 
 #include <vector>

@@ -54,9 +54,9 @@ struct ImuRig {
   GravityInput gravity = GravityInput::kAutomatic;
 };
 
-// The pose of the lidar in the IMU's frame, p_imu = T_imu_lidar * p_lidar, and how well it is known:
-// 1 sigma of each axis. The motion corrects what it surely contradicts, but never a part whose
-// standard deviation is 0.
+// The pose of the lidar in the IMU's frame, p_imu = T_imu_lidar * p_lidar, and how well it is
+// known: 1 sigma of each axis. The motion corrects what it surely contradicts, but never a part
+// whose standard deviation is 0.
 struct Extrinsic : Pose {
   Extrinsic() = default;
   Extrinsic(const Pose& pose) : Pose(pose) {}  // NOLINT: a pose is one of ordinary care

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A pose with its stamp: the element of trajectories.
+// Holds a pose with its stamp: the element of trajectories.
 #pragma once
 
 #include <vector>

@@ -28,7 +28,7 @@ struct CarVibrationParameters {
   double start_decay_s = 0.35;
   double crank_hz = 8.3;         // firing rate while a starter turns the engine, 250 rpm
   double idle_hz = 26.7;         // firing rate at 800 rpm
-  double stops_after_s = 1.5;    // of standing
+  double stops_after_s = 1.5;    // after standing this long
   double starts_before_s = 1.0;  // driving off
   double idles_s = 25.0;         // in a car that stays parked: this long
   double pauses_s = 15.0;
@@ -38,7 +38,8 @@ struct CarVibrationParameters {
   double wheel_radius_m = 0.31;
   double wheel_hop_hz = 11.0;  // resonance of the unsprung mass on its tyre
   double wheel_hop_quality = 3.0;
-  // Lever of the roof above the axis that the body rocks about: turns each tone into a rotation.
+  // The roof lies this far above the axis that the body rocks about, which turns each tone into a
+  // rotation.
   double lever_m = 1.5;
 };
 inline constexpr CarVibrationParameters kCarVibration;
@@ -73,7 +74,7 @@ class CarVibration {
   Vector3 direction_;         // in which the engine shakes, imu
   Vector3 axis_;              // about which the body rocks, imu
   std::array<double, kNumWheels> wheel_phase_rad_{};
-  std::array<double, kNumWheels> wheel_scale_{};  // of the unbalance
+  std::array<double, kNumWheels> wheel_scale_{};  // factor on the unbalance of each wheel
   std::array<double, kNumWheels> wheel_rate_{};   // turns relative to the mean wheel
   double engine_phase_rad_ = 0.0;
   double last_s_ = 0.0;

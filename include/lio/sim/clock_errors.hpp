@@ -11,12 +11,13 @@
 namespace lio::sim {
 
 struct ClockErrors {
-  // 1 sigma, cut at three: between a stamp of the sensor's hardware (microseconds) and one of the
-  // host at receipt (a millisecond). An Xsens MTi counts its samples' time in steps of 0.1 ms.
+  // Stamps jitter by this, 1 sigma, cut at three: between a stamp of the sensor's hardware
+  // (microseconds) and one of the host at receipt (a millisecond). An Xsens MTi counts its samples'
+  // time in steps of 0.1 ms.
   double imu_jitter_std_s = 0.0;
   double lidar_jitter_std_s = 0.0;  // a chunk's
-  // Rate of the lidar's clock against the IMU's, 1 sigma. The manual of the MTi states 30 ppm at
-  // most for its clock, as usual for quartz.
+  // The lidar's clock runs at another rate than the IMU's by this, 1 sigma. The manual of the MTi
+  // states 30 ppm at most for its clock, as usual for quartz.
   double drift_std_ratio = 0.0;
 };
 

@@ -12,10 +12,10 @@ namespace lio::sim {
 
 // Says how a return came about; it is known to the simulator only and never travels in messages.
 enum class EchoKind : std::uint8_t {
-  kSurface,       // of the surface that the beam meets
+  kSurface,       // the surface that the beam meets
   kInBetween,     // a mixed pixel: between the two surfaces of an edge
-  kMirrored,      // of a surface that the beam met after a reflection; it lies behind the mirror
-  kThroughGlass,  // of a surface behind a pane
+  kMirrored,      // a surface that the beam met after a reflection; it lies behind the mirror
+  kThroughGlass,  // a surface behind a pane
   kDust,
 };
 
@@ -31,11 +31,12 @@ struct Echo {
 // Holds the range error that grows with the strength of the echo ("range walk": a stronger pulse
 // crosses the threshold earlier).
 struct RangeWalk {
-  // Per doubling of a matt surface's strength. Chosen: from 5 to 80 % it makes 16 mm, within the 2
-  // to 3 cm that the makers of these lidars state for 10 to 80 % targets.
+  // The range grows by this with each doubling of a matt surface's strength. Chosen: from 5 to 80 %
+  // it makes 16 mm, within the 2 to 3 cm that the makers of these lidars state for 10 to 80 %
+  // targets.
   double per_doubling_m = 0.0;
-  // Retroreflectors, which saturate the receiver, look nearer. Half of the 10 cm that the data
-  // sheet of the OS1 states for them, where it states 3 cm for matt targets.
+  // Retroreflectors, which saturate the receiver, look nearer. It is half of the 10 cm that the
+  // data sheet of the OS1 has for them, where it has 3 cm for matt targets.
   double retro_m = 0.0;
 };
 

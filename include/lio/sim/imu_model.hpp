@@ -17,7 +17,7 @@ struct InertialModel {
   double turn_on_bias_std = 0.0;  // unit
   double scale_std_ratio = 0.0;
   double misalignment_std_rad = 0.0;
-  // Vibration while moving: white from sample to sample, 1 sigma, per m/s of the body's speed.
+  // A moving body vibrates by this: white from sample to sample, 1 sigma, per m/s of its speed.
   double vibration_std_per_mps = 0.0;  // unit s/m
   // The next three may be absent in a data file: 0. Each is 1 sigma of an axis.
   double bias_per_kelvin_std = 0.0;     // unit/K

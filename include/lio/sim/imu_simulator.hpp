@@ -28,7 +28,7 @@
 
 namespace lio::sim {
 
-// The units and axes in which the IMU's driver sends its samples; see docs/simulator.md.
+// Names the units and axes in which the IMU's driver sends its samples; see docs/simulator.md.
 enum class ImuVariant {
   kNormal,          // specific force in m/s^2, rates in rad/s, axes as in the rig
   kGravityRemoved,  // gravity is removed with the true attitude

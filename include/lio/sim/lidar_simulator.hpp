@@ -69,9 +69,9 @@ class LidarSimulator {
   // Keeps references to scene and trajectory, which must outlive the simulator.
   LidarSimulator(LidarSetup setup, const Scene& scene, const Trajectory& trajectory);
 
-  // Returns the turn number `index`, counted from 0. Safe from several threads.
+  // Returns the turn number `index`, counted from 0. It is safe from several threads.
   [[nodiscard]] SimulatedSweep Sweep(std::int64_t index) const;
-  // The trajectory time of that sweep's last firing.
+  // Returns the trajectory time of that sweep's last firing.
   [[nodiscard]] double SweepEnd_s(std::int64_t index) const;
 
  private:
@@ -85,7 +85,8 @@ class LidarSimulator {
   const Scene* scene_;
   const Trajectory* trajectory_;
   Rotor rotor_;
-  // Each beam's direction when the column's heading is 0, true and as the beam table says.
+  // Each beam has its direction here when the column's heading is 0, true and as the beam table
+  // says.
   std::vector<Vector3> column_directions_;
   std::vector<Vector3> table_directions_;
   std::vector<double> laser_bias_m_;

@@ -32,8 +32,8 @@ struct RecordOptions {
   ClockErrors clock_errors;
   double gravity_mps2 = 9.80665;
   std::vector<Fault> faults;
-  // A log of the same drive and lidar whose scans are taken instead of casting them; empty: none.
-  // Its own clocks must have been without errors.
+  // Names a log of the same drive and lidar whose scans are taken instead of casting them; empty:
+  // none. Its own clocks must have been without errors.
   std::filesystem::path scans;
   std::uint64_t seed = 1;
   int num_threads = 1;

@@ -14,10 +14,10 @@
 namespace lio::sim {
 
 struct RotorErrors {
-  // Spread of the speed, 1 sigma. KITTI's HDL-64E: its sweeps of 103.3 ms vary by 0.1 ms.
+  // The speed varies by this, 1 sigma. KITTI's HDL-64E: its sweeps of 103.3 ms vary by 0.1 ms.
   double speed_std_ratio = 0.0;
-  // Error of the encoder once a turn, 1 sigma. The data sheet of the OS1 states an angular accuracy
-  // of +-0.01 deg, which is taken for the amplitude.
+  // The encoder errs by this once a turn, 1 sigma. The data sheet of the OS1 states an angular
+  // accuracy of +-0.01 deg, which is taken for the amplitude.
   double encoder_std_rad = 0.0;
 };
 

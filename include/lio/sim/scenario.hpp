@@ -35,7 +35,7 @@ struct Scenario {
   double begin_s = 0.0;     // trajectory time at which the log begins
   double duration_s = 0.0;  // duration of the log
   bool is_on_car = false;   // with engine and wheels
-  // White noise of the carrier's motors on each sample of the IMU, 1 sigma, in the field.
+  // The carrier's motors add this white noise to each sample of the IMU, 1 sigma, in the field.
   double shake_accel_mps2 = 0.0;
   double shake_gyro_radps = 0.0;
   double dust_per_m = 0.0;  // echoes of dust in the air per metre of ray, all the time

@@ -58,8 +58,8 @@ class Trajectory {
   // positive.
   explicit Trajectory(MotionPlan plan);
 
-  // Accepts any t; before the first and after the last knot the body rests there. Safe from any
-  // thread.
+  // Accepts any t; before the first and after the last knot the body rests there. It is safe from
+  // any thread.
   [[nodiscard]] Kinematics At(double t_s) const;
   // Returns the pose of the body frame on the ground, which surrounding traffic and the carrier's
   // shape follow.

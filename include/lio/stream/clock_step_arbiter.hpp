@@ -13,7 +13,7 @@
 
 namespace lio {
 
-// Stamps of the inertial samples next to each other on both sides of a step.
+// Holds stamps of the inertial samples next to each other on both sides of a step.
 struct ClockStep {
   Timestamp before;
   Timestamp after;
@@ -49,7 +49,7 @@ class ClockStepArbiter {
 
   std::deque<Timestamp> chunks_;  // the last few
   std::optional<Timestamp> newest_imu_;
-  std::deque<Duration> lags_;  // of chunks behind the inertial stream, the last few
+  std::deque<Duration> lags_;  // lags of the last chunks behind the inertial stream
 };
 
 }  // namespace lio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The samples that stand in for those of a gap, as far as the ones before it tell. The force is
-// their mean, since a walker's last sample is a push. The rate goes from the last one to their
+// Makes the samples that stand in for those of a gap, as far as the ones before it tell. The force
+// is their mean, since a walker's last sample is a push. The rate goes from the last one to their
 // mean as fast as the rates before forgot what they had been: a turning head turns on, a walker's
 // sway has passed within a sweep. This is the best linear prediction of a first-order Gauss-Markov
 // process (A. Gelb (ed.), "Applied Optimal Estimation", 1974, section 3.6).
@@ -16,23 +16,24 @@ namespace lio {
 
 class GapBridge {
  public:
-  // `sent`: the samples up to the gap, not empty, the last one measured; read under `convention`.
+  // `sent` holds the samples up to the gap, not empty, the last one measured; they are read under
+  // `convention`.
   GapBridge(const std::deque<ImuSample>& sent, const ImuConvention& convention);
 
-  // The sample for an instant of the gap, as it would be sent. It states how far, per axis, the
-  // motion may be from it: as far as that of the last seconds was from the mean.
+  // Returns the sample for an instant of the gap, as it would be sent. It states how far, per axis,
+  // the motion may be from it: as far as that of the last seconds was from the mean.
   [[nodiscard]] ImuSample At(Timestamp stamp) const;
-  // The sample for the beginning of a part of the gap, from which a line to At(to) turns by as much
-  // as the fading rate does: two samples then stand for all of it.
+  // Returns the sample for the beginning of a part of the gap, from which a line to At(to) turns by
+  // as much as the fading rate does: two samples then stand for all of it.
   [[nodiscard]] ImuSample BeginLine(Timestamp from, Timestamp to) const;
 
  private:
-  // The share of the last rate's deviation from the mean that is left.
+  // Returns the share of the last rate's deviation from the mean that is left.
   [[nodiscard]] double KeptAt(Timestamp stamp) const;
 
   ImuSample last_;
   ImuSample mean_;
-  double correlation_time_s_;  // of the rates
+  double correlation_time_s_;  // correlation time of the rates
 };
 
 }  // namespace lio

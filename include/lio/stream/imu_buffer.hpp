@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The inertial samples of the last seconds, by stamp: as they were sent, and as they are read under
-// the IMU convention (units, axes) that is believed. Gaps in the stream are bridged here.
+// Keeps the inertial samples of the last seconds, by stamp: as they were sent, and as they are read
+// under the IMU convention (units, axes) that is believed. Gaps in the stream are bridged here.
 #pragma once
 
 #include <deque>
@@ -27,8 +27,8 @@ class ImuBuffer {
     return frozen_until_ && stamp <= *frozen_until_;
   }
   // Appends to `ready` what the sample adds: samples that bridge a gap before it, and itself,
-  // unless no gyro can turn as fast as it reads under the convention. False: a sample of that stamp
-  // is there already.
+  // unless no gyro can turn as fast as it reads under the convention. Returns false when a sample
+  // of that stamp is there already.
   [[nodiscard]] bool Add(const ImuSample& sent, std::vector<ImuReady>& ready);
   // From here on nothing up to `stamp` may change; where the stream has not reached it, a made-up
   // sample is added there.
@@ -39,13 +39,13 @@ class ImuBuffer {
 
   const ImuConvention& convention() const { return convention_; }
   const std::deque<ImuSample>& sent() const { return sent_; }
-  // In SI units and the imu's axes, without those that no gyro can have read.
+  // They are in SI units and the imu's axes, without those that no gyro can have read.
   const std::deque<ImuSample>& samples() const { return samples_; }
-  // The samples() from the one stamp to the other, both included.
+  // Returns the samples() from the one stamp to the other, both included.
   [[nodiscard]] std::vector<ImuSample> Between(Timestamp from, Timestamp to) const;
   [[nodiscard]] std::optional<Timestamp> newest() const;
-  // The noise that the samples of the second before `stamp` show; zero where they are too few. Up
-  // to a frozen stamp neither late samples nor the order of arrival change it.
+  // Returns the noise that the samples of the second before `stamp` show; zero where they are too
+  // few. Up to a frozen stamp neither late samples nor the order of arrival change it.
   [[nodiscard]] ImuNoise NoiseAt(Timestamp stamp) const;
 
  private:

@@ -42,11 +42,11 @@ class ImuPreprocessor {
     bool undoes_hole = false;   // the step back is as long as a hole before: was that a step, too?
   };
   [[nodiscard]] Result Add(const ImuSample& sample);
-  // Are samples held that may be the first ones after a step?
-  // Samples that wait until others bear them out.
+  // Are samples held that may be the first ones after a step? Counts samples that wait until others
+  // bear them out.
   std::size_t num_held() const { return suspects_.size(); }
   bool is_in_doubt() const { return !suspects_.empty(); }
-  // The samples that are still held, when no more will come.
+  // Returns the samples that are still held, when no more will come.
   [[nodiscard]] std::vector<ImuSample> Flush();
   // Only right after a step: `shift` is added to the stamps of what was accepted with it.
   void ShiftBy(Duration shift);
@@ -57,7 +57,7 @@ class ImuPreprocessor {
  private:
   bool IsSane(const ImuSample& sample);
   double MeanStep_s() const;
-  // The step of a clock by which the sample that follows the newest one has that stamp.
+  // Returns the step of a clock by which the sample that follows the newest one has that stamp.
   double ClockStepTo_s(Timestamp stamp) const;
   bool IsFar(Timestamp stamp) const;
   bool IsBehindHole(Timestamp stamp) const;

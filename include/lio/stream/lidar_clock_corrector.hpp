@@ -31,28 +31,28 @@ class LidarClockCorrector {
   // The inertial clock is in doubt itself, or there is none. Chunks that are held go on as they
   // came, and nothing is known of the streams' order any more.
   [[nodiscard]] std::vector<Arrival> Release();
-  // The same with a chunk behind them.
+  // Does the same with a chunk behind them.
   [[nodiscard]] std::vector<Arrival> Release(Arrival arrival);
 
-  // The same for a chunk that does not pass through here.
+  // Puts a stamp right that does not pass through here.
   Timestamp PutRight(Timestamp stamp) const { return stamp + shift_; }
-  // The stamp of the newest chunk that went on.
+  // Returns the stamp of the newest chunk that went on.
   Timestamp newest() const { return newest_; }
   std::size_t num_held() const { return held_.size(); }
 
   struct Step {
-    Timestamp stamp;  // of the first chunk after it, put right
-    Duration by;      // of the lidar's clock
-    Duration shift;   // of its stamps from here on
+    Timestamp stamp;  // stamp of the first chunk after it, put right
+    Duration by;      // change of the lidar's clock
+    Duration shift;   // shift of its stamps from here on
   };
-  // The step that the last call of Add() has found, once.
+  // Returns the step that the last call of Add() has found, once.
   [[nodiscard]] std::optional<Step> TakeStep() { return std::exchange(step_, std::nullopt); }
 
  private:
   // One message of a burst stands for all of it.
   struct Sight {
-    Duration lag;     // of its stamp behind the inertial stream
-    Duration stride;  // of the inertial stream since the one before
+    Duration lag;     // how far its stamp lies behind the inertial stream
+    Duration stride;  // advance of the inertial stream since the one before
   };
   enum class Judgement { kSteady, kUnclear, kStepped };
 

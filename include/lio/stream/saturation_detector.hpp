@@ -17,7 +17,7 @@ class SaturationDetector {
   void Mark(ImuSample& sample, double rate_scale = 1.0, double force_scale = 1.0);
 
  private:
-  // Three axes of a sensor.
+  // Holds three axes of a sensor.
   struct Triad {
     Vector3 last = Vector3::Zero();
     std::array<int, 3> num_equal{};  // readings in a row that were the same, by axis

@@ -58,8 +58,8 @@ class ScanAssembler {
   Counters* counters_;
   std::deque<Partial> open_;  // at most two, oldest first
   std::deque<Sweep> closed_;
-  Duration span_;                       // of the last whole sweep
-  std::deque<SweepName> closed_names_;  // of the last sweeps, to know their stragglers by
+  Duration span_;                       // duration of the last whole sweep
+  std::deque<SweepName> closed_names_;  // names of the last sweeps, to know their stragglers by
 };
 
 }  // namespace lio

@@ -38,7 +38,7 @@ class ScanGate {
 
   bool empty() const { return waiting_.empty(); }
   const Sweep& oldest() const { return *waiting_.front(); }
-  // Time between the ends of the oldest and the newest waiting sweep.
+  // Returns the time between the ends of the oldest and the newest waiting sweep.
   double waiting_span_s() const;
 
  private:
@@ -49,7 +49,7 @@ class ScanGate {
 
   Counters* counters_;
   std::deque<std::shared_ptr<Sweep>> waiting_;
-  std::optional<Timestamp> last_end_;  // of the newest sweep that was let in
+  std::optional<Timestamp> last_end_;  // the end of the newest sweep that was let in
   int num_late_in_a_row_ = 0;
   std::optional<Sweep> suspect_;            // far ahead of all others
   std::optional<Timestamp> last_imu_;       // newest inertial stamp, and where the lidar ...

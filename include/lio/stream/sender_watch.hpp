@@ -21,8 +21,8 @@ struct SenderWatchParameters {
   // another rate within ten samples, and one late sample moves it by an eighth.
   std::int64_t mean_of_steps = 8;
   int min_evidence = 3;  // chosen: a row that a bit error begins does not go on three times
-  // So many in a row without one of the first sender, and for so long: that one is gone. Chosen:
-  // more than a fast IMU sends between two samples of a slow one.
+  // So many in a row without one of the first sender, and for so long, mean that it is gone.
+  // Chosen: more than a fast IMU sends between two samples of a slow one.
   int gone_after = 20;
   Duration gone_for{500'000'000};
 };
@@ -33,7 +33,7 @@ class SenderWatch {
  public:
   // Is the sample that comes now, with this number and stamp, of a second sender?
   [[nodiscard]] bool IsForeign(std::int32_t seq, Timestamp stamp);
-  // The newest number of the sender that is kept.
+  // Returns the newest number of the sender that is kept.
   std::uint32_t kept_seq() const { return kept_ ? kept_->seq : 0; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// From raw messages, in the order in which they arrive, to events in the order in which the
+// Turns raw messages, in the order in which they arrive, into events in the order in which the
 // estimator must consume them. It is the only owner of inertial samples and chunks: it validates,
 // buffers, assembles sweeps, holds them until inertial samples cover them, and judges gaps and
 // steps of the clocks by stamps and by the order of arrival; it asks no wall clock.
@@ -102,14 +102,14 @@ class SensorStream {
   struct PendingStep {
     ImuPreprocessor::Result result;  // its samples come first once the step is judged
     std::size_t num_examined = 0;    // messages of inbox_, to judge the step by
-    Timestamp newest_examined;       // of the inertial samples since the step
+    Timestamp newest_examined;       // the newest inertial stamp since the step
   };
 
-  // The senders that are kept.
+  // Holds the senders that are kept.
   struct Senders {
     struct Lidar {
       std::int8_t sensor_id = 0;
-      Timestamp newest;  // of its chunks
+      Timestamp newest;  // the newest chunk's
     };
     SenderWatch imu;
     std::optional<Lidar> lidar;  // the one that came first
@@ -144,7 +144,7 @@ class SensorStream {
   void LoseImu();
   void CloseAll();
 
-  // Steps of the inertial clock: sensor_stream_step.cpp.
+  // Steps of the inertial clock are taken in sensor_stream_step.cpp.
   void TakeStep(ImuPreprocessor::Result step);
   ClockStep StampsOfStep() const;
   void JudgeBy(const Message& message);
@@ -170,7 +170,7 @@ class SensorStream {
   ScanGate gate_;
   StampCorrection corrections_;
   PendingStep step_;
-  Duration imu_clock_shift_;  // of an inertial clock that stepped alone
+  Duration imu_clock_shift_;         // offset of an inertial clock that stepped alone
   std::vector<ImuSample> late_imu_;  // the first ones, where the lidar has begun alone
   std::optional<Timestamp> begin_;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The correction of a sweep's stamps by the clock offset that matched sweeps have shown
+// Corrects a sweep's stamps by the clock offset that matched sweeps have shown
 // (pipeline/clock_offset_follower.hpp). A sweep gets the correction that was known when it was
 // `lag` sweeps away from being matched, so its stamps do not depend on how fast sweeps are matched.
 #pragma once
@@ -39,7 +39,7 @@ class StampCorrection {
 
   std::size_t lag_;
   std::size_t num_sweeps_ = 0;   // given out
-  std::size_t num_matched_ = 0;  // of them, at least once
+  std::size_t num_matched_ = 0;  // given out, and matched at least once
   Duration newest_;
   std::deque<Known> known_{Known{}};  // ascending; the first one holds for the next sweeps
 };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The stream's output: what the estimator consumes, in the order in which it must be consumed.
+// Defines the stream's output: what the estimator consumes, in the order in which it must be
+// consumed.
 #pragma once
 
 #include <memory>
@@ -16,13 +17,13 @@
 
 namespace lio {
 
-// An inertial sample in SI units and the imu's axes.
+// Gives an inertial sample in SI units and the imu's axes.
 struct ImuReady {
   ImuSample sample;
   bool is_made_up = false;  // fills a gap of the stream: nothing is published at its time
 };
 
-// A sweep that inertial samples cover. They will not change any more up to its end.
+// Gives a sweep that inertial samples cover. They will not change any more up to its end.
 struct SweepReady {
   SweepPtr sweep;
 };
@@ -45,7 +46,7 @@ struct AmbiguousClockStep {
 struct ImuAbsent {
   Timestamp stamp;  // end of the first sweep that follows
   std::string evidence;
-  Timestamp begin;                        // of that sweep
+  Timestamp begin;                        // the sweep's
   Vector3 w_imu_radps = Vector3::Zero();  // the last rate that is known there
 };
 

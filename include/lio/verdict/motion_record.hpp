@@ -40,8 +40,8 @@ struct MotionStep {
   Vector3 rate_gain_radps;  // rate at `to` less that at `from`, in imu at `to`
   // The forces add this to velocity and position, in imu at the step's middle, without gravity.
   Vector3 velocity_mps, position_m;
-  Vector3 jerk_mps3;  // mean change of the specific force, in imu
-  double clock_correction_s;  // what the estimated clock offset has added to both stamps
+  Vector3 jerk_mps3;          // mean change of the specific force, in imu
+  double clock_correction_s;  // added to both stamps by the estimated clock offset
   double span_s() const { return SecondsBetween(from.stamp, to.stamp); }
 };
 
@@ -55,7 +55,7 @@ class MotionRecord {
   // added `clock_correction`. `samples`: from the last pose to this one at least, ascending.
   void Add(const StampedPose& T_map_imu, Duration clock_correction,
            std::span<const ImuSample> samples);
-  // What the estimated clock offset adds to stamps now.
+  // Returns the time that the estimated clock offset adds to stamps now.
   Duration clock_correction() const { return clock_correction_; }
   // The poses so far and those to come are of another imu, which has this pose in the one so far.
   void SetImu(const Pose& T_old_new);

@@ -71,7 +71,7 @@ class RigExaminer {
   std::vector<Cause> corrected_;  // causes that are no longer there
   std::optional<Timestamp> first_stamp_;
   double next_look_s_ = kRigExaminer.first_look_s;
-  std::optional<Cause> told_;  // that the result cannot be trusted, on the way
+  std::optional<Cause> told_;  // reason for distrust that was told on the way
   Trust trust_ = Trust::kYes;
   std::optional<RigBounds> bounds_;
 };

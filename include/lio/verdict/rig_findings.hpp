@@ -68,8 +68,8 @@ struct RigFindings {
   std::optional<RigBounds> bounds;  // by the motion, where it was enough to tell
   std::vector<Cause> causes;        // likeliest first
   // rig.T_imu_lidar as the motion shows it, in the axes that the samples are read in: present where
-  // it is surely wrong. Entries that are not surely wrong, or that the rig says to be exact, are the
-  // rig's.
+  // it is surely wrong. Entries that are not surely wrong, or that the rig says to be exact, are
+  // the rig's.
   std::optional<Pose> T_imu_lidar;
   // The same within the tolerances, for an extrinsic that was found by an earlier and shorter look:
   // present where this one contradicts it.

@@ -73,7 +73,7 @@ class RunTally {
   void Include(Timestamp stamp);
 
   std::optional<Timestamp> first_, last_imu_, last_sweep_;
-  double total_s_ = 0.0;  // of the input, without jumps of its clocks
+  double total_s_ = 0.0;  // span of the input, without jumps of its clocks
   std::optional<Timestamp> newest_;
   std::optional<Pose> first_pose_;
   std::optional<PoseRow> last_row_;

@@ -29,7 +29,7 @@ struct ServerOptions {
 [[nodiscard]] std::string MakeToken();
 
 struct ServerCounts {
-  std::int64_t num_clients = 0;  // that ever were
+  std::int64_t num_clients = 0;  // clients since the start
   std::int64_t num_frames = 0;
   std::int64_t num_bytes = 0;
   std::int64_t num_poses_left_out = 0;  // for slow clients

@@ -133,7 +133,7 @@ function showAssumptions(isOwnTime) {
   if (!said.length) return;
   const list = element("ul");
   for (const text of said) list.append(element("li", text));
-  byId("assumptions").append(element("h2", "What was assumed"), list);
+  byId("assumptions").append(element("h2", "Assumptions"), list);
 }
 
 function showNotices() {
@@ -146,7 +146,7 @@ function showNotices() {
   if (!rows.length) return notices.remove();
   const table = element("table");
   showTable(table, rows.sort((a, b) => a[0] - b[0]).map(([, row]) => row));
-  notices.append(element("h2", "What was told on the way"), table);
+  notices.append(element("h2", "Notices during the run"), table);
 }
 
 function showTexts(isOwnTime) {

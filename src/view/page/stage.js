@@ -12,7 +12,7 @@ const SLOW_MS = 55, FAST_MS = 36;  // below 18 and above 28 frames a second
 const ADAPT_MS = 500;
 const ABOVE_M = 60;                // half the height of the view from above
 
-const CELL_M = 10, CELLS = 20;     // of the grid, to each side
+const CELL_M = 10, CELLS = 20;     // the grid's, to each side
 
 // The ground in cells of 10 m. Each edge of a cell is a line of its own, because software that draws
 // lines drops those that reach behind the camera.
