@@ -88,7 +88,7 @@ class Naming {
   }
 
   std::optional<Pose> Bettered() const {
-    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.better_probability);
+    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.refine_probability);
     const auto is_off = [&](const Vector3& value, int at) {
       return SurePart(value, all_.cov.block<3, 3>(at, at), sigmas) > 0.0;
     };
@@ -97,7 +97,7 @@ class Naming {
   }
 
   RigBounds Bounds() const {
-    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.better_probability);
+    const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.bound_probability);
     const RigVector margin = sigmas * all_.cov.diagonal().cwiseSqrt();
     const RigErrors& errors = all_.errors;
     return {LogSo3(errors.rotation).cwiseAbs() + margin.segment<3>(kRigRotation),
