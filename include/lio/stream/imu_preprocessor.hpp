@@ -42,9 +42,9 @@ class ImuPreprocessor {
     bool undoes_hole = false;   // the step back is as long as a hole before: was that a step, too?
   };
   [[nodiscard]] Result Add(const ImuSample& sample);
-  // Are samples held that may be the first ones after a step? Counts samples that wait until others
-  // bear them out.
+  // Counts samples that wait until others bear them out.
   std::size_t num_held() const { return suspects_.size(); }
+  // Are samples held that may be the first ones after a step?
   bool is_in_doubt() const { return !suspects_.empty(); }
   // Returns the samples that are still held, when no more will come.
   [[nodiscard]] std::vector<ImuSample> Flush();
