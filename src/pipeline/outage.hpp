@@ -32,6 +32,9 @@ struct OutageParameters {
   double turn_rate_std_radps = kFilterParameters.imu_outage.gap_gyro_std_radps;
   // ... but a yaw that is anywhere has pi / sqrt(3). Statistics: a uniform distribution.
   double max_yaw_std_rad = 1.8138;
+  // A yaw that is less sure than this stands beside the filter when the map is left. Chosen: below
+  // it the second order of a turn is a twentieth of the first.
+  double known_yaw_std_rad = 0.1;
   // Nothing is known of the velocity.
   double velocity_std_mps = kConstantVelocity.start_velocity_std_mps;
   // Beyond this standard deviation, numbers in double precision would leave too few digits for the

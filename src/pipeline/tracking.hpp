@@ -58,6 +58,7 @@ class Tracking {
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                        const std::string& why);
   void SeekAfterSilence(Timestamp end);
+  void SetYawAside(Timestamp stamp);
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
   void NotifyFound(Timestamp end);

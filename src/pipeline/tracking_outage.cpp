@@ -82,16 +82,22 @@ void Tracking::AddSamplesAfter(Timestamp stamp) {
   }
 }
 
+// A yaw that the inertial samples have followed stays in the filter: velocities still tell of it.
+void Tracking::SetYawAside(Timestamp stamp) {
+  Estimate estimate = history_.At(stamp);
+  const double yaw_var = TakeOutYaw(estimate);
+  if (yaw_var < kOutage.known_yaw_std_rad * kOutage.known_yaw_std_rad) return;
+  handover_.yaw_doubt.Add(yaw_var, estimate.state.T_world_imu.translation);
+  BeginHistoryAt(estimate);
+}
+
 // The map is of no use any more: a new one begins with the next scans.
 void Tracking::LeaveMap(Timestamp stamp) {
   handover_.clock_step.End();
   handover_.last_located.reset();
   keyframes_.Reset();
   context_.convention.BeginMap(stamp);
-  Estimate estimate = history_.At(stamp);
-  const double yaw_var = TakeOutYaw(estimate);
-  handover_.yaw_doubt.Add(yaw_var, estimate.state.T_world_imu.translation);
-  BeginHistoryAt(estimate);
+  SetYawAside(stamp);
   context_.outputs.Notify(
       stamp, Notice::Severity::kWarning,
       "the place is not found in the map, so a new map begins in the same world; "
