@@ -93,7 +93,7 @@ def text_of(drive, case, by, r):
             f"**{wrong}**" if r["wrong_ok_s"] > 1.0 else wrong,
             f"**{anees}**" if (r["anees_after"] or 0.0) >= 2.0 else anees,
             f"{r['lost_s']:.1f}", f"{r['end_m']:.2g}",
-            "yes" if r["is_tracking"] else f"**no** ({r['drift_m']:.2g} m)",
+            "yes" if r["is_tracking"] else f"**{r['drift_m']:.2g} m**",
             f"**{r['rows_lost']}**" if r["rows_lost"] else "0"]
 
 
