@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lio/filter/preintegration.hpp"
+#include "lio/sensor/gap.hpp"
 
 namespace lio {
 namespace {
@@ -27,8 +28,25 @@ ImuSample MeanAbout(std::span<const ImuSample> samples, Timestamp stamp, double 
   return mean;
 }
 
+// They are too far apart to follow the motion between them.
+bool AreSparse(std::span<const ImuSample> samples) {
+  const auto is_gap = [](const ImuSample& a, const ImuSample& b) {
+    return b.stamp - a.stamp > kImuGap.sparse;
+  };
+  return std::ranges::adjacent_find(samples, is_gap) != samples.end();
+}
+
 bool HasSaturated(std::span<const ImuSample> samples) {
   return std::ranges::any_of(samples, &ImuSample::is_saturated);
+}
+
+// Samples about both ends tell how rate and force change with the offset between the clocks.
+void AddGains(Timestamp from, Timestamp to, std::span<const ImuSample> samples,
+              const Preintegration& motion, MotionStep& step) {
+  const ImuSample at_from = MeanAbout(samples, from, kMotionRecord.instant_s);
+  const ImuSample at_to = MeanAbout(samples, to, kMotionRecord.instant_s);
+  step.rate_gain_radps = at_to.w_imu_radps - motion.rotation.conjugate() * at_from.w_imu_radps;
+  step.jerk_mps3 = (at_to.f_imu_mps2 - at_from.f_imu_mps2) / motion.span_s();
 }
 
 }  // namespace
@@ -76,13 +94,13 @@ void MotionRecord::Add(const StampedPose& T_map_imu, Duration clock_correction,
   const Preintegration motion =
       Preintegrate(samples, last->stamp, T_map_imu.stamp, Biases{}, ProcessNoise{});
   step.turn_rad = LogSo3(motion.rotation);
-  const ImuSample at_from = MeanAbout(samples, last->stamp, kMotionRecord.instant_s);
-  const ImuSample at_to = MeanAbout(samples, T_map_imu.stamp, kMotionRecord.instant_s);
-  step.rate_gain_radps = at_to.w_imu_radps - motion.rotation.conjugate() * at_from.w_imu_radps;
   const Quaternion half_turn_back = ExpSo3(-0.5 * step.turn_rad);
   step.velocity_mps = half_turn_back * motion.velocity;
   step.position_m = half_turn_back * motion.position;
-  step.jerk_mps3 = (at_to.f_imu_mps2 - at_from.f_imu_mps2) / motion.span_s();
+  // Sparse samples tell nothing of the clock offset: KITTI's, ten a second, showed one of 69 ms.
+  step.rate_gain_radps.setZero();
+  step.jerk_mps3.setZero();
+  if (!AreSparse(samples)) AddGains(last->stamp, T_map_imu.stamp, samples, motion, step);
   step.clock_correction_s = clock_correction.Seconds();
   if (steps_.size() >= kMotionRecord.max_steps) steps_.pop_front();
   steps_.push_back(step);

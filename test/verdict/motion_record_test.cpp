@@ -52,6 +52,14 @@ TEST(MotionRecord, PosesAreThoseOfTheOtherImuFromThereOn) {
   EXPECT_EQ(record.steps()[1].from.pose.translation, record.steps()[0].to.pose.translation);
 }
 
+TEST(MotionRecord, SparseSamplesTellNothingOfTheClockOffset) {
+  const MotionRecord record = TwoPoses(0.1, ExactSamples(Tumble(), 0.9, 1.6, 0.05));
+  ASSERT_EQ(record.steps().size(), 1U);
+  EXPECT_EQ(record.steps().front().rate_gain_radps, Vector3::Zero());
+  EXPECT_EQ(record.steps().front().jerk_mps3, Vector3::Zero());
+  EXPECT_GT(TwoPoses(0.1, Samples()).steps().front().rate_gain_radps.norm(), 0.0);
+}
+
 TEST(MotionRecord, LongGapIsNoStep) {
   EXPECT_TRUE(TwoPoses(0.5, Samples()).steps().empty());
 }

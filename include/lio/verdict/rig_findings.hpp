@@ -29,7 +29,7 @@ struct RigFindingParameters {
   double tolerances_to_distrust = 3.0;
   // Chance that an error which is not there is told for one axis of a drive. The limit is Student's
   // quantile with one degree of freedom less than the fit has clusters of time (as is usual for
-  // clustered sandwiches): 5 standard deviations in two minutes, 9 in 13 s, 15 in 8 s. Chosen.
+  // clustered sandwiches): 5 standard deviations in four minutes, 9 in 25 s, 40 in 8 s. Chosen.
   double false_alarm_probability = 1e-6;
   // The same for the bound of an error: that of three standard deviations. Customary.
   double bound_probability = 2.7e-3;
