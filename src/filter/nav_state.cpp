@@ -5,6 +5,16 @@
 #include "lio/base/rotation.hpp"
 
 namespace lio {
+namespace {
+
+// The right error of T_world_imu [m; rad, in imu].
+Vector6 WorldPoseError(const NavState& state, const ErrorVector& error) {
+  Vector6 right;
+  right << state.T_world_imu.rotation.conjugate() * error.segment<3>(kPos), error.segment<3>(kRot);
+  return right;
+}
+
+}  // namespace
 
 NavState BoxPlus(const NavState& state, const ErrorVector& error) {
   NavState result;
@@ -19,17 +29,6 @@ NavState BoxPlus(const NavState& state, const ErrorVector& error) {
       (ExpSo3(error.segment<3>(kMapStart)) * state.R_world_map_start).normalized();
   return result;
 }
-
-namespace {
-
-// The right error of T_world_imu [m; rad, in imu].
-Vector6 WorldPoseError(const NavState& state, const ErrorVector& error) {
-  Vector6 right;
-  right << state.T_world_imu.rotation.conjugate() * error.segment<3>(kPos), error.segment<3>(kRot);
-  return right;
-}
-
-}  // namespace
 
 NavState Inject(const NavState& state, const ErrorVector& error) {
   NavState result = BoxPlus(state, error);

@@ -125,8 +125,9 @@ void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
 }
 
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
-  if (stamp - history_.head().stamp > kConstantVelocity.max_unseen)
+  if (stamp - history_.head().stamp > kConstantVelocity.max_unseen) {
     SetClock(stamp - kSweep.max_span);
+  }
   Timestamp at = history_.head().stamp;
   const Timestamp follows_turn_until = at + kConstantVelocity.follows_turn_for;
   while (at < stamp) {

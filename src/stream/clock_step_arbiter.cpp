@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "stream/lone_clock_step.hpp"
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
@@ -32,10 +33,7 @@ bool ClockStepArbiter::SeesLidarAt(Timestamp imu) const {
 
 Duration ClockStepArbiter::Lag() const {
   if (lags_.empty()) return {};
-  std::vector<Duration> lags(lags_.begin(), lags_.end());
-  const auto middle = lags.begin() + static_cast<std::ptrdiff_t>(lags.size() / 2);
-  std::nth_element(lags.begin(), middle, lags.end());
-  return *middle;
+  return MedianOf({lags_.begin(), lags_.end()});
 }
 
 bool ClockStepArbiter::HasTimePassed(const ClockStep& step) const {

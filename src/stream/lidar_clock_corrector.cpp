@@ -5,18 +5,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "stream/lone_clock_step.hpp"
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
-namespace {
-
-Duration MedianOf(std::vector<Duration> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-}  // namespace
 
 std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Add(Arrival arrival,
                                                                    Timestamp newest_imu) {

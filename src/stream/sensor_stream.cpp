@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "stream/lone_clock_step.hpp"
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
@@ -260,9 +261,7 @@ void SensorStream::TakeChunk(LidarClockCorrector::Arrival arrival) {
 void SensorStream::NotifyLidarClockSet(const LidarClockCorrector::Step& step) {
   ++counters_->num_clock_jumps;
   Notify(step.stamp, Notice::Severity::kWarning,
-         fmt::format("the lidar's clock stepped by {:.3f} s and the IMU's did not: the lidar's "
-                     "stamps are now shifted by {:.3f} s",
-                     step.by.Seconds(), step.shift.Seconds()));
+         TextOfLoneStep("lidar", "IMU", step.by.Seconds(), step.shift));
 }
 
 void SensorStream::AcceptAll(const std::vector<ImuSample>& samples) {

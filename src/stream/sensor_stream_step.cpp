@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The stream judges gaps of the inertial stream and steps of its clock here.
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "lio/sensor/gap.hpp"
 #include "lio/stream/sensor_stream.hpp"
+#include "stream/lone_clock_step.hpp"
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
@@ -65,11 +64,8 @@ void SensorStream::ShiftImuClock(Timestamp after_by_lidar) {
   imu_clock_shift_ = imu_clock_shift_ + shift;
   preprocessor_.ShiftBy(shift);
   for (ImuSample& sample : step_.result.accepted) sample.stamp = sample.stamp + shift;
-  Notify(
-      step_.result.accepted.front().stamp, Notice::Severity::kWarning,
-      fmt::format("the IMU's clock stepped by {:.3f} s and the lidar's did not: the IMU's stamps "
-                  "are now shifted by {:.3f} s; nothing need be done",
-                  step_.result.clock_step_s, imu_clock_shift_.Seconds()));
+  Notify(step_.result.accepted.front().stamp, Notice::Severity::kWarning,
+         TextOfLoneStep("IMU", "lidar", step_.result.clock_step_s, imu_clock_shift_));
   state_ = State::kFlowing;
 }
 

@@ -97,7 +97,7 @@ void MotionRecord::Add(const StampedPose& T_map_imu, Duration clock_correction,
   const Quaternion half_turn_back = ExpSo3(-0.5 * step.turn_rad);
   step.velocity_mps = half_turn_back * motion.velocity;
   step.position_m = half_turn_back * motion.position;
-  // Sparse samples tell nothing of the clock offset: KITTI's, ten a second, showed one of 69 ms.
+  // Sparse samples tell nothing of the clock offset (sensor/gap.hpp).
   step.rate_gain_radps.setZero();
   step.jerk_mps3.setZero();
   if (!AreSparse(samples)) AddGains(last->stamp, T_map_imu.stamp, samples, motion, step);
