@@ -14,9 +14,10 @@ TEST(LoneClockStep, MedianIsTheUpperOneOfAnEvenNumber) {
 }
 
 TEST(LoneClockStep, TextNamesBothSensorsTheStepAndTheShift) {
-  EXPECT_EQ(TextOfLoneStep("lidar", "IMU", 1.5, Duration{-1'480'000'000}),
-            "the lidar's clock stepped by 1.500 s and the IMU's did not: the lidar's stamps are now "
-            "shifted by -1.480 s; nothing need be done");
+  EXPECT_EQ(
+      TextOfLoneStep("lidar", "IMU", 1.5, Duration{-1'480'000'000}),
+      "the lidar's clock stepped by 1.500 s and the IMU's did not: the lidar's stamps are now "
+      "shifted by -1.480 s; nothing need be done");
 }
 
 }  // namespace
