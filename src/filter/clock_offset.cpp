@@ -40,8 +40,15 @@ Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vect
 
 }  // namespace
 
+ClockOffset::ClockOffset()
+    : cov_(Vector2(kClockOffset.max_std_s, kClockOffset.rate_std).cwiseAbs2().asDiagonal()) {}
+
 double ClockOffset::std_s() const {
-  return std::sqrt(var_s2_);
+  return std::sqrt(cov_(kOffset, kOffset));
+}
+
+double ClockOffset::rate_std() const {
+  return std::sqrt(cov_(kRate, kRate));
 }
 
 void ClockOffset::Interrupt() {
@@ -53,6 +60,7 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
   for (const ImuSample& sample : samples) {
     if (samples_.empty() || sample.stamp > samples_.back().stamp) samples_.push_back(sample);
   }
+  Predict(scan.stamp);
   if (last_ && scan.stamp > last_->stamp) Update(scan);
   Follow();
   last_ = scan;
@@ -60,11 +68,25 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
   while (!samples_.empty() && samples_.front().stamp < begin) samples_.pop_front();
 }
 
+// Stamps that go back, or on by too much, are those of clocks that were set: no time has passed.
+void ClockOffset::Predict(Timestamp now) {
+  const double span_s = as_of_ ? SecondsBetween(*as_of_, now) : 0.0;
+  as_of_ = now;
+  if (span_s <= 0.0 || span_s > kClockOffset.max_span_s) return;
+  Matrix2 transition = Matrix2::Identity();
+  transition(kOffset, kRate) = span_s;
+  state_ = transition * state_;
+  state_(kOffset) = std::clamp(state_(kOffset), -kMax_s, kMax_s);
+  cov_ = transition * cov_ * transition.transpose();
+  cov_(kOffset, kOffset) += kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s;
+  const double excess = std_s() / kClockOffset.max_std_s;
+  if (excess <= 1.0) return;
+  cov_.row(kOffset) /= excess;
+  cov_.col(kOffset) /= excess;
+}
+
 void ClockOffset::Update(const Scan& scan) {
   const double span_s = SecondsBetween(last_->stamp, scan.stamp);
-  var_s2_ =
-      std::min(var_s2_ + kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s,
-               kClockOffset.max_std_s * kClockOffset.max_std_s);
   if (scan.stamp - last_->stamp > kScanGap.unrelated || samples_.size() < 3) return;
   const std::vector<ImuSample> samples(samples_.begin(), samples_.end());
   if (AreSparse(samples)) return;
@@ -79,7 +101,7 @@ void ClockOffset::Update(const Scan& scan) {
   turn.rate_change_radps = w - w_last;
   turn.rate_change_std_radps = std::sqrt(2.0 / kClockOffset.rate_span_s) * scan.gyro_density;
   turn.innovation_rad = residual + w * scan.moved_by_s - w_last * last_->moved_by_s -
-                        turn.rate_change_radps * offset_s_;
+                        turn.rate_change_radps * offset_s();
   turn.claimed_var =
       scan.rotation_var + last_->rotation_var + scan.gyro_density * scan.gyro_density * span_s;
   Fuse(turn);
@@ -88,16 +110,19 @@ void ClockOffset::Update(const Scan& scan) {
 void ClockOffset::Fuse(const Turn& turn) {
   const Vector3& h = turn.rate_change_radps;
   const double turn_var = turn.claimed_var + unclaimed_var_;
-  const Matrix3 S = var_s2_ * h * h.transpose() + turn_var * Matrix3::Identity();
-  const Vector3 weighted = S.inverse() * turn.innovation_rad;
+  const Matrix3 S = cov_(kOffset, kOffset) * h * h.transpose() + turn_var * Matrix3::Identity();
   LearnUnclaimed(turn);
-  if (turn.innovation_rad.dot(weighted) > kChiSquare3At999) return;
+  if (turn.innovation_rad.dot(S.inverse() * turn.innovation_rad) > kChiSquare3At999) return;
   if (h.norm() < std::max(kClockOffset.min_rate_change_radps,
                           kClockOffset.min_rate_change_sigmas * turn.rate_change_std_radps)) {
     return;
   }
-  offset_s_ = std::clamp(offset_s_ + var_s2_ * h.dot(weighted), -kMax_s, kMax_s);
-  var_s2_ = 1.0 / (1.0 / var_s2_ + h.squaredNorm() / turn_var);
+  // h' S^-1 = h' / innovation_var, since S is the identity but for its part along h.
+  const double innovation_var = turn_var + cov_(kOffset, kOffset) * h.squaredNorm();
+  const Vector2 gain = cov_.col(kOffset) / innovation_var;
+  state_ += gain * h.dot(turn.innovation_rad);
+  state_(kOffset) = std::clamp(state_(kOffset), -kMax_s, kMax_s);
+  cov_ -= h.squaredNorm() * gain * cov_.row(kOffset).eval();
   ++num_turns_;
 }
 
@@ -115,11 +140,11 @@ void ClockOffset::LearnUnclaimed(const Turn& turn) {
 
 void ClockOffset::Follow() {
   const bool is_known = std_s() <= kClockOffset.known_std_s;
-  const bool is_off = std::abs(offset_s_ - move_by_s_) > kClockOffset.sure_sigmas * std_s();
+  const bool is_off = std::abs(offset_s() - move_by_s_) > kClockOffset.sure_sigmas * std_s();
   is_found_ |= num_turns_ >= kClockOffset.min_turns && (is_known || is_off);
   if (!is_found_) return;
   move_by_s_ +=
-      std::clamp(offset_s_ - move_by_s_, -kClockOffset.max_step_s, kClockOffset.max_step_s);
+      std::clamp(offset_s() - move_by_s_, -kClockOffset.max_step_s, kClockOffset.max_step_s);
 }
 
 }  // namespace lio

@@ -7,6 +7,7 @@
 #include "lio/filter/published_estimate.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "pipeline/base_motion.hpp"
+#include "pipeline/imu_noise_watch.hpp"
 
 namespace lio {
 namespace {
@@ -25,15 +26,16 @@ WorldEstimate Published(const Estimate& estimate, const ReportContext& context) 
   return WithDoubt(InPublishedWorld(estimate, context.g_world), context);
 }
 
-// Returns the variance of the noise in the published rate: white noise of the gyro's density over
-// the time of one sample [(rad/s)^2].
+// Returns the variance of the noise in the published rate: white noise as the gyro shows it, and no
+// less than the rig's, over the time of one sample [(rad/s)^2].
 double RateVariance(Timestamp stamp, const ReportContext& context) {
   if (context.imu == nullptr) return 0.0;
   const std::deque<ImuSample>& samples = context.imu->samples();
   const auto after = FirstNotBefore(samples, stamp);
   if (after == samples.begin() || after == samples.end()) return 0.0;
   const double step_s = SecondsBetween(std::prev(after)->stamp, after->stamp);
-  const double density = context.options.rig.imu.gyro_noise_density;
+  const double density =
+      RaisedTo(context.imu->NoiseAt(stamp), context.options.rig.imu).gyro_noise_density;
   return density * density / step_s;
 }
 

@@ -114,7 +114,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
                            keyframes_.IsKeyframe(outcome.match.T_map_imu);
   const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   const Pose T_map_imu_predicted = history_.At(outcome.sweep->middle()).state.T_map_imu;
-  ScanReport report = Fuse(outcome, is_keyframe);
+  ScanReport report = Fuse(outcome, noise, is_keyframe);
   trend_.Forget();
   if (report.fused && !outcome.is_relocalized) {
     trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
@@ -168,13 +168,13 @@ void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const Imu
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
 }
 
-ScanReport Tracking::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
+ScanReport Tracking::Fuse(const MatchOutcome& outcome, const ImuNoise& noise, bool is_keyframe) {
   ScanReport report = MakeScanReport(outcome);
   if (!outcome.match.IsUsable()) return report;
   context_.convention.AddPose({outcome.sweep->middle(), outcome.match.T_map_imu});
   Examine(outcome);
   FusionSettings settings;
-  settings.gyro_density = context_.options.rig.imu.gyro_noise_density;
+  settings.gyro_density = RaisedTo(noise, context_.options.rig.imu).gyro_noise_density;
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
   settings.is_level = FeelsGravity();

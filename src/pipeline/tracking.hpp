@@ -68,7 +68,7 @@ class Tracking {
   void ForgetPoses(Timestamp stamp);
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
-  ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
+  ScanReport Fuse(const MatchOutcome& outcome, const ImuNoise& noise, bool is_keyframe);
   void Examine(const MatchOutcome& outcome) const;
   void LookAtRig(Timestamp end);
   void CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end);

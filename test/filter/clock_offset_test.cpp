@@ -23,13 +23,16 @@ struct Drive {
   double outlier_rad = 0.0;    // error of every tenth scan
   double extra_std_rad = 0.0;  // error of each scan, beyond what matching claims
   double imu_rate_hz = 100.0;
+  double rate = 0.0;  // the offset grows by this, s per second
+
+  double OffsetAt(double seen_s) const { return offset_s + rate * seen_s; }
 
   void Run(ClockOffset& clock, int from_scan, int to_scan) {
     const test::ImuErrors errors{gyro_bias, Vector3::Zero(), kGyroDensity, 0.0};
     for (int k = from_scan; k < to_scan; ++k) {
       const double moved_by_s = clock.move_by_s();
       const double seen_s = kScan_s * (k + 0.5);  // by the IMU's clock
-      const double stamp_s = seen_s - offset_s + moved_by_s;
+      const double stamp_s = seen_s - OffsetAt(seen_s) + moved_by_s;
       const Vector3 error = test::NormalVector(random, std::hypot(kTurnStd_rad, extra_std_rad)) +
                             (k % 10 == 0 ? outlier_rad : 0.0) * Vector3::UnitX();
       const std::vector<ImuSample> samples = test::ReadImu(
@@ -68,9 +71,43 @@ TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {
   Drive drive{test::WalkMotion()};
   drive.Run(clock, 1000, 1200);
   const double found_s = clock.offset_s();
-  Drive{straight}.Run(clock, 2000, 8000);
-  EXPECT_EQ(clock.offset_s(), found_s) << "ten minutes later";
-  EXPECT_LT(clock.std_s(), 2e-3);
+  const double rate_std = clock.rate_std();
+  Drive{straight}.Run(clock, 1200, 7200);
+  EXPECT_LT(std::abs(clock.offset_s() - found_s), 600.0 * 3.0 * rate_std) << "ten minutes later";
+  EXPECT_GT(clock.std_s(), 600.0 * rate_std) << "oscillators that nobody compares drift apart";
+}
+
+// Four parts in a hundred thousand are 12 ms in five minutes.
+TEST(ClockOffset, ASlowDriftIsFollowed) {
+  for (const double rate : {4e-5, -4e-5, 0.0}) {
+    ClockOffset clock;
+    Drive drive{test::WalkMotion()};
+    drive.rate = rate;
+    for (int minute = 0; minute < 5; ++minute) {
+      drive.Run(clock, 600 * minute, 600 * (minute + 1));
+      const double offset_s = drive.OffsetAt(60.0 * (minute + 1));
+      EXPECT_LT(std::abs(clock.offset_s() - offset_s), 4.0 * clock.std_s()) << minute;
+      EXPECT_NEAR(clock.offset_s(), offset_s, 5e-4) << "after minute " << minute;
+      EXPECT_NEAR(clock.move_by_s(), offset_s, 5e-4) << "after minute " << minute;
+    }
+    EXPECT_NEAR(clock.rate(), rate, 3.0 * clock.rate_std());
+    EXPECT_LT(clock.rate_std(), 5e-6);
+  }
+}
+
+// The clocks were set: an hour passed by their stamps, none by the oscillators.
+TEST(ClockOffset, SetClocksDoNotDrift) {
+  ClockOffset clock;
+  Drive drive{test::WalkMotion()};
+  drive.rate = 4e-5;
+  drive.Run(clock, 0, 1200);
+  const double found_s = clock.offset_s(), std_s = clock.std_s();
+  for (const int scan : {37'200, 0}) {
+    clock.Interrupt();
+    drive.Run(clock, scan, scan + 1);
+    EXPECT_EQ(clock.offset_s(), found_s) << scan;
+    EXPECT_EQ(clock.std_s(), std_s) << scan;
+  }
 }
 
 TEST(ClockOffset, StaysWithinItsBounds) {

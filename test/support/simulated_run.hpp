@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Runs the estimator over simulated drives, message by message, and measures the error at the end.
+// Runs the estimator over simulated drives with all errors that sensors have on a vehicle, message
+// by message, and measures the error at the end.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "lio/io/trajectory_file.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/registration_worker.hpp"
+#include "lio/sim/realism.hpp"
 #include "lio/sim/recorder.hpp"
 #include "support/temp_dir.hpp"
 
@@ -45,6 +47,7 @@ struct SimulatedLog {
     record.lidar = sim::LoadLidarModel(spec.lidar);
     if (spec.rotation_hz > 0.0) record.lidar.rotation_hz = spec.rotation_hz;
     record.imu = sim::LoadImuModel("xsens_mti10");
+    sim::SetRealism(sim::Realism::kField, {}, record);
     record.seed = spec.seed;
     record.faults = spec.faults;
     sim::Record(sim::MakeScenario(spec.scenario, scenario), record, dir.path(), {});

@@ -7,14 +7,15 @@
 // already has, and w_k the rate at the corrected stamp. The turn from scan k-1 to k by registration
 // differs from the gyro's between the corrected stamps by
 //   r = Log(dR_gyro^-1 dR_matched) = w_k (d - a_k) - dR^T w_k-1 (d - a_k-1).
-// The model is linear in d: a Kalman filter of one state. docs/filter.md derives it.
+// The model is linear in d. Two oscillators differ by some parts in a million, so d drifts: a Kalman
+// filter of two states, d and its rate. docs/filter.md derives it.
 // It is no state of the error-state filter because the map is built with the same clock: under a
 // steady motion the map absorbs the offset, and the two are told apart only as well as the map's
 // noise is known. Turns between neighbouring scans depend neither on the map's drift nor on
 // velocity. The information in the translations is not used. The error of a turn beyond what is
 // claimed is learned from the innovations' component across the change of rate.
-// Limits. A turn whose rate hardly changes holds no information and is left out: the estimate does
-// not change on a straight road. The estimate stays within kMax_s of zero. Neighbouring turns share
+// Limits. A turn whose rate hardly changes holds no information and is left out: on a straight road
+// the estimate goes on at the rate that was found before. The estimate stays within kMax_s of zero. Neighbouring turns share
 // a scan's error with opposite signs; they are treated as independent, which overstates the
 // variance.
 #pragma once
@@ -30,6 +31,8 @@ namespace lio {
 
 class ClockOffset {
  public:
+  ClockOffset();
+
   static constexpr double kMax_s = kFilterParameters.clock_offset.max_offset_s;
 
   struct Scan {
@@ -45,13 +48,20 @@ class ClockOffset {
   // Call when a scan was not matched: the turn to the next scan is then not used.
   void Interrupt();
 
-  double offset_s() const { return offset_s_; }  // the estimate of d
-  double std_s() const;                          // its standard deviation
+  double offset_s() const { return state_(kOffset); }  // the estimate of d
+  double std_s() const;                                // its standard deviation
+  // How fast d grows, s per second, and the standard deviation.
+  double rate() const { return state_(kRate); }
+  double rate_std() const;
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
   // scan, from when the standard deviation is below 2 ms or the offset is three of them.
   double move_by_s() const { return move_by_s_; }
 
  private:
+  enum StateIndex { kOffset, kRate };
+  using Vector2 = Eigen::Vector2d;
+  using Matrix2 = Eigen::Matrix2d;
+
   // A turn between neighbouring scans gives this measurement.
   struct Turn {
     Vector3 rate_change_radps = Vector3::Zero();
@@ -60,14 +70,15 @@ class ClockOffset {
     double claimed_var = 0.0;  // the innovation's, as matching and gyro claim it, rad^2
   };
 
+  void Predict(Timestamp now);
   void Update(const Scan& scan);
   void Fuse(const Turn& turn);
   void LearnUnclaimed(const Turn& turn);
   void Follow();
 
-  double offset_s_ = 0.0;
-  double var_s2_ =
-      kFilterParameters.clock_offset.max_std_s * kFilterParameters.clock_offset.max_std_s;
+  Vector2 state_ = Vector2::Zero();  // s, s/s
+  Matrix2 cov_;
+  std::optional<Timestamp> as_of_;  // what state_ and cov_ hold at
   double move_by_s_ = 0.0;
   int num_turns_ = 0;      // turns fused so far
   bool is_found_ = false;  // stamps are moved

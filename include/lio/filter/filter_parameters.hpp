@@ -79,9 +79,15 @@ struct ClockOffsetParameters {
   double num_turns_remembered = 50.0;
   // A single turn counts for no more than so many times the variance. Chosen: three sigmas.
   double max_scatter_ratio = 9.0;
-  // s/sqrt(s). The offset walks at random by this. Chosen: oscillators differ by about 10 us per
-  // second.
-  double walk_s_per_sqrt_s = 2e-5;
+  // s per second. The offset drifts by this, 1 sigma. Physics: crystals that run free keep to 20
+  // parts in a million, so say their data sheets.
+  double rate_std = 2e-5;
+  // s/sqrt(s). Besides, the offset walks at random by this. Chosen: a crystal's rate changes by
+  // about a part in a million over a minute, as it warms.
+  double walk_s_per_sqrt_s = 1e-5;
+  // s. Scans that are farther apart have stamps of clocks that were set. Chosen: a drift of 20
+  // parts in a million is 12 ms by then, about as unsure as at the start.
+  double max_span_s = 600.0;
   // s. The standard deviation starts at this value, its upper bound. Chosen: 2.5 of it are
   // max_offset_s.
   double max_std_s = 0.02;
