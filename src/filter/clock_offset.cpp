@@ -78,7 +78,8 @@ void ClockOffset::Predict(Timestamp now) {
   state_ = transition * state_;
   state_(kOffset) = std::clamp(state_(kOffset), -kMax_s, kMax_s);
   cov_ = transition * cov_ * transition.transpose();
-  cov_(kOffset, kOffset) += kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s;
+  cov_(kOffset, kOffset) +=
+      kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s;
   const double excess = std_s() / kClockOffset.max_std_s;
   if (excess <= 1.0) return;
   cov_.row(kOffset) /= excess;
