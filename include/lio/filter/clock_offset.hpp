@@ -77,7 +77,7 @@ class ClockOffset {
 
   Vector2 state_ = Vector2::Zero();  // s, s/s
   Matrix2 cov_;
-  std::optional<Timestamp> as_of_;  // what state_ and cov_ hold at
+  std::optional<Timestamp> as_of_;  // state_ and cov_ hold at this time
   double move_by_s_ = 0.0;
   int num_turns_ = 0;      // turns fused so far
   bool is_found_ = false;  // stamps are moved
