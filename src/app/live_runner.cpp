@@ -37,7 +37,8 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
                [this](const Request& request) { desk_.Obey(request); }, live_.answer_ping}),
       desk_(
           {publisher_, board_, match_worker_, output_worker_, filter_},
-          {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr},
+          {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr,
+           live_.inputs},
           [this] { return JudgedStats(); },
           [this](const std::string& failure) { OnWriteFailure(failure); }),
       receiver_(

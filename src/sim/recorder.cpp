@@ -29,6 +29,11 @@ constexpr Duration kImuDelay{300'000};        // from an IMU sample to its recei
 constexpr Duration kChunkDelay{500'000};      // from a chunk's last point to its receipt
 constexpr Duration kDisorder{2'000'000'000};  // messages are held this long to be put in order
 
+constexpr const char* kLogFile = "log.lcm";
+constexpr const char* kRigFile = "config.yaml";
+constexpr const char* kTruthFile = "truth.tum";
+constexpr const char* kStatesFile = "truth_states.csv";
+
 std::ofstream OpenText(const std::filesystem::path& path) {
   std::ofstream file(path);
   if (!file) throw std::runtime_error("cannot write " + path.string());
@@ -44,8 +49,8 @@ void CloseText(std::ofstream& file, const std::filesystem::path& path) {
 class TruthWriter {
  public:
   explicit TruthWriter(const std::filesystem::path& folder)
-      : tum_path_(folder / "truth.tum"),
-        states_path_(folder / "truth_states.csv"),
+      : tum_path_(folder / kTruthFile),
+        states_path_(folder / kStatesFile),
         tum_(OpenText(tum_path_)),
         states_(OpenText(states_path_)) {
     states_.precision(12);
@@ -130,7 +135,7 @@ class Recording {
         clocks_(options.clock_errors, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
         faults_(FaultsOn(scenario, options), options.seed,
                 StampOf(std::llround(scenario.begin_s * 1e9))),
-        log_(folder / "log.lcm"),
+        log_(folder / kLogFile),
         truth_(folder) {}
 
   // Sweeps must come in order.
@@ -264,11 +269,15 @@ Timestamp StampOf(std::int64_t trajectory_ns) {
   return Timestamp{trajectory_ns} + kEpoch;
 }
 
+std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) {
+  return {folder / kLogFile, folder / kRigFile, folder / kTruthFile, folder / kStatesFile};
+}
+
 RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::filesystem::path& folder,
                    const std::function<void(double)>& progress) {
   std::filesystem::create_directories(folder);
-  WriteRigFile(folder / "config.yaml", scenario, options);
+  WriteRigFile(folder / kRigFile, scenario, options);
   Recording recording(scenario, options, folder);
   if (!options.scans.empty()) {
     CopyScans(options.scans, recording);
