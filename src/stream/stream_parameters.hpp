@@ -133,6 +133,14 @@ struct ScanAssemblerParameters {
   Duration jitter{20'000'000};  // spread of a sweep's length; chosen: a fifth of one at 10 Hz
   // Sweeps that follow each other are nearer. Chosen: two of kSweep.max_span.
   Duration apart{1'000'000'000};
+  // A count of chunks beyond this, and beyond twice that of the sweep before, is believed once two
+  // chunks of the sweep tell it. Chosen: three times those of 128 beams at 10 Hz; until a sweep was
+  // seen, half as many again as the packets of such a lidar, if each is a chunk.
+  int max_believed_chunks = 256;
+  int max_first_chunks = 1024;
+  // The lone chunk of a sweep whose number is farther from the one before does not tell what is
+  // missing. Chosen: an outage of a minute at 10 Hz.
+  std::int32_t max_seq_step = 600;
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;
