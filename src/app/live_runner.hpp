@@ -112,6 +112,7 @@ class LiveRunner {
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
+  OtherDaemons others_;
   InputWatch watch_;  // used by the output thread only
   FilterInbox inbox_;
   FaultLatch faults_;
