@@ -48,6 +48,8 @@ struct StreamParameters {
   // The same is bounded as a count of messages, where stamps do not advance. Chosen: some seconds
   // of a 400 Hz IMU and a lidar's chunks.
   std::size_t max_judged_messages = 3000;
+  // Their points are so many at most: 80 MB. Chosen: those of a sweep (ScanAssemblerParameters).
+  std::size_t max_judged_points = 4 << 20;
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
@@ -119,6 +121,8 @@ struct LidarClockParameters {
   // which a step is believed, and four sweeps of a lidar of 128 beams.
   Duration max_held{500'000'000};
   std::size_t max_num_held = 256;
+  // Their points are so many at most: 40 MB. Chosen: half a second of 128 beams, and half as much.
+  std::size_t max_points_held = 2 << 20;
   // A lidar whose messages are so many strides apart has paused, and its clock may be another.
   // Chosen: two messages that were lost are no pause.
   double pause_in_strides = 3.5;
