@@ -8,6 +8,7 @@
 
 #include "app/filter_loop.hpp"
 #include "app/run_series.hpp"
+#include "lio/io/input_guard.hpp"
 
 namespace lio {
 
@@ -26,6 +27,7 @@ class CommandDesk {
     RunSeries* files = nullptr;  // null: no --out; of the output thread
     bool collects_map = false;
     bool has_initial_map = false;
+    Paths inputs;  // no map is saved over them
   };
 
   // `make_stats` is called on the filter thread: what was counted so far, with the verdict.

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lio/io/run_folder.hpp"
+
 namespace lio {
 namespace {
 
@@ -69,6 +71,20 @@ LiveOptions DaemonArguments::Live() const {
   live.writes_map = writes_map && live.out;
   live.publishes_full_cloud = publishes_full_cloud;
   return live;
+}
+
+Paths DaemonArguments::Inputs() const {
+  Paths inputs = options.files;
+  inputs.push_back(initial_map.map);
+  return inputs;
+}
+
+std::filesystem::path DaemonArguments::FolderOfFiles() const {
+  return out.empty() || overwrites ? std::filesystem::path(out) : FreeFolder(out);
+}
+
+void DaemonArguments::GuardInputs() const {
+  if (!out.empty()) RefuseToOverwrite(Inputs(), FilesOfRun(FolderOfFiles()));
 }
 
 }  // namespace lio

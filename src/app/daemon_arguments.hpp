@@ -8,6 +8,7 @@
 #include "app/live_runner.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/initial_map_file.hpp"
+#include "lio/io/input_guard.hpp"
 
 namespace lio {
 
@@ -26,6 +27,12 @@ struct DaemonArguments {
   void AddTo(CLI::App& app);
   // They lack the initial map, which must be loaded.
   [[nodiscard]] LiveOptions Live() const;
+  // Returns the files that a start reads.
+  [[nodiscard]] Paths Inputs() const;
+  // Returns the folder that the files of a start would go to; empty without --out.
+  [[nodiscard]] std::filesystem::path FolderOfFiles() const;
+  // Throws UsageError when the files of --out would replace one of the inputs.
+  void GuardInputs() const;
 };
 
 }  // namespace lio

@@ -66,7 +66,16 @@ void InputWatch::Judge(Fault& fault, bool begins, bool is_over, const std::strin
   }
 }
 
-std::vector<InputRemark> InputWatch::Look(const StatusReport& report, Clock::time_point now) {
+std::string InputWatch::SecondDaemonText(std::int64_t start_utime) const {
+  return fmt::format(
+      "another liod publishes on {} and the other channels of this one: its start_utime is {}, its "
+      "messages mix with ours; end one of both, or give one its own --channel-prefix or --lcm-url",
+      names_.status, start_utime);
+}
+
+std::vector<InputRemark> InputWatch::Look(const StatusReport& report,
+                                          const OtherDaemons::Heard& others,
+                                          Clock::time_point now) {
   const Clock::duration step = std::min<Clock::duration>(now - last_look_, kMaxStep);
   last_look_ = now;
   const InputCounters& input = report.input;
@@ -105,13 +114,16 @@ std::vector<InputRemark> InputWatch::Look(const StatusReport& report, Clock::tim
       "scans are dropped: they come faster than they are matched; see compute_p99_ms and cpu_load "
       "of LIO_STATUS, and what else runs on this machine",
       remarks);
+  const bool hears_another = others_.Take(others.num, step);
+  Judge(second_daemon_, hears_another, others_.still_for >= kPatience,
+        SecondDaemonText(others.start_utime), remarks);
   return remarks;
 }
 
 std::string InputWatch::standing() const {
   std::string text;
   for (const Fault* fault :
-       {&silence_, &without_imu_, &without_scans_, &kernel_loss_, &overload_}) {
+       {&silence_, &without_imu_, &without_scans_, &kernel_loss_, &overload_, &second_daemon_}) {
     if (fault->lasts) text += (text.empty() ? "" : " | ") + fault->text;
   }
   return text;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Watches whether messages come and whether scans are lost on the way, so that silence is said:
-// what is missing, and what to look at. Each fault is told once, and again only after it had
-// passed.
+// Watches whether messages come, whether scans are lost on the way, and whether another daemon
+// publishes on the same channels, so that silence is said: what is wrong, and what to look at. Each
+// fault is told once, and again only after it had passed.
 #pragma once
 
 #include <chrono>
@@ -10,15 +10,16 @@
 #include <string>
 #include <vector>
 
+#include "app/other_daemons.hpp"
 #include "lio/io/status_report.hpp"
 
 namespace lio {
 
 // These are what a watch looks for, in the words of the one who must mend it.
 struct InputNames {
-  std::string imu, scan;  // channels
-  std::string url;        // LCM's, not empty
-  bool uses_imu = true;   // else nobody misses it
+  std::string imu, scan, status;  // channels
+  std::string url;                // LCM's, not empty
+  bool uses_imu = true;           // else nobody misses it
 };
 
 // An event of the watch: a fault has begun or has passed.
@@ -43,7 +44,9 @@ class InputWatch {
 
   // To be called about once a second, with the counts since the start. Returns what is to be told
   // now.
-  [[nodiscard]] std::vector<InputRemark> Look(const StatusReport& report, Clock::time_point now);
+  [[nodiscard]] std::vector<InputRemark> Look(const StatusReport& report,
+                                              const OtherDaemons::Heard& others,
+                                              Clock::time_point now);
 
   // Returns the faults that last, in one line; empty when all is well.
   [[nodiscard]] std::string standing() const;
@@ -64,13 +67,15 @@ class InputWatch {
   void Judge(Fault& fault, bool begins, bool is_over, const std::string& text,
              std::vector<InputRemark>& remarks) const;
   [[nodiscard]] std::string SilenceText(const InputCounters& input) const;
+  [[nodiscard]] std::string SecondDaemonText(std::int64_t start_utime) const;
   [[nodiscard]] std::string WhereToLook() const;
 
   InputNames names_;
   Clock::time_point last_look_;
   Growth imu_, chunks_;  // usable messages
   Growth kernel_drops_, scan_drops_;
-  Fault silence_, without_imu_, without_scans_, kernel_loss_, overload_;
+  Growth others_;  // messages of other daemons
+  Fault silence_, without_imu_, without_scans_, kernel_loss_, overload_, second_daemon_;
 };
 
 }  // namespace lio

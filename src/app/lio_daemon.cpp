@@ -83,6 +83,7 @@ int Run(const DaemonArguments& arguments, const Options& options,
   LiveOptions live = arguments.Live();
   live.version = LIO_VERSION;
   live.initial_map = initial_map;
+  live.inputs = arguments.Inputs();
   if (live.out) live.next_out = *live.out;
   if (live.out && !arguments.overwrites) KeepEarlierRun(live);
   RaiseBuffer(arguments.lcm_url, live);
@@ -105,6 +106,7 @@ int Main(int argc, char** argv) {
     return CheckDaemon(arguments, options, code.has_value());
   }
   if (code) return *code;
+  arguments.GuardInputs();
   InitialMapPtr initial_map;
   if (const auto unusable = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
     return *unusable;

@@ -18,8 +18,9 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
       start_utime_(HostUtime()),
       publisher_(bus, live_.channels),
       board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes),
-      watch_({live_.channels.imu, live_.channels.scan, EffectiveUrl(live.lcm_url),
-              options.pipeline.use_imu},
+      others_(board_.start_utime()),
+      watch_({live_.channels.imu, live_.channels.scan, live_.channels.status,
+              EffectiveUrl(live.lcm_url), options.pipeline.use_imu},
              InputWatch::Clock::now()),
       match_worker_(
           options, live.match_clock, live.writes_map, live.initial_map,
@@ -37,11 +38,12 @@ LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live
                [this](const Request& request) { desk_.Obey(request); }, live_.answer_ping}),
       desk_(
           {publisher_, board_, match_worker_, output_worker_, filter_},
-          {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr},
+          {files_ ? &*files_ : nullptr, live_.writes_map, live_.initial_map != nullptr,
+           live_.inputs},
           [this] { return JudgedStats(); },
           [this](const std::string& failure) { OnWriteFailure(failure); }),
       receiver_(
-          bus, live_.channels, ThreadCpuNs, inbox_, board_,
+          bus, live_.channels, ThreadCpuNs, inbox_, board_, others_,
           [this](const Command& command, const std::string& why) { desk_.Refuse(command, why); }),
       filter_thread_("filter", [this](const std::string& fault) { OnFault(fault); }),
       receive_thread_("receive", [this](const std::string& fault) { OnFault(fault); }) {
@@ -125,7 +127,7 @@ StatusReport LiveRunner::ComposeStatus() {
 }
 
 void LiveRunner::WatchInput(StatusReport& report) {
-  for (const InputRemark& remark : watch_.Look(report, InputWatch::Clock::now())) {
+  for (const InputRemark& remark : watch_.Look(report, others_.heard(), InputWatch::Clock::now())) {
     spdlog::log(remark.is_fault ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
   }
   const std::string standing = watch_.standing();

@@ -31,6 +31,7 @@
 #include "app/run_series.hpp"
 #include "app/status_board.hpp"
 #include "lio/io/cpu_clock.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/worker_thread.hpp"
 
 namespace lio {
@@ -44,6 +45,7 @@ struct LiveOptions {
   bool writes_map = false;
   bool publishes_full_cloud = false;  // LIO_CMD may change it
   InitialMapPtr initial_map;          // null: the first scans begin a map
+  Paths inputs;                       // files that were read: SAVE_MAP replaces none of them
 
   [[nodiscard]] StartIn start_in() const {
     return initial_map ? StartIn::kInitialMap : StartIn::kNewMap;
@@ -110,6 +112,7 @@ class LiveRunner {
   std::optional<Verdict> verdict_;
   Publisher publisher_;
   StatusBoard board_;
+  OtherDaemons others_;
   InputWatch watch_;  // used by the output thread only
   FilterInbox inbox_;
   FaultLatch faults_;

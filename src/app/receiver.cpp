@@ -16,6 +16,7 @@ constexpr int kScanCapacity =
     1024;  // chunks: forty sweeps; LCM's default of 30 would lose two thirds of them
 // The capacity exceeds the inbox's, so that those that are too many are answered.
 constexpr int kCommandCapacity = 2 * FilterInbox::kMaxRequests;
+constexpr int kStatusCapacity = 64;        // chosen: a minute of one daemon's
 constexpr milliseconds kPollInterval(50);  // after which Stop is noticed
 constexpr milliseconds kQuiet(20);         // after which without a message all have arrived
 constexpr milliseconds kMaxDrain(200);
@@ -23,7 +24,7 @@ constexpr milliseconds kMaxDrain(200);
 }  // namespace
 
 Receiver::Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
-                   StatusBoard& board, Refuse refuse)
+                   StatusBoard& board, OtherDaemons& others, Refuse refuse)
     : bus_(bus), clock_(clock), inbox_(inbox), board_(board), refuse_(std::move(refuse)) {
   bus.Subscribe(channels.imu, kImuCapacity,
                 [this](ByteView data, std::int64_t utime) { OnImu(data, utime); });
@@ -31,6 +32,8 @@ Receiver::Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbo
                 [this](ByteView data, std::int64_t utime) { OnScan(data, utime); });
   bus.Subscribe(channels.command, kCommandCapacity,
                 [this](ByteView data, std::int64_t) { OnCommand(data); });
+  bus.Subscribe(channels.status, kStatusCapacity,
+                [&others](ByteView data, std::int64_t) { others.Hear(data); });
 }
 
 void Receiver::Run() {

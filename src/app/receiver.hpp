@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/filter_inbox.hpp"
+#include "app/other_daemons.hpp"
 #include "app/status_board.hpp"
 #include "lio/io/bus.hpp"
 
@@ -19,9 +20,10 @@ class Receiver {
   // Gives the answer to a command that nobody takes, and why; on the receive thread.
   using Refuse = std::function<void(const Command&, const std::string& why)>;
 
-  // Subscribes to the input channels. All references are borrowed.
+  // Subscribes to the input channels, and to LIO_STATUS for other daemons. All references are
+  // borrowed.
   Receiver(Bus& bus, const Channels& channels, ClockNs clock, FilterInbox& inbox,
-           StatusBoard& board, Refuse refuse);
+           StatusBoard& board, OtherDaemons& others, Refuse refuse);
 
   // Runs the thread's body until Stop, or until the bus is closed. After Stop it still takes the
   // messages that have arrived, for 200 ms at most, so that the last scan of a log is not lost.

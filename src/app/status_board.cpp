@@ -93,6 +93,11 @@ void StatusBoard::AddLatency(double queue_ms, double compute_ms) {
   latencies_.total_ms.push_back(static_cast<float>(queue_ms + compute_ms));
 }
 
+std::int64_t StatusBoard::start_utime() const {
+  const std::lock_guard lock(mutex_);
+  return report_.start_utime;
+}
+
 InputCounters StatusBoard::input() const {
   const std::lock_guard lock(mutex_);
   return report_.input;

@@ -40,6 +40,8 @@ class StatusBoard {
   void AddLatency(double queue_ms, double compute_ms);
 
   [[nodiscard]] InputCounters input() const;
+  // Returns when the board was made, as the status tells it.
+  [[nodiscard]] std::int64_t start_utime() const;
 
   // Returns everything above, with the memory and the CPU time that this process uses. The
   // latencies and the load are those since the Compose before.

@@ -50,9 +50,7 @@ fs::path FindPoses(const KittiOdometryOptions& options) {
     if (fs::exists(*options.poses_file)) return *options.poses_file;
     throw InputError(options.poses_file->string() + ": no such file");
   }
-  const fs::path sequence = (fs::absolute(options.sequence) / "").lexically_normal().parent_path();
-  const fs::path usual =
-      sequence.parent_path().parent_path() / "poses" / (sequence.filename().string() + ".txt");
+  const fs::path usual = UsualPoses(options.sequence);
   if (fs::exists(usual)) return usual;
   throw InputError("--truth needs the sequence's poses, which are not at " + usual.string() +
                    ": name them with --poses");
@@ -97,6 +95,15 @@ void RaiseElevation(LidarPoint& point, double angle_rad) {
   point.x_m = static_cast<float>(point.x_m * new_across / across);
   point.y_m = static_cast<float>(point.y_m * new_across / across);
   point.z_m = static_cast<float>(new_z);
+}
+
+fs::path UsualPoses(const fs::path& sequence) {
+  const fs::path whole = (fs::absolute(sequence) / "").lexically_normal().parent_path();
+  return whole.parent_path().parent_path() / "poses" / (whole.filename().string() + ".txt");
+}
+
+std::vector<fs::path> InputsOf(const KittiOdometryOptions& options) {
+  return {options.sequence, options.poses_file.value_or(UsualPoses(options.sequence))};
 }
 
 KittiOdometryReport ConvertKittiOdometry(const KittiOdometryOptions& options) {

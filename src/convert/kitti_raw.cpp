@@ -177,9 +177,13 @@ void RawConversion::AddScan(std::vector<LidarPoint> points, Timestamp middle, Du
   ++scan_seq_;
 }
 
+// The calibration is one folder up, whether or not the drive was named with a slash at its end.
+fs::path CalibrationOfDay(const fs::path& drive) {
+  return (fs::absolute(drive) / "..").lexically_normal() / "calib_imu_to_velo.txt";
+}
+
 void WriteRig(const fs::path& drive, const fs::path& file) {
-  // The calibration is one folder up, whether or not the drive was named with a slash at its end.
-  const fs::path source = (fs::absolute(drive) / "..").lexically_normal() / "calib_imu_to_velo.txt";
+  const fs::path source = CalibrationOfDay(drive);
   const fs::path calibration = fs::exists(source) ? source : drive / "calib_imu_to_velo.txt";
   if (!fs::exists(calibration)) {
     throw InputError(source.string() + ": does not exist, but --rig needs it");
@@ -206,6 +210,10 @@ void WriteRig(const fs::path& drive, const fs::path& file) {
 std::int64_t KittiPointInstant(const LidarPoint& point, Timestamp middle, Duration turn) {
   const double azimuth = std::atan2(double{point.y_m}, double{point.x_m});
   return (middle - Duration::FromSeconds(azimuth / (2.0 * std::numbers::pi) * turn.Seconds())).ns;
+}
+
+std::vector<fs::path> InputsOf(const KittiRawOptions& options) {
+  return {options.drive, CalibrationOfDay(options.drive)};
 }
 
 KittiRawReport ConvertKittiRaw(const KittiRawOptions& options) {

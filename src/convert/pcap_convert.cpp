@@ -22,10 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path MetadataBeside(const fs::path& capture) {
+  fs::path beside = capture;
+  return beside.replace_extension(".json");
+}
+
 std::optional<OusterMetadata> MetadataOf(const PcapOptions& options) {
   if (options.metadata) return ReadOusterMetadata(*options.metadata);
-  fs::path beside = options.input;
-  beside.replace_extension(".json");
+  const fs::path beside = MetadataBeside(options.input);
   if (!fs::is_regular_file(beside)) return std::nullopt;
   return ReadOusterMetadata(beside);
 }
@@ -186,6 +190,15 @@ std::optional<fs::path> ImuFileBeside(const fs::path& capture) {
     if (fs::is_regular_file(file)) return file;
   }
   return std::nullopt;
+}
+
+std::vector<fs::path> InputsOf(const PcapOptions& options) {
+  std::vector<fs::path> inputs = {options.input,
+                                  options.metadata.value_or(MetadataBeside(options.input))};
+  if (const auto imu = options.imu ? options.imu : ImuFileBeside(options.input)) {
+    inputs.push_back(*imu);
+  }
+  return inputs;
 }
 
 PcapReport ConvertPcap(const PcapOptions& options) {

@@ -9,7 +9,6 @@
 #include <iostream>
 #include <sstream>
 
-#include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 
 namespace lio {
@@ -92,24 +91,6 @@ void AddSpanArguments(CLI::App& app, double& start_s, double& duration_s) {
   app.add_option("--duration", duration_s, "Use only S seconds")
       ->type_name("S")
       ->check(NumberAboveZero());
-}
-
-void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const auto is_same = [&](const fs::path& file) { return fs::equivalent(file, output, ignored); };
-  bool is_data = is_same(input);
-  if (fs::is_directory(input, ignored) && fs::is_regular_file(output, ignored)) {
-    const std::string extension = output.extension().string();
-    const bool is_recorded = extension == ".db3" || extension == ".mcap" || extension == ".bin" ||
-                             extension == ".txt" || output.filename() == "metadata.yaml";
-    fs::path folder = fs::weakly_canonical(output, ignored).parent_path();
-    while (is_recorded && !is_data && folder.has_relative_path()) {
-      is_data = fs::equivalent(folder, input, ignored);
-      folder = folder.parent_path();
-    }
-  }
-  if (is_data) throw UsageError(output.string() + ": is input, name another file to write");
 }
 
 std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,

@@ -57,13 +57,15 @@ struct EventLogWriter::Impl {
   }
 };
 
-EventLogWriter::EventLogWriter(const std::filesystem::path& path)
+EventLogWriter::EventLogWriter(const std::filesystem::path& path, OutputFile::Links links)
     : impl_(std::make_unique<Impl>()) {
   impl_->name = path.string();
-  impl_->file = std::fopen(path.c_str(), "wb");
-  if (impl_->file == nullptr) {
-    throw OutputError("cannot create " + impl_->name + ": " + Why());
-  }
+  const int fd = OpenToWrite(path, links);
+  if (fd >= 0) impl_->file = ::fdopen(fd, "wb");
+  if (impl_->file != nullptr) return;
+  const std::string why = Why();
+  if (fd >= 0) ::close(fd);
+  throw OutputError("cannot create " + impl_->name + ": " + why);
 }
 
 EventLogWriter::~EventLogWriter() {

@@ -42,15 +42,8 @@ bool InputDecoder::Imu(ByteView bytes, ImuSample& sample) {
   if (!Accept(DecodeImu(bytes, sample, seq), counters_.num_imu_refused)) return false;
   ++counters_.num_imu_taken;
   sample.seq = seq;
-  // The difference is modulo 2^32, so that a sequence that wraps has no gap. A step back comes from
-  // a driver that started again or from a reordered sample, a step of thousands from another
-  // driver; neither tells how many samples were lost.
-  constexpr std::uint32_t kMaxHole = 10'000;
-  const std::uint32_t step =
-      static_cast<std::uint32_t>(seq) - static_cast<std::uint32_t>(last_imu_seq_);
-  if (has_imu_ && step > 1 && step <= kMaxHole) counters_.num_imu_missing += step - 1;
-  has_imu_ = true;
-  last_imu_seq_ = seq;
+  imu_holes_.Add(seq);
+  counters_.num_imu_missing = imu_holes_.num_missing();
   return true;
 }
 

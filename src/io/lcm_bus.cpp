@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lio/io/bus.hpp"
+#include "queue_capacity.hpp"
 #include "stderr_capture.hpp"
 
 namespace lio {
@@ -69,11 +70,13 @@ class LcmBus final : public Bus {
     if (channel.empty() || channel.size() > kMaxLcmChannelBytes) {
       throw std::invalid_argument("channel name '" + channel + "' must have 1 to 63 characters");
     }
-    subscribers_.push_back(std::make_unique<Subscriber>(*this, std::move(handler)));
+    subscribers_.push_back(
+        std::make_unique<Subscriber>(*this, std::move(handler), QueueCapacity(queue_capacity)));
     lcm_subscription_t* subscription = lcm_subscribe(lcm_, Literally(channel).c_str(),
                                                      &LcmBus::Deliver, subscribers_.back().get());
     if (subscription == nullptr) throw TransportError("LCM refuses the channel name " + channel);
     lcm_subscription_set_queue_capacity(subscription, queue_capacity);
+    subscribers_.back()->subscription = subscription;
   }
 
   // Calls poll itself, because lcm_handle_timeout aborts the process when a tcpq connection is down
@@ -99,19 +102,25 @@ class LcmBus final : public Bus {
 
  private:
   struct Subscriber {
-    Subscriber(LcmBus& owner, Handler function) : bus(owner), handler(std::move(function)) {}
+    Subscriber(LcmBus& owner, Handler function, QueueCapacity messages)
+        : bus(owner), handler(std::move(function)), capacity(messages) {}
     LcmBus& bus;
     Handler handler;
+    QueueCapacity capacity;
+    lcm_subscription_t* subscription = nullptr;
   };
 
   // liblcm's C frames are below on the stack: no exception may pass through them. The size is
   // checked first, because liblcm announces a datagram whose channel name has no end with almost
   // 2^32 bytes.
   static void Deliver(const lcm_recv_buf_t* buffer, const char*, void* user) noexcept {
-    const auto& subscriber = *static_cast<const Subscriber*>(user);
+    auto& subscriber = *static_cast<Subscriber*>(user);
     if (buffer->data_size > kMaxMessageBytes) {
       ++subscriber.bus.num_oversized_;
       return;
+    }
+    if (subscriber.capacity.Take(buffer->data_size)) {  // this changes a number alone
+      lcm_subscription_set_queue_capacity(subscriber.subscription, subscriber.capacity.now());
     }
     try {
       subscriber.handler({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},

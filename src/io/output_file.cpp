@@ -15,15 +15,6 @@ namespace {
 constexpr std::size_t kMaxKeptBytes = 1 << 20;
 constexpr mode_t kMode = 0666;  // less the umask
 
-// Without O_NONBLOCK a FIFO that nobody reads would be waited for.
-int Opened(const std::filesystem::path& path, OutputFile::Links links) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK;
-  if (links == OutputFile::Links::kFollowed) return ::open(path.c_str(), kFlags, kMode);
-  const int fd = ::open(path.c_str(), kFlags | O_NOFOLLOW, kMode);
-  if (fd >= 0 || errno != ELOOP || ::unlink(path.c_str()) != 0) return fd;
-  return ::open(path.c_str(), kFlags | O_NOFOLLOW, kMode);
-}
-
 // Cuts what was written of a row that did not fit; devices and pipes have nothing to cut.
 void CutToWholeRows(std::FILE* file, std::string_view written) {
   const std::size_t end = written.rfind('\n');
@@ -37,11 +28,24 @@ void CutToWholeRows(std::FILE* file, std::string_view written) {
 
 }  // namespace
 
+// Without O_NONBLOCK a FIFO that nobody reads would be waited for; a pipe that is full is waited
+// for all the same.
+int OpenToWrite(const std::filesystem::path& path, OutputFile::Links links) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK;
+  const int no_follow = links == OutputFile::Links::kReplaced ? O_NOFOLLOW : 0;
+  int fd = ::open(path.c_str(), kFlags | no_follow, kMode);
+  if (fd < 0 && errno == ELOOP && no_follow != 0 && ::unlink(path.c_str()) == 0) {
+    fd = ::open(path.c_str(), kFlags | no_follow, kMode);
+  }
+  if (fd >= 0) ::fcntl(fd, F_SETFL, O_WRONLY);
+  return fd;
+}
+
 OutputFile::OutputFile(const std::filesystem::path& path, Links links) : path_(path) {
   if (path == "-") {
     throw UsageError("- is no name for a file: name one, or /dev/stdout for the standard output");
   }
-  const int fd = Opened(path, links);
+  const int fd = OpenToWrite(path, links);
   if (fd < 0) throw OutputError("cannot write " + path.string() + ": " + std::strerror(errno));
   file_.reset(::fdopen(fd, "wb"));
   if (!file_) {

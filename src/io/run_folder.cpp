@@ -5,17 +5,24 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+
 #include "lio/io/input_error.hpp"
 
 namespace lio {
 namespace fs = std::filesystem;
 namespace {
 
-// Looks for the first file that a run writes, and for the one that a killed run leaves in any case.
+// Looks for the first file that a run writes, for the one that a killed run leaves in any case, and
+// for a map, which is somebody's input and would be removed.
 bool HoldsRun(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / "options.yaml", ignored) ||
-         fs::exists(folder / "trajectory.tum", ignored);
+  constexpr std::array<const char*, 4> kSigns = {"options.yaml", "trajectory.tum", "map.pcd",
+                                                 "map.ply"};
+  return std::any_of(kSigns.begin(), kSigns.end(), [&](const char* name) {
+    std::error_code ignored;
+    return fs::exists(folder / name, ignored);
+  });
 }
 
 // The path with a last part that a number can be added to: "a/b/" and "." have none.

@@ -24,9 +24,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Chosen: what kill -9 or a loss of power may cost. So few rows are kept that all files of a
-// replay, which is faster than real time, end within a second of sensor time of each other, too.
-constexpr std::chrono::seconds kFlushInterval(1);
+// Chosen: what kill -9 or a loss of power may cost is a second, and a row is some time on its way.
+// So few rows are kept that all files of a replay, which is faster than real time, end within a
+// second of sensor time of each other, too.
+constexpr std::chrono::milliseconds kFlushInterval(500);
 constexpr int kMaxKeptRows = 100;
 constexpr Duration kStepBack{100'000'000};  // chosen: a sweep at 10 Hz
 

@@ -241,9 +241,7 @@ void Preparation::FromKittiOdometry() {
   options.sequence = request_.input;
   options.output = prepared_.log;
   options.progress = request_.progress;
-  const fs::path sequence = WholePath(request_.input);
-  const fs::path poses =
-      sequence.parent_path().parent_path() / "poses" / (sequence.filename().string() + ".txt");
+  const fs::path poses = UsualPoses(request_.input);
   if (fs::is_regular_file(poses)) {
     options.poses_file = poses;
     options.truth_file = OwnTruthFile();

@@ -8,14 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "lio/io/event_log.hpp"
-#include "lio/io/input_error.hpp"
 #include "lio/io/lcm_codec.hpp"
+#include "lio/io/output_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 #include "lio/sim/messages.hpp"
 #include "rig_file.hpp"
@@ -24,59 +24,51 @@
 namespace lio::sim {
 namespace {
 
+constexpr const char* kLogFile = "log.lcm";
+constexpr const char* kRigFile = "config.yaml";
+constexpr const char* kTruthFile = "truth.tum";
+constexpr const char* kStatesFile = "truth_states.csv";
 constexpr Duration kEpoch{1'700'000'000'000'000'000};
 constexpr Duration kImuDelay{300'000};        // from an IMU sample to its receipt
 constexpr Duration kChunkDelay{500'000};      // from a chunk's last point to its receipt
 constexpr Duration kDisorder{2'000'000'000};  // messages are held this long to be put in order
 
-std::ofstream OpenText(const std::filesystem::path& path) {
-  std::ofstream file(path);
-  if (!file) throw std::runtime_error("cannot write " + path.string());
-  return file;
-}
-
-void CloseText(std::ofstream& file, const std::filesystem::path& path) {
-  file.close();
-  if (!file) throw WriteError("cannot write " + path.string() + " in full: is the disk full?");
-}
-
 // Writes truth.tum and truth_states.csv.
 class TruthWriter {
  public:
   explicit TruthWriter(const std::filesystem::path& folder)
-      : tum_path_(folder / "truth.tum"),
-        states_path_(folder / "truth_states.csv"),
-        tum_(OpenText(tum_path_)),
-        states_(OpenText(states_path_)) {
-    states_.precision(12);
-    states_ << "t_s,vx_world_mps,vy_world_mps,vz_world_mps,"
-               "gyro_bias_x_radps,gyro_bias_y_radps,gyro_bias_z_radps,"
-               "accel_bias_x_mps2,accel_bias_y_mps2,accel_bias_z_mps2,"
-               "wx_imu_radps,wy_imu_radps,wz_imu_radps,"
-               "ax_world_mps2,ay_world_mps2,az_world_mps2\n";
+      : tum_(folder / kTruthFile), states_(folder / kStatesFile) {
+    row_.precision(12);
+    states_.Write(
+        "t_s,vx_world_mps,vy_world_mps,vz_world_mps,"
+        "gyro_bias_x_radps,gyro_bias_y_radps,gyro_bias_z_radps,"
+        "accel_bias_x_mps2,accel_bias_y_mps2,accel_bias_z_mps2,"
+        "wx_imu_radps,wy_imu_radps,wz_imu_radps,"
+        "ax_world_mps2,ay_world_mps2,az_world_mps2\n");
   }
 
   void Write(const SimulatedImu& imu) {
     const Timestamp stamp = StampOf(imu.sample.stamp.ns);
-    tum_ << TumRow({stamp, imu.truth.T_world_imu}) << '\n';
-    states_ << StampText(stamp);
+    tum_.Write(TumRow({stamp, imu.truth.T_world_imu}) + "\n");
+    row_.str({});
+    row_ << StampText(stamp);
     for (const Vector3& v : {imu.truth.v_world_mps, imu.gyro_bias_radps, imu.accel_bias_mps2,
                              imu.truth.w_imu_radps, imu.truth.a_world_mps2}) {
-      states_ << ',' << v.x() << ',' << v.y() << ',' << v.z();
+      row_ << ',' << v.x() << ',' << v.y() << ',' << v.z();
     }
-    states_ << '\n';
+    row_ << '\n';
+    states_.Write(row_.view());
   }
 
   void Close() {
-    CloseText(tum_, tum_path_);
-    CloseText(states_, states_path_);
+    tum_.Close();
+    states_.Close();
   }
 
  private:
-  std::filesystem::path tum_path_;
-  std::filesystem::path states_path_;
-  std::ofstream tum_;
-  std::ofstream states_;
+  OutputFile tum_;
+  OutputFile states_;
+  std::ostringstream row_;
 };
 
 // Splits a sweep into chunks of at most kMaxChunkPoints, each stamped with its own first point.
@@ -130,7 +122,7 @@ class Recording {
         clocks_(options.clock_errors, options.seed, StampOf(std::llround(scenario.begin_s * 1e9))),
         faults_(FaultsOn(scenario, options), options.seed,
                 StampOf(std::llround(scenario.begin_s * 1e9))),
-        log_(folder / "log.lcm"),
+        log_(folder / kLogFile, OutputFile::Links::kReplaced),
         truth_(folder) {}
 
   // Sweeps must come in order.
@@ -264,11 +256,15 @@ Timestamp StampOf(std::int64_t trajectory_ns) {
   return Timestamp{trajectory_ns} + kEpoch;
 }
 
+std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) {
+  return {folder / kLogFile, folder / kRigFile, folder / kTruthFile, folder / kStatesFile};
+}
+
 RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::filesystem::path& folder,
                    const std::function<void(double)>& progress) {
   std::filesystem::create_directories(folder);
-  WriteRigFile(folder / "config.yaml", scenario, options);
+  WriteRigFile(folder / kRigFile, scenario, options);
   Recording recording(scenario, options, folder);
   if (!options.scans.empty()) {
     CopyScans(options.scans, recording);

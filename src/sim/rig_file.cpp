@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
-#include "lio/io/input_error.hpp"
+#include "lio/io/output_file.hpp"
 
 namespace lio::sim {
 namespace {
@@ -25,7 +24,7 @@ double BiasStd(const InertialModel& model) {
   return std::max(1e-5, std::hypot(model.turn_on_bias_std, model.bias_instability));
 }
 
-void WriteVector(std::ofstream& file, const char* key, const Vector3& v) {
+void WriteVector(std::ostream& file, const char* key, const Vector3& v) {
   file << key << ": [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
 }
 
@@ -33,8 +32,7 @@ void WriteVector(std::ofstream& file, const char* key, const Vector3& v) {
 
 void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
                   const RecordOptions& options) {
-  std::ofstream file(path);
-  if (!file) throw std::runtime_error("cannot write " + path.string());
+  std::ostringstream file;
   file.precision(9);
   const Pose T = ClaimedExtrinsic(options.faults, scenario.T_imu_lidar);
   file << "# Rig of lio-sim's scenario '" << scenario.name << "', seed " << options.seed << ": "
@@ -63,8 +61,7 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
        << "    accel_bias_std_mps2: " << BiasStd(accel) << "\n"
        << "    gravity: auto\n"
        << "  gravity_mps2: " << options.gravity_mps2 << "\n";
-  file.close();
-  if (!file) throw WriteError("cannot write " + path.string() + " in full: is the disk full?");
+  WriteText(path, file.view());
 }
 
 }  // namespace lio::sim

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "stream/lone_clock_step.hpp"
 #include "stream/stream_parameters.hpp"
@@ -29,7 +30,11 @@ std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::GiveOut() {
 // So it is where no inertial samples come any more.
 bool LidarClockCorrector::HasHeldTooLong() const {
   const Duration held = held_.back().chunk.stamp - held_.front().chunk.stamp;
-  return held > kLidarClock.max_held || held_.size() > kLidarClock.max_num_held;
+  const std::size_t num_points = std::accumulate(
+      held_.begin(), held_.end(), std::size_t{0},
+      [](std::size_t num, const Arrival& arrival) { return num + arrival.chunk.points.size(); });
+  return held > kLidarClock.max_held || held_.size() > kLidarClock.max_num_held ||
+         num_points > kLidarClock.max_points_held;
 }
 
 std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Release() {

@@ -3,6 +3,7 @@
 #include "lio/stream/scan_assembler.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "stream/stream_parameters.hpp"
@@ -39,6 +40,27 @@ bool ScanAssembler::IsTornOff(const ScanChunk& chunk, Timestamp last) const {
   });
 }
 
+// One chunk with a false count must neither close a sweep nor make a loss.
+bool ScanAssembler::IsCountDoubtful(const ScanChunk& chunk) {
+  const int believed = usual_count_ == 0
+                           ? kScanAssembler.max_first_chunks
+                           : std::max(kScanAssembler.max_believed_chunks, 2 * usual_count_);
+  const bool is_of_open = std::any_of(open_.begin(), open_.end(), [&](const Partial& partial) {
+    return partial.name.Names(chunk) &&
+           static_cast<int>(partial.chunks.size()) == chunk.chunk_count;
+  });
+  if (chunk.chunk_count <= believed || is_of_open) return false;
+  const bool is_borne_out =
+      doubtful_ && doubtful_->chunk_count == chunk.chunk_count &&
+      doubtful_->chunk_index != chunk.chunk_index &&
+      SweepName{doubtful_->scan_seq, doubtful_->sensor_id, doubtful_->stamp, doubtful_->stamp}
+          .Names(chunk);
+  if (is_borne_out) return false;
+  doubtful_ = chunk;
+  doubtful_->points.clear();
+  return true;
+}
+
 ScanAssembler::Partial* ScanAssembler::FindOrOpen(const ScanChunk& chunk) {
   for (Partial& partial : open_) {
     if (!partial.name.Names(chunk)) continue;
@@ -62,7 +84,8 @@ void ScanAssembler::Add(ScanChunk chunk, std::int64_t decode_ns) {
   ++counters_->num_chunks;
   const Duration last_offset = LastOffset(chunk);
   const Timestamp last = chunk.stamp + last_offset;
-  if (!IsUsable(chunk) || last_offset > kSweep.max_span || IsTornOff(chunk, last)) {
+  if (!IsUsable(chunk) || last_offset > kSweep.max_span || IsTornOff(chunk, last) ||
+      IsCountDoubtful(chunk)) {
     ++counters_->num_chunks_bad;
     counters_->ledgers.chunks.Settle(ChunkFate::kBad);
     return;
@@ -121,6 +144,17 @@ void ScanAssembler::CloseOneFor(Timestamp stamp) {
   Close(newest_is_apart && !oldest_is_apart ? open_.size() - 1 : 0);
 }
 
+// A lone chunk may be false: it is believed when its count and its number are like those before.
+bool ScanAssembler::TellsWhatIsMissing(const Partial& partial) const {
+  if (partial.num_received > 1) return true;
+  if (usual_count_ == 0) {
+    return static_cast<int>(partial.chunks.size()) <= kScanAssembler.max_believed_chunks;
+  }
+  const std::int64_t step = std::int64_t{partial.name.scan_seq} - closed_names_.back().scan_seq;
+  return static_cast<int>(partial.chunks.size()) <= 2 * usual_count_ &&
+         std::abs(step) <= kScanAssembler.max_seq_step;
+}
+
 void ScanAssembler::Close(std::size_t at) {
   Partial partial = std::move(open_[at]);
   open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(at));
@@ -130,7 +164,8 @@ void ScanAssembler::Close(std::size_t at) {
   sweep.scan_seq = partial.name.scan_seq;
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
-  counters_->num_chunks_missing += sweep.num_missing_chunks;
+  if (TellsWhatIsMissing(partial)) counters_->num_chunks_missing += sweep.num_missing_chunks;
+  if (partial.num_received > 1) usual_count_ = static_cast<int>(partial.chunks.size());
   if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kSweep.max_span);
   if (partial.chunks.size() == 1) {
     sweep.points = std::move(partial.chunks.front().points);

@@ -16,7 +16,7 @@ using Step = ImuPreprocessor::Step;
 // clock stepped as well.
 void SensorStream::TakeStep(ImuPreprocessor::Result step) {
   const Timestamp newest = step.accepted.back().stamp;
-  step_ = {std::move(step), 0, newest};
+  step_ = {std::move(step), 0, 0, newest};
   state_ = State::kJudgingStep;
   const ClockStep stamps = StampsOfStep();
   if (arbiter_.HasTimePassed(stamps)) {
@@ -34,7 +34,9 @@ ClockStep SensorStream::StampsOfStep() const {
 
 // Looks at a message that came after the step, without processing it.
 void SensorStream::JudgeBy(const Message& message) {
-  const bool has_waited_long = step_.num_examined > kStream.max_judged_messages;
+  step_.num_points_examined += message.num_points();
+  const bool has_waited_long = step_.num_examined > kStream.max_judged_messages ||
+                               step_.num_points_examined > kStream.max_judged_points;
   if (message.chunk) {
     const StepVerdict verdict = arbiter_.Judge(
         StampsOfStep(), lidar_clock_.PutRight(message.chunk->stamp), step_.newest_examined);

@@ -48,6 +48,8 @@ struct StreamParameters {
   // The same is bounded as a count of messages, where stamps do not advance. Chosen: some seconds
   // of a 400 Hz IMU and a lidar's chunks.
   std::size_t max_judged_messages = 3000;
+  // Their points are so many at most: 80 MB. Chosen: those of a sweep (ScanAssemblerParameters).
+  std::size_t max_judged_points = 4 << 20;
   // Messages that wait while a match is out, at most; more are dropped, newest first, and counted.
   // Chosen: two minutes of a 400 Hz IMU; it bounds the memory.
   std::size_t max_waiting_messages = 65536;
@@ -119,6 +121,8 @@ struct LidarClockParameters {
   // which a step is believed, and four sweeps of a lidar of 128 beams.
   Duration max_held{500'000'000};
   std::size_t max_num_held = 256;
+  // Their points are so many at most: 40 MB. Chosen: half a second of 128 beams, and half as much.
+  std::size_t max_points_held = 2 << 20;
   // A lidar whose messages are so many strides apart has paused, and its clock may be another.
   // Chosen: two messages that were lost are no pause.
   double pause_in_strides = 3.5;
@@ -133,6 +137,14 @@ struct ScanAssemblerParameters {
   Duration jitter{20'000'000};  // spread of a sweep's length; chosen: a fifth of one at 10 Hz
   // Sweeps that follow each other are nearer. Chosen: two of kSweep.max_span.
   Duration apart{1'000'000'000};
+  // A count of chunks beyond this, and beyond twice that of the sweep before, is believed once two
+  // chunks of the sweep tell it. Chosen: three times those of 128 beams at 10 Hz; until a sweep was
+  // seen, half as many again as the packets of such a lidar, if each is a chunk.
+  int max_believed_chunks = 256;
+  int max_first_chunks = 1024;
+  // The lone chunk of a sweep whose number is farther from the one before does not tell what is
+  // missing. Chosen: an outage of a minute at 10 Hz.
+  std::int32_t max_seq_step = 600;
   std::size_t max_open_sweeps = 2;  // chosen: chunks of one sweep mix with the next one's alone
   // Names of closed sweeps: later stragglers are dropped as late. Chosen: 1.6 s at 10 Hz.
   std::size_t max_closed_names = 16;

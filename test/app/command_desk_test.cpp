@@ -179,6 +179,20 @@ TEST_F(CommandDeskTest, NewFilesGoOnWithTheNextRow) {
       In("whole", "trajectory.tum"));
 }
 
+TEST_F(CommandDeskTest, TheMapIsNotSavedOverAnInput) {
+  LiveOptions live = WithFiles(true);
+  live.inputs = {out_ / "start.pcd"};
+  LiveRunner runner(*bus_, SceneOptions(), live);
+  Play(runner, 1200);
+  folder_.Write("live/start.pcd", "mine");
+  const reply_t reply = Ask(CommandAction::kSaveMap, "start.pcd");
+  EXPECT_FALSE(IsDone(reply));
+  EXPECT_THAT(reply.text, HasSubstr("is input"));
+  EXPECT_EQ(test::ReadText(out_ / "start.pcd"), "mine");
+  EXPECT_TRUE(IsDone(Ask(CommandAction::kSaveMap, "other.pcd")));
+  runner.Stop();
+}
+
 TEST_F(CommandDeskTest, TheMapIsSavedUnderItsNameAndNowhereElse) {
   LiveRunner runner(*bus_, SceneOptions(), WithFiles(true));
   Play(runner, 1200);

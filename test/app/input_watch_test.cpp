@@ -25,7 +25,7 @@ class InputWatchTest : public ::testing::Test {
       input.num_imu_taken += num_imu;
       input.num_chunks_received += num_chunks;
       input.num_chunks_taken += num_chunks;
-      for (const InputRemark& remark : watch_.Look(report_, now_)) {
+      for (const InputRemark& remark : watch_.Look(report_, others_, now_)) {
         told.push_back((remark.is_fault ? "" : "over: ") + remark.text);
       }
     }
@@ -34,7 +34,8 @@ class InputWatchTest : public ::testing::Test {
 
   InputWatch::Clock::time_point now_{};
   StatusReport report_;
-  InputWatch watch_{{"A_IMU", "A_SCAN", "udpm://239.1.2.3:7700?ttl=0", true}, now_};
+  OtherDaemons::Heard others_;
+  InputWatch watch_{{"A_IMU", "A_SCAN", "A_STATUS", "udpm://239.1.2.3:7700?ttl=0", true}, now_};
 };
 
 TEST_F(InputWatchTest, ASoundStreamIsNotSpokenOf) {
@@ -77,7 +78,7 @@ TEST_F(InputWatchTest, TheSensorThatIsMissingIsNamed) {
 }
 
 TEST_F(InputWatchTest, WithoutAnImuNobodyMissesIt) {
-  watch_ = InputWatch({"A_IMU", "A_SCAN", "tcpq://", false}, now_);
+  watch_ = InputWatch({"A_IMU", "A_SCAN", "A_STATUS", "tcpq://", false}, now_);
   EXPECT_TRUE(Pass(20, 0, 20).empty());
   const auto told = Pass(20, 0, 0);
   ASSERT_EQ(told.size(), 1u);
@@ -111,6 +112,23 @@ TEST_F(InputWatchTest, AStoppedProcessHasMissedNothing) {
   EXPECT_TRUE(Pass(10, 100, 20).empty());
   now_ += std::chrono::hours(1);
   EXPECT_TRUE(Pass(1, 0, 0).empty());
+}
+
+TEST_F(InputWatchTest, ASecondDaemonIsToldOnceAndTakenBackWhenItIsSilent) {
+  std::vector<std::string> told;
+  for (int i = 0; i < 20; ++i) {
+    others_ = {others_.num + 1, 1234567};
+    for (std::string& text : Pass(1, 100, 20)) told.push_back(std::move(text));
+  }
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0], AllOf(HasSubstr("another liod publishes on A_STATUS"), HasSubstr("1234567"),
+                             HasSubstr("--channel-prefix")));
+  EXPECT_EQ(watch_.standing(), told[0]);
+  EXPECT_TRUE(Pass(4, 100, 20).empty()) << "its next status may still come";
+  EXPECT_THAT(Pass(2, 100, 20),
+              testing::ElementsAre("over: no longer so: another liod publishes on A_STATUS and the "
+                                   "other channels of this one"));
+  EXPECT_EQ(watch_.standing(), "");
 }
 
 }  // namespace

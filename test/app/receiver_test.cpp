@@ -30,12 +30,14 @@ class ReceiverTest : public ::testing::Test {
   Channels channels_;
   FilterInbox inbox_;
   StatusBoard board_{0, 0};
+  OtherDaemons others_{1};
   std::vector<std::string> refusals_;
   Receiver receiver_{*bus_,
                      channels_,
                      ThreadCpuNs,
                      inbox_,
                      board_,
+                     others_,
                      [this](const Command& command, const std::string& why) {
                        refusals_.push_back(std::to_string(command.request_id) + ": " + why);
                      }};
@@ -91,10 +93,23 @@ TEST_F(ReceiverTest, ACommandThatCanBeAnsweredIsRefusedWithItsReason) {
 
 TEST_F(ReceiverTest, AClosedBusEndsIt) {
   const auto closed = OpenNullBus();
-  Receiver receiver(*closed, channels_, ThreadCpuNs, inbox_, board_,
+  Receiver receiver(*closed, channels_, ThreadCpuNs, inbox_, board_, others_,
                     [](const Command&, const std::string&) {});
   receiver.Run();
   EXPECT_TRUE(receiver.has_ended());
+}
+
+TEST_F(ReceiverTest, TheStatusOfAnotherDaemonIsHeard) {
+  StatusReport report;
+  for (const std::int64_t start_utime : {1, 1, 2, 2, 2}) {
+    report.start_utime = start_utime;
+    EXPECT_TRUE(bus_->Publish("LIO_STATUS", EncodeStatus(report, "1.2.3")));
+  }
+  EXPECT_TRUE(bus_->Publish("LIO_STATUS", Bytes(100, 0xff)));
+  ReceiveAll();
+  EXPECT_EQ(others_.heard().num, 2);
+  EXPECT_EQ(others_.heard().start_utime, 2);
+  EXPECT_EQ(board_.input().TotalRefused(), 0) << "it is no input of the estimator";
 }
 
 }  // namespace

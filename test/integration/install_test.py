@@ -4,6 +4,7 @@
 """The installed tree: its files, what its programs load, that each public header compiles on its
 own, and that the examples build against it and find the way of a simulated cart."""
 import concurrent.futures
+import gzip
 import json
 import pathlib
 import re
@@ -95,6 +96,28 @@ class Install(unittest.TestCase):
             expected.append(data / "lio_types.jar")
         for path in expected:
             self.assertTrue(path.is_file(), path)
+
+    def test_what_a_service_needs_is_there(self):
+        for path in ("lib/systemd/system/liod.service", "share/liod/sysctl/60-liod.conf"):
+            self.assertTrue((self.prefix / path).is_file(), path)
+        unit = (self.prefix / "lib/systemd/system/liod.service").read_text(encoding="utf-8")
+        self.assertRegex(unit, r"(?m)^ExecStart=/\S+/liod ")
+        self.assertIn("net.core.rmem_max",
+                      (self.prefix / "share/liod/sysctl/60-liod.conf").read_text(encoding="utf-8"))
+
+    # lio-spy is a script, and has neither.
+    def test_manual_pages_and_completions_are_there(self):
+        pages = self.prefix / "share/man/man1"
+        if cached("LIO_HELP2MAN").endswith("NOTFOUND"):
+            self.assertFalse(pages.exists())
+        else:
+            self.assertEqual({path.name for path in pages.iterdir()},
+                             {f"{name}.1.gz" for name in PROGRAMS - {"lio-spy"}})
+            page = gzip.decompress((pages / "liod.1.gz").read_bytes()).decode("utf-8")
+            self.assertIn("lcm", page)
+        completions = self.prefix / "share/bash-completion/completions"
+        self.assertEqual({path.name for path in completions.iterdir()}, PROGRAMS - {"lio-spy"})
+        self.assertIn("--channel-prefix", (completions / "liod").read_text(encoding="utf-8"))
 
     def test_headers_are_those_of_the_list(self):
         listed = (support.SOURCE / "cmake/LioInstall.cmake").read_text(encoding="utf-8")

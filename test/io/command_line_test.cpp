@@ -128,21 +128,5 @@ TEST(CommandLine, NamesHaveALargestLength) {
   EXPECT_THAT(NameUpTo(3)("abcd"), HasSubstr("at most 3 characters"));
 }
 
-TEST(CommandLine, InputIsNeverOverwritten) {
-  namespace fs = std::filesystem;
-  const test::TempDir dir;
-  const fs::path file = dir.Write("drive/bag_0.db3", "x");
-  const fs::path deep = dir.Write("drive/velodyne_points/data/0.bin", "x");
-  const fs::path folder = dir.path() / "drive";
-  EXPECT_THROW(RefuseToOverwrite(file, file), UsageError);
-  EXPECT_THROW(RefuseToOverwrite(file, folder / "velodyne_points/../bag_0.db3"), UsageError);
-  EXPECT_THROW(RefuseToOverwrite(folder, file), UsageError);
-  EXPECT_THROW(RefuseToOverwrite(folder, deep), UsageError);
-  EXPECT_NO_THROW(RefuseToOverwrite(folder, dir.Write("drive/out.lcm", "x")));
-  EXPECT_NO_THROW(RefuseToOverwrite(folder, dir.Write("other/0.bin", "x")));
-  EXPECT_NO_THROW(RefuseToOverwrite(file, dir.path() / "not there"));
-  EXPECT_NO_THROW(RefuseToOverwrite(dir.path() / "not there", file));
-}
-
 }  // namespace
 }  // namespace lio

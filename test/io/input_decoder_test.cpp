@@ -48,6 +48,13 @@ TEST(InputDecoder, DuplicatesRestartsAndWrapsAreNoHoles) {
   EXPECT_EQ(decoder.counters().num_imu_missing, 0);
 }
 
+TEST(InputDecoder, OneFalseNumberIsNoHole) {
+  InputDecoder decoder;
+  ImuSample sample;
+  for (const std::int32_t seq : {5, 6, 9999, 7, 8}) EXPECT_TRUE(decoder.Imu(Imu(seq), sample));
+  EXPECT_EQ(decoder.counters().num_imu_missing, 0);
+}
+
 TEST(Channels, NamesFollowThePrefix) {
   EXPECT_EQ(Channels().odometry_imu_rate, "LIO_ODOM_IMU");
   EXPECT_EQ(Channels("FRONT_").scan, "FRONT_SCAN");

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(RunFolder, AnEarlierRunIsRefusedUnlessItMayBeOverwritten) {
-  for (const char* name : {"options.yaml", "trajectory.tum"}) {
+  for (const char* name : {"options.yaml", "trajectory.tum", "map.pcd", "map.ply"}) {
     const test::TempDir folder;
     EXPECT_NO_THROW(RefuseEarlierRun(folder.path() / "new", false));
     EXPECT_NO_THROW(RefuseEarlierRun(folder.path(), false));

@@ -298,5 +298,18 @@ TEST_F(LiodTest, AFolderThatCannotBeMadeIsAUsageError) {
   EXPECT_THAT(result.err, HasSubstr(file.string()));
 }
 
+TEST_F(LiodTest, ASecondDaemonOnTheSameChannelsIsNoticedByBoth) {
+  const std::string second =
+      kBin + "/liod --config " + kScene + "/config.yaml 2>" + Out("second") + " & second=$!; ";
+  const auto result =
+      RunAlone(Start("") + second + "sleep 5; kill $second; wait $second; sleep 8; " + End());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string line = "another liod publishes on LIO_STATUS";
+  EXPECT_THAT(File("second"), HasSubstr(line));
+  const std::string said = File("said");
+  ASSERT_THAT(said, HasSubstr(line));
+  EXPECT_THAT(said, HasSubstr("no longer so: " + line));
+}
+
 }  // namespace
 }  // namespace lio

@@ -44,6 +44,37 @@ TEST(LioSim, WritesTheFourFilesAndNoProgressIntoAPipe) {
   }
 }
 
+TEST(LioSim, ALinkAmongItsFilesIsReplacedAndNotWrittenThrough) {
+  const test::TempDir dir;
+  const std::filesystem::path precious = dir.Write("precious", "precious");
+  const std::filesystem::path out = dir.path() / "out";
+  std::filesystem::create_directory(out);
+  const std::vector<std::string> names = {"log.lcm", "truth.tum", "truth_states.csv",
+                                          "config.yaml"};
+  for (const std::string& name : names) std::filesystem::create_symlink(precious, out / name);
+  const auto result = Simulate(
+      {"--scenario", "hall", "--duration", "0.3", "--lidar", "vlp16", "--out", out.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(test::ReadText(precious), "precious");
+  for (const std::string& name : names) {
+    EXPECT_FALSE(std::filesystem::is_symlink(out / name)) << name;
+    EXPECT_GT(std::filesystem::file_size(out / name), 100u) << name;
+  }
+}
+
+// A log of 15 s has 90 MB.
+TEST(LioSim, ItsMemoryDoesNotGrowWithTheDuration) {
+  const test::TempDir dir;
+  const auto peak_kb = [&](const std::string& duration) {
+    return test::PeakMemoryKb({LIO_SIM_PROGRAM, "--scenario", "hall", "--lidar", "vlp16",
+                               "--duration", duration, "--out", dir.path().string()});
+  };
+  const std::int64_t of_short_kb = peak_kb("4");
+  ASSERT_GT(of_short_kb, 0);
+  EXPECT_LT(peak_kb("19"), of_short_kb + 20'000);
+  EXPECT_GT(std::filesystem::file_size(dir.path() / "log.lcm"), 60'000'000u);
+}
+
 TEST(LioSim, EndsWithTheRightCodeAndOneLineThatHelps) {
   const test::TempDir dir;
   const std::string file = dir.Write("file", "").string();

@@ -143,5 +143,20 @@ TEST(LidarClockCorrector, HeldChunksAreBounded) {
   }
 }
 
+TEST(LidarClockCorrector, PointsOfHeldChunksAreBounded) {
+  ChunkFeed feed;
+  feed.AddAll(1.0, 3.0);
+  feed.Add(3.0, 1.5);
+  constexpr std::size_t kPoints = 400'000;  // the most that a message can hold
+  for (int i = 1; i < 100; ++i) {
+    LidarClockCorrector::Arrival arrival;
+    arrival.chunk.stamp = StampAt(4.5);
+    arrival.chunk.points.resize(kPoints);
+    feed.Take(feed.corrector.Add(std::move(arrival), StampAt(3.0)));
+    EXPECT_LE(feed.corrector.num_held() * kPoints, std::size_t{3 << 20});
+  }
+  EXPECT_GT(feed.stamps_s.size(), 90U);
+}
+
 }  // namespace
 }  // namespace lio

@@ -212,6 +212,80 @@ TEST(ScanAssembler, InconsistentChunksAreCountedAndDropped) {
   EXPECT_EQ(a.counters.num_chunks_bad, 5);
 }
 
+// Sweeps of four chunks, a chunk of somebody else's in the midst of one, and the rest: all sweeps
+// are whole and nothing is missing.
+TEST(ScanAssembler, OneHostileChunkClosesNoSweepAndMakesNoLoss) {
+  for (const int count : {2, 9, 64, 300, 1024, 32'767}) {
+    for (const int seq : {2, 3, 40'000, -7}) {
+      Assembly a;
+      for (const ScanChunk& chunk : MakeSweep(0)) a.Add(chunk);
+      for (const int index : {0, 1, 2}) a.Add(MakeChunk(1, index));
+      ScanChunk hostile = MakeChunk(2, 0);
+      hostile.scan_seq = seq;
+      hostile.chunk_count = static_cast<std::int16_t>(count);
+      hostile.chunk_index = static_cast<std::int16_t>(count - 1);
+      hostile.sensor_id = 5;
+      a.Add(hostile);
+      a.Add(MakeChunk(1, 3));
+      a.assembler.CloseAll();
+      const bool is_plausible = count == 2 && seq < 100;
+      EXPECT_EQ(a.counters.num_chunks_missing, is_plausible ? 1 : 0) << count << " " << seq;
+      EXPECT_EQ(a.counters.num_chunks_bad, count > 256 ? 1 : 0) << count << " " << seq;
+      const std::vector<Sweep> sweeps = a.TakeAll();
+      ASSERT_GE(sweeps.size(), 2u);
+      ExpectWhole(sweeps[1], 1);
+    }
+  }
+}
+
+TEST(ScanAssembler, AFalseCountBetweenTwoOpenSweepsClosesNeither) {
+  Assembly a;
+  for (const ScanChunk& chunk : MakeSweep(0)) a.Add(chunk);
+  for (const int index : {0, 1, 3}) a.Add(MakeChunk(1, index));
+  a.Add(MakeChunk(2, 0));
+  ScanChunk hostile = MakeChunk(3, 0);
+  hostile.chunk_count = 32'767;
+  a.Add(hostile);
+  a.Add(MakeChunk(1, 2));
+  for (const int index : {1, 2, 3}) a.Add(MakeChunk(2, index));
+  const std::vector<Sweep> sweeps = a.TakeAll();
+  ASSERT_EQ(sweeps.size(), 3u);
+  for (int seq = 0; seq < 3; ++seq) ExpectWhole(sweeps[static_cast<std::size_t>(seq)], seq);
+  EXPECT_EQ(a.counters.num_chunks_missing, 0);
+}
+
+TEST(ScanAssembler, AHostileChunkThatComesFirstMakesNoLoss) {
+  for (const int count : {300, 5000, 32'767}) {
+    Assembly a;
+    ScanChunk hostile = MakeChunk(0, 0);
+    hostile.scan_seq = 77;
+    hostile.chunk_count = static_cast<std::int16_t>(count);
+    a.Add(hostile);
+    for (const int seq : {1, 2}) {
+      for (const ScanChunk& chunk : MakeSweep(seq)) a.Add(chunk);
+    }
+    a.assembler.CloseAll();
+    EXPECT_EQ(a.counters.num_chunks_missing, 0) << count;
+  }
+}
+
+TEST(ScanAssembler, ALidarThatBeginsToSendMoreChunksIsBelievedAfterOne) {
+  Assembly a;
+  for (const ScanChunk& chunk : MakeSweep(0)) a.Add(chunk);
+  for (const int seq : {1, 2, 3}) {
+    for (int i = 0; i < 600; ++i) {
+      ScanChunk chunk = MakeChunk(seq, 0);
+      chunk.chunk_index = static_cast<std::int16_t>(i);
+      chunk.chunk_count = 600;
+      a.Add(chunk);
+    }
+    a.assembler.CloseAll();
+  }
+  EXPECT_EQ(a.counters.num_chunks_bad, 1) << "the first one has no other to bear it out";
+  EXPECT_EQ(a.counters.num_chunks_missing, 1);
+  EXPECT_EQ(a.TakeAll().size(), 4u);
+}
+
 TEST(ScanAssembler, ChunkThatDisagreesOnTheCountIsNotMixedIn) {
   Assembly a;
   a.Add(MakeChunk(0, 0));

@@ -197,6 +197,22 @@ TEST(SensorStreamStep, LidarThatFallsSilentAtAStepIsWaitedForOneSecond) {
   EXPECT_NEAR(SecondsOf(run.MeasuredStamps().back()), 0.99, kRounding_s);
 }
 
+// The stamps of the chunks that come at the step tell nothing, and they are as large as can be.
+TEST(SensorStreamStep, TheWaitForTheLidarIsBoundedByPoints) {
+  StreamRun run;
+  run.Feed(Stepped(Sensors(0.0, 2.08), Sensor::kBoth, 2.0, -3.0));
+  ASSERT_EQ(NumSegments(run), 0u);
+  std::size_t num_points = 0;
+  while (NumSegments(run) == 0 && num_points < 2 * kStream.max_judged_points) {
+    test::SensorMessage wild = test::SweepFrom(500.0);
+    wild.chunk->points.assign(400'000, {});
+    num_points += wild.chunk->points.size();
+    run.Feed({wild});
+  }
+  EXPECT_EQ(NumSegments(run), 1u);
+  EXPECT_LT(num_points, kStream.max_judged_points + 800'000);
+}
+
 TEST(SensorStreamStep, FlushEndsTheWaitForTheLidar) {
   StreamRun run;
   run.Feed(Stepped(Sensors(0.0, 2.08), Sensor::kBoth, 2.0, -3.0));

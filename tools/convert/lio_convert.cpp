@@ -12,6 +12,7 @@
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
 
@@ -53,13 +54,11 @@ constexpr const char* kAboutOdometry =
     "Convert a KITTI odometry sequence: velodyne/, times.txt, calib.txt. The poses (default\n"
     "../../poses/NN.txt) are converted from the camera's frame to the lidar's.";
 
-// No output may replace the recording, and results or logs need not be converted.
-void Guard(const std::filesystem::path& input,
-           const std::vector<std::optional<std::filesystem::path>>& outputs) {
-  for (const auto& output : outputs) {
-    if (output) lio::RefuseToOverwrite(input, *output);
-  }
-  const std::string why = lio::WhyNoRecording(input);
+// No output may replace what is read, and results or logs need not be converted: the first of the
+// inputs is the recording.
+void Guard(const lio::Paths& inputs, const lio::Paths& outputs) {
+  lio::RefuseToOverwrite(inputs, outputs);
+  const std::string why = lio::WhyNoRecording(inputs.front());
   if (!why.empty()) throw lio::InputError(why);
 }
 
@@ -191,22 +190,18 @@ int Convert(int argc, char** argv) {
     return *exit_code;
   }
   if (rosbag_command->parsed()) {
-    Guard(rosbag.input, {rosbag.output, rosbag.truth_file});
+    Guard({rosbag.input}, {rosbag.output, rosbag.truth_file.value_or("")});
     return Run(rosbag, lio::ConvertRosbag);
   }
   if (pcap_command->parsed()) {
-    Guard(pcap.input, {pcap.output});
-    if (pcap.imu) lio::RefuseToOverwrite(*pcap.imu, pcap.output);
+    Guard(InputsOf(pcap), {pcap.output});
     return Run(pcap, lio::ConvertPcap);
   }
   if (raw_command->parsed()) {
-    Guard(raw.drive, {raw.output, raw.truth_file, raw.rig_file});
+    Guard(InputsOf(raw), {raw.output, raw.truth_file.value_or(""), raw.rig_file.value_or("")});
     return Run(raw, lio::ConvertKittiRaw);
   }
-  Guard(odometry.sequence, {odometry.output, odometry.truth_file});
-  if (odometry.poses_file) {
-    Guard(*odometry.poses_file, {odometry.output, odometry.truth_file});
-  }
+  Guard(InputsOf(odometry), {odometry.output, odometry.truth_file.value_or("")});
   return Run(odometry, lio::ConvertKittiOdometry);
 }
 

@@ -6,6 +6,7 @@
 #include "eval_program.hpp"
 #include "lio/eval/consistency_report.hpp"
 #include "lio/io/command_line.hpp"
+#include "lio/io/input_guard.hpp"
 #include "plot_runner.hpp"
 
 namespace lio {
@@ -31,6 +32,11 @@ struct Arguments {
 
 int Run(const Arguments& arguments) {
   const RunFrame frame = arguments.in_world ? RunFrame::kWorld : RunFrame::kMap;
+  for (const std::string& dir : arguments.dirs) {
+    const std::filesystem::path truth_in_run = std::filesystem::path(dir) / arguments.truth;
+    RefuseToOverwrite({arguments.truth, truth_in_run}, {arguments.json, arguments.plot});
+    RefuseToOverwrite(FilesOfRun(dir), {arguments.json, arguments.plot});
+  }
   std::vector<RunErrors> runs;
   for (const std::string& dir : arguments.dirs) {
     runs.push_back(ComputeRunErrors(LoadRun(dir, arguments.truth, frame)));

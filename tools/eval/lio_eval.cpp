@@ -12,6 +12,7 @@
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/program.hpp"
 #include "plot_runner.hpp"
@@ -101,6 +102,19 @@ TimeOffsetWish ToWish(const Arguments& arguments) {
   return {false, std::stod(arguments.time_offset)};
 }
 
+void GuardInputs(const Arguments& arguments) {
+  Paths outputs = {arguments.json, arguments.csv, arguments.plot};
+  for (const char* picture : {"path.png", "error.png", "map.png"}) {
+    if (!arguments.plots.empty())
+      outputs.push_back(std::filesystem::path(arguments.plots) / picture);
+  }
+  RefuseToOverwrite({arguments.truth, arguments.map}, outputs);
+  for (const std::string& estimate : arguments.estimates) {
+    RefuseToOverwrite({estimate}, outputs);
+    RefuseToOverwrite(FilesOfRun(estimate), outputs);
+  }
+}
+
 // Refuses what cannot be read or must not be overwritten; empty when nothing is wrong.
 std::string WhyNotScored(const Arguments& arguments) {
   const bool draws = !arguments.plot.empty() || !arguments.plots.empty();
@@ -109,10 +123,8 @@ std::string WhyNotScored(const Arguments& arguments) {
   }
   std::vector<std::string> files = arguments.estimates;
   files.push_back(arguments.truth);
+  GuardInputs(arguments);
   for (const std::string& file : files) {
-    for (const std::string& output : {arguments.json, arguments.csv}) {
-      if (!output.empty()) RefuseToOverwrite(file, output);
-    }
     const bool is_run = KindOf(file) == FileKind::kRunFolder && file != arguments.truth;
     if (const std::string why = WhyNoTrajectory(file); !is_run && !why.empty()) return why;
   }

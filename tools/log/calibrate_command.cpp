@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "lio/calib/rotation_calibration.hpp"
 #include "lio/calib/scan_poses.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/log_input.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
@@ -241,6 +242,9 @@ CLI::App* AddCalibrateCommand(CLI::App& app, CalibrateArguments& arguments) {
 int RunCalibrate(const CalibrateArguments& arguments) {
   Options options;
   if (const auto exit_code = Configure(arguments, options)) return *exit_code;
+  Paths inputs = arguments.options.files;
+  inputs.emplace_back(arguments.log);
+  RefuseToOverwrite(inputs, {arguments.json_file, arguments.rig_file});
   Pass pass = ReadLog(arguments, options, 1, nullptr);
   if (const std::string missing = MissingInput(arguments, pass); !missing.empty()) {
     return Refuse(arguments, missing);

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/progress_bar.hpp"
@@ -118,9 +119,9 @@ int RunDoctor(const DoctorArguments& arguments) {
     for (const std::string& fault : loaded.faults) fmt::print(stderr, "lio-log: {}\n", fault);
     return loaded.faults.empty() ? kExitDone : kExitConfiguration;
   }
-  for (const std::string& file : {arguments.json_file, arguments.rig_file}) {
-    if (!file.empty()) RefuseToOverwrite(arguments.input, file);
-  }
+  Paths inputs = arguments.options.files;
+  inputs.emplace_back(arguments.input);
+  RefuseToOverwrite(inputs, {arguments.json_file, arguments.rig_file});
   const Diagnosis diagnosis = Examine(arguments);
   for (const std::string& fault : diagnosis.faults) fmt::print(stderr, "lio-log: {}\n", fault);
   if (!diagnosis.faults.empty()) return kExitConfiguration;

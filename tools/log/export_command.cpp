@@ -12,6 +12,7 @@
 #include "lio/io/event_log.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/progress_bar.hpp"
 
 namespace lio {
@@ -39,7 +40,7 @@ std::vector<Job> JobsOf(const ExportArguments& arguments) {
   std::vector<Job> jobs;
   const auto add = [&](Export run, const char* name, const std::string& out) {
     if (out.empty()) return;
-    RefuseToOverwrite(arguments.log, out);
+    RefuseToOverwrite({arguments.log}, {out});
     jobs.push_back({run, name, out});
   };
   add(&ExportMcap, "mcap", arguments.mcap_file);

@@ -10,6 +10,7 @@
 #include "lio/io/file_kind.hpp"
 #include "lio/io/initial_map_file.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
@@ -125,6 +126,12 @@ ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& write
   return kExitUnusableInput;
 }
 
+void GuardInputs(const ReplayArguments& arguments) {
+  Paths inputs = arguments.options.files;
+  inputs.insert(inputs.end(), {arguments.log, arguments.initial_map.map});
+  RefuseToOverwrite(inputs, FilesOfRun(arguments.out));
+}
+
 int Main(int argc, char** argv) {
   CLI::App app(kDescription, "lio-replay");
   ReplayArguments arguments;
@@ -145,6 +152,7 @@ int Main(int argc, char** argv) {
     fmt::print(stderr, "lio-replay: {}\n", why);
     return kExitUnusableInput;
   }
+  GuardInputs(arguments);
   ReplaySettings settings;
   if (const auto code =
           LoadInitialMap("lio-replay", arguments.initial_map, options, settings.initial_map)) {

@@ -8,6 +8,7 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/program.hpp"
@@ -42,6 +43,30 @@ bool HoldsInput(const fs::path& out, const fs::path& input) {
   return fs::equivalent(out, input, ignored) || fs::equivalent(out, around, ignored);
 }
 
+// Refuses a folder in which the run would replace a file that it reads. A rig or a truth of an
+// earlier run may be read again: without --rig alone a draft is made, and with --truth none is
+// converted but that of a KITTI drive.
+void GuardInputs(const RunArguments& arguments) {
+  const fs::path out = arguments.out;
+  const std::vector<fs::path>& configs = arguments.options.files;
+  Paths written = FilesOfRun(out);
+  for (const char* name :
+       {"log.lcm", "conversion.txt", "eval.txt", "eval.json", "kitti_rig.yaml"}) {
+    written.push_back(out / name);
+  }
+  if (KindOf(arguments.input()) == FileKind::kLcmLog) std::erase(written, out / "log.lcm");
+  const Paths kept = {out / "truth.tum", out / "rig_draft.yaml", out / "rig_corrected.yaml"};
+  Paths inputs = configs;
+  inputs.insert(inputs.end(), {arguments.input(), arguments.imu_file});
+  RefuseToOverwrite(inputs, kept);
+  inputs.insert(inputs.end(), {arguments.rig, arguments.truth});
+  RefuseToOverwrite(inputs, written);
+  const FileKind kind = KindOf(arguments.input());
+  if (kind == FileKind::kKittiRaw || kind == FileKind::kKittiOdometry) {
+    RefuseToOverwrite({arguments.truth}, {out / "truth.tum"});
+  }
+}
+
 // Makes the folder, or refuses one that holds something.
 void PrepareFolder(const RunArguments& arguments) {
   if (arguments.out.empty()) {
@@ -57,10 +82,10 @@ void PrepareFolder(const RunArguments& arguments) {
       throw UsageError(out.string() +
                        ": exists and is not empty; name another folder or add --overwrite");
     }
+    GuardInputs(arguments);
     for (const char* name : {"log.lcm", "truth.tum"}) {
       if (KindOf(arguments.input()) == FileKind::kLcmLog) break;  // it is only read
-      RefuseToOverwrite(arguments.input(), out / name);
-      if (fs::is_symlink(out / name)) fs::remove(out / name);  // its target is another's
+      if (fs::is_symlink(out / name)) fs::remove(out / name);     // its target is another's
     }
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
     return;

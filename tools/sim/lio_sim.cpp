@@ -14,6 +14,7 @@
 
 #include "lio/io/command_line.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
 #include "lio/sim/data_file.hpp"
@@ -241,6 +242,13 @@ void Write(const Arguments& arguments, const sim::Scenario& scenario,
               static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC});
 }
 
+void GuardInputs(const Arguments& arguments) {
+  Paths outputs;
+  if (!arguments.folder.empty()) outputs = sim::FilesOf(arguments.folder);
+  outputs.emplace_back(arguments.picture);
+  RefuseToOverwrite({arguments.scans, arguments.lidar, arguments.imu}, outputs);
+}
+
 int Run(const Arguments& arguments) {
   std::optional<sim::Scenario> scenario;
   sim::RecordOptions options;
@@ -279,6 +287,7 @@ int Main(int argc, char** argv) {
     return Fail("--scenario is required; --list prints the scenarios", kExitUsage);
   if (arguments.folder.empty() && arguments.picture.empty())
     return Fail("--out is required; it names the folder to write into", kExitUsage);
+  GuardInputs(arguments);
   return Run(arguments);
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lio/convert/kitti_files.hpp"
 #include "lio/io/stream_stats.hpp"
@@ -46,6 +47,12 @@ struct KittiOdometryReport {
 void RaiseElevation(LidarPoint& point, double angle_rad);
 
 // Throws InputError, or std::runtime_error when an output cannot be written.
+// Returns where the release has the poses of the sequence, whether or not they are there.
+[[nodiscard]] std::filesystem::path UsualPoses(const std::filesystem::path& sequence);
+
+// Returns the files and folders that ConvertKittiOdometry reads.
+[[nodiscard]] std::vector<std::filesystem::path> InputsOf(const KittiOdometryOptions& options);
+
 [[nodiscard]] KittiOdometryReport ConvertKittiOdometry(const KittiOdometryOptions& options);
 
 [[nodiscard]] std::string FormatReport(const KittiOdometryReport& report,

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lio/base/pose.hpp"
 #include "lio/io/stream_stats.hpp"
@@ -63,6 +64,9 @@ struct PcapReport {
 // Returns a file of inertial samples beside drive.pcap: drive.imu.csv, .lcm, .bag, .db3 or .mcap.
 [[nodiscard]] std::optional<std::filesystem::path> ImuFileBeside(
     const std::filesystem::path& capture);
+
+// Returns the files that ConvertPcap reads, also those that it finds beside the capture.
+[[nodiscard]] std::vector<std::filesystem::path> InputsOf(const PcapOptions& options);
 
 // Throws UsageError for several lidars of which none was chosen, InputError for a capture without
 // one, and std::runtime_error when the output cannot be written.

@@ -39,7 +39,8 @@ class Bus {
   virtual ~Bus() = default;
 
   // `channel` is a plain name, not an expression. At most `queue_capacity` messages wait inside the
-  // transport; newer ones are lost there. An exception of a handler is counted and goes no further.
+  // transport, fewer where they are large (queue_capacity.hpp); newer ones are lost there. An
+  // exception of a handler is counted and goes no further.
   virtual void Subscribe(const std::string& channel, int queue_capacity, Handler handler) = 0;
 
   // Waits up to `timeout` for a message and hands it to its handlers.

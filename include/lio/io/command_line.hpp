@@ -48,10 +48,6 @@ using TextCheck = std::function<std::string(const std::string&)>;
 // Adds --start S and --duration S. The values must outlive the app.
 void AddSpanArguments(CLI::App& app, double& start_s, double& duration_s);
 
-// Throws UsageError when writing `output` would destroy the input: when `output` is the file
-// `input` or, when `input` is a folder, a file of recorded data in it.
-void RefuseToOverwrite(const std::filesystem::path& input, const std::filesystem::path& output);
-
 struct OptionsArguments {
   std::vector<std::filesystem::path> files;  // --config, in order
   std::vector<std::string> sets;             // --set, in order

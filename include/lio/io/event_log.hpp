@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "lio/io/output_file.hpp"
+
 namespace lio {
 
 struct LogEvent {
@@ -27,7 +29,8 @@ struct LogEvent {
 class EventLogWriter {
  public:
   // Overwrites an existing file. Throws std::runtime_error naming the file when it cannot.
-  explicit EventLogWriter(const std::filesystem::path& path);
+  explicit EventLogWriter(const std::filesystem::path& path,
+                          OutputFile::Links links = OutputFile::Links::kFollowed);
   ~EventLogWriter();
   EventLogWriter(const EventLogWriter&) = delete;
   EventLogWriter& operator=(const EventLogWriter&) = delete;

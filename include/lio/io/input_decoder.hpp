@@ -9,6 +9,7 @@
 #include <string>
 
 #include "lio/io/lcm_codec.hpp"
+#include "lio/io/sequence_holes.hpp"
 
 namespace lio {
 
@@ -62,8 +63,7 @@ class InputDecoder {
                             std::array<std::int64_t, kNumDecodeStatuses>& of_channel);
 
   InputCounters counters_;
-  bool has_imu_ = false;
-  std::int32_t last_imu_seq_ = 0;
+  SequenceHoles imu_holes_;
 };
 
 }  // namespace lio

@@ -45,6 +45,9 @@ class OutputFile {
   std::string kept_;
 };
 
+// Opens a file as OutputFile does, without its errors: returns -1, and errno says why.
+[[nodiscard]] int OpenToWrite(const std::filesystem::path& path, OutputFile::Links links);
+
 // Closes all of them, also after one has thrown; then throws what the first one did.
 void CloseAll(std::span<OutputFile* const> files);
 

@@ -26,10 +26,10 @@
 // When the clock goes back, as when a log is played again to a running daemon, these files go on
 // where the time that they have is passed. All rows from the step on stand in segment_2/ besides,
 // those from the next one on in segment_3/ and so on, under the same names.
-// Rows are whole, and all files are written together: every second of host time or after 100 rows,
-// whichever is sooner. So all files of a run that was killed end with the same scan, but for what
-// is being written in that instant. For the same input all but the computing times is the same,
-// byte for byte.
+// Rows are whole, and all files are written together: every half second of host time or after 100
+// rows, whichever is sooner. So all files of a run that was killed end with the same scan, but for
+// what is being written in that instant. For the same input all but the computing times is the
+// same, byte for byte.
 #pragma once
 
 #include <chrono>

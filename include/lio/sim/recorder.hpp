@@ -56,6 +56,9 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
                    const std::filesystem::path& folder,
                    const std::function<void(double)>& progress);
 
+// Returns the paths of the files that Record writes into the folder.
+[[nodiscard]] std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder);
+
 // Returns the sensor time of a trajectory time: trajectories begin at a stamp of late 2023.
 [[nodiscard]] Timestamp StampOf(std::int64_t trajectory_ns);
 

@@ -51,14 +51,18 @@ class ScanAssembler {
   };
 
   bool IsTornOff(const ScanChunk& chunk, Timestamp last) const;  // `last`: of its latest point
+  bool IsCountDoubtful(const ScanChunk& chunk);
   Partial* FindOrOpen(const ScanChunk& chunk);
   void CloseOneFor(Timestamp stamp);
   void Close(std::size_t at);
+  [[nodiscard]] bool TellsWhatIsMissing(const Partial& partial) const;
 
   Counters* counters_;
   std::deque<Partial> open_;  // at most two, oldest first
   std::deque<Sweep> closed_;
   Duration span_;                       // duration of the last whole sweep
+  int usual_count_ = 0;                 // chunks of the last sweep of which two came
+  std::optional<ScanChunk> doubtful_;   // the last chunk with a doubtful count, without points
   std::deque<SweepName> closed_names_;  // names of the last sweeps, to know their stragglers by
 };
 

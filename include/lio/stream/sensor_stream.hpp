@@ -102,7 +102,8 @@ class SensorStream {
   struct PendingStep {
     ImuPreprocessor::Result result;  // its samples come first once the step is judged
     std::size_t num_examined = 0;    // messages of inbox_, to judge the step by
-    Timestamp newest_examined;       // the newest inertial stamp since the step
+    std::size_t num_points_examined = 0;
+    Timestamp newest_examined;  // the newest inertial stamp since the step
   };
 
   // Holds the senders that are kept.
