@@ -128,6 +128,13 @@ TEST_F(LoadRunFiles, TheWorldHasFilesOfItsOwn) {
   EXPECT_EQ(load().nis.size(), 2u);
 }
 
+TEST_F(LoadRunFiles, TheLevelPathHasFilesOfItsOwn) {
+  WriteTum(dir_.path() / "a/trajectory_level.tum", test::Helix(2).poses);
+  WriteCovariances(2, 0, "covariance_level.csv");
+  const RunFiles run = LoadRun(dir_.path() / "a", dir_.path() / "truth.tum", RunFrame::kLevel);
+  EXPECT_EQ(run.estimate.size(), 2u);
+}
+
 TEST_F(LoadRunFiles, ARunsOwnTruthGoesFirst) {
   WriteTum(dir_.path() / "a/own.tum", test::Helix(7).poses);
   EXPECT_EQ(LoadRun(dir_.path() / "a", "own.tum").truth.size(), 7u);
