@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "lio/io/trajectory_file.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/registration_worker.hpp"
+#include "lio/sim/realism.hpp"
 #include "lio/sim/recorder.hpp"
 #include "support/temp_dir.hpp"
 
@@ -22,11 +24,14 @@ namespace lio::test {
 struct DriveSpec {
   std::string scenario;
   std::string lidar;
-  double duration_s = 10.0;
+  std::optional<double> duration_s = 10.0;  // absent: the scenario's own
   std::uint64_t seed = 1;
   std::vector<sim::Fault> faults = {};  // faults of the world
   double rotation_hz = 0.0;             // 0: the lidar's own
   bool starts_moving = false;           // false: the log begins at rest
+  std::string imu = "xsens_mti10";
+  // Absent: none of the errors that a grade sets.
+  std::optional<sim::Realism> realism = std::nullopt;
 };
 
 // Holds a simulated drive with the contents of lio-sim's folder.
@@ -44,9 +49,10 @@ struct SimulatedLog {
     sim::RecordOptions record;
     record.lidar = sim::LoadLidarModel(spec.lidar);
     if (spec.rotation_hz > 0.0) record.lidar.rotation_hz = spec.rotation_hz;
-    record.imu = sim::LoadImuModel("xsens_mti10");
+    record.imu = sim::LoadImuModel(spec.imu);
     record.seed = spec.seed;
     record.faults = spec.faults;
+    if (spec.realism) sim::SetRealism(*spec.realism, {}, record);
     sim::Record(sim::MakeScenario(spec.scenario, scenario), record, dir.path(), {});
     truth = ReadTrajectory(dir.path() / "truth.tum").poses;
     options = LoadOptions({dir.path() / "config.yaml"}, {}).options;
@@ -86,6 +92,9 @@ class RunningEstimator {
     Match();
   }
 
+  // Returns what was published, once a scan.
+  [[nodiscard]] const std::vector<NavOutput>& published() const { return published_; }
+
   RunOutcome Finish(const StampedPoses& truth) {
     odometry_.Flush();
     Match();
@@ -96,7 +105,7 @@ class RunningEstimator {
     if (rows_.size() < 2) return outcome;
     const Pose at_end = TruthAt(truth, rows_.back().stamp);
     outcome.end_tilt_of_map_deg = TiltBetween_deg(at_end, rows_.back().pose);
-    outcome.end_tilt_of_world_deg = TiltBetween_deg(at_end, last_in_world_);
+    outcome.end_tilt_of_world_deg = TiltBetween_deg(at_end, published_.back().T_world_imu);
     const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
     const Pose expected = TruthAt(truth, rows_.front().stamp).Inverse() * at_end;
     const Pose error = expected.Inverse() * motion;
@@ -132,14 +141,14 @@ class RunningEstimator {
       }
       EXPECT_TRUE(nav.T_map_imu.translation.allFinite());
       rows_.push_back({nav.stamp, nav.T_map_imu});
-      last_in_world_ = nav.T_world_imu;
+      published_.push_back(nav);
     }
   }
 
   Odometry odometry_;
   RegistrationWorker worker_;
   StampedPoses rows_;  // in map
-  Pose last_in_world_;
+  std::vector<NavOutput> published_;
 };
 
 inline RunOutcome RunOver(const DriveSpec& spec, bool use_imu) {
