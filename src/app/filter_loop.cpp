@@ -95,6 +95,7 @@ void FilterLoop::Handle(Arrival<ScanChunk>& arrival) {
 void FilterLoop::Reset(const std::optional<GivenPose>& at, const std::string& why) {
   Emit();
   odometry_.Reset(at, newest_stamp_);
+  to_.board.ForgetClockOffset();
   to_.match_worker.Forget();
   clouds_ = {};
   const Notice notice{newest_stamp_, Notice::Severity::kWarning, why};
@@ -155,6 +156,7 @@ void FilterLoop::Emit(const ScanOutput& output) {
   }
   if (!output.filter) return;
   to_.board.SetImuNoise(output.filter->imu_noise);
+  to_.board.SetClockOffset({output.filter->clock_offset_s, output.filter->clock_offset_std_s});
   to_.board.SetTrust(odometry_.trust());
   EmitClouds(output);
 }

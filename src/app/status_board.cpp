@@ -39,13 +39,15 @@ std::int64_t ProcessCpuMicroseconds() {
 }
 
 StatusBoard::StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
-                         StatusClocks clocks)
+                         double configured_offset_s, StatusClocks clocks)
     : clocks_(std::move(clocks)),
+      configured_offset_s_(configured_offset_s),
       last_utime_(clocks_.host_utime()),
       last_cpu_us_(clocks_.process_cpu_us()) {
   report_.start_utime = last_utime_;
   report_.config_hash = config_hash;
   report_.receive_buffer_bytes = receive_buffer_bytes;
+  report_.clock_offset.offset_s = configured_offset_s;
 }
 
 void StatusBoard::SetEstimator(const Counters& counters, TrackingStatus state,
@@ -59,6 +61,15 @@ void StatusBoard::SetEstimator(const Counters& counters, TrackingStatus state,
 void StatusBoard::SetImuNoise(const ImuNoiseRatios& ratios) {
   const std::lock_guard lock(mutex_);
   report_.imu_noise = ratios;
+}
+
+void StatusBoard::SetClockOffset(const ClockOffsetStatus& offset) {
+  const std::lock_guard lock(mutex_);
+  report_.clock_offset = offset;
+}
+
+void StatusBoard::ForgetClockOffset() {
+  SetClockOffset({.offset_s = configured_offset_s_, .std_s = 0.0});
 }
 
 void StatusBoard::SetTrust(Trust trust) {

@@ -24,11 +24,14 @@ struct StatusClocks {
 
 class StatusBoard {
  public:
+  // `configured_offset_s` is rig.lidar.clock_offset_s, which holds until there is an estimate.
   StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
-              StatusClocks clocks = {});
+              double configured_offset_s = 0.0, StatusClocks clocks = {});
 
   void SetEstimator(const Counters& counters, TrackingStatus state, Timestamp newest_stamp);
   void SetImuNoise(const ImuNoiseRatios& ratios);
+  void SetClockOffset(const ClockOffsetStatus& offset);
+  void ForgetClockOffset();  // back to the configured one
   void SetTrust(Trust trust);
   void SetInput(const InputCounters& counters);
   void SetNote(std::string note);
@@ -53,6 +56,7 @@ class StatusBoard {
   };
 
   const StatusClocks clocks_;
+  const double configured_offset_s_;
   mutable std::mutex mutex_;  // guards everything below
   StatusReport report_;
   std::string alarm_;

@@ -74,6 +74,11 @@ void ComputeRms(const std::vector<RunErrors>& runs, Consistency& result) {
   result.yaw_deg = rms(yaw, kDegPerRad);
 }
 
+std::optional<TiltSample> LargestTilt(const std::vector<TiltSample>& tilts) {
+  const auto largest = std::ranges::max_element(tilts, {}, &TiltSample::sigmas);
+  return largest == tilts.end() ? std::nullopt : std::optional(*largest);
+}
+
 void JudgeNis(const std::vector<RunErrors>& runs, Consistency& result) {
   std::vector<TimedValues> nis;
   for (const RunErrors& run : runs) {
@@ -125,6 +130,7 @@ Consistency JudgeConsistency(const std::vector<RunErrors>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     result.runs.push_back(runs[i].name);
     result.run_pose_average_per_dof.push_back(Mean(pose[i]) / 6);
+    result.run_largest_tilt.push_back(LargestTilt(runs[i].tilts));
   }
   result.pose = MakeBandedSeries(pose, 6);
   result.position = MakeBandedSeries(NeesOfRuns<3>(runs, 0), 3);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lio {
@@ -36,6 +37,29 @@ Json RmsJson(const RmsPair& rms) {
   return {{"real", rms.real},
           {"predicted", rms.predicted},
           {"predicted_to_real_ratio", rms.real > 0 ? Json(rms.predicted / rms.real) : Json()}};
+}
+
+// Returns the index of the run with the largest tilt of all, if any has one.
+std::optional<std::size_t> RunOfLargestTilt(const Consistency& c) {
+  const auto sigmas = [](const auto& tilt) { return tilt ? tilt->sigmas : -1.0; };
+  const auto largest = std::ranges::max_element(c.run_largest_tilt, {}, sigmas);
+  if (largest == c.run_largest_tilt.end() || !*largest) return std::nullopt;
+  return static_cast<std::size_t>(largest - c.run_largest_tilt.begin());
+}
+
+Json TiltJson(const Consistency& c) {
+  const std::optional<std::size_t> run = RunOfLargestTilt(c);
+  if (!run) return {};
+  const TiltSample& tilt = *c.run_largest_tilt[*run];
+  return {{"sigmas", tilt.sigmas}, {"time_s", tilt.time_s}, {"run", c.runs[*run]}};
+}
+
+std::string TiltText(const Consistency& c) {
+  const std::optional<std::size_t> run = RunOfLargestTilt(c);
+  if (!run) return "";
+  const TiltSample& tilt = *c.run_largest_tilt[*run];
+  return fmt::format("largest tilt    {:.2f} sigma of roll and pitch, at {:.1f} s of {}\n",
+                     tilt.sigmas, tilt.time_s, c.runs[*run]);
 }
 
 Json WhitenessJson(const Whiteness& whiteness) {
@@ -79,6 +103,7 @@ std::string ConsistencyText(const Consistency& c) {
       fmt::format("\n{:<15} {:>3} {:>12} {:>12} {:>10}\n", "RMS", "", "real", "predicted", "ratio");
   text += RmsRow("horizontal", "m", c.horizontal_m) + RmsRow("vertical", "m", c.vertical_m);
   text += RmsRow("tilt", "deg", c.tilt_deg) + RmsRow("yaw", "deg", c.yaw_deg);
+  text += TiltText(c);
   text += fmt::format("\n{:<15} {:>10} {:>10} {:>10}\n", "share inside", "1 sigma", "2 sigma",
                       "3 sigma");
   for (std::size_t axis = 0; axis < kAxisNames.size(); ++axis) {
@@ -100,7 +125,10 @@ std::string ConsistencyText(const Consistency& c) {
 Json ConsistencyJson(const Consistency& c) {
   Json runs = Json::array();
   for (std::size_t i = 0; i < c.runs.size(); ++i) {
-    runs.push_back({{"name", c.runs[i]}, {"nees_pose_per_dof", c.run_pose_average_per_dof[i]}});
+    const std::optional<TiltSample>& tilt = c.run_largest_tilt[i];
+    runs.push_back({{"name", c.runs[i]},
+                    {"nees_pose_per_dof", c.run_pose_average_per_dof[i]},
+                    {"largest_tilt_sigmas", tilt ? Json(tilt->sigmas) : Json()}});
   }
   Json shares = Json::object();
   for (std::size_t axis = 0; axis < kAxisNames.size(); ++axis) {
@@ -117,6 +145,7 @@ Json ConsistencyJson(const Consistency& c) {
             {"vertical_m", RmsJson(c.vertical_m)},
             {"tilt_deg", RmsJson(c.tilt_deg)},
             {"yaw_deg", RmsJson(c.yaw_deg)}}},
+          {"largest_tilt", TiltJson(c)},
           {"sigma_shares", shares},
           {"nis", c.nis ? SeriesJson(*c.nis) : Json()},
           {"nis_whiteness", c.nis_whiteness ? WhitenessJson(*c.nis_whiteness) : Json()},

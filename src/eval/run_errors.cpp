@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
@@ -71,6 +72,15 @@ RunInstant MakeInstant(double time_s, const Pose& truth, const Pose& estimate, c
   return instant;
 }
 
+// Adds nothing where the covariance of the two angles cannot be inverted.
+void AddTilt(const RunInstant& instant, std::vector<TiltSample>& tilts) {
+  const Eigen::Matrix2d cov = instant.cov_world.block<2, 2>(3, 3);
+  const Eigen::LLT<Eigen::Matrix2d> factor(cov);
+  if (factor.info() != Eigen::Success) return;
+  const Eigen::Vector2d error = instant.rotation_error_world.head<2>();
+  tilts.push_back({instant.time_s, factor.matrixL().solve(error).norm()});
+}
+
 }  // namespace
 
 RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
@@ -118,17 +128,18 @@ RunErrors ComputeRunErrors(const RunFiles& run) {
       ++result.num_without_truth;
       continue;
     }
-    if (!T_world_truth) {
-      T_world_truth = LevelAlignment(truth, row.pose);
-      continue;
-    }
-    if (!IsInvertible(run.covariances[i])) {
-      ++result.num_singular;
-      continue;
-    }
+    const bool is_first = !T_world_truth;
+    if (is_first) T_world_truth = LevelAlignment(truth, row.pose);
     const double time_s = SecondsBetween(run.estimate.front().stamp, row.stamp);
-    result.instants.push_back(
-        MakeInstant(time_s, *T_world_truth * truth, row.pose, run.covariances[i]));
+    const RunInstant instant =
+        MakeInstant(time_s, *T_world_truth * truth, row.pose, run.covariances[i]);
+    AddTilt(instant, result.tilts);
+    if (is_first) continue;
+    if (IsInvertible(run.covariances[i])) {
+      result.instants.push_back(instant);
+    } else {
+      ++result.num_singular;
+    }
   }
   if (result.instants.empty()) {
     throw std::runtime_error(fmt::format(

@@ -105,17 +105,18 @@ std::string RegistrationRow(const ScanReport& r, Timestamp received) {
 std::string StatusHeader() {
   std::string header =
       "utime_us,received_ns,state,trust,latency_p50_ms,latency_p99_ms,latency_max_ms,cpu_cores,"
-      "rss_mb,map_mb,kernel_dropped";
+      "rss_mb,map_mb,clock_offset_s,clock_offset_std_s,kernel_dropped";
   for (const CounterField& field : kCounterFields) header += fmt::format(",{}", field.name);
   return header;
 }
 
 std::string StatusRow(const StatusReport& report, Timestamp received) {
   std::string row =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", report.utime, received.ns,
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", report.utime, received.ns,
                   static_cast<int>(report.state), static_cast<int>(report.trust),
                   report.latency.p50_ms, report.latency.p99_ms, report.latency.max_ms,
-                  report.cpu_load_cores, report.rss_mb, report.map_mb, report.num_kernel_dropped);
+                  report.cpu_load_cores, report.rss_mb, report.map_mb, report.clock_offset.offset_s,
+                  report.clock_offset.std_s, report.num_kernel_dropped);
   for (const CounterField& field : kCounterFields) {
     row += fmt::format(",{}", report.counters.*field.count);
   }

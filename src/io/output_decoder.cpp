@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kOdometryBytes = 834;
 constexpr std::size_t kFilterStateFixedBytes = 212;
 constexpr std::size_t kRegistrationBytes = 134;
-constexpr std::size_t kStatusFixedBytes = 426;  // with the NUL of an empty note
+constexpr std::size_t kStatusFixedBytes = 442;  // with the NUL of an empty note
 constexpr int kMaxDim = 64;                     // states of a filter; liod has 21
 
 // Reads fields and remembers whether all of them were values that can be.
@@ -104,6 +104,8 @@ void ReadLoad(SoundReader& reader, StatusReport& report) {
   reader.Read(report.map_mb);
   report.imu_noise.gyro = static_cast<double>(reader.Read<float>());
   report.imu_noise.accel = static_cast<double>(reader.Read<float>());
+  reader.Read(report.clock_offset.offset_s);
+  reader.Read(report.clock_offset.std_s);
 }
 
 }  // namespace

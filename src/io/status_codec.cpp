@@ -97,6 +97,8 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   message.map_mb = report.map_mb;
   message.gyro_noise_ratio = static_cast<float>(report.imu_noise.gyro);
   message.accel_noise_ratio = static_cast<float>(report.imu_noise.accel);
+  message.clock_offset_s = report.clock_offset.offset_s;
+  message.clock_offset_std_s = report.clock_offset.std_s;
   message.trust = static_cast<std::int8_t>(report.trust);
   message.config_hash = static_cast<std::int64_t>(report.config_hash);
   CopyVersion(version, message.version);

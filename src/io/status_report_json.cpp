@@ -22,7 +22,9 @@ Json StatusReportJson(const StatusReport& report) {
           {"compute_ms", LatencyJson(report.compute)},
           {"cpu_cores", report.cpu_load_cores},
           {"rss_mb", report.rss_mb},
-          {"map_mb", report.map_mb}};
+          {"map_mb", report.map_mb},
+          {"clock_offset_s", report.clock_offset.offset_s},
+          {"clock_offset_std_s", report.clock_offset.std_s}};
 }
 
 }  // namespace lio

@@ -36,10 +36,10 @@ bool HasMoved(const Pose& from, const Pose& to) {
 }  // namespace
 
 NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
-    : options_(options), workers_(num_threads), map_(options, kNumFiner) {}
+    : options_(options), workers_(num_threads), map_(options, static_cast<int>(kNumFinerLevels)) {}
 
 void NdtMatcher::Clear() {
-  map_ = MultiResolutionMap(options_, kNumFiner);
+  map_ = MultiResolutionMap(options_, static_cast<int>(kNumFinerLevels));
   width_ = {};
 }
 
@@ -101,8 +101,8 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
 
 MultiResolutionMap::Levels NdtMatcher::LevelsInUse() const {
   const std::size_t coarsest = map_.num_levels() - 1;
-  return width_.is_narrow() ? MultiResolutionMap::Levels{0, coarsest - kNumFiner}
-                            : MultiResolutionMap::Levels{kNumFiner, coarsest};
+  return width_.is_narrow() ? MultiResolutionMap::Levels{0, coarsest - kNumFinerLevels}
+                            : MultiResolutionMap::Levels{kNumFinerLevels, coarsest};
 }
 
 MultiResolutionMap::Levels NdtMatcher::LevelsFor(const MatchInput& input, double radius_m) const {
@@ -253,12 +253,10 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   const MatchSums sums = Linearize(input, T_grid_imu, 0.f, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
-  const std::size_t finest = LevelsInUse().finest;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (scores_[i].num_rows > 0) {
-      ++result.num_matched_at[map_.LevelOf(pairs_[i].cell) - finest];
-    }
+    if (scores_[i].num_rows > 0) ++result.num_matched_at[map_.LevelOf(pairs_[i].cell)];
   }
+  result.num_matched_in_finest = result.num_matched_at[LevelsInUse().finest];
   result.num_in_map =
       static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
         return pair.cell != GaussianMap::kNoCell;

@@ -17,6 +17,7 @@ TEST(StatusBoard, WhatWasPinnedIsReported) {
   InputCounters input;
   input.num_imu_missing = 4;
   board.SetInput(input);
+  board.SetClockOffset({.offset_s = 0.025, .std_s = 0.0004});
   board.SetNote("waiting");
   board.CountRefusedCommand();
   const StatusReport report = board.Compose();
@@ -26,12 +27,25 @@ TEST(StatusBoard, WhatWasPinnedIsReported) {
   EXPECT_EQ(report.state, TrackingStatus::kCoasting);
   EXPECT_EQ(report.newest_stamp, Timestamp{9});
   EXPECT_EQ(report.input.num_imu_missing, 4);
+  EXPECT_EQ(report.clock_offset.offset_s, 0.025);
+  EXPECT_EQ(report.clock_offset.std_s, 0.0004);
   EXPECT_EQ(report.note, "waiting");
   EXPECT_EQ(report.num_commands_refused, 1);
   EXPECT_GT(report.rss_mb, 1.0F);
   EXPECT_GE(report.utime, report.start_utime);
   EXPECT_EQ(report.seq, 0);
   EXPECT_EQ(board.Compose().seq, 1);
+}
+
+TEST(StatusBoard, TheClockOffsetIsTheConfiguredOneUnlessItIsEstimated) {
+  StatusBoard board(0, 0, 0.004);
+  EXPECT_EQ(board.Compose().clock_offset.offset_s, 0.004);
+  board.SetClockOffset({.offset_s = 0.025, .std_s = 0.0004});
+  EXPECT_EQ(board.Compose().clock_offset.offset_s, 0.025);
+  board.ForgetClockOffset();
+  const ClockOffsetStatus forgotten = board.Compose().clock_offset;
+  EXPECT_EQ(forgotten.offset_s, 0.004);
+  EXPECT_EQ(forgotten.std_s, 0.0);
 }
 
 TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
@@ -49,7 +63,7 @@ TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
 TEST(StatusBoard, LoadIsCpuTimeSinceTheLastReport) {
   std::int64_t utime = 1'000'000;
   std::int64_t cpu_us = 70'000;
-  StatusBoard board(0, 0, {[&] { return utime; }, [&] { return cpu_us; }});
+  StatusBoard board(0, 0, 0.0, {[&] { return utime; }, [&] { return cpu_us; }});
   utime += 2'000'000;
   cpu_us += 500'000;
   EXPECT_EQ(board.Compose().cpu_load_cores, 0.25F);

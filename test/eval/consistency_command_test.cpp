@@ -89,13 +89,24 @@ TEST_F(ConsistencyCommand, EachFolderMayHoldItsOwnTruth) {
   EXPECT_EQ(Run({"own.tum", dirs_[0]}).exit_code, 0);
 }
 
-TEST_F(ConsistencyCommand, JudgesTheWorldsFilesWhenAsked) {
-  const auto without = Run({"--world", InDir("truth.tum"), dirs_[0]});
-  EXPECT_EQ(without.exit_code, 5);
-  EXPECT_THAT(without.err, HasSubstr("trajectory_world.tum"));
-  std::filesystem::rename(dirs_[0] + "/trajectory.tum", dirs_[0] + "/trajectory_world.tum");
-  std::filesystem::rename(dirs_[0] + "/covariance.csv", dirs_[0] + "/covariance_world.csv");
-  EXPECT_EQ(Run({"--world", InDir("truth.tum"), dirs_[0]}).exit_code, 0);
+TEST_F(ConsistencyCommand, JudgesTheFilesOfTheFrameThatIsAskedFor) {
+  for (const std::string frame : {"world", "level"}) {
+    const auto without = Run({"--" + frame, InDir("truth.tum"), dirs_[0]});
+    EXPECT_EQ(without.exit_code, 5);
+    EXPECT_THAT(without.err, HasSubstr("trajectory_" + frame + ".tum"));
+  }
+  for (const std::string kind : {"trajectory.tum", "covariance.csv"}) {
+    const auto dot = kind.find('.');
+    const std::string head = dirs_[0] + "/" + kind.substr(0, dot), tail = kind.substr(dot);
+    std::filesystem::copy_file(head + tail, head + "_level" + tail);
+    std::filesystem::rename(head + tail, head + "_world" + tail);
+  }
+  EXPECT_EQ(Run({InDir("truth.tum"), dirs_[0]}).exit_code, 5) << "the path in map is gone";
+  for (const std::string frame : {"world", "level"}) {
+    const auto judged = Run({"--" + frame, InDir("truth.tum"), dirs_[0]});
+    EXPECT_EQ(judged.exit_code, 0) << judged.err;
+  }
+  EXPECT_EQ(Run({"--level", "--world", InDir("truth.tum"), dirs_[0]}).exit_code, 2);
 }
 
 TEST_F(ConsistencyCommand, WrongInputsEndWithTheirCodes) {

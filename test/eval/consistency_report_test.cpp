@@ -31,6 +31,7 @@ Consistency SomeConsistency() {
   Consistency c;
   c.runs = {"seed_1", "seed_2"};
   c.run_pose_average_per_dof = {0.9, 1.1};
+  c.run_largest_tilt = {TiltSample{12.25, 3.125}, std::nullopt};
   c.pose = SomeSeries(6, 1.0);
   c.position = SomeSeries(3, 2.0);
   c.rotation = SomeSeries(3, 3.0);
@@ -54,6 +55,10 @@ TEST(ConsistencyJson, KeysAreStable) {
   for (const char* pointer : {"/num_runs",
                               "/runs/0/name",
                               "/runs/0/nees_pose_per_dof",
+                              "/runs/0/largest_tilt_sigmas",
+                              "/largest_tilt/sigmas",
+                              "/largest_tilt/time_s",
+                              "/largest_tilt/run",
                               "/nees/pose/dof",
                               "/nees/pose/average_per_dof",
                               "/nees/pose/end_average_per_dof",
@@ -81,7 +86,9 @@ TEST(ConsistencyJson, KeysAreStable) {
 TEST(ConsistencyJson, FiguresStandUnderTheirKeys) {
   const Json json = ConsistencyJson(SomeConsistency());
   EXPECT_EQ(json["num_runs"], 2);
-  EXPECT_EQ(json["runs"][1], (Json{{"name", "seed_2"}, {"nees_pose_per_dof", 1.1}}));
+  EXPECT_EQ(json["runs"][0],
+            (Json{{"name", "seed_1"}, {"nees_pose_per_dof", 0.9}, {"largest_tilt_sigmas", 3.125}}));
+  EXPECT_EQ(json["largest_tilt"], (Json{{"sigmas", 3.125}, {"time_s", 12.25}, {"run", "seed_1"}}));
   EXPECT_EQ(json["nees"]["pose"],
             (Json{{"dof", 6},
                   {"average_per_dof", 1.0},
@@ -106,6 +113,7 @@ TEST(ConsistencyJson, WhatCannotBeToldIsNull) {
   c.nis_whiteness.reset();
   const Json json = ConsistencyJson(c);
   EXPECT_TRUE(json["nis"].is_null());
+  EXPECT_TRUE(json["runs"][1]["largest_tilt_sigmas"].is_null());
   EXPECT_TRUE(json["nis_whiteness"].is_null());
   EXPECT_TRUE(json["rms"]["yaw_deg"]["predicted_to_real_ratio"].is_null()) << "no real error";
 }
@@ -129,6 +137,8 @@ TEST(ConsistencyText, TellsRunsBandsAndErrors) {
   EXPECT_THAT(text, HasSubstr("\nNIS               6      4.000 "));
   EXPECT_THAT(text, HasSubstr("\nhorizontal        m      0.20000      0.10000      0.500\n"));
   EXPECT_THAT(text, HasSubstr("\nyaw             deg      0.00000      0.60000      0.000\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\nlargest tilt    3.12 sigma of roll and pitch, at 12.2 s of seed_1\n"));
   EXPECT_THAT(text, HasSubstr("\nrz                   5.0 %     50.0 %     75.0 %\n"));
   EXPECT_THAT(text, HasSubstr("\nGaussian            68.3 %     95.4 %     99.7 %\n"));
   EXPECT_THAT(text,

@@ -114,6 +114,16 @@ TEST(JudgeConsistency, NeesByHand) {
   EXPECT_THAT(c.notes, Contains(HasSubstr("no NIS")));
 }
 
+TEST(JudgeConsistency, EachRunHasItsLargestTilt) {
+  std::vector<RunErrors> runs = DrawRuns(2, 1.0);
+  runs[0].tilts = {{0.0, 1.0}, {0.1, 2.5}, {0.2, 2.0}};
+  const Consistency c = JudgeConsistency(runs);
+  ASSERT_EQ(c.run_largest_tilt.size(), 2u);
+  EXPECT_EQ(c.run_largest_tilt[0]->sigmas, 2.5);
+  EXPECT_EQ(c.run_largest_tilt[0]->time_s, 0.1);
+  EXPECT_FALSE(c.run_largest_tilt[1]) << "there is no tilt to judge";
+}
+
 TEST(JudgeConsistency, BandsFollowTheRunsThatAreThere) {
   std::vector<RunErrors> runs = DrawRuns(4, 1.0);
   runs[3].instants.resize(100);

@@ -68,6 +68,30 @@ TEST(ComputeRunErrors, CovarianceIsTurnedIntoWorldToo) {
   EXPECT_LT((errors.instants[3].cov_world.diagonal() - expected).norm(), 1e-9);
 }
 
+// A tilt of (0.03, 0.04) rad with 0.01 rad, 1 sigma of each angle, is five sigmas, whatever the
+// heading: that is known badly here, and is wrong by 0.2 rad from the second row on.
+TEST(ComputeRunErrors, TiltIsJudgedFromTheFirstRowOnWhateverTheHeading) {
+  const Trajectory truth = test::Helix(50);
+  Trajectory estimate = test::Map(truth, [](const Pose& p) {
+    return Pose{ExpSo3({0.03, 0.04, 0}) * p.rotation, p.translation};
+  });
+  for (std::size_t i = 1; i < 50; ++i) {
+    Quaternion& rotation = estimate.poses[i].pose.rotation;
+    rotation = ExpSo3({0, 0, 0.2}) * rotation;
+  }
+  RunFiles run = MakeRun(truth, estimate, Matrix6::Identity());
+  for (std::size_t i = 0; i < 50; ++i) {
+    const Matrix3 R = estimate.poses[i].pose.rotation.toRotationMatrix();
+    const Matrix3 cov_world = Vector3(1e-4, 1e-4, 1.0).asDiagonal();
+    run.covariances[i].bottomRightCorner<3, 3>() = R.transpose() * cov_world * R;
+  }
+  run.covariances[7].setZero();
+  const RunErrors errors = ComputeRunErrors(run);
+  ASSERT_EQ(errors.tilts.size(), 49u) << "the first row counts, the singular one does not";
+  EXPECT_EQ(errors.tilts.front().time_s, 0.0);
+  for (const TiltSample& tilt : errors.tilts) EXPECT_NEAR(tilt.sigmas, 5.0, 0.03);
+}
+
 TEST(ComputeRunErrors, RowsThatCannotBeJudgedAreCounted) {
   Trajectory truth = test::Helix(50);
   truth.poses.resize(40);
@@ -126,6 +150,13 @@ TEST_F(LoadRunFiles, TheWorldHasFilesOfItsOwn) {
   WriteCovariances(3, 0, "covariance_world.csv");
   EXPECT_EQ(load().estimate.size(), 3u);
   EXPECT_EQ(load().nis.size(), 2u);
+}
+
+TEST_F(LoadRunFiles, TheLevelPathHasFilesOfItsOwn) {
+  WriteTum(dir_.path() / "a/trajectory_level.tum", test::Helix(2).poses);
+  WriteCovariances(2, 0, "covariance_level.csv");
+  const RunFiles run = LoadRun(dir_.path() / "a", dir_.path() / "truth.tum", RunFrame::kLevel);
+  EXPECT_EQ(run.estimate.size(), 2u);
 }
 
 TEST_F(LoadRunFiles, ARunsOwnTruthGoesFirst) {

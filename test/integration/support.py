@@ -99,8 +99,9 @@ def stats(folder):
 
 
 def evaluate(truth, folder):
-    """Returns lio-eval's figures for the trajectory in a results folder."""
-    run_well("lio-eval", truth, folder / "trajectory.tum", "--json", folder / "eval.json")
+    """Returns lio-eval's figures for the path in a results folder: the level one when it is there,
+    else, without gravity, trajectory.tum."""
+    run_well("lio-eval", truth, folder, "--json", folder / "eval.json")
     return json.loads((folder / "eval.json").read_text())
 
 

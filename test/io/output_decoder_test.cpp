@@ -78,6 +78,7 @@ StatusReport SomeStatus() {
   report.cpu_load_cores = 0.25F;
   report.map_mb = 12.0F;
   report.imu_noise.gyro = 2.0;
+  report.clock_offset = {.offset_s = 0.025, .std_s = 0.0004};
   report.trust = Trust::kDoubtful;
   report.config_hash = 0x8000000000000001;
   report.note = "started at rest";
@@ -146,6 +147,8 @@ TEST(OutputDecoder, StatusComesBack) {
   EXPECT_EQ(EncodeStatus(got, "1.2.3"), EncodeStatus(sent, "1.2.3"));
   EXPECT_EQ(got.note, sent.note);
   EXPECT_EQ(got.latency.p99_ms, sent.latency.p99_ms);
+  EXPECT_EQ(got.clock_offset.offset_s, sent.clock_offset.offset_s);
+  EXPECT_EQ(got.clock_offset.std_s, sent.clock_offset.std_s);
 }
 
 TEST(OutputDecoder, EveryTruncationAndEveryTrailingByteIsRefused) {

@@ -94,6 +94,15 @@ TEST(StatusCodec, NoiseOfTheImuArrives) {
   EXPECT_EQ(message.accel_noise_ratio, 9.0F);
 }
 
+TEST(StatusCodec, TheClockOffsetArrivesWithItsStandardDeviation) {
+  StatusReport report;
+  EXPECT_EQ(Decoded(EncodeStatus(report, "0.1.0")).clock_offset_std_s, 0.0) << "not estimated";
+  report.clock_offset = {.offset_s = -0.025, .std_s = 0.0004};
+  const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
+  EXPECT_EQ(message.clock_offset_s, -0.025);
+  EXPECT_EQ(message.clock_offset_std_s, 0.0004);
+}
+
 TEST(StatusCodec, TrustArrives) {
   StatusReport report;
   EXPECT_EQ(Decoded(EncodeStatus(report, "0.1.0")).trust, 0);

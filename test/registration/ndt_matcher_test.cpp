@@ -120,6 +120,43 @@ TEST(NdtMatcher, RecoversKnownOffsetsOnAStreet) {
   }
 }
 
+// Makes a closed room of 3.2 by 2.4 m around the origin.
+test::Scene Closet() {
+  return {-1.0,
+          {{Vector3(1.7, 0, 0), Vector3(0.1, 1.4, 3), 0.0},
+           {Vector3(-1.7, 0, 0), Vector3(0.1, 1.4, 3), 0.0},
+           {Vector3(0, 1.3, 0), Vector3(1.8, 0.1, 3), 0.0},
+           {Vector3(0, -1.3, 0), Vector3(1.8, 0.1, 3), 0.0}}};
+}
+
+// Levels are counted by the size of their cells, 0.25, 0.5 and 1 m, of which the last two are in
+// use where the place is wide.
+TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 20.0);
+  const MatchResult result = street.MatchFrom(OnRoad(12.4), Vector6::Zero(), 0.02);
+  ASSERT_TRUE(result.IsUsable());
+  const LevelCounts& counts = result.num_matched_at;
+  EXPECT_EQ(counts[0], 0);
+  EXPECT_GT(counts[1], 1000);
+  EXPECT_GT(counts[2], 100);
+  EXPECT_EQ(counts[1] + counts[2], result.num_matched);
+  EXPECT_EQ(result.num_matched_in_finest, counts[1]);
+}
+
+TEST(NdtMatcher, InANarrowPlacePointsAreMatchedInCellsOfAQuarterAndOfHalfAMetre) {
+  NdtMatcherIn closet(Closet());
+  for (int i = 0; i < 8; ++i) closet.InsertFrom({ExpSo3({0, 0, 0.1 * i}), {0.05 * i, 0, 0.03 * i}});
+  const MatchResult result =
+      closet.MatchFrom({ExpSo3({0, 0, 0.33}), {0.2, 0.02, 0.1}}, Vector6::Zero(), 0.02);
+  ASSERT_TRUE(result.IsUsable());
+  const LevelCounts& counts = result.num_matched_at;
+  EXPECT_GT(counts[0], 1000);
+  EXPECT_EQ(counts[2], 0);
+  EXPECT_EQ(counts[0] + counts[1], result.num_matched);
+  EXPECT_EQ(result.num_matched_in_finest, counts[0]);
+}
+
 // Returns the NEES per degree of freedom over places along a street.
 double StreetNees(double shift_std_m) {
   constexpr int kRuns = 40;

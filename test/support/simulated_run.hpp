@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,11 +25,12 @@ namespace lio::test {
 struct DriveSpec {
   std::string scenario;
   std::string lidar;
-  double duration_s = 10.0;
+  std::optional<double> duration_s = 10.0;  // absent: the scenario's own
   std::uint64_t seed = 1;
   std::vector<sim::Fault> faults = {};  // faults of the world
   double rotation_hz = 0.0;             // 0: the lidar's own
   bool starts_moving = false;           // false: the log begins at rest
+  std::string imu = "xsens_mti10";
 };
 
 // Holds a simulated drive with the contents of lio-sim's folder.
@@ -46,7 +48,7 @@ struct SimulatedLog {
     sim::RecordOptions record;
     record.lidar = sim::LoadLidarModel(spec.lidar);
     if (spec.rotation_hz > 0.0) record.lidar.rotation_hz = spec.rotation_hz;
-    record.imu = sim::LoadImuModel("xsens_mti10");
+    record.imu = sim::LoadImuModel(spec.imu);
     sim::SetRealism(sim::Realism::kField, {}, record);
     record.seed = spec.seed;
     record.faults = spec.faults;
@@ -89,6 +91,9 @@ class RunningEstimator {
     Match();
   }
 
+  // Returns what was published, once a scan.
+  [[nodiscard]] const std::vector<NavOutput>& published() const { return published_; }
+
   RunOutcome Finish(const StampedPoses& truth) {
     odometry_.Flush();
     Match();
@@ -99,7 +104,7 @@ class RunningEstimator {
     if (rows_.size() < 2) return outcome;
     const Pose at_end = TruthAt(truth, rows_.back().stamp);
     outcome.end_tilt_of_map_deg = TiltBetween_deg(at_end, rows_.back().pose);
-    outcome.end_tilt_of_world_deg = TiltBetween_deg(at_end, last_in_world_);
+    outcome.end_tilt_of_world_deg = TiltBetween_deg(at_end, published_.back().T_world_imu);
     const Pose motion = rows_.front().pose.Inverse() * rows_.back().pose;
     const Pose expected = TruthAt(truth, rows_.front().stamp).Inverse() * at_end;
     const Pose error = expected.Inverse() * motion;
@@ -135,14 +140,14 @@ class RunningEstimator {
       }
       EXPECT_TRUE(nav.T_map_imu.translation.allFinite());
       rows_.push_back({nav.stamp, nav.T_map_imu});
-      last_in_world_ = nav.T_world_imu;
+      published_.push_back(nav);
     }
   }
 
   Odometry odometry_;
   RegistrationWorker worker_;
   StampedPoses rows_;  // in map
-  Pose last_in_world_;
+  std::vector<NavOutput> published_;
 };
 
 inline RunOutcome RunOver(const DriveSpec& spec, bool use_imu) {

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Measures what each effect of the simulator's realism `field` costs: it is added alone to ideal
-sensors, and left out alone of the field. Prints Markdown tables of ATE [cm] and NEES per degree of
-freedom of the steady path, each as median and worst over the seeds.
+sensors, and left out alone of the field. Prints Markdown tables of ATE [cm] of the level path and
+NEES per degree of freedom of the steady path, each as median and worst over the seeds.
 
   tools/bench/ablation.py [--seeds 1,2,3] [--drives street:hdl32e,...] [--work out/ablation]
                           [--effects glass,...] [--table]

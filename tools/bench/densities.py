@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 """Measures what wrong densities of the IMU cost: those of the rig ten times too large and too
 small, of gyro and accelerometer, and a shaking that starts in the middle of the drive and that the
-rig knows nothing of. Prints a Markdown table: ATE [cm] with the right densities, and the ratio to
-it with wrong ones, each as median and worst over the seeds.
+rig knows nothing of. Prints a Markdown table: ATE [cm] of the level path with the right densities,
+and the ratio to it with wrong ones, each as median and worst over the seeds.
 
   tools/bench/densities.py [--seeds 1,2,3] [--drives street:hdl32e,...] [--work out/densities]
                            [--table]

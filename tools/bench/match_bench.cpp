@@ -6,6 +6,7 @@
 // and read the medians.
 #include <benchmark/benchmark.h>
 
+#include "lio/scan/mixed_pixels.hpp"
 #include "support/method_bench.hpp"
 
 namespace lio {
@@ -56,6 +57,28 @@ void BM_Reduce(benchmark::State& state) {
   state.counters["returns"] = static_cast<double>(TheStreet().sweep.points.size());
 }
 
+// The search for mixed pixels as it is part of NDT's reduction: the whole sweep is looked at, and
+// of the points that thinning leaves each is judged. It may take 0.15 ms.
+void BM_MixedPixels(benchmark::State& state) {
+  const Sweep& sweep = TheStreet().sweep;
+  const auto reducer = MakeReducer(test::MethodOptions(MatchMethod::kNdt), {});
+  std::size_t num_left = 0;
+  for (int i = 0; i < 10; ++i) num_left = reducer->Reduce(sweep).points.size();
+  const std::size_t stride = sweep.points.size() / num_left;
+  MixedPixelFinder finder;
+  int num_found = 0;
+  for (auto _ : state) {
+    finder.Load(sweep);
+    num_found = 0;
+    for (std::size_t i = 0; i < sweep.points.size(); i += stride) {
+      num_found += finder.IsMixed(static_cast<std::uint32_t>(i)) ? 1 : 0;
+    }
+    benchmark::DoNotOptimize(num_found);
+  }
+  state.counters["judged"] = static_cast<double>(sweep.points.size() / stride);
+  state.counters["found"] = num_found;
+}
+
 void BM_Match(benchmark::State& state) {
   test::MethodBench bench = MakeBench(static_cast<MatchMethod>(state.range(0)));
   const Street& street = TheStreet();
@@ -88,6 +111,7 @@ void EachMethod(benchmark::internal::Benchmark* bench) {
 }
 
 BENCHMARK(BM_Reduce)->Apply(EachMethod);
+BENCHMARK(BM_MixedPixels)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Match)->Apply(EachMethod);
 BENCHMARK(BM_Insert)->Apply(EachMethod);
 

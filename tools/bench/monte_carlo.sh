@@ -10,8 +10,9 @@ Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
 Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline, one per core at a
 time, and judges all runs by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Writes
 into out/monte_carlo/SCENARIO/: one folder per seed with the files of lio-replay and truth.tum, and
-consistency.txt, .json and .png of the steady path, consistency_world.* of the level world. Seeds
-that the same programs and settings have finished are kept, so an interrupted run continues.
+consistency.txt, .json and .png of the steady path, consistency_world.* of the level world, and
+consistency_level.* of the path that is level by the last estimate. Seeds that the same programs and
+settings have finished are kept, so an interrupted run continues.
   --set KEY=VALUE    override one key of the estimator; can be given several times
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
   --first N          first seed (1)
@@ -83,3 +84,4 @@ judge() { # NAME TITLE ARGUMENTS...
 }
 judge consistency "the steady path: trajectory.tum with covariance.csv"
 judge consistency_world "the level world: trajectory_world.tum with covariance_world.csv" --world
+judge consistency_level "the path to keep: trajectory_level.tum with covariance_level.csv" --level

@@ -50,16 +50,17 @@ def simulate(drive, folder, *words):
     complete.write_text(asked)
 
 
-def nees(folder, frame):
-    out = folder / f"nees{frame}.json"
-    call(BIN / "lio-eval", "consistency", *(("--world",) if frame else ()), "truth.tum", folder,
+def nees(folder, frame=""):
+    """NEES per degree of freedom of the path in map, or of the `frame` world or level."""
+    out = folder / f"nees_{frame or 'map'}.json"
+    call(BIN / "lio-eval", "consistency", *((f"--{frame}",) if frame else ()), "truth.tum", folder,
          "--json", out)
     return json.loads(out.read_text())["runs"][0]["nees_pose_per_dof"]
 
 
 def replay(folder, *settings):
-    """Returns ATE [m] and NEES per degree of freedom of the steady path, and NEES of the level
-    world's pose."""
+    """Returns ATE [m] of the level path (of the path in map where nothing is level), and NEES per
+    degree of freedom of the path in map, of the level world's poses and of the level path."""
     run = folder / "run"
     shutil.rmtree(run, ignore_errors=True)
     words = [word for setting in settings for word in ("--set", setting)]
@@ -67,9 +68,12 @@ def replay(folder, *settings):
          "--out", run)
     shutil.copy(folder / "truth.tum", run)
     score = run / "eval.json"
-    call(BIN / "lio-eval", folder / "truth.tum", run / "trajectory.tum", "--json", score)
+    call(BIN / "lio-eval", folder / "truth.tum", run, "--json", score)
     ape = json.loads(score.read_text())["ape"]["position_m"]["rmse"]
-    return {"ate_m": ape, "nees": nees(run, ""), "nees_world": nees(run, "_world")}
+    figures = {"ate_m": ape, "nees": nees(run), "nees_world": nees(run, "world")}
+    if (run / "covariance_level.csv").exists():
+        figures["nees_level"] = nees(run, "level")
+    return figures
 
 
 class Results:

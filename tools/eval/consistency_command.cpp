@@ -14,8 +14,9 @@ namespace {
 
 constexpr char kFooter[] = R"(
 Each ESTIMATE_DIR was written by lio-replay or liod with --out. It has trajectory.tum and
-covariance.csv, or with --world trajectory_world.tum and covariance_world.csv, and, for the
-innovations, registration.csv. docs/evaluation.md explains each figure.
+covariance.csv, or with --world trajectory_world.tum and covariance_world.csv, or with --level
+trajectory_level.tum and covariance_level.csv, and, for the innovations, registration.csv.
+docs/evaluation.md explains each figure.
 
 Examples:
   lio-eval consistency truth.tum runs/seed_*           one truth for all runs
@@ -28,10 +29,16 @@ struct Arguments {
   std::string json;
   std::string plot;
   bool in_world = false;
+  bool is_level = false;
 };
 
+RunFrame FrameOf(const Arguments& arguments) {
+  if (arguments.in_world) return RunFrame::kWorld;
+  return arguments.is_level ? RunFrame::kLevel : RunFrame::kMap;
+}
+
 int Run(const Arguments& arguments) {
-  const RunFrame frame = arguments.in_world ? RunFrame::kWorld : RunFrame::kMap;
+  const RunFrame frame = FrameOf(arguments);
   for (const std::string& dir : arguments.dirs) {
     const std::filesystem::path truth_in_run = std::filesystem::path(dir) / arguments.truth;
     RefuseToOverwrite({arguments.truth, truth_in_run}, {arguments.json, arguments.plot});
@@ -61,8 +68,12 @@ int ConsistencyMain(int argc, const char* const* argv) {
       ->required()
       ->type_name("FILE");
   app.add_option("ESTIMATE_DIR", arguments.dirs, "Folders of runs")->required()->type_name("");
-  app.add_flag("--world", arguments.in_world,
-               "Judge the poses in world, which is always level, instead of those in map");
+  CLI::Option* const world =
+      app.add_flag("--world", arguments.in_world,
+                   "Judge the poses in world, which is always level, instead of those in map");
+  app.add_flag("--level", arguments.is_level,
+               "Judge the path that is level by the last estimate, the one to keep")
+      ->excludes(world);
   app.add_option("--json", arguments.json, "Write the figures into this file")->type_name("FILE");
   app.add_option("--plot", arguments.plot, "Draw NEES and NIS over time with their bands")
       ->type_name("FILE.png");

@@ -10,7 +10,7 @@ ip route add 224.0.0.0/4 dev lo
 lio-sim --scenario street --lidar vlp16 --imu xsens_mti10 --duration 20 --threads 2 --out drive \
   >/dev/null
 lio-replay --config drive/config.yaml drive/log.lcm --out replay
-lio-eval drive/truth.tum replay/trajectory.tum | grep 'APE position'
+lio-eval drive/truth.tum replay | grep 'APE position'
 export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=0'
 liod --config drive/config.yaml --out live 2>liod.log &
 liod=$!
@@ -22,7 +22,7 @@ lcm-logplayer drive/log.lcm >/dev/null
 sleep 2
 kill -TERM "$liod"
 wait "$liod"
-lio-eval drive/truth.tum live/trajectory.tum | grep 'APE position'
+lio-eval drive/truth.tum live | grep 'APE position'
 lio-log info drive/log.lcm >/dev/null
 source /usr/share/bash-completion/completions/liod
 test -f /usr/share/man/man1/liod.1.gz || echo "demo: the manual pages are left out of this system"

@@ -22,9 +22,10 @@ struct RmsPair {
 
 struct Consistency {
   std::vector<std::string> runs;
-  std::vector<double> run_pose_average_per_dof;  // time average of each run's pose NEES
-  BandedSeries pose, position, rotation;         // times are since the first row of each run
-  std::array<SigmaShares, 6> sigma_shares;       // world x, y, z; body rotation x, y, z
+  std::vector<double> run_pose_average_per_dof;             // time average of each run's pose NEES
+  std::vector<std::optional<TiltSample>> run_largest_tilt;  // absent where none can be judged
+  BandedSeries pose, position, rotation;    // times are since the first row of each run
+  std::array<SigmaShares, 6> sigma_shares;  // world x, y, z; body rotation x, y, z
   RmsPair horizontal_m, vertical_m, tilt_deg, yaw_deg;
   std::optional<BandedSeries> nis;
   std::optional<Whiteness> nis_whiteness;  // whiteness of the NIS about its mean

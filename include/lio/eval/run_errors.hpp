@@ -48,6 +48,14 @@ struct RunInstant {
   Vector3 rotation_error_world;
 };
 
+// The error of roll and pitch against true gravity, in standard deviations: the square root of
+// e' C^-1 e of the two angles, so that a consistent one is above s in exp(-s^2/2) of the instants,
+// 0.2 % at 3.5.
+struct TiltSample {
+  double time_s = 0;  // since the run's first row
+  double sigmas = 0;
+};
+
 struct NisSample {
   double time_s = 0;  // since the run's first row
   double nis = 0;
@@ -56,14 +64,15 @@ struct NisSample {
 struct RunErrors {
   std::string name;
   std::vector<RunInstant> instants;
+  std::vector<TiltSample> tilts;  // the first row has one, too: no alignment takes it away
   std::vector<NisSample> nis;
   double truth_period_s = 0;  // median period
   int num_without_truth = 0;  // rows that the truth does not cover
   int num_singular = 0;       // rows left out because their covariance cannot be inverted
 };
 
-// Leaves out the first row, whose error is zero by construction. Throws std::runtime_error when no
-// row is left.
+// Leaves out the first row, whose error is zero by construction but for its tilt. Throws
+// std::runtime_error when no row is left.
 [[nodiscard]] RunErrors ComputeRunErrors(const RunFiles& run);
 
 // Returns the turn about z and shift that carry `truth` onto `estimate` as far as such a motion

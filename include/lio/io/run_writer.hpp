@@ -15,7 +15,8 @@
 //   -1
 //     not asked), velocity in world, biases with standard deviations, clock offset, NIS
 //   notices.tsv: what was told to people: stamp, severity, text
-//   registration.csv: one row per scan: points, residual, information, status, stage times
+//   registration.csv: one row per scan: points, residual, information, status, matched points by
+//     the size of cell (matched_level_i: LevelCounts in match_status.hpp), stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
 //   options.yaml: the effective options without the number of threads

@@ -19,6 +19,13 @@ struct LatencySummary {
   float max_ms = 0.0F;
 };
 
+// To be added to the lidar's stamps, rig.lidar.clock_offset_s included. The standard deviation is
+// zero where the offset is configured and not estimated.
+struct ClockOffsetStatus {
+  double offset_s = 0.0;
+  double std_s = 0.0;
+};
+
 struct StatusReport {
   std::int64_t utime = 0;        // us since the epoch, host's clock
   std::int64_t start_utime = 0;  // when the daemon started, host's clock
@@ -42,6 +49,7 @@ struct StatusReport {
   float rss_mb = 0.0F;
   float map_mb = 0.0F;
   ImuNoiseRatios imu_noise;
+  ClockOffsetStatus clock_offset;
   Trust trust = Trust::kYes;  // at the last look
   std::uint64_t config_hash = 0;
   std::string note;  // the last notice

@@ -11,6 +11,10 @@ namespace lio {
 // range noise fills.
 inline constexpr std::size_t kMaxMapLevels = 4;
 
+// NdtMatcher's map has so many resolutions more, of smaller cells, for narrow places. Measured:
+// docs/experiments/narrow_places.md.
+inline constexpr std::size_t kNumFinerLevels = 1;
+
 struct NdtOptions {
   // The largest cells have this edge; larger ones catch from farther, smaller ones hold two
   // surfaces less often. Chosen with num_levels: docs/experiments/narrow_places.md.

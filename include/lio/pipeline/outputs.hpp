@@ -89,7 +89,7 @@ struct ScanReport {
   int num_raw = 0;
   int num_used = 0;
   int num_matched = 0;           // points
-  LevelCounts num_matched_at{};  // the same by level of the map, finest first; method ndt
+  LevelCounts num_matched_at{};  // the same by level of the map; method ndt
   int num_matches = 0;         // full matches against the map, of guesses and after another deskew
   int num_coarse_matches = 0;  // with a few hundred points, to rank the candidates of a search
   int iterations = 0;          // in the last match

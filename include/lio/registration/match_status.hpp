@@ -19,7 +19,8 @@ enum class MatchStatus : std::int8_t {
   kDegenerate = 5,  // converged, with degenerate directions
 };
 
-// Counts for each level of a map of several resolutions, finest first.
-using LevelCounts = std::array<int, kMaxMapLevels>;
+// Counts for each level of NdtMatcher's map, finest first, whichever are in use: cells of level i
+// have an edge of voxel_m / 2^(num_levels - i), by default 0.25, 0.5 and 1 m.
+using LevelCounts = std::array<int, kMaxMapLevels + kNumFinerLevels>;
 
 }  // namespace lio

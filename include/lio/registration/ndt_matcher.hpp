@@ -74,9 +74,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     std::int32_t count_number = 0;
   };
 
-  // The map has one level more than the options say. All but the finest are in use where the place
-  // is wide, all but the coarsest where it is narrow.
-  static constexpr int kNumFiner = 1;
+  // The map has kNumFinerLevels more than the options say. All but the finest are in use where the
+  // place is wide, all but the coarsest where it is narrow.
   [[nodiscard]] MultiResolutionMap::Levels LevelsInUse() const;
   // Returns the levels for a correspondence radius. A guess that may be far off is followed by
   // large cells to the end: small ones hold points that are half a cell off elsewhere, and a place

@@ -71,7 +71,8 @@ struct [[nodiscard]] MatchResult {
   Vector6 eigenvalues = Vector6::Zero();  // the information's, rotations scaled to metres
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   int num_matched = 0;
-  LevelCounts num_matched_at{};  // by level of the map, finest first; method ndt
+  LevelCounts num_matched_at{};   // by level of the map; method ndt
+  int num_matched_in_finest = 0;  // at the finest level in use, which depends on the place
   // So many points lie where the map has a surface, near or far from it; 0 where the method does
   // not tell.
   int num_in_map = 0;

@@ -57,6 +57,9 @@ export class Panel {
     const {p50, p99, max} = daemon.latency_ms;
     this.figure("latency", `${fixed(p50)} / ${fixed(p99)} / ${fixed(max)} ms`);
     this.figure("load", `${fixed(daemon.cpu_cores, 2)} cores, ${fixed(daemon.rss_mb, 0)} MB`);
+    if (daemon.clock_offset_std_s > 0) {
+      this.figure("clock offset", `${fixed(1e3 * daemon.clock_offset_s)} ± ${fixed(1e3 * daemon.clock_offset_std_s)} ms`);
+    }
     if (refused) this.figure("refused messages", `${refused}`);
     if (runs > 0) this.figure("runs seen", `${runs + 1}`);
   }
