@@ -51,9 +51,17 @@ void Guard(const fs::path& input, const std::vector<std::optional<fs::path>>& ou
   if (const std::string why = WhyNoRecording(input); !why.empty()) throw InputError(why);
 }
 
-// Converts, without Python's lock; `convert` fills in a report.
+// Lets Python's handlers of signals run, and throws what they raise: KeyboardInterrupt ends a
+// conversion.
+void HeedSignals() {
+  const py::gil_scoped_acquire locked;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+// Converts, without Python's lock; `convert` makes a report.
 template <typename Options, typename Convert>
-Conversion Run(const char* kind, const Options& options, Convert&& convert) {
+Conversion Run(const char* kind, Options& options, Convert&& convert) {
+  options.progress = [](double) { HeedSignals(); };
   return RunUnlocked([&] {
     const auto report = convert(options);
     return Conversion{kind, FormatReport(report, options), report.IsDamaged()};

@@ -58,7 +58,7 @@ void AddEnums(py::module_& module) {
 }
 
 void AddMatch(py::module_& module) {
-  py::class_<ScanReport>(module, "Match")
+  py::class_<ScanReport>(module, "Match", "The registration of a scan.")
       .def_property_readonly("stamp_ns", [](const ScanReport& self) { return self.stamp.ns; })
       .def_readonly("scan_seq", &ScanReport::scan_seq)
       .def_property_readonly("status",
@@ -76,7 +76,7 @@ void AddMatch(py::module_& module) {
 }
 
 void AddNotice(py::module_& module) {
-  py::class_<Notice>(module, "Notice")
+  py::class_<Notice>(module, "Notice", "The estimator tells people this.")
       .def_property_readonly("stamp_ns", [](const Notice& self) { return self.stamp.ns; })
       .def_property_readonly("severity",
                              [](const Notice& self) {
@@ -168,7 +168,8 @@ void AddEstimates(py::module_& module) {
   AddEnums(module);
   AddMatch(module);
   AddNotice(module);
-  EstimateClass estimate(module, "Estimate");
+  EstimateClass estimate(module, "Estimate",
+                         "Pose, covariance, velocity, biases and status at one instant.");
   AddStamps(estimate);
   AddWorld(estimate);
   AddMapFrame(estimate);

@@ -45,7 +45,8 @@ void AddColumn(py::class_<Owner>& shown, const char* name, std::vector<Row> Owne
 }
 
 void AddImuBatch(py::module_& module) {
-  py::class_<ImuBatch> batch(module, "ImuSamples");
+  py::class_<ImuBatch> batch(module, "ImuSamples",
+                             "Inertial samples that came one after another; arrays are views.");
   batch.def("__len__", [](const ImuBatch& self) { return self.samples.size(); });
   AddColumn(batch, "stamps_ns", &ImuBatch::samples, [](const auto& s) { return &s.stamp.ns; });
   AddColumn(
@@ -73,7 +74,8 @@ py::array PointRecords(const py::object& self) {
 }
 
 void AddScan(py::module_& module) {
-  py::class_<Sweep> scan(module, "Scan");
+  py::class_<Sweep> scan(module, "Scan",
+                         "One turn of the lidar, put together from its chunks; arrays are views.");
   scan.def("__len__", [](const Sweep& self) { return self.points.size(); })
       .def_property_readonly("stamp_ns", [](const Sweep& self) { return self.start.ns; })
       .def_property_readonly("end_ns", [](const Sweep& self) { return self.end.ns; })
@@ -112,7 +114,8 @@ void AddCount(py::class_<SharedReader>& log, const char* name, Count count) {
 void AddLog(py::module_& module) {
   AddImuBatch(module);
   AddScan(module);
-  py::class_<SharedReader> log(module, "LogReader");
+  py::class_<SharedReader> log(module, "LogReader",
+                               "The events of a log, as an iterator; see liod.read_log.");
   log.def(
       py::init([](const std::filesystem::path& path, const std::string& channel_prefix) {
         return RunUnlocked([&] { return std::make_unique<SharedReader>(path, channel_prefix); });

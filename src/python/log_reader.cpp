@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "python/log_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -57,16 +58,29 @@ void LogReader::Add(const LogEvent& event) {
 void LogReader::AddImu(const LogEvent& event) {
   ImuSample sample;
   if (!decoder_.Imu(event.data, sample)) return;
+  // A sweep comes before the sample that closes it, so that it closes it in the estimator, too.
+  CloseSweepsAt(event.utime);
   samples_.samples.push_back(sample);
-  assembler_.CloseUpTo(sample.stamp - kIncompleteWait);
-  GiveSweeps();
   if (samples_.samples.size() >= kMostSamples) GiveSamples();
 }
 
 void LogReader::AddChunk(const LogEvent& event) {
   ScanChunk chunk;
   if (!decoder_.Chunk(event.data, chunk)) return;
+  std::uint32_t last_ns = 0;
+  for (const LidarPoint& point : chunk.points) last_ns = std::max(last_ns, point.t_offset_ns);
+  last_chunk_ = {chunk.stamp + Duration{last_ns}, event.utime};
   assembler_.Add(std::move(chunk), 0);
+  GiveSweeps();
+}
+
+// The lidar's time is told by when the log received its last chunk, since the samples' clock may be
+// another one. It is floating point, because a damaged log may hold any number.
+void LogReader::CloseSweepsAt(std::int64_t utime) {
+  constexpr double kLongest_us = 1e12;
+  const double since_us = static_cast<double>(utime) - static_cast<double>(last_chunk_.utime);
+  if (!(since_us > 0.0 && since_us < kLongest_us)) return;
+  assembler_.CloseUpTo(last_chunk_.end + Duration::FromSeconds(since_us * 1e-6) - kIncompleteWait);
   GiveSweeps();
 }
 

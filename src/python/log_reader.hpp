@@ -32,7 +32,7 @@ class LogReader {
   LogReader(const std::filesystem::path& log, const std::string& channel_prefix);
 
   // Returns the next item, or nothing at the end. A sweep comes when its last chunk is in; one with
-  // lost chunks when the samples, or the sweep after the next, are past it.
+  // lost chunks 50 ms after its end, or when the sweep after the next begins.
   [[nodiscard]] std::optional<LogItem> Next();
 
   [[nodiscard]] std::int64_t num_skipped_bytes() const { return reader_.skipped_bytes(); }
@@ -46,6 +46,7 @@ class LogReader {
   void Add(const LogEvent& event);
   void AddImu(const LogEvent& event);
   void AddChunk(const LogEvent& event);
+  void CloseSweepsAt(std::int64_t utime);
   void AddNav(const LogEvent& event);
   void AddState(const LogEvent& event);
   void GiveSamples();
@@ -58,6 +59,10 @@ class LogReader {
   Counters counters_;
   ScanAssembler assembler_;
   LogEvent event_;
+  struct {
+    Timestamp end;
+    std::int64_t utime = 0;  // when the log received it
+  } last_chunk_;
   ImuBatch samples_;  // they wait for an item of another kind
   std::deque<LogItem> items_;
   std::int64_t num_outputs_refused_ = 0;

@@ -87,6 +87,8 @@ std::vector<Estimate> AddSweep(SharedRun& shared, const Sweep& sweep) {
     ScanChunk chunk;
     chunk.stamp = sweep.start;
     chunk.scan_seq = sweep.scan_seq;
+    // The estimator waits for what is missing, and counts it, as in a replay.
+    chunk.chunk_count = static_cast<std::int16_t>(1 + sweep.num_missing_chunks);
     chunk.points = sweep.points;
     run.AddScan(std::move(chunk));
     return run.TakeEstimates();
@@ -124,12 +126,14 @@ void AddOdometry(py::module_& module) {
   py::class_<SharedRun> odometry(module, "Odometry");
   odometry.def(py::init(&MakeRun), py::arg("files"), py::arg("sets"), py::arg("out"),
                py::arg("overwrite"), py::arg("imu_rate"), py::arg("keep_map"));
-  odometry.def("add_imu", &AddGivenImu, py::arg("stamp_ns"), py::arg("gyro"), py::arg("accel"));
+  odometry.def("add_imu", &AddGivenImu, py::arg("stamp_ns"), py::arg("gyro"), py::arg("accel"),
+               "Adds a sample, or N: stamps [ns], rates [rad/s], specific forces [m/s^2].");
   odometry.def("add_scan", &AddGivenScan, py::arg("stamp_ns"), py::arg("points"),
                py::arg("times_ns") = py::none(), py::arg("rings") = py::none(),
-               py::arg("intensity") = py::none());
-  odometry.def("add", &AddItem, py::arg("item"));
-  odometry.def("finish", &Finish);
+               py::arg("intensity") = py::none(),
+               "Adds one turn of the lidar: points (N, 3) [m], times after the stamp [ns].");
+  odometry.def("add", &AddItem, py::arg("item"), "Adds an event of liod.read_log.");
+  odometry.def("finish", &Finish, "Matches what still waits, and completes the files.");
   odometry.def_property_readonly("notices", [](SharedRun& self) {
     return self.Do([](OdometryRun& run) { return run.notices(); });
   });

@@ -36,7 +36,7 @@ class OdometryRun {
   // All four throw UsageError after Finish, and ConfigurationError when the data contradict the
   // configuration; the estimates before that are in the files.
   void AddImu(const ImuSample& sample);
-  // A whole sweep as one chunk.
+  // A sweep as one chunk; the others of its count are those that were lost.
   void AddScan(ScanChunk chunk);
   // The same; its number is one more than that of the last such sweep.
   void AddUnnumbered(ScanChunk chunk);

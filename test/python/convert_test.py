@@ -2,8 +2,10 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Tests that liod.convert gives the bytes and the words of lio-convert."""
+import _thread
 import pathlib
 import shutil
+import threading
 
 import package
 import support
@@ -47,6 +49,17 @@ class Convert(package.Case):
         done = liod.convert(bag, WORK / "cut.lcm", lidar="hdl32e")
         self.assertTrue(done.is_damaged)
         self.assertIn("damage", done.summary)
+
+    def test_an_interrupt_ends_a_conversion(self):
+        bag = support.unpacked_bag("ulhk_sample")
+        timer = threading.Timer(0.02, _thread.interrupt_main)
+        timer.start()
+        num_whole = 0
+        with self.assertRaises(KeyboardInterrupt):
+            while True:
+                liod.convert(bag, WORK / "interrupted.lcm", lidar="hdl32e")
+                num_whole += 1
+        self.assertLessEqual(num_whole, 1)
 
     def test_a_wish_of_another_kind_is_refused(self):
         bag = WORK / "head.bag"
