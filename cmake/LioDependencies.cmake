@@ -28,3 +28,14 @@ if(LIO_BUILD_TESTS)
   find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED) # a rival in tools/bench, headers alone
   include(GoogleTest)
 endif()
+
+# The Python package is Debian's Python's, also where another one comes first on the PATH.
+if(LIO_BUILD_PYTHON AND NOT LIO_SANITIZE AND NOT LIO_FUZZ)
+  if(EXISTS /usr/bin/python3)
+    set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that the package liod is for")
+  endif()
+  find_package(Python3 3.9 COMPONENTS Interpreter Development.Module QUIET)
+  if(Python3_Development.Module_FOUND)
+    find_package(pybind11 2.10 CONFIG QUIET)
+  endif()
+endif()

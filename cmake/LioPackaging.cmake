@@ -50,7 +50,11 @@ set(CPACK_PACKAGE_CONTACT "The liod authors <liod@example.org>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL liod liod-dev liod-doc)
+set(LIO_PACKAGES liod liod-dev liod-doc)
+if(TARGET lio_python)
+  list(APPEND LIO_PACKAGES python3-liod)
+endif()
+set(CPACK_COMPONENTS_ALL ${LIO_PACKAGES})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -64,6 +68,15 @@ set(CPACK_DEBIAN_LIOD-DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_LIOD-DOC_PACKAGE_NAME liod-doc)
 set(CPACK_DEBIAN_LIOD-DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_LIOD-DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON3-LIOD_PACKAGE_NAME python3-liod)
+set(CPACK_DEBIAN_PYTHON3-LIOD_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-LIOD_PACKAGE_SHLIBDEPS ON)
+if(TARGET lio_python) # its module is for one version of Python; liod has the tables of lidars
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON3-LIOD_PACKAGE_DEPENDS "liod (= ${PROJECT_VERSION}), python3-numpy, \
+python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+endif()
+set(CPACK_DEBIAN_PYTHON3-LIOD_PACKAGE_SUGGESTS "liod-doc, python3-matplotlib")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_COMPONENT_LIOD_DESCRIPTION
   "The daemon liod, and programs that replay, simulate, convert and judge drives.")
@@ -71,6 +84,8 @@ set(CPACK_COMPONENT_LIOD-DEV_DESCRIPTION
   "Library and headers: the estimator of liod as the CMake target liod::core.")
 set(CPACK_COMPONENT_LIOD-DOC_DESCRIPTION
   "Messages, configuration, design and results of liod, and examples.")
+set(CPACK_COMPONENT_PYTHON3-LIOD_DESCRIPTION
+  "The Python package liod: logs, estimator, conversion and evaluation with NumPy arrays.")
 include(CPack)
 
 # Debian wants the licence and the changes in every package.
@@ -87,7 +102,7 @@ file(WRITE ${CMAKE_BINARY_DIR}/packaging/copyright "${licence}\n"
   "The pages report.html and lio-view contain uPlot, https://github.com/leeoniya/uPlot, by this\n"
   "licence:\n\n${uplot_licence}\n"
   "lio-view contains three.js, https://threejs.org, by this licence:\n\n${three_licence}")
-foreach(package liod liod-dev liod-doc)
+foreach(package IN LISTS LIO_PACKAGES)
   install(FILES ${CMAKE_BINARY_DIR}/packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
     COMPONENT ${package})
   install(FILES ${CMAKE_BINARY_DIR}/packaging/changelog.gz

@@ -61,6 +61,10 @@ function(lio_library name)
     PRIVATE ${CMAKE_SOURCE_DIR}/src) # "MODULE/..." private headers
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:lio_warnings>)
+  # The Python module is a shared object, and an embedder's may be one. Without interposition the
+  # compiler inlines as in a program.
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${name} PRIVATE -fno-semantic-interposition)
   # Fuzzers see which branches an input takes in what reads bytes; the estimator would only be slowed.
   if(LIO_FUZZ AND name MATCHES "^lio_(io|convert)$")
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)

@@ -33,7 +33,8 @@ complain() {
 }
 
 mapfile -t sources < <(find include src test tools examples -name '*.hpp' -o -name '*.cpp' | sort)
-mapfile -t scripts < <(find tools test .ci -name '*.sh' -o -name '*.py' -o -path .ci/run | sort)
+mapfile -t scripts < <(find tools test src examples setup.py .ci \
+  -name '*.sh' -o -name '*.py' -o -name '*.pyi' -o -path .ci/run | sort)
 
 for file in "${sources[@]}"; do
   lines=$(wc -l <"$file")

@@ -29,7 +29,8 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libboost-d
   python3 python3-matplotlib iproute2 util-linux xz-utils)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev
   clang clang-format clang-tidy chromium help2man lintian systemd
-  snakemake python3-scipy)
+  snakemake python3-scipy
+  pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-wheel mypy)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
 
 with_tests=OFF with_spy=no target=lio_programs with_build=yes

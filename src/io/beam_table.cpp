@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lio/io/beam_table.hpp"
 
+#include <dlfcn.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "lio/base/angle.hpp"
 #include "lio/io/input_error.hpp"
@@ -31,6 +33,16 @@ std::string KnownModels(const fs::path& folder) {
   std::string text = "generic";
   for (const std::string& name : names) text += ", " + name;
   return text;
+}
+
+// Returns the folder of the Python module, where this code is in one. A program may have been
+// called by a relative name, which would mean another folder by now: then there is nothing.
+std::optional<fs::path> FolderOfModule() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&KnownModels), &info) == 0) return std::nullopt;
+  const fs::path file = info.dli_fname == nullptr ? "" : info.dli_fname;
+  if (!file.is_absolute()) return std::nullopt;
+  return file.parent_path();
 }
 
 }  // namespace
@@ -70,6 +82,9 @@ BeamTable LoadBeamTable(const std::string& model) {
 fs::path ConfigDirectory() {
   if (const char* given = std::getenv("LIO_CONFIG_DIR")) return given;
   std::error_code error;
+  if (const std::optional<fs::path> folder = FolderOfModule()) {
+    if (fs::is_directory(*folder / "config/lidars", error)) return *folder / "config";
+  }
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   for (const char* relative : {"../../config", "../config", "../share/liod/config"}) {
     const fs::path candidate = (program.parent_path() / relative).lexically_normal();

@@ -23,6 +23,14 @@ done
 if command -v python3 >/dev/null; then
   (source "$folder/root/usr/share/bash-completion/completions/liod" && complete -p liod)
 fi
+if compgen -G "$folder/python3-liod_*.deb" >/dev/null; then
+  dpkg -x "$folder"/python3-liod_*.deb "$folder/root"
+  PYTHONPATH=$folder/root/usr/lib/python3/dist-packages \
+    LIO_CONFIG_DIR=$folder/root/usr/share/liod/config /usr/bin/python3 -c \
+    'import liod; print("python3-liod", liod.__version__, liod.Odometry(
+       {"pipeline": {"use_imu": False}, "rig": {"lidar": {"model": "vlp16"}}}).status)'
+  [[ $(dpkg-deb -f "$folder"/python3-liod_*.deb Depends) == *"liod (= "*python3-numpy* ]]
+fi
 grep -q uPlot "$folder/root/usr/share/doc/liod/copyright"
 depends=$(dpkg-deb -f "$folder"/liod_*.deb Depends)
 for library in liblcm1 libyaml-cpp libc6; do

@@ -6,9 +6,6 @@
 
 #include <algorithm>
 
-#include "lio/eval/time_offset.hpp"
-#include "lio/io/file_kind.hpp"
-
 namespace lio {
 namespace {
 
@@ -17,18 +14,6 @@ std::string Percent(const Drift& drift) {
 }
 
 }  // namespace
-
-ScoredRun ScoreRun(const Trajectory& truth, const std::string& run,
-                   const EvaluationOptions& options, const TimeOffsetWish& wish) {
-  ScoredRun scored;
-  scored.name = run;
-  scored.file = KindOf(run) == FileKind::kRunFolder ? PathOfRun(run).string() : run;
-  const Trajectory estimate = ReadTrajectory(scored.file);
-  scored.time_offset_s =
-      wish.is_automatic ? FindTimeOffset(truth, estimate, options.max_gap_s) : wish.offset_s;
-  scored.evaluation = Evaluate(truth, Shifted(estimate, scored.time_offset_s), options);
-  return scored;
-}
 
 std::string ComparisonText(const std::vector<ScoredRun>& runs) {
   std::size_t width = 3;

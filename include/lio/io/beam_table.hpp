@@ -28,8 +28,9 @@ struct BeamTable {
 // Returns the table's elevations; for model "generic" the list is empty. Throws as LoadBeamTable.
 [[nodiscard]] std::vector<double> BeamElevations(const std::string& model);
 
-// Returns the folder of the configuration files: the environment's LIO_CONFIG_DIR, else the folder
-// beside the program (../../config, ../config, ../share/liod/config), else the source tree's.
+// Returns the folder of the configuration files: the environment's LIO_CONFIG_DIR, else that in a
+// wheel of the Python package, else the folder beside the program (../../config, ../config,
+// ../share/liod/config), else the source tree's.
 [[nodiscard]] std::filesystem::path ConfigDirectory();
 
 }  // namespace lio
