@@ -85,7 +85,7 @@ set(CPACK_COMPONENT_LIOD-DEV_DESCRIPTION
 set(CPACK_COMPONENT_LIOD-DOC_DESCRIPTION
   "Messages, configuration, design and results of liod, and examples.")
 set(CPACK_COMPONENT_PYTHON3-LIOD_DESCRIPTION
-  "The Python package liod: logs, estimator, conversion and evaluation with NumPy arrays.")
+  "The Python package liod: logs, estimator, conversion, evaluation with NumPy.")
 include(CPack)
 
 # Debian wants the licence and the changes in every package.
