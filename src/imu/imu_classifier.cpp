@@ -135,6 +135,15 @@ bool ImuClassifier::FavoursAnother() const {
   return ranking.expected > ranking.best + kClassifier.favoured_score * ranking.scale;
 }
 
+std::optional<ImuConvention> ImuClassifier::Favoured() const {
+  if (evidence_.steps().size() < kClassifier.min_steps) return std::nullopt;
+  Ranking ranking = Rank(evidence_.FindBends());
+  const double limit = ranking.best + kClassifier.favoured_score * ranking.scale;
+  if (ranking.expected <= limit) return std::nullopt;
+  std::erase_if(ranking.all, [&](const Scored& scored) { return scored.score > limit; });
+  return LeastChange(ranking.all);
+}
+
 ImuVerdict ImuClassifier::Judge(bool in_doubt) const {
   using Finding = ImuVerdict::Finding;
   ImuVerdict verdict;

@@ -110,6 +110,10 @@ bool ImuConventionMonitor::IsInDoubt(Timestamp last_fix, Timestamp now) const {
          SecondsBetween(last_fix, now) < kConventionMonitor.max_doubt_s;
 }
 
+std::optional<ImuConvention> ImuConventionMonitor::Suspected() const {
+  return has_doubted_ && !is_settled_ ? classifier_.Favoured() : std::nullopt;
+}
+
 ImuConventionMonitor::ForceVerdict ImuConventionMonitor::JudgeForce(
     const Vector3& mean_f_mps2) const {
   ImuSample mean;

@@ -82,6 +82,9 @@ class ImuConventionMonitor {
   // A start since then would be wrong again as long as the doubt that ended it is not settled.
   [[nodiscard]] bool IsInDoubt(Timestamp last_fix, Timestamp now) const;
 
+  // Returns what the messages rather seem to mean while a doubt is not settled; absent otherwise.
+  [[nodiscard]] std::optional<ImuConvention> Suspected() const;
+
   // A mean force over a rest tells this of the convention under which it was read.
   struct ForceVerdict {
     ForceAtRest force = ForceAtRest::kUnclear;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "lio/pipeline/options_fields.hpp"
-#include "lio/verdict/rig_findings.hpp"
+#include "pipeline/convention_causes.hpp"
 #include "pipeline/initializing.hpp"
 
 namespace lio {
@@ -20,37 +20,6 @@ std::string NameOfUnits(ImuUnits units) {
 
 std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
-}
-
-// Turns the extrinsic into the axes that the messages were found to have; its translation stays.
-Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
-  const Pose T = rig.T_imu_lidar.value_or(Pose{});
-  return {(Quaternion(found.R_imu_sent).conjugate() * T.rotation).normalized(), T.translation};
-}
-
-// Why a stated convention is not the messages'. Turned axes and a turned extrinsic are the same to
-// all that moves: both are named.
-std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig,
-                                    const std::string& evidence) {
-  const std::string read_them = "rig:\n  imu:\n    units: auto\n";
-  if (found.R_imu_sent == Matrix3::Identity()) {
-    return {{CauseKind::kImuUnits, Trust::kNo, 0.0, evidence, read_them}};
-  }
-  return {{CauseKind::kExtrinsicRotation, Trust::kNo, 0.0, evidence,
-           ExtrinsicYaml(TurnedExtrinsic(found, rig))},
-          {CauseKind::kImuAxes, Trust::kNo, 0.0, evidence, read_them}};
-}
-
-// Tells the user what to configure for messages of the convention that was found.
-std::string FixFor(const ImuConvention& found, const Rig& rig) {
-  const std::string fix = "set rig.imu.units: auto";
-  if (found.R_imu_sent == Matrix3::Identity()) return fix + " or " + NameOfUnits(UnitsOf(found));
-  const Pose T = TurnedExtrinsic(found, rig);
-  return fmt::format(
-      "{}, or turn rig.T_imu_lidar: translation_m: [{:.3f}, {:.3f}, {:.3f}], rotation_wxyz: "
-      "[{:.5f}, {:.5f}, {:.5f}, {:.5f}]",
-      fix, T.translation.x(), T.translation.y(), T.translation.z(), T.rotation.w(), T.rotation.x(),
-      T.rotation.y(), T.rotation.z());
 }
 
 }  // namespace
@@ -122,9 +91,9 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   const Rig& rig = context_.options.rig;
   const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
   if (rig.imu.units != ImuUnits::kAutomatic) {
-    context_.examiner.Contradict(ConventionCauses(found, rig, what));
+    context_.examiner.Contradict(ConventionCauses(found, rig, Trust::kNo, what));
     return Reject(stamp, what + ", rig.imu.units says " + NameOfUnits(rig.imu.units) + ": " +
-                             FixFor(found, rig));
+                             ConventionFix(found, rig));
   }
   if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
   context_.stream.SetConvention(found);

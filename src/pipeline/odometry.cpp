@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lio/base/chi_square.hpp"
+#include "pipeline/convention_causes.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/mode_driver.hpp"
 #include "pipeline/sweep_queue.hpp"
@@ -176,7 +177,15 @@ std::vector<Output> Odometry::TakeOutputs() {
 }
 
 Verdict Odometry::Judge() const {
-  return impl_->examiner.Judge(impl_->counters);
+  std::vector<Cause> suspected;
+  if (const auto convention = impl_->convention.Suspected()) {
+    suspected = ConventionCauses(
+        *convention, impl_->options.rig, Trust::kDoubtful,
+        "scan matching and the IMU contradict each other, and turns were too few to be sure; "
+        "likeliest: " +
+            Describe(*convention));
+  }
+  return impl_->examiner.Judge(impl_->counters, std::move(suspected));
 }
 
 Trust Odometry::trust() const {

@@ -12,6 +12,7 @@
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/command_line.hpp"
 #include "lio/io/file_kind.hpp"
+#include "lio/io/input_guard.hpp"
 #include "python/bindings.hpp"
 #include "python/errors.hpp"
 #include "python/wishes.hpp"
@@ -43,12 +44,11 @@ std::optional<Value> Choose(const std::optional<std::string>& name, const char* 
   throw UsageError(fmt::format("{}: expects one of {}, not '{}'", option, known, *name));
 }
 
-// No output may replace the recording, and results or logs need not be converted.
-void Guard(const fs::path& input, const std::vector<std::optional<fs::path>>& outputs) {
-  for (const auto& output : outputs) {
-    if (output) RefuseToOverwrite(input, *output);
-  }
-  if (const std::string why = WhyNoRecording(input); !why.empty()) throw InputError(why);
+// No output may replace an input, and results or logs need not be converted. The recording is the
+// first of the inputs.
+void Guard(const Paths& inputs, const std::vector<std::optional<fs::path>>& outputs) {
+  for (const auto& output : outputs) RefuseToOverwrite(inputs, {output.value_or("")});
+  if (const std::string why = WhyNoRecording(inputs.front()); !why.empty()) throw InputError(why);
 }
 
 // Lets Python's handlers of signals run, and throws what they raise: KeyboardInterrupt ends a
@@ -92,7 +92,7 @@ Conversion ConvertBag(const fs::path& input, const fs::path& output, Wishes wish
   if (options.truth_topic && !options.truth_file) {
     throw UsageError("truth_topic: needs truth, the file to write");
   }
-  Guard(input, {output, options.truth_file});
+  Guard({input}, {output, options.truth_file});
   return Run("rosbag", options, ConvertRosbag);
 }
 
@@ -105,8 +105,7 @@ Conversion ConvertCapture(const fs::path& input, const fs::path& output, Wishes 
   options.metadata = wishes.Path("metadata");
   options.whole_scans = wishes.Flag("whole_scans");
   wishes.DemandAllTaken();
-  Guard(input, {output});
-  if (options.imu) RefuseToOverwrite(*options.imu, output);
+  Guard(InputsOf(options), {output});
   return Run("pcap", options, ConvertPcap);
 }
 
@@ -118,7 +117,7 @@ Conversion ConvertRaw(const fs::path& input, const fs::path& output, Wishes wish
   options.rig_file = wishes.Path("rig");
   options.imu_rate_hz = wishes.Number("imu_rate_hz", 1.0, 10'000.0);
   wishes.DemandAllTaken();
-  Guard(input, {output, options.truth_file, options.rig_file});
+  Guard(InputsOf(options), {output, options.truth_file, options.rig_file});
   return Run("kitti-raw", options, ConvertKittiRaw);
 }
 
@@ -134,8 +133,7 @@ Conversion ConvertSequence(const fs::path& input, const fs::path& output, Wishes
   if (options.poses_file && !options.truth_file) {
     throw UsageError("poses: needs truth, the file to write");
   }
-  Guard(input, {output, options.truth_file});
-  if (options.poses_file) Guard(*options.poses_file, {output, options.truth_file});
+  Guard(InputsOf(options), {output, options.truth_file});
   return Run("kitti-odometry", options, ConvertKittiOdometry);
 }
 

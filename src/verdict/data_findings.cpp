@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lio/imu/rest.hpp"
+#include "lio/verdict/rig_examiner.hpp"
 
 namespace lio {
 namespace {
@@ -81,7 +82,10 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                                   noise.gyro, noise.accel),
                       ""});
   }
-  const bool is_still = tally.num_rows() > 0 && tally.path_m() < kRest.whole_run.max_path_m &&
+  // Nobody knows what the body did while it had no poses.
+  const bool is_watched = tally.Coverage() >= kRigExaminer.doubtful_coverage;
+  const bool is_still = is_watched && tally.num_rows() > 0 &&
+                        tally.path_m() < kRest.whole_run.max_path_m &&
                         tally.turned_rad() < kRest.whole_run.max_turn_rad;
   if (is_still && causes.empty()) {
     causes.push_back({CauseKind::kNoMotion, Trust::kYes, 0.0,

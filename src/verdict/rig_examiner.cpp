@@ -82,7 +82,7 @@ void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_li
   trust_ = Trust::kDoubtful;
 }
 
-Verdict RigExaminer::Judge(const Counters& counters) const {
+Verdict RigExaminer::Judge(const Counters& counters, std::vector<Cause> suspected) const {
   Verdict verdict;
   verdict.coverage = tally_.Coverage();
   verdict.path_m = tally_.path_m();
@@ -97,6 +97,10 @@ Verdict RigExaminer::Judge(const Counters& counters) const {
   if (told_ && !std::ranges::count(verdict.causes, told_->kind, &Cause::kind)) {
     verdict.causes.push_back(*told_);
   }
+  std::erase_if(suspected, [&verdict](const Cause& cause) {
+    return std::ranges::count(verdict.causes, cause.kind, &Cause::kind) > 0;
+  });
+  append(std::move(suspected));
   if (contradictions_.empty()) append(FindDataFaults(counters, tally_, uses_imu_));
   // Equal ones stay in their order: rigs are more often wrong than data.
   std::ranges::stable_sort(verdict.causes, std::greater<>{}, &Cause::leaves);

@@ -183,8 +183,10 @@ TEST(ImuClassifier, WrongAxesAreOutOfFavourOnceADriveHasBegun) {
   setup.motion = DriveOff;
   setup.to_s = 2.2;
   EXPECT_FALSE(After(setup).FavoursAnother());
+  EXPECT_EQ(After(setup).Favoured(), std::nullopt);
   setup.sent_as.R_imu_sent = ExpSo3(Vector3(0, 0, M_PI / 2)).toRotationMatrix().array().round();
   EXPECT_TRUE(After(setup).FavoursAnother());
+  EXPECT_EQ(After(setup).Favoured(), setup.sent_as) << "the force tells the way that it drives off";
   EXPECT_NE(Classify(setup).finding, Finding::kOtherwise) << "too little for a verdict";
 }
 

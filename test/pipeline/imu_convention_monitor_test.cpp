@@ -210,9 +210,12 @@ TEST(ImuConventionMonitor, GatedScansRaiseADoubtWhereAnotherConventionFitsBetter
 TEST(ImuConventionMonitor, ADoubtCountsOnce) {
   Watched drive(kTurned, DriveOff);
   drive.AddSteps(14);
+  EXPECT_EQ(drive.monitor.Suspected(), std::nullopt);
   ASSERT_TRUE(drive.monitor.IsContradicted(drive.Facts(2)));
+  EXPECT_EQ(drive.monitor.Suspected(), kTurned);
   EXPECT_FALSE(drive.monitor.IsContradicted(drive.Facts(2)));
   drive.monitor.ForgetDoubt();
+  EXPECT_EQ(drive.monitor.Suspected(), std::nullopt);
   EXPECT_TRUE(drive.monitor.IsContradicted(drive.Facts(2)));
 }
 

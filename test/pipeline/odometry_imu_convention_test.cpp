@@ -110,6 +110,24 @@ TEST(OdometryImuConvention, RatesAndAxesAreFoundAfterAStartAtRest) {
   }
 }
 
+// On a straight road the force alone shows that axes are turned, which is too little to be sure.
+TEST(OdometryImuConvention, ADoubtThatNoTurnSettlesIsNamedByTheVerdict) {
+  test::DriveOptions drive;
+  drive.motion = [start = test::Driving()(0.0)](double t_s) {
+    const double since_s = std::max(0.0, t_s - 1.5);
+    return start * Pose{Quaternion::Identity(), Vector3(since_s * since_s, 0.0, 0.0)};
+  };
+  const Messages plain = SimulateDrive(test::Street(), drive);
+  EXPECT_TRUE(RunOdometry(plain, test::DriveRig()).verdict.causes.empty());
+  const RunResult run = RunOdometry(SentAs(plain, kInTurnedAxes), test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(run, "waits for turns"));
+  ASSERT_EQ(run.verdict.causes.size(), 2U);
+  EXPECT_EQ(run.verdict.causes[0].kind, CauseKind::kExtrinsicRotation);
+  EXPECT_NE(run.verdict.causes[0].fix.find("rotation_wxyz"), std::string::npos);
+  EXPECT_EQ(run.verdict.causes[1].kind, CauseKind::kImuAxes);
+  EXPECT_NE(run.verdict.trust, Trust::kYes);
+}
+
 TEST(OdometryImuConvention, TheSameComesOutHoweverSlowMatchingIs) {
   const Messages messages = SentAs(test::MovingStartDrive(4.0), kInDeg);
   EXPECT_TRUE(test::Bytes(RunOdometry(messages, test::DriveRig()).scans) ==

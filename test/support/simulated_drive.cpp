@@ -200,6 +200,7 @@ RunResult RunOdometry(const Messages& messages, const Options& options, int lag)
   Collect(odometry, result);
   result.counters = odometry.counters();
   result.status = odometry.status();
+  result.verdict = odometry.Judge();
   return result;
 }
 

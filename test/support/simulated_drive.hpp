@@ -52,6 +52,7 @@ struct RunResult {
   std::vector<Notice> notices;
   Counters counters;
   TrackingStatus status = TrackingStatus::kInit;
+  Verdict verdict;
 };
 
 // `lag` is the number of messages between a job's start and its end, as with a slow matching

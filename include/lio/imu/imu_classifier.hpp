@@ -61,6 +61,9 @@ class ImuClassifier {
   // Returns true when another convention fits slightly better. When the poses are wrong rather than
   // the convention, as when scans hold to the rings of a standstill, no other fits better.
   bool FavoursAnother() const;
+  // Returns that one: among those that fit nearly as well as the best, the one that differs from
+  // the expected in the fewest points. Absent where several do, or where none fits better.
+  [[nodiscard]] std::optional<ImuConvention> Favoured() const;
   bool HasMoved() const { return evidence_.HasMoved(); }
 
  private:

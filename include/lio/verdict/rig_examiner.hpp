@@ -55,7 +55,8 @@ class RigExaminer {
   // The extrinsic is another one from here on, since a look has found the rig's wrong, or has
   // bettered what an earlier one found. T_old_new: MotionRecord::SetImu.
   void SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar, const Pose& T_old_new);
-  [[nodiscard]] Verdict Judge(const Counters& counters) const;
+  // `suspected`: causes that the run has made likely without being sure.
+  [[nodiscard]] Verdict Judge(const Counters& counters, std::vector<Cause> suspected = {}) const;
   // The trust that was left at the last look.
   [[nodiscard]] Trust trust() const { return trust_; }
   // Those of the last look; nothing before the first, and after the rig was changed.
