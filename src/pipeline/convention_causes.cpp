@@ -18,22 +18,31 @@ Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
 
 }  // namespace
 
+std::string NameOfUnits(ImuUnits units) {
+  return std::string(kEnumNames<ImuUnits>[static_cast<std::size_t>(units)]);
+}
+
 std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig, Trust leaves,
                                     const std::string& evidence) {
-  const std::string read_them = "rig:\n  imu:\n    units: auto\n";
+  // Automatic reading did not find it: then only a statement helps, and no unit states axes.
+  const bool is_automatic = rig.imu.units == ImuUnits::kAutomatic;
+  const auto units_yaml = [](ImuUnits units) {
+    return "rig:\n  imu:\n    units: " + NameOfUnits(units) + "\n";
+  };
   if (found.R_imu_sent == Matrix3::Identity()) {
-    return {{CauseKind::kImuUnits, leaves, 0.0, evidence, read_them}};
+    return {{CauseKind::kImuUnits, leaves, 0.0, evidence,
+             units_yaml(is_automatic ? UnitsOf(found) : ImuUnits::kAutomatic)}};
   }
   return {{CauseKind::kExtrinsicRotation, leaves, 0.0, evidence,
            ExtrinsicYaml(TurnedExtrinsic(found, rig))},
-          {CauseKind::kImuAxes, leaves, 0.0, evidence, read_them}};
+          {CauseKind::kImuAxes, leaves, 0.0, evidence,
+           is_automatic ? "" : units_yaml(ImuUnits::kAutomatic)}};
 }
 
 std::string ConventionFix(const ImuConvention& found, const Rig& rig) {
-  const auto units = static_cast<std::size_t>(UnitsOf(found));
   const std::string fix = "set rig.imu.units: auto";
   if (found.R_imu_sent == Matrix3::Identity()) {
-    return fix + " or " + std::string(kEnumNames<ImuUnits>[units]);
+    return fix + " or " + NameOfUnits(UnitsOf(found));
   }
   const Pose T = TurnedExtrinsic(found, rig);
   return fmt::format(

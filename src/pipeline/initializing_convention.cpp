@@ -14,10 +14,6 @@
 namespace lio {
 namespace {
 
-std::string NameOfUnits(ImuUnits units) {
-  return std::string(kEnumNames<ImuUnits>[static_cast<std::size_t>(units)]);
-}
-
 std::string NameOfGravity(GravityInput gravity) {
   return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
 }

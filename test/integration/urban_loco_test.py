@@ -2,9 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Tests bags in UrbanLoco's layout, with and without point times, each with its own extrinsic."""
+import json
 import unittest
 
 import support
+
+EXIT_NO_TRUST = 6
 
 
 class UrbanLoco(unittest.TestCase):
@@ -33,6 +36,25 @@ class UrbanLoco(unittest.TestCase):
 
     def test_bag_without_point_time_tracks_to_six_centimetres(self):
         self.check("ulhk_sample_notime", 0.06)
+
+    def test_a_lidar_turned_by_a_quarter_is_named_on_a_straight_road_and_the_fix_is_right(self):
+        bag = support.unpacked_bag("ulhk_sample_notime")
+        truth = support.data_file("ulhk_sample_notime.gt.tum")
+        folder = support.WORK / "stranger"
+        done = support.run("lio-run", bag, "--out", folder, "--overwrite", "--truth", truth)
+        self.assertEqual(done.returncode, EXIT_NO_TRUST, done.stderr)
+        verdict = json.loads((folder / "verdict.json").read_text())
+        self.assertEqual([cause["kind"] for cause in verdict["causes"]],
+                         ["extrinsic_rotation", "imu_axes"])
+        corrected = folder / "rig_corrected.yaml"
+        self.assertIn(str(corrected), done.stdout)
+        rig = support.WORK / "stranger.yaml"
+        rig.write_text(corrected.read_text())
+        again = support.run("lio-run", bag, "--rig", rig, "--out", folder, "--overwrite",
+                            "--truth", truth)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        figures = json.loads((folder / "eval.json").read_text())
+        self.assertLessEqual(figures["ape"]["position_m"]["rmse"], 0.06)
 
 
 if __name__ == "__main__":

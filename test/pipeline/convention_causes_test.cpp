@@ -24,6 +24,11 @@ TEST(ConventionCauses, OtherUnitsAreCalledUnits) {
   ASSERT_EQ(causes.size(), 1U);
   EXPECT_EQ(causes[0].kind, CauseKind::kImuUnits);
   EXPECT_EQ(causes[0].evidence, "why");
+  EXPECT_EQ(causes[0].fix, "rig:\n  imu:\n    units: g\n") << "automatic reading did not find it";
+  Rig stated;
+  stated.imu.units = ImuUnits::kSi;
+  EXPECT_EQ(ConventionCauses(in_g, stated, Trust::kNo, "why")[0].fix,
+            "rig:\n  imu:\n    units: auto\n");
   EXPECT_EQ(ConventionFix(in_g, Rig{}), "set rig.imu.units: auto or g");
 }
 
@@ -37,6 +42,7 @@ TEST(ConventionCauses, TurnedAxesAndATurnedExtrinsicAreBothNamedAndTheTranslatio
   EXPECT_EQ(causes[1].kind, CauseKind::kImuAxes);
   const Pose corrected{Quaternion(Turned().R_imu_sent).conjugate(), rig.T_imu_lidar->translation};
   EXPECT_EQ(causes[0].fix, ExtrinsicYaml(corrected));
+  EXPECT_EQ(causes[1].fix, "") << "the axes are read automatically already";
   for (const Cause& cause : causes) EXPECT_EQ(cause.leaves, Trust::kDoubtful);
 }
 
