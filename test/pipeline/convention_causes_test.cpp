@@ -40,7 +40,8 @@ TEST(ConventionCauses, TurnedAxesAndATurnedExtrinsicAreBothNamedAndTheTranslatio
   ASSERT_EQ(causes.size(), 2U);
   EXPECT_EQ(causes[0].kind, CauseKind::kExtrinsicRotation);
   EXPECT_EQ(causes[1].kind, CauseKind::kImuAxes);
-  const Pose corrected{Quaternion(Turned().R_imu_sent).conjugate(), rig.T_imu_lidar->translation};
+  const Pose corrected{Quaternion(Matrix3(Turned().R_imu_sent.transpose())),
+                       rig.T_imu_lidar->translation};
   EXPECT_EQ(causes[0].fix, ExtrinsicYaml(corrected));
   EXPECT_EQ(causes[1].fix, "") << "the axes are read automatically already";
   for (const Cause& cause : causes) EXPECT_EQ(cause.leaves, Trust::kDoubtful);

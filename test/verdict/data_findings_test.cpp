@@ -23,6 +23,7 @@ RunTally RunAt(double speed_mps, int num_rows = 100) {
   for (int i = 0; i < 100; ++i) {
     PoseRow row;
     row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
+    row.is_located = true;
     row.T_map_imu.translation.x() = 0.1 * speed_mps * i;
     tally.AddImu(row.stamp);
     tally.AddSweep(row.stamp);
