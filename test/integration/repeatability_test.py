@@ -3,7 +3,6 @@
 # SPDX-License-Identifier: MIT
 """Tests that one log always gives the same bytes: again, on more threads, and live from
 lcm-logplayer."""
-import csv
 import subprocess
 import unittest
 
@@ -13,13 +12,6 @@ DURATION_S = "6"
 # These files of a run hold no computing times.
 EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
          "trajectory_world.tum", "covariance_world.csv", "options.yaml", "map.pcd")
-
-
-def untimed(folder):
-    """Reads registration.csv without its stage times."""
-    with open(folder / "registration.csv", newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    return [{k: v for k, v in row.items() if not k.endswith("_ms")} for row in rows]
 
 
 class Repeatability(unittest.TestCase):
@@ -38,14 +30,14 @@ class Repeatability(unittest.TestCase):
     def test_second_run_gives_the_same_bytes(self):
         folder = support.replay(self.drive / "log.lcm", "repeat-again", *self.words, "--map")
         self.check_same(folder, EXACT)
-        self.assertEqual(untimed(self.first), untimed(folder))
+        self.assertEqual(support.untimed(self.first), support.untimed(folder))
 
     def test_more_threads_give_the_bytes_of_one(self):
         for threads in ("2", "3"):
             folder = support.replay(self.drive / "log.lcm", f"repeat-threads-{threads}",
                                     *self.words, "--map", "--threads", threads)
             self.check_same(folder, EXACT)
-            self.assertEqual(untimed(self.first), untimed(folder))
+            self.assertEqual(support.untimed(self.first), support.untimed(folder))
 
     def test_live_run_gives_the_bytes_of_replay(self):
         folder = support.WORK / "repeat-live"

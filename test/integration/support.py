@@ -7,6 +7,7 @@ LIO_DATA, else ../shared/data beside the source tree; without it a test is skipp
 Everything is made once and stays under the build folder.
 """
 import contextlib
+import csv
 import fcntl
 import json
 import os
@@ -92,6 +93,13 @@ def replay(log, out, *words):
     """Runs lio-replay into WORK/out, over an earlier run there, and returns that folder."""
     run_well("lio-replay", *words, log, "--out", WORK / out, "--overwrite")
     return WORK / out
+
+
+def untimed(folder):
+    """Reads registration.csv without its stage times."""
+    with open(folder / "registration.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    return [{k: v for k, v in row.items() if not k.endswith("_ms")} for row in rows]
 
 
 def stats(folder):
