@@ -10,22 +10,8 @@
 #include "app/command_rules.hpp"
 #include "app/end_run.hpp"
 #include "lio/io/host_clock.hpp"
-#include "lio/io/input_error.hpp"
 
 namespace lio {
-
-namespace {
-
-std::string WhyInputIsLost(const Paths& inputs, const std::string& output) {
-  try {
-    RefuseToOverwrite(inputs, {output});
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-}  // namespace
 
 CommandDesk::CommandDesk(const Neighbours& neighbours, const Setting& setting,
                          std::function<RunStats()> make_stats, OnFault on_write_failure)
@@ -141,7 +127,7 @@ void CommandDesk::SaveMap(const Request& request) {
       }
       const std::string& name = request.command.name;
       const std::string path = (setting_.files->folder() / name).string();
-      std::string failure = WhyInputIsLost(setting_.inputs, path);
+      std::string failure = WhyInputIsLost(setting_.inputs, {path});
       if (failure.empty()) failure = writer->SaveMap(points, name);
       Answer(request, failure.empty(),
              failure.empty() ? fmt::format("{} points are in {}", points.size(), path) : failure);

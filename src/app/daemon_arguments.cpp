@@ -83,8 +83,8 @@ std::filesystem::path DaemonArguments::FolderOfFiles() const {
   return out.empty() || overwrites ? std::filesystem::path(out) : FreeFolder(out);
 }
 
-void DaemonArguments::GuardInputs() const {
-  if (!out.empty()) RefuseToOverwrite(Inputs(), FilesOfRun(FolderOfFiles()));
+std::string DaemonArguments::WhyInputIsLost() const {
+  return out.empty() ? "" : lio::WhyInputIsLost(Inputs(), FilesOfRun(FolderOfFiles()));
 }
 
 }  // namespace lio

@@ -31,8 +31,8 @@ struct DaemonArguments {
   [[nodiscard]] Paths Inputs() const;
   // Returns the folder that the files of a start would go to; empty without --out.
   [[nodiscard]] std::filesystem::path FolderOfFiles() const;
-  // Throws UsageError when the files of --out would replace one of the inputs.
-  void GuardInputs() const;
+  // Says that the files of --out would replace one of the inputs; empty when they do not.
+  [[nodiscard]] std::string WhyInputIsLost() const;
 };
 
 }  // namespace lio

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "lio/io/bus.hpp"
-#include "lio/io/input_error.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/run_folder.hpp"
 
@@ -32,15 +31,6 @@ std::string FilesText(const DaemonArguments& arguments) {
   if (arguments.out.empty()) return "none (--out)";
   return fmt::format("{}{}", arguments.FolderOfFiles().string(),
                      arguments.writes_map ? ", with map.pcd" : "");
-}
-
-std::string WhyInputsAreLost(const DaemonArguments& arguments) {
-  try {
-    arguments.GuardInputs();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 std::string MapText(const DaemonArguments& arguments, const InitialMapPtr& map) {
@@ -73,7 +63,7 @@ int CheckDaemon(const DaemonArguments& arguments, const Options& options, bool h
     fmt::print(stderr, "liod: {}\n", fault);
     note(code);
   };
-  tell(WhyInputsAreLost(arguments), kExitUsage);
+  tell(arguments.WhyInputIsLost(), kExitUsage);
   InitialMapPtr map;
   if (const auto code = LoadInitialMap("liod", arguments.initial_map, options, map)) note(*code);
   tell(WhyUnusableUrl(EffectiveUrl(arguments.lcm_url)), kExitNoTransport);

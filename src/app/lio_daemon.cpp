@@ -106,7 +106,7 @@ int Main(int argc, char** argv) {
     return CheckDaemon(arguments, options, code.has_value());
   }
   if (code) return *code;
-  arguments.GuardInputs();
+  if (const std::string why = arguments.WhyInputIsLost(); !why.empty()) throw UsageError(why);
   InitialMapPtr initial_map;
   if (const auto unusable = LoadInitialMap("liod", arguments.initial_map, options, initial_map)) {
     return *unusable;

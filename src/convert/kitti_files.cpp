@@ -166,6 +166,10 @@ void AssignKittiRings(std::vector<LidarPoint>& points) {
   }
 }
 
+std::filesystem::path WholePath(const std::filesystem::path& folder) {
+  return (std::filesystem::absolute(folder) / "").lexically_normal().parent_path();
+}
+
 std::map<int, std::filesystem::path> NumberedFiles(const std::filesystem::path& folder) {
   std::map<int, std::filesystem::path> files;
   std::error_code ignored;

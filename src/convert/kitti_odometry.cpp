@@ -98,7 +98,7 @@ void RaiseElevation(LidarPoint& point, double angle_rad) {
 }
 
 fs::path UsualPoses(const fs::path& sequence) {
-  const fs::path whole = (fs::absolute(sequence) / "").lexically_normal().parent_path();
+  const fs::path whole = WholePath(sequence);
   return whole.parent_path().parent_path() / "poses" / (whole.filename().string() + ".txt");
 }
 

@@ -177,9 +177,9 @@ void RawConversion::AddScan(std::vector<LidarPoint> points, Timestamp middle, Du
   ++scan_seq_;
 }
 
-// The calibration is one folder up, whether or not the drive was named with a slash at its end.
+// The calibration is one folder up.
 fs::path CalibrationOfDay(const fs::path& drive) {
-  return (fs::absolute(drive) / "..").lexically_normal() / "calib_imu_to_velo.txt";
+  return WholePath(drive).parent_path() / "calib_imu_to_velo.txt";
 }
 
 void WriteRig(const fs::path& drive, const fs::path& file) {

@@ -129,19 +129,23 @@ ImuClassifier::Ranking ImuClassifier::Rank(Bends bends) const {
   return ranking;
 }
 
+// Returns the conventions that fit nearly as well as the best; none where the expected is among
+// them.
+std::vector<ImuClassifier::Scored> ImuClassifier::FavouredOverExpected() const {
+  if (evidence_.steps().size() < kClassifier.min_steps) return {};
+  Ranking ranking = Rank(evidence_.FindBends());
+  const double limit = ranking.best + kClassifier.favoured_score * ranking.scale;
+  if (ranking.expected <= limit) return {};
+  std::erase_if(ranking.all, [&](const Scored& scored) { return scored.score > limit; });
+  return std::move(ranking.all);
+}
+
 bool ImuClassifier::FavoursAnother() const {
-  if (evidence_.steps().size() < kClassifier.min_steps) return false;
-  const Ranking ranking = Rank(evidence_.FindBends());
-  return ranking.expected > ranking.best + kClassifier.favoured_score * ranking.scale;
+  return !FavouredOverExpected().empty();
 }
 
 std::optional<ImuConvention> ImuClassifier::Favoured() const {
-  if (evidence_.steps().size() < kClassifier.min_steps) return std::nullopt;
-  Ranking ranking = Rank(evidence_.FindBends());
-  const double limit = ranking.best + kClassifier.favoured_score * ranking.scale;
-  if (ranking.expected <= limit) return std::nullopt;
-  std::erase_if(ranking.all, [&](const Scored& scored) { return scored.score > limit; });
-  return LeastChange(ranking.all);
+  return LeastChange(FavouredOverExpected());
 }
 
 ImuVerdict ImuClassifier::Judge(bool in_doubt) const {

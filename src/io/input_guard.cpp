@@ -54,15 +54,20 @@ bool IsDataIn(const fs::path& folder, const fs::path& file) {
 
 }  // namespace
 
-void RefuseToOverwrite(const Paths& inputs, const Paths& outputs) {
+std::string WhyInputIsLost(const Paths& inputs, const Paths& outputs) {
   std::error_code ignored;
   for (const fs::path& output : outputs) {
     for (const fs::path& input : inputs) {
       if (input.empty() || output.empty()) continue;
       if (!fs::equivalent(input, output, ignored) && !IsDataIn(input, output)) continue;
-      throw UsageError(output.string() + ": is input, name another file to write");
+      return output.string() + ": is input, name another file to write";
     }
   }
+  return {};
+}
+
+void RefuseToOverwrite(const Paths& inputs, const Paths& outputs) {
+  if (const std::string why = WhyInputIsLost(inputs, outputs); !why.empty()) throw UsageError(why);
 }
 
 Paths FilesOfRun(const fs::path& folder) {

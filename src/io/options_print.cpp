@@ -34,7 +34,7 @@ std::string Text(const Quaternion& q) {
 }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string Text(Enum value) {
-  return std::string(kEnumNames<Enum>[static_cast<std::size_t>(value)]);
+  return std::string(EnumName(value));
 }
 
 std::string Limits(const Range& range) {

@@ -18,16 +18,12 @@ Pose TurnedExtrinsic(const ImuConvention& found, const Rig& rig) {
 
 }  // namespace
 
-std::string NameOfUnits(ImuUnits units) {
-  return std::string(kEnumNames<ImuUnits>[static_cast<std::size_t>(units)]);
-}
-
 std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig, Trust leaves,
                                     const std::string& evidence) {
   // Automatic reading did not find it: then only a statement helps, and no unit states axes.
   const bool is_automatic = rig.imu.units == ImuUnits::kAutomatic;
   const auto units_yaml = [](ImuUnits units) {
-    return "rig:\n  imu:\n    units: " + NameOfUnits(units) + "\n";
+    return fmt::format("rig:\n  imu:\n    units: {}\n", EnumName(units));
   };
   if (found.R_imu_sent == Matrix3::Identity()) {
     return {{CauseKind::kImuUnits, leaves, 0.0, evidence,
@@ -42,7 +38,7 @@ std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig, 
 std::string ConventionFix(const ImuConvention& found, const Rig& rig) {
   const std::string fix = "set rig.imu.units: auto";
   if (found.R_imu_sent == Matrix3::Identity()) {
-    return fix + " or " + NameOfUnits(UnitsOf(found));
+    return fmt::format("{} or {}", fix, EnumName(UnitsOf(found)));
   }
   const Pose T = TurnedExtrinsic(found, rig);
   return fmt::format(

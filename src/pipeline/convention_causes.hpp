@@ -14,8 +14,6 @@
 
 namespace lio {
 
-// Returns the word for rig.imu.units.
-[[nodiscard]] std::string NameOfUnits(ImuUnits units);
 // Returns the causes, likeliest first, where `found` is what the messages are in.
 [[nodiscard]] std::vector<Cause> ConventionCauses(const ImuConvention& found, const Rig& rig,
                                                   Trust leaves, const std::string& evidence);

@@ -12,14 +12,6 @@
 #include "pipeline/initializing.hpp"
 
 namespace lio {
-namespace {
-
-std::string NameOfGravity(GravityInput gravity) {
-  return std::string(kEnumNames<GravityInput>[static_cast<std::size_t>(gravity)]);
-}
-
-}  // namespace
-
 bool Initializing::IsInDoubt(Timestamp stamp) const {
   const bool has_restarted = handover_.origin == Handover::Origin::kInertial ||
                              handover_.origin == Handover::Origin::kLidar;
@@ -71,14 +63,14 @@ std::optional<Transition> Initializing::CheckGravity(bool is_there, const std::s
   const GravityInput expected = context_.options.rig.imu.gravity;
   const GravityInput found = is_there ? GravityInput::kPresent : GravityInput::kRemoved;
   if (expected == GravityInput::kAutomatic || expected == found) return std::nullopt;
-  context_.examiner.Contradict({{CauseKind::kImuGravity, Trust::kNo, 0.0,
-                                 fmt::format("gravity is {} in the accelerometer's reading ({})",
-                                             NameOfGravity(found), evidence),
-                                 "rig:\n  imu:\n    gravity: auto\n"}});
+  context_.examiner.Contradict(
+      {{CauseKind::kImuGravity, Trust::kNo, 0.0,
+        fmt::format("gravity is {} in the accelerometer's reading ({})", EnumName(found), evidence),
+        "rig:\n  imu:\n    gravity: auto\n"}});
   return Reject(stamp,
                 fmt::format("gravity is {0} in the accelerometer's reading, but "
                             "rig.imu.gravity says {1} ({2}): set rig.imu.gravity: auto or {0}",
-                            NameOfGravity(found), NameOfGravity(expected), evidence));
+                            EnumName(found), EnumName(expected), evidence));
 }
 
 // Reads all samples by this convention, also those of the past seconds, and begins again with them.
@@ -88,8 +80,8 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   const std::string what = "inertial messages: " + Describe(found) + " (" + evidence + ")";
   if (rig.imu.units != ImuUnits::kAutomatic) {
     context_.examiner.Contradict(ConventionCauses(found, rig, Trust::kNo, what));
-    return Reject(stamp, what + ", rig.imu.units says " + NameOfUnits(rig.imu.units) + ": " +
-                             ConventionFix(found, rig));
+    return Reject(stamp, fmt::format("{}, rig.imu.units says {}: {}", what, EnumName(rig.imu.units),
+                                     ConventionFix(found, rig)));
   }
   if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
   context_.stream.SetConvention(found);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "python/log_reader.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -67,9 +66,7 @@ void LogReader::AddImu(const LogEvent& event) {
 void LogReader::AddChunk(const LogEvent& event) {
   ScanChunk chunk;
   if (!decoder_.Chunk(event.data, chunk)) return;
-  std::uint32_t last_ns = 0;
-  for (const LidarPoint& point : chunk.points) last_ns = std::max(last_ns, point.t_offset_ns);
-  last_chunk_ = {chunk.stamp + Duration{last_ns}, event.utime};
+  last_chunk_ = {chunk.stamp + LastOffset(chunk), event.utime};
   assembler_.Add(std::move(chunk), 0);
   GiveSweeps();
 }

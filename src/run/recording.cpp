@@ -26,11 +26,6 @@ fs::path WithoutSlash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-// Returns the absolute path without a slash at its end, so that its parents have names.
-fs::path WholePath(const fs::path& path) {
-  return WithoutSlash(fs::absolute(path)).lexically_normal();
-}
-
 // A trajectory beside the input is its truth by name: drive.bag, drive.gt.tum or drive.tum.
 std::optional<fs::path> TruthBeside(const fs::path& input) {
   fs::path stem = WithoutSlash(input);

@@ -52,11 +52,9 @@ std::string Imu(const RigDraft& draft) {
   if (!draft.use_imu) return "";
   const ImuRig& imu = draft.rig.imu;
   return "  imu:\n" + Comment(draft.units_reason, "    ") +
-         fmt::format("    units: {}   # or si, g, deg, g_deg\n",
-                     kEnumNames<ImuUnits>.at(static_cast<std::size_t>(imu.units))) +
+         fmt::format("    units: {}   # or si, g, deg, g_deg\n", EnumName(imu.units)) +
          Comment(draft.gravity_reason, "    ") +
-         fmt::format("    gravity: {}   # or present, removed\n",
-                     kEnumNames<GravityInput>.at(static_cast<std::size_t>(imu.gravity))) +
+         fmt::format("    gravity: {}   # or present, removed\n", EnumName(imu.gravity)) +
          Comment(draft.noise_reason, "    ") +
          fmt::format(
              "    gyro_noise_density: {:.3g}    # [rad/s/sqrt(Hz)]\n"

@@ -9,13 +9,14 @@
 #include "stream/stream_parameters.hpp"
 
 namespace lio {
-namespace {
 
 Duration LastOffset(const ScanChunk& chunk) {
   std::uint32_t last = 0;
   for (const LidarPoint& point : chunk.points) last = std::max(last, point.t_offset_ns);
   return Duration{last};
 }
+
+namespace {
 
 bool IsUsable(const ScanChunk& chunk) {
   return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count;

@@ -43,6 +43,9 @@ namespace lio {
 // tests.
 void AssignKittiRings(std::vector<LidarPoint>& points);
 
+// Returns the absolute path of a folder without a slash at its end, so that its parents have names.
+[[nodiscard]] std::filesystem::path WholePath(const std::filesystem::path& folder);
+
 // Returns the data files of a folder by their number ("0000000012.bin" is 12), ascending.
 [[nodiscard]] std::map<int, std::filesystem::path> NumberedFiles(
     const std::filesystem::path& folder);

@@ -46,13 +46,13 @@ struct KittiOdometryReport {
 // Raises a point's elevation by `angle_rad`.
 void RaiseElevation(LidarPoint& point, double angle_rad);
 
-// Throws InputError, or std::runtime_error when an output cannot be written.
 // Returns where the release has the poses of the sequence, whether or not they are there.
 [[nodiscard]] std::filesystem::path UsualPoses(const std::filesystem::path& sequence);
 
 // Returns the files and folders that ConvertKittiOdometry reads.
 [[nodiscard]] std::vector<std::filesystem::path> InputsOf(const KittiOdometryOptions& options);
 
+// Throws InputError, or std::runtime_error when an output cannot be written.
 [[nodiscard]] KittiOdometryReport ConvertKittiOdometry(const KittiOdometryOptions& options);
 
 [[nodiscard]] std::string FormatReport(const KittiOdometryReport& report,

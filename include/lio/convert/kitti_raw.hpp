@@ -51,10 +51,10 @@ struct KittiRawReport {
   }
 };
 
-// Throws InputError, or std::runtime_error when an output cannot be written.
 // Returns the files and folders that ConvertKittiRaw reads.
 [[nodiscard]] std::vector<std::filesystem::path> InputsOf(const KittiRawOptions& options);
 
+// Throws InputError, or std::runtime_error when an output cannot be written.
 [[nodiscard]] KittiRawReport ConvertKittiRaw(const KittiRawOptions& options);
 
 [[nodiscard]] std::string FormatReport(const KittiRawReport& report,

@@ -8,15 +8,18 @@
 // differs from the gyro's between the corrected stamps by
 //   r = Log(dR_gyro^-1 dR_matched) = w_k (d - a_k) - dR^T w_k-1 (d - a_k-1).
 // The model is linear in d. Two oscillators differ by some parts in a million, so d drifts: a
-// Kalman filter of two states, d and its rate. docs/filter.md derives it. It is no state of the
-// error-state filter because the map is built with the same clock: under a steady motion the map
-// absorbs the offset, and the two are told apart only as well as the map's noise is known. Turns
-// between neighbouring scans depend neither on the map's drift nor on velocity. The information in
-// the translations is not used. The error of a turn beyond what is claimed is learned from the
-// innovations' component across the change of rate. Limits. A turn whose rate hardly changes holds
-// no information and is left out: on a straight road the estimate goes on at the rate that was
-// found before. The estimate stays within kMax_s of zero. Neighbouring turns share a scan's error
-// with opposite signs; they are treated as independent, which overstates the variance.
+// Kalman filter of two states, d and its rate (docs/filter.md).
+//
+// It is no state of the error-state filter because the map is built with the same clock: under a
+// steady motion the map absorbs the offset, and the two are told apart only as well as the map's
+// noise is known. Turns between neighbouring scans depend neither on the map's drift nor on
+// velocity. The information in the translations is not used. The error of a turn beyond what is
+// claimed is learned from the innovations' component across the change of rate.
+//
+// Limits. A turn whose rate hardly changes holds no information and is left out: on a straight road
+// the estimate goes on at the rate that was found before. The estimate stays within kMax_s of zero.
+// Neighbouring turns share a scan's error with opposite signs; they are treated as independent,
+// which overstates the variance.
 #pragma once
 
 #include <deque>

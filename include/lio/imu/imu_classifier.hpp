@@ -82,6 +82,7 @@ class ImuClassifier {
   };
 
   Ranking Rank(Bends bends) const;
+  std::vector<Scored> FavouredOverExpected() const;
   std::vector<Scored> ScoreAll(Bends bends) const;
   void ScoreForces(const ImuConvention& rates, Bends bends, std::vector<Scored>& all) const;
   std::optional<ImuConvention> LeastChange(std::span<const Scored> likely) const;

@@ -23,7 +23,9 @@ class SequenceHoles {
   // seconds of a fast IMU.
   static constexpr std::int32_t kMaxHole = 10'000;
 
+  void BeginAt(std::uint32_t number);
   void Advance(std::int32_t step);
+  void FillIn(std::int32_t steps_back);
 
   bool has_begun_ = false;
   std::uint32_t newest_ = 0;

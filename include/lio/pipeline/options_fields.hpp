@@ -41,6 +41,11 @@ inline constexpr std::array<std::string_view, 3> kEnumNames<GravityInput>{"auto"
 template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<LoamTarget>{"map", "scan"};
 
+template <class Enum>
+[[nodiscard]] constexpr std::string_view EnumName(Enum value) {
+  return kEnumNames<Enum>[static_cast<std::size_t>(value)];
+}
+
 // Accepts structs whose fields VisitFields lists.
 template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);

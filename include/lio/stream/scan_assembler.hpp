@@ -15,6 +15,9 @@
 
 namespace lio {
 
+// Returns when the chunk's latest point was measured, after the chunk's stamp.
+[[nodiscard]] Duration LastOffset(const ScanChunk& chunk);
+
 class ScanAssembler {
  public:
   // Counts into `counters`, which outlives the assembler.
