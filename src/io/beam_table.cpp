@@ -3,6 +3,8 @@
 #include "lio/io/beam_table.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -23,23 +25,11 @@ std::vector<double> Radians(const YAML::Node& degrees) {
   return values;
 }
 
-std::string KnownModels(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  std::string text = "generic";
-  for (const std::string& name : names) text += ", " + name;
-  return text;
-}
-
 // Returns the folder of the Python module, where this code is in one. A program may have been
 // called by a relative name, which would mean another folder by now: then there is nothing.
 std::optional<fs::path> FolderOfModule() {
   Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&KnownModels), &info) == 0) return std::nullopt;
+  if (dladdr(reinterpret_cast<const void*>(&Radians), &info) == 0) return std::nullopt;
   const fs::path file = info.dli_fname == nullptr ? "" : info.dli_fname;
   if (!file.is_absolute()) return std::nullopt;
   return file.parent_path();
@@ -55,11 +45,21 @@ int BeamTable::NearestBeam(double elevation) const {
   return static_cast<int>(above - elevation_rad.begin()) - (nearer_above ? 0 : 1);
 }
 
+std::vector<std::string> LidarModels() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(ConfigDirectory() / "lidars", ignored)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 BeamTable LoadBeamTable(const std::string& model) {
-  const fs::path folder = ConfigDirectory() / "lidars";
-  const fs::path path = folder / (model + ".yaml");
+  const fs::path path = ConfigDirectory() / "lidars" / (model + ".yaml");
   if (model.find('/') != std::string::npos || !fs::exists(path)) {
-    throw UsageError("no lidar model '" + model + "': known are " + KnownModels(folder));
+    throw UsageError(fmt::format("no lidar model '{}': known are generic, {}", model,
+                                 fmt::join(LidarModels(), ", ")));
   }
   BeamTable table;
   table.model = model;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "lio/io/beam_table.hpp"
 #include "lio/io/output_file.hpp"
 
 namespace lio::sim {
@@ -22,6 +23,12 @@ double WalkDensity(const InertialModel& model) {
 
 double BiasStd(const InertialModel& model) {
   return std::max(1e-5, std::hypot(model.turn_on_bias_std, model.bias_instability));
+}
+
+// Returns the model's name where liod has a table for it; generic for a data file of one's own.
+std::string ModelInRig(const std::string& name) {
+  const std::vector<std::string> models = LidarModels();
+  return std::ranges::binary_search(models, name) ? name : "generic";
 }
 
 void WriteVector(std::ostream& file, const char* key, const Vector3& v) {
@@ -41,7 +48,7 @@ void WriteRigFile(const std::filesystem::path& path, const Scenario& scenario,
   WriteVector(file, "    translation_m", T.translation);
   file << "    rotation_wxyz: [" << T.rotation.w() << ", " << T.rotation.x() << ", "
        << T.rotation.y() << ", " << T.rotation.z() << "]\n"
-       << "  lidar:\n    model: " << options.lidar.name
+       << "  lidar:\n    model: " << ModelInRig(options.lidar.name)
        << "\n    min_range_m: " << scenario.min_range_m
        << "\n    max_range_m: " << options.lidar.max_range_m << "\n";
   if (scenario.own_vehicle_box) {

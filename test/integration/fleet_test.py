@@ -206,6 +206,22 @@ class Fleet(unittest.TestCase):
         same = table(self.whole)["ndt", "street-1"]
         self.assertEqual(row["ape_m"], same["ape_m"], "the simulated drive has this seed, too")
 
+    def test_6_a_sensor_of_ones_own_is_part_of_its_drive(self):
+        file, out, sensor = (self.folder / name for name in ("own.yaml", "own", "my16.yaml"))
+        model = (support.SOURCE / "config/lidars/vlp16.yaml").read_text()
+        file.write_text("drives:\n"
+                        "  - {name: own, sim: --scenario street --duration 5 --lidar my16.yaml}\n")
+        figures = []
+        for noise_m in ("0.02", "0.05"):
+            sensor.write_text(model.replace("model: vlp16", "model: my16")
+                              .replace("range_std_m: 0.02", f"range_std_m: {noise_m}"))
+            done = fleet(file, out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            row = table(out)["default", "own-1"]
+            self.assertEqual(row["status"], "done", row["said"])
+            figures.append(row["ape_m"])
+        self.assertNotEqual(*figures)
+
     def test_7_all_faults_are_told_at_once_with_their_lines(self):
         file = self.folder / "faulty.yaml"
         file.write_text(FAULTY_FILE)

@@ -70,6 +70,13 @@ TEST_F(RigFile, LoadsAsTheVehicleIs) {
   EXPECT_EQ(rig.imu.gravity, GravityInput::kAutomatic);
 }
 
+// A data file of one's own has no table in liod.
+TEST_F(RigFile, ALidarThatLiodDoesNotKnowIsGeneric) {
+  RecordOptions options = SomeSensors();
+  options.lidar.name = "my40";
+  EXPECT_EQ(RoundTrip(SomeScenario(), options).lidar.model, "generic");
+}
+
 // An instability s over a time T looks like a walk of s sqrt(2 / T): 0.004 sqrt(2 / 50) = 0.0008.
 TEST_F(RigFile, NoiseIsTheSensorsOwn) {
   const Rig rig = RoundTrip(SomeScenario(), SomeSensors());

@@ -131,6 +131,11 @@ class Reader:
             self.faults.add(entry.place("seeds"), f"seeds: {text} names none, or one twice")
         return seeds
 
+    def word_of_sim(self, entry, word):
+        """A word that names a file, such as a sensor's, names it from wherever a job runs."""
+        path = self.near(entry, word)
+        return path if pathlib.Path(path).is_file() else word
+
     def drives_of(self, entry, names):
         self.check_keys(entry, DRIVE)
         name = self.name(entry, names)
@@ -146,7 +151,7 @@ class Reader:
                 self.faults.add(entry.place("seeds"), "seeds: only a drive with sim has seeds")
             return [Drive(name, group, input=self.path(entry, "input"), truth=truth, rig=rig,
                           words=words, place=entry.place())]
-        sim = self.words(entry, "sim")
+        sim = tuple(self.word_of_sim(entry, word) for word in self.words(entry, "sim"))
         for word in ("--seed", "--out", "--picture", "--list"):
             if any(given.split("=")[0] == word for given in sim):
                 fix = "name the seeds in seeds" if word == "--seed" else "leave it out"

@@ -45,7 +45,8 @@ def programs(build, *names):
 def drive_key(drive):
     key = dataclasses.asdict(drive) | {"program": program("", "lio-sim")}
     if drive.sim:
-        key["digests"] = programs("", "lio-sim") | {"sensors": sensors_digest()}
+        files = {word: digest(word) for word in drive.sim if pathlib.Path(word).is_file()}
+        key["digests"] = programs("", "lio-sim") | {"sensors": sensors_digest()} | files
     else:
         key["digests"] = programs("", "lio-run")
         key["program"] = program("", "lio-run")

@@ -21,6 +21,9 @@ struct BeamTable {
   [[nodiscard]] int NearestBeam(double elevation) const;
 };
 
+// Returns the names of the models that have a table, sorted.
+[[nodiscard]] std::vector<std::string> LidarModels();
+
 // Throws UsageError that lists the known models when there is no such file, and InputError that
 // names the file and the fault when the file is no beam table.
 [[nodiscard]] BeamTable LoadBeamTable(const std::string& model);
