@@ -94,6 +94,8 @@ RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& 
                                                            : "";
   run.estimate = ReadStamped(dir / ("trajectory" + of_frame + ".tum"));
   run.covariances = ReadCovariances(dir / ("covariance" + of_frame + ".csv"), run.estimate);
+  run.is_level = !std::filesystem::exists(dir / "stats.json") ||
+                 std::filesystem::exists(dir / "trajectory_level.tum");
   const std::filesystem::path registration = dir / "registration.csv";
   run.has_registration = std::filesystem::exists(registration);
   if (!run.has_registration) return run;
@@ -129,7 +131,10 @@ RunErrors ComputeRunErrors(const RunFiles& run) {
       continue;
     }
     const bool is_first = !T_world_truth;
-    if (is_first) T_world_truth = LevelAlignment(truth, row.pose);
+    if (is_first) {
+      T_world_truth =
+          run.is_level ? LevelAlignment(truth, row.pose) : row.pose * truth.Inverse();
+    }
     const double time_s = SecondsBetween(run.estimate.front().stamp, row.stamp);
     const RunInstant instant =
         MakeInstant(time_s, *T_world_truth * truth, row.pose, run.covariances[i]);

@@ -14,7 +14,7 @@ namespace lio {
 std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Add(Arrival arrival,
                                                                    Timestamp newest_imu) {
   arrival.chunk.stamp = PutRight(arrival.chunk.stamp);
-  const Judgement judgement = Judge(arrival.chunk.stamp, newest_imu);
+  const Judgement judgement = Judge(arrival.chunk, newest_imu);
   held_.push_back(std::move(arrival));
   if (judgement == Judgement::kUnclear && !HasHeldTooLong()) return {};
   if (judgement == Judgement::kUnclear) Forget();
@@ -49,16 +49,23 @@ std::vector<LidarClockCorrector::Arrival> LidarClockCorrector::Release(Arrival a
   return Release();
 }
 
-LidarClockCorrector::Judgement LidarClockCorrector::Judge(Timestamp chunk, Timestamp newest_imu) {
+LidarClockCorrector::Judgement LidarClockCorrector::Judge(const ScanChunk& chunk,
+                                                          Timestamp newest_imu) {
   const bool is_in_burst = newest_imu_ == newest_imu;
   if (is_in_burst) return elsewhere_.empty() ? Judgement::kSteady : Judgement::kUnclear;
   const std::optional<Timestamp> before = std::exchange(newest_imu_, newest_imu);
-  if (!before) return Judgement::kSteady;
-  const Sight sight{newest_imu - chunk, newest_imu - *before};
+  const Duration lag = newest_imu - chunk.stamp;
+  const Duration last{chunk.points.empty() ? 0 : chunk.points.back().t_offset_ns};
+  if (!before) {
+    late_by_ = lag - last;
+    return Judgement::kSteady;
+  }
+  const Sight sight{lag, newest_imu - *before, lag - last};
   if (known_.size() < kLidarClock.num_known || !IsElsewhere(sight.lag, UsualLag())) {
     elsewhere_.clear();
     known_.push_back(sight);
     if (known_.size() > kLidarClock.num_known) known_.pop_front();
+    late_by_ = Usual(&Sight::late_by);
     return Judgement::kSteady;
   }
   return JudgeElsewhere(sight, newest_imu);
@@ -100,17 +107,14 @@ void LidarClockCorrector::Forget() {
   elsewhere_.clear();
 }
 
-Duration LidarClockCorrector::UsualLag() const {
-  std::vector<Duration> lags;
-  std::ranges::transform(known_, std::back_inserter(lags), &Sight::lag);
-  return MedianOf(std::move(lags));
+Duration LidarClockCorrector::Usual(Duration Sight::*quantity) const {
+  std::vector<Duration> values;
+  std::ranges::transform(known_, std::back_inserter(values), quantity);
+  return MedianOf(std::move(values));
 }
 
 bool LidarClockCorrector::HasPaused(const Sight& sight) const {
-  std::vector<Duration> strides;
-  std::ranges::transform(known_, std::back_inserter(strides), &Sight::stride);
-  return sight.stride.Seconds() >
-         kLidarClock.pause_in_strides * MedianOf(std::move(strides)).Seconds();
+  return sight.stride.Seconds() > kLidarClock.pause_in_strides * Usual(&Sight::stride).Seconds();
 }
 
 // The lags of one clock spread by themselves, as drivers deliver.

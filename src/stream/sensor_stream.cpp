@@ -282,7 +282,8 @@ void SensorStream::Accept(const ImuSample& sent) {
     ++counters_->num_imu_duplicate;
     return;
   }
-  CloseSweepsBefore(*imu_.newest());
+  // The lidar's clock may be behind, and its driver late: what has not come yet is not lost.
+  CloseSweepsBefore(*imu_.newest() - std::max(lidar_clock_.late_by(), Duration{}));
 }
 
 ImuSample SensorStream::MarkSaturated(ImuSample sent) {

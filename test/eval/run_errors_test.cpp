@@ -56,6 +56,17 @@ TEST(ComputeRunErrors, TiltStaysAnErrorAndYawAndOriginDoNot) {
   EXPECT_LT((rotation * Vector3(instant.error.tail<3>()) - Vector3(-0.01, 0, 0)).norm(), 1e-6);
 }
 
+// Without gravity the estimate's axes are those of the body at the start.
+TEST(ComputeRunErrors, WhereNothingIsLevelTheTiltOfTheStartIsNoError) {
+  const Trajectory truth = test::Helix(50);
+  const Pose tilted{ExpSo3({0.3, -0.2, 1.0}), {1, 2, 3}};
+  const Trajectory estimate = test::Map(truth, [&](const Pose& p) { return tilted * p; });
+  RunFiles run = MakeRun(truth, estimate, Matrix6::Identity());
+  EXPECT_GT(ComputeRunErrors(run).instants[30].error.norm(), 0.1);
+  run.is_level = false;
+  EXPECT_LT(ComputeRunErrors(run).instants[30].error.norm(), 1e-6);
+}
+
 TEST(ComputeRunErrors, CovarianceIsTurnedIntoWorldToo) {
   const Trajectory truth = test::MakeTrajectory(10, [](int i) {
     return Pose{ExpSo3({M_PI / 2, 0, 0}), {1.0 * i, 0, 0}};  // body y is world z
@@ -131,6 +142,14 @@ class LoadRunFiles : public ::testing::Test {
 
   test::TempDir dir_;
 };
+
+TEST_F(LoadRunFiles, ACompleteRunWithoutALevelPathFeltNoGravity) {
+  EXPECT_TRUE(Load().is_level) << "it may have been stopped before its end";
+  dir_.Write("a/stats.json", "{}");
+  EXPECT_FALSE(Load().is_level);
+  dir_.Write("a/trajectory_level.tum", "");
+  EXPECT_TRUE(Load().is_level);
+}
 
 TEST_F(LoadRunFiles, RowsOfTheTablesBelongTogether) {
   const RunFiles run = Load();

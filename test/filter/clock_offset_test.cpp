@@ -112,7 +112,7 @@ TEST(ClockOffset, SetClocksDoNotDrift) {
 
 TEST(ClockOffset, StaysWithinItsBounds) {
   ClockOffset clock;
-  Drive{test::WalkMotion(), 0.08}.Run(clock, 0, 300);
+  Drive{test::WalkMotion(), 0.16}.Run(clock, 0, 400);
   EXPECT_LE(clock.offset_s(), ClockOffset::kMax_s);
   EXPECT_LE(clock.move_by_s(), ClockOffset::kMax_s);
   // The bound is what holds it: an estimator that learns nothing would be at zero.
@@ -120,7 +120,7 @@ TEST(ClockOffset, StaysWithinItsBounds) {
   EXPECT_GT(clock.move_by_s(), 0.9 * ClockOffset::kMax_s);
 
   ClockOffset negative;
-  Drive{test::WalkMotion(), -0.08}.Run(negative, 0, 300);
+  Drive{test::WalkMotion(), -0.16}.Run(negative, 0, 400);
   EXPECT_GE(negative.offset_s(), -ClockOffset::kMax_s);
   EXPECT_LT(negative.offset_s(), -0.9 * ClockOffset::kMax_s);
   EXPECT_LT(negative.move_by_s(), -0.9 * ClockOffset::kMax_s);

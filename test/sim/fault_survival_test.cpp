@@ -97,6 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                     0.5,
                     2},
         Expectation{"clock_offset", "clock_offset:offset=0.02", {&Counters::num_gated}, 0.5, 2},
+        Expectation{"clock_a_sweep_behind", "clock_offset:offset=-0.1", {}, 0.5, 2},
         Expectation{"nan",
                     "nan:ratio=0.05",
                     {&Counters::num_imu_nonfinite, &Counters::num_points_nonfinite},
@@ -130,6 +131,13 @@ TEST_F(FaultSurvival, NothingIsCountedWithoutAFault) {
             0);
   EXPECT_EQ(clean_->status, TrackingStatus::kOk);
   EXPECT_LT(clean_->end_error_m, 0.2);
+}
+
+// Chunks that come late by their stamps are waited for.
+TEST_F(FaultSurvival, ALidarWhoseClockIsASweepBehindLosesNoChunk) {
+  const test::RunOutcome outcome = Replay(*walk_, {"clock_offset:offset=-0.1"});
+  EXPECT_EQ(outcome.counters.num_chunks_late, 0);
+  EXPECT_EQ(outcome.counters.num_chunks_missing, 0);
 }
 
 TEST_F(FaultSurvival, DustIsSeenThrough) {

@@ -35,6 +35,42 @@ TEST(SensorStreamSweeps, SweepThatMissesAChunkIsClosed50MsAfterItsEnd) {
   EXPECT_EQ(run.Of<SweepReady>()[0].sweep->num_missing_chunks, 1);
 }
 
+// Half a sweep, whose points were taken from `taken_s` on, by a clock that is `behind_s` behind.
+SensorMessage HalfSweepFrom(double taken_s, int number, double behind_s) {
+  SensorMessage half = SweepFrom(taken_s);
+  ScanChunk& chunk = *half.chunk;
+  chunk.stamp = chunk.stamp - Duration::FromSeconds(behind_s);
+  chunk.scan_seq = number / 2;
+  chunk.chunk_index = static_cast<std::int16_t>(number % 2);
+  chunk.chunk_count = 2;
+  chunk.points.back().t_offset_ns = 40'000'000;
+  return half;
+}
+
+TEST(SensorStreamSweeps, ALidarWhoseClockIsBehindLosesNoChunk) {
+  StreamRun run;
+  for (int i = 0; i < 40; ++i) {
+    const double begin_s = 0.05 * i;
+    run.Feed(OnlyImu(begin_s, begin_s + 0.05));
+    run.Feed({HalfSweepFrom(begin_s, i, 0.1)});
+  }
+  EXPECT_EQ(run.counters.num_chunks_late, 0);
+  EXPECT_EQ(run.counters.num_chunks_missing, 0);
+  EXPECT_EQ(run.SweepStarts().size(), 19u) << "all but that before the first sample";
+}
+
+TEST(SensorStreamSweeps, AChunkThatALateLidarLostIsWaitedForByItsOwnTime) {
+  StreamRun run;
+  for (int i = 0; i < 20; ++i) {
+    run.Feed(OnlyImu(0.05 * i, 0.05 * i + 0.05));
+    if (i < 19) run.Feed({HalfSweepFrom(0.05 * i, i, 0.1)});
+  }
+  run.Feed(OnlyImu(1.0, 1.04));
+  EXPECT_EQ(run.counters.num_chunks_missing, 0);
+  run.Feed(OnlyImu(1.04, 1.06));
+  EXPECT_EQ(run.counters.num_chunks_missing, 1);
+}
+
 TEST(SensorStreamSweeps, WithoutImuStampsOfTheLidarCloseASweep) {
   StreamOptions options;
   options.use_imu = false;

@@ -5,7 +5,8 @@
 //
 // The estimate's world is level, but its origin and its heading are arbitrary. The truth is
 // therefore moved, by a turn about z and a shift only, until it meets the estimate at the first
-// row; a tilt of the estimate remains an error.
+// row; a tilt of the estimate remains an error. Where no gravity was felt nothing is level, and the
+// truth is turned about all axes.
 #pragma once
 
 #include <filesystem>
@@ -32,6 +33,7 @@ struct RunFiles {
   std::vector<Timestamp> nis_stamps;  // stamps of the scans that were fused
   std::vector<double> nis;            // NIS of their six-dimensional innovations
   bool has_registration = false;
+  bool is_level = true;  // false: a complete run without a level path, which needs gravity
 };
 
 // Reads DIR's two files of `frame` and, when it exists, DIR/registration.csv. The truth is

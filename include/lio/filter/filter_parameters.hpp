@@ -60,9 +60,9 @@ struct ImuOutageParameters {
 
 // Tunes the estimator of the clock offset between lidar and IMU (docs/filter.md, Clock offset).
 struct ClockOffsetParameters {
-  // s. The estimate stays within this of zero. Chosen: half a sweep at 10 Hz; lio-log calibrate
-  // finds larger offsets.
-  double max_offset_s = 0.05;
+  // s. The estimate stays within this of zero. Chosen: a sweep at 10 Hz, as where sweeps are stamped
+  // at their end, and a fifth more; lio-log calibrate finds larger offsets.
+  double max_offset_s = 0.12;
   // s. A rate is a mean over this time around a stamp. Chosen: twice max_std_s, so that the stamp
   // lies within it as it should be.
   double rate_span_s = 0.04;
@@ -88,8 +88,8 @@ struct ClockOffsetParameters {
   // s. Scans that are farther apart have stamps of clocks that were set. Chosen: a drift of 20
   // parts in a million is 12 ms by then, about as unsure as at the start.
   double max_span_s = 600.0;
-  // s. The standard deviation starts at this value, its upper bound. Chosen: 2.5 of it are
-  // max_offset_s.
+  // s. The standard deviation starts at this value, its upper bound. Chosen: a driver's latency; 48
+  // ms give the same paths to a tenth (docs/experiments/clock_offset.md).
   double max_std_s = 0.02;
   // s. Below this standard deviation the stamps are moved. Chosen: an offset of 2 ms turns a scan
   // by 2 mrad at 1 rad/s.

@@ -281,7 +281,7 @@ void VisitFields(Visitor& visit, MaybeConst<FilterOptions> auto& o) {
   visit("use_zero_velocity", o.use_zero_velocity,
         "a vehicle that stands still, to IMU and lidar together, has no velocity");
   visit("estimate_clock_offset", o.estimate_clock_offset,
-        "follow what is left of the offset between the clocks of lidar and IMU, up to 50 ms");
+        "follow what is left of the offset between the clocks of lidar and IMU, up to 120 ms");
   visit("estimate_extrinsic", o.estimate_extrinsic,
         "correct rig.T_imu_lidar where the motion shows that it is surely wrong");
   visit("registration_cov_scale", o.registration_cov_scale,

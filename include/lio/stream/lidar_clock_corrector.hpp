@@ -36,6 +36,9 @@ class LidarClockCorrector {
 
   // Puts a stamp right that does not pass through here.
   Timestamp PutRight(Timestamp stamp) const { return stamp + shift_; }
+  // Returns how long after the inertial samples of their last points chunks come, as known last;
+  // zero before the first one.
+  Duration late_by() const { return late_by_; }
   // Returns the stamp of the newest chunk that went on.
   Timestamp newest() const { return newest_; }
   std::size_t num_held() const { return held_.size(); }
@@ -53,20 +56,23 @@ class LidarClockCorrector {
   struct Sight {
     Duration lag;     // how far its stamp lies behind the inertial stream
     Duration stride;  // advance of the inertial stream since the one before
+    Duration late_by;  // how far its last point does
   };
   enum class Judgement { kSteady, kUnclear, kStepped };
 
-  [[nodiscard]] Judgement Judge(Timestamp chunk, Timestamp newest_imu);
+  [[nodiscard]] Judgement Judge(const ScanChunk& chunk, Timestamp newest_imu);
   [[nodiscard]] Judgement JudgeElsewhere(const Sight& sight, Timestamp newest_imu);
   [[nodiscard]] bool HasHeldTooLong() const;
   [[nodiscard]] std::vector<Arrival> GiveOut();
   void ShiftBack();
   void Forget();
-  Duration UsualLag() const;
+  Duration Usual(Duration Sight::*quantity) const;
+  Duration UsualLag() const { return Usual(&Sight::lag); }
   bool HasPaused(const Sight& sight) const;
   bool IsElsewhere(Duration lag, Duration from) const;
 
   std::deque<Sight> known_;          // by the clock as it was; the last few
+  Duration late_by_;                 // as they are usually
   std::vector<Duration> elsewhere_;  // lags behind a step that is in doubt
   Timestamp elsewhere_since_;        // by the inertial stream
   std::optional<Timestamp> newest_imu_;
