@@ -132,8 +132,7 @@ RunErrors ComputeRunErrors(const RunFiles& run) {
     }
     const bool is_first = !T_world_truth;
     if (is_first) {
-      T_world_truth =
-          run.is_level ? LevelAlignment(truth, row.pose) : row.pose * truth.Inverse();
+      T_world_truth = run.is_level ? LevelAlignment(truth, row.pose) : row.pose * truth.Inverse();
     }
     const double time_s = SecondsBetween(run.estimate.front().stamp, row.stamp);
     const RunInstant instant =

@@ -54,8 +54,8 @@ class LidarClockCorrector {
  private:
   // One message of a burst stands for all of it.
   struct Sight {
-    Duration lag;     // how far its stamp lies behind the inertial stream
-    Duration stride;  // advance of the inertial stream since the one before
+    Duration lag;      // how far its stamp lies behind the inertial stream
+    Duration stride;   // advance of the inertial stream since the one before
     Duration late_by;  // how far its last point does
   };
   enum class Judgement { kSteady, kUnclear, kStepped };
