@@ -19,13 +19,18 @@ test::DriveSpec CampusWalk(const std::vector<Fault>& faults_of_the_world = {}) {
   return {"campus", "vlp16", 14.0, kSeed, faults_of_the_world};
 }
 
-test::RunOutcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts) {
+// `driver_late`: chunks come so much later than they would.
+test::RunOutcome Replay(const Walk& walk, const std::vector<std::string>& fault_texts,
+                        Duration driver_late = {}) {
   std::vector<Fault> faults;
   for (const std::string& text : fault_texts) faults.push_back(ParseFault(text));
   const FaultInjector injector(faults, kSeed, walk.truth.front().stamp);
   ArrivalQueue queue;
   for (const Message& message : walk.messages) {
-    for (Message& sent : injector.Apply(message)) queue.Push(std::move(sent));
+    for (Message& sent : injector.Apply(message)) {
+      if (std::holds_alternative<ScanChunk>(sent.body)) sent.arrival = sent.arrival + driver_late;
+      queue.Push(std::move(sent));
+    }
   }
   Options options = walk.options;
   options.rig.T_imu_lidar = ClaimedExtrinsic(faults, *walk.options.rig.T_imu_lidar);
@@ -138,6 +143,13 @@ TEST_F(FaultSurvival, ALidarWhoseClockIsASweepBehindLosesNoChunk) {
   const test::RunOutcome outcome = Replay(*walk_, {"clock_offset:offset=-0.1"});
   EXPECT_EQ(outcome.counters.num_chunks_late, 0);
   EXPECT_EQ(outcome.counters.num_chunks_missing, 0);
+}
+
+TEST_F(FaultSurvival, ADriverThatIsLateChangesNothing) {
+  const test::RunOutcome outcome = Replay(*walk_, {}, Duration{150'000'000});
+  EXPECT_EQ(outcome.counters.num_chunks_late, 0);
+  EXPECT_EQ(outcome.end_error_m, clean_->end_error_m);
+  EXPECT_EQ(outcome.end_error_deg, clean_->end_error_deg);
 }
 
 TEST_F(FaultSurvival, DustIsSeenThrough) {

@@ -60,8 +60,8 @@ struct ImuOutageParameters {
 
 // Tunes the estimator of the clock offset between lidar and IMU (docs/filter.md, Clock offset).
 struct ClockOffsetParameters {
-  // s. The estimate stays within this of zero. Chosen: a sweep at 10 Hz, as where sweeps are stamped
-  // at their end, and a fifth more; lio-log calibrate finds larger offsets.
+  // s. The estimate stays within this of zero. Chosen: a sweep at 10 Hz, as where sweeps are
+  // stamped at their end, and a fifth more; lio-log calibrate finds larger offsets.
   double max_offset_s = 0.12;
   // s. A rate is a mean over this time around a stamp. Chosen: twice max_std_s, so that the stamp
   // lies within it as it should be.
