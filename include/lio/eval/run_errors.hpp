@@ -5,8 +5,8 @@
 //
 // The estimate's world is level, but its origin and its heading are arbitrary. The truth is
 // therefore moved, by a turn about z and a shift only, until it meets the estimate at the first
-// row; a tilt of the estimate remains an error. Where no gravity was felt nothing is level, and the
-// truth is turned about all axes.
+// row; a tilt of the estimate remains an error. Nothing is level where no gravity was felt, and the
+// truth is turned about all axes there.
 #pragma once
 
 #include <filesystem>
