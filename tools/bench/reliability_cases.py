@@ -56,6 +56,7 @@ def others():
     for kind in ("drop", "duplicate", "reorder", "chunk_loss", "nan"):
         yield simple(kind, 20.0, "ratio=0.05,", is_live=kind in ("drop", "chunk_loss"))
     yield Case("clock_offset", ("clock_offset:channel=lidar,offset=0.02",), START_S)
+    yield Case("stamps a sweep behind", ("clock_offset:channel=lidar,offset=-0.1",), START_S)
     yield simple("gyro_saturation", 5.0, "limit=0.2,")
     yield simple("shaking", 10.0)
     yield simple("empty_scan", 1.0)
