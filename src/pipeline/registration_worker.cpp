@@ -55,6 +55,12 @@ TurnRate Corrected(const TurnRate& error, const StampedPoses& motion) {
   return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
 }
 
+int MaxMatches(const MatchJob& job) {
+  const auto* task = std::get_if<Relocalize>(&job.task);
+  const bool is_unseen = task != nullptr && task->search.region == SearchRegion::kObservable;
+  return is_unseen ? kRelocalization.max_matches_unseen : kRelocalization.max_matches_per_scan;
+}
+
 SweepTimes TimesOf(const Sweep& sweep) {
   return {sweep.start, sweep.end, sweep.middle()};
 }
@@ -69,7 +75,7 @@ struct RegistrationWorker::ScanInWork {
   MatchOutcome outcome = {};
   std::vector<Eigen::Vector3f> to_match = {};  // chosen from outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
-  MatchBudget budget = MatchBudget(kRelocalization.max_matches_per_scan);
+  MatchBudget budget = MatchBudget(MaxMatches(job));
 
   MatchInput InputFrom(const Pose& T_map_imu_guess, const Matrix6& cov) const {
     return {.points_imu = to_match,

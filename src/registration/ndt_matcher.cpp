@@ -44,7 +44,8 @@ void NdtMatcher::Clear() {
 }
 
 void NdtMatcher::SetUp(const Vector3& up_map) {
-  map_.SetUp(GridFromMap().rotation * up_map);
+  up_grid_ = GridFromMap().rotation * up_map;
+  map_.SetUp(up_grid_);
 }
 
 std::vector<Vector3> NdtMatcher::InGrid(std::span<const Eigen::Vector3f> points,
@@ -246,6 +247,20 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
   return turn_.Solve(curvature_ratio);
 }
 
+Support NdtMatcher::UprightSupport() const {
+  const Eigen::Vector3f up = up_grid_.cast<float>();
+  Support support;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (pairs_[i].cell == GaussianMap::kNoCell) continue;
+    const SurfacePatch& patch = map_.patch(pairs_[i].cell);
+    const float along_up = patch.normal.dot(up);
+    if (patch.kind == SurfacePatch::Kind::kPlane && along_up * along_up > 0.5f) continue;
+    ++support.num_in_map;
+    if (scores_[i].num_rows > 0) ++support.num_matched;
+  }
+  return support;
+}
+
 void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   counted_at_.reset();
   Associate(input, T_grid_imu, 0.0);
@@ -261,6 +276,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
       static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
         return pair.cell != GaussianMap::kNoCell;
       }));
+  result.upright = UprightSupport();
   result.new_content_share = NewContentShare();
   if (sums.num_matched < MatchParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "relocalization/place_verification.hpp"
 
+#include <algorithm>
+
 #include "lio/relocalization/parameters.hpp"
 
 namespace lio {
@@ -15,9 +17,23 @@ bool Oscillates(const MatchResult& match) {
 }
 
 // Does at least this share of the last scan's share of points lie on surfaces?
+bool HasShareOf(const Support& now, const Support& last, double share) {
+  return static_cast<double>(now.num_matched) * last.num_in_map >=
+         share * static_cast<double>(last.num_matched) * now.num_in_map;
+}
+
+// Floors and ceilings fit anywhere, so what stands is asked besides, where the last scan had enough
+// of it.
+bool StandsAsBefore(const Support& now, const Support& last, double share) {
+  return last.num_matched < kVerify.min_upright ||
+         (now.num_matched >= kVerify.min_number * last.num_matched &&
+          HasShareOf(now, last, share));
+}
+
 bool HasShare(const MatchResult& match, const MatchResult& last, double share) {
-  return static_cast<double>(match.num_matched) * last.num_in_map >=
-         share * static_cast<double>(last.num_matched) * match.num_in_map;
+  return HasShareOf({match.num_in_map, match.num_matched}, {last.num_in_map, last.num_matched},
+                    share) &&
+         StandsAsBefore(match.upright, last.upright, share);
 }
 
 // No direction is degenerate unless the last scan had one.
@@ -59,6 +75,15 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
   const double off_prior_m = off_m(prior);
   return match.IsUsable() && match.degenerate_mask == 0 && off_prior_m > kVerify.apart_m &&
          off_m(alternative) < kVerify.much_nearer * off_prior_m;
+}
+
+bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
+  constexpr PlaceContestParameters kContest = kRelocalization.contest;
+  const auto residual = [](const MatchResult& result) {
+    return 1.0 - static_cast<double>(result.num_matched) / std::max(result.num_in_map, 1);
+  };
+  return residual(match) >=
+         kContest.min_residual_ratio * std::max(residual(other), kContest.least_residual);
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {

@@ -31,6 +31,9 @@ namespace lio {
 [[nodiscard]] bool IsNearAlternative(const MatchResult& match, const Pose& prior,
                                      const Pose& alternative);
 
+// Does the map contradict clearly more of the scan's points in `match` than in `other`?
+[[nodiscard]] bool IsClearlyWorse(const MatchResult& match, const MatchResult& other);
+
 // Has `match` clearly more points on surfaces than `other`?
 [[nodiscard]] bool IsClearlyBetter(const MatchResult& match, const MatchResult& other);
 

@@ -22,6 +22,15 @@ double CoarseSupportOf(const MatchResult& match) {
   return share * match.num_matched;
 }
 
+// A place is taken whose steps only go to and fro, and none is that the map contradicts.
+void RefuseUnlessVerified(const MatchResult& last, MatchResult& match) {
+  if (IsVerified(match, last)) {
+    if (!match.IsUsable()) match.status = MatchStatus::kConverged;
+  } else if (match.IsUsable()) {
+    match.status = MatchStatus::kTooFewPoints;
+  }
+}
+
 // Returns the guesses, moved to where a coarse match ends, best first, each place once.
 std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
                                    const MatchFrom& match_coarsely) {
@@ -104,9 +113,12 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
                                Found& found) {
   const MatchResult& last = last_->match;
   if (request.region == SearchRegion::kAlternative) return;
-  if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) return;
-  const bool is_tracked = request.region == SearchRegion::kTracked;
   const bool is_prior_sure = IsWithinConvergenceBasin(prior.cov);
+  if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) {
+    if (!is_prior_sure) RefuseUnlessVerified(last, found.match);
+    return;
+  }
+  const bool is_tracked = request.region == SearchRegion::kTracked;
   const bool is_near_prior = is_prior_sure && found.match.IsUsable();
   if (is_near_prior ? HasPlenty(found.match, last)
                     : found.match.IsUsable() && IsLikely(found.match, last)) {
@@ -115,20 +127,21 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
   if (is_tracked && is_prior_sure && !is_near_prior) return;
   const bool may_be_elsewhere = !is_near_prior && !(is_tracked && last.degenerate_mask != 0);
   if (may_be_elsewhere && !IsVerifiedBeyondDoubt(found.match, last)) {
-    TryPlaces(request, scan, prior, matcher, found);
+    if (request.region == SearchRegion::kObservable) {
+      TakePlaceWithoutRival(scan, prior, matcher, found);
+    } else {
+      TakeBestPlace(scan, prior, matcher, found);
+    }
   }
-  if (IsVerified(found.match, last)) {
-    if (!found.match.IsUsable()) found.match.status = MatchStatus::kConverged;
-  } else if (found.match.IsUsable()) {
-    found.match.status = MatchStatus::kTooFewPoints;
-  }
+  RefuseUnlessVerified(last, found.match);
 }
 
-void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& scan,
-                            const MotionPrior& prior, const CandidateMatcher& matcher,
-                            Found& found) {
-  const MatchResult& last = last_->match;
-  const PlacedScan earlier{last_->points_imu, last.T_map_imu};
+// Matches the scan at as many candidates as it may, those first that no search before has tried,
+// until `take` has enough.
+void Relocalizer::TryPlaces(const DeskewedScan& scan, const MotionPrior& prior,
+                            const CandidateMatcher& matcher,
+                            const std::function<bool(const MatchResult&)>& take) {
+  const PlacedScan earlier{last_->points_imu, last_->match.T_map_imu};
   const PlacedScan now{scan.points_imu, prior.T_map_imu};
   std::vector<Pose> candidates = RankedCandidates(
       PlaceCandidates(earlier, now, prior.cov, LevelFromMap(prior.up_map)), matcher.match_coarsely);
@@ -140,15 +153,40 @@ void Relocalizer::TryPlaces(const SearchRequest& request, const DeskewedScan& sc
     if (num_left-- <= 0) return;
     const MatchResult match = matcher.match(candidate, CandidateCov());
     tried_.Add(prior.T_map_imu, candidate);
-    const bool is_beyond_doubt = IsVerifiedBeyondDoubt(match, last);
+    if (take(match)) return;
+  }
+}
+
+// Takes the place with the most points, or the first one beyond doubt.
+void Relocalizer::TakeBestPlace(const DeskewedScan& scan, const MotionPrior& prior,
+                                const CandidateMatcher& matcher, Found& found) {
+  const MatchResult& last = last_->match;
+  TryPlaces(scan, prior, matcher, [&](const MatchResult& match) {
     const bool is_more = match.num_matched > found.match.num_matched;
-    if (!IsVerifiedElsewhere(match, last)) continue;
-    if (request.region == SearchRegion::kObservable && !is_beyond_doubt) continue;
-    if (IsVerifiedElsewhere(found.match, last) && !is_more) continue;
+    if (!IsVerifiedElsewhere(match, last)) return false;
+    if (IsVerifiedElsewhere(found.match, last) && !is_more) return false;
     found.match = match;
     found.is_relocalized = true;
-    if (is_beyond_doubt) break;
-  }
+    return IsVerifiedBeyondDoubt(match, last);
+  });
+}
+
+// The body may be anywhere: none of several places is taken that look alike.
+void Relocalizer::TakePlaceWithoutRival(const DeskewedScan& scan, const MotionPrior& prior,
+                                        const CandidateMatcher& matcher, Found& found) {
+  std::optional<MatchResult> best;
+  bool has_rival = false;
+  TryPlaces(scan, prior, matcher, [&](const MatchResult& match) {
+    if (!IsVerifiedBeyondDoubt(match, last_->match)) return false;
+    if (best && IsSamePlace(match.T_map_imu, best->T_map_imu)) return false;
+    if (best && IsClearlyWorse(match, *best)) return false;
+    has_rival |= best && !IsClearlyWorse(*best, match);
+    best = match;
+    return has_rival;
+  });
+  if (!best || has_rival) return;
+  found.match = *best;
+  found.is_relocalized = true;
 }
 
 void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& prior,

@@ -131,6 +131,22 @@ test::Scene Closet() {
 
 // Levels are counted by the size of their cells, 0.25, 0.5 and 1 m, of which the last two are in
 // use where the place is wide.
+TEST(NdtMatcher, PointsOnWhatStandsAreCountedApartFromTheRoads) {
+  NdtMatcherIn street(test::Street());
+  street.matcher().SetUp(Vector3::UnitZ());
+  street.InsertRoad(0.0, 20.0);
+  const Pose truth = OnRoad(12.4);
+  const Points points = street.See(truth);
+  const auto num_on_road = std::ranges::count_if(points, [&](const Eigen::Vector3f& point) {
+    return (truth * point.cast<double>()).z() < -0.8;
+  });
+  const MatchResult result = street.Match(points, truth, 0.02);
+  const auto num_standing = static_cast<int>(std::ssize(points) - num_on_road);
+  EXPECT_NEAR(result.upright.num_matched, num_standing, num_standing / 3);
+  EXPECT_GT(10 * result.upright.num_matched, 9 * result.upright.num_in_map);
+  EXPECT_LT(5 * result.upright.num_in_map, 4 * result.num_in_map);
+}
+
 TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {
   NdtMatcherIn street(test::Street());
   street.InsertRoad(0.0, 20.0);

@@ -24,6 +24,21 @@ TEST(PlaceVerification, TheShareOfPointsOnSurfacesDecides) {
   EXPECT_FALSE(IsVerified(Matched(150, 150), last)) << "too few to tell";
 }
 
+// A bay of a car park like the right one: floor and ceiling are where they should be.
+TEST(PlaceVerification, WhatStandsMustBeThereAsWell) {
+  MatchResult last = Matched(980, 1000);
+  last.upright = {300, 290};
+  MatchResult match = Matched(920, 1000);
+  match.upright = {300, 270};
+  EXPECT_TRUE(IsVerified(match, last));
+  match.upright = {300, 220};
+  EXPECT_FALSE(IsVerified(match, last)) << "a fourth of it contradicts";
+  match.upright = {40, 40};
+  EXPECT_FALSE(IsVerified(match, last)) << "little of it is there";
+  last.upright = {45, 45};
+  EXPECT_TRUE(IsVerified(match, last)) << "little stood before";
+}
+
 TEST(PlaceVerification, AFailedMatchIsNoPlaceUnlessItsStepsGoToAndFro) {
   const MatchResult last = Matched(980, 1000);
   MatchResult match = Matched(950, 1000);
@@ -69,6 +84,13 @@ TEST(PlaceVerification, AMatchIsNearTheAlternativeWhenItIsMuchNearer) {
   match.T_map_imu.translation = Vector3(0.4, 0, 0);
   EXPECT_FALSE(IsNearAlternative(match, prior, Pose{Quaternion::Identity(), Vector3(0.4, 0, 0)}))
       << "the two are not apart";
+}
+
+TEST(PlaceVerification, ClearlyWorseIsHalfAsManyContradictionsMore) {
+  EXPECT_TRUE(IsClearlyWorse(Matched(850, 1000), Matched(900, 1000)));
+  EXPECT_FALSE(IsClearlyWorse(Matched(860, 1000), Matched(900, 1000)));
+  EXPECT_FALSE(IsClearlyWorse(Matched(975, 1000), Matched(1000, 1000))) << "things move";
+  EXPECT_TRUE(IsClearlyWorse(Matched(965, 1000), Matched(1000, 1000)));
 }
 
 TEST(PlaceVerification, ClearlyBetterIsAFifthMore) {

@@ -102,6 +102,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       float share, const Eigen::Matrix3f& to_imu, MatchSums& sums,
                       PointScore* score);
+  [[nodiscard]] Support UprightSupport() const;
   double NewContentShare() const;
   Matrix6 ScoreCovariance(const MatchInput& input);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
@@ -110,6 +111,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   NdtOptions options_;
   Workers workers_;
   MultiResolutionMap map_;
+  Vector3 up_grid_ = Vector3::Zero();  // not known yet: everything stands
   PlaceWidth width_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
   std::vector<Pair> pairs_;               // in the current iteration, one a point

@@ -61,6 +61,12 @@ struct MatchInput {
   return static_cast<double>(num_inserted) / static_cast<double>(num_matched);
 }
 
+// Counts points that come to a surface of the map, and those of them that lie on it.
+struct Support {
+  int num_in_map = 0;
+  int num_matched = 0;
+};
+
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
@@ -76,6 +82,8 @@ struct [[nodiscard]] MatchResult {
   // So many points lie where the map has a surface, near or far from it; 0 where the method does
   // not tell.
   int num_in_map = 0;
+  // The same of surfaces that stand, by 45 deg or more: floors and ceilings fit anywhere.
+  Support upright;
   int iterations = 0;
   double residual_rms_m = 0.0;
   // The turn rate that the scan was deskewed by errs by this; given where asked for and the method

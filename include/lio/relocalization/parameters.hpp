@@ -95,6 +95,7 @@ struct PlaceVerificationParameters {
   // The same holds from an unsure prior, for a scan that may be bent. Measured: as min_share.
   double likely_share = 0.8;
   double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
+  int min_upright = 50;  // points on what stands, of the last scan's; chosen: as kMinMatched
   // As many end the search and overrule inertial prediction. Chosen; used in
   // docs/experiments/clock_steps.md.
   double plenty_number = 0.6;
@@ -218,6 +219,9 @@ struct RelocalizationParameters {
   // One scan has so many full matches: from the prior, two of a search, after the deskew was
   // refined. Chosen by cost: up to 16 ran before, and found places no better.
   int max_matches_per_scan = 4;
+  // After a time that nobody saw it has more, to try the rivals of a place. Chosen by cost: some 20
+  // ms, once an outage.
+  int max_matches_unseen = 8;
   // A coarse match, which ranks candidates, has so many points. Chosen: an eighth of a full
   // match's.
   int num_coarse_points = 300;

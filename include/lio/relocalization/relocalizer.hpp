@@ -86,8 +86,13 @@ class Relocalizer {
 
   void SearchPlaces(const SearchRequest& request, const DeskewedScan& scan,
                     const MotionPrior& prior, const CandidateMatcher& matcher, Found& found);
-  void TryPlaces(const SearchRequest& request, const DeskewedScan& scan, const MotionPrior& prior,
-                 const CandidateMatcher& matcher, Found& found);
+  void TryPlaces(const DeskewedScan& scan, const MotionPrior& prior,
+                 const CandidateMatcher& matcher,
+                 const std::function<bool(const MatchResult&)>& take);
+  void TakeBestPlace(const DeskewedScan& scan, const MotionPrior& prior,
+                     const CandidateMatcher& matcher, Found& found);
+  void TakePlaceWithoutRival(const DeskewedScan& scan, const MotionPrior& prior,
+                             const CandidateMatcher& matcher, Found& found);
   void TryAlternative(const Pose& alternative, const MotionPrior& prior, const MatchFrom& match,
                       Found& found) const;
 
