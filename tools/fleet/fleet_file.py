@@ -3,6 +3,7 @@
 """The fleet file: which drives, configurations and peers there are. All faults are told at once."""
 import dataclasses
 import difflib
+import fnmatch
 import pathlib
 import re
 import shlex
@@ -12,10 +13,12 @@ from located import Entry, Faults, read_tsv, read_yaml
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 SEEDS = re.compile(r"\d+(\.\.\d+)?(\s*,\s*\d+(\.\.\d+)?)*")
 TOP = ("drives", "configurations", "peers", "baseline", "keep")
-DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group")
-CONFIGURATION = ("name", "config", "set", "threads", "build", "words")
+DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group", "keep")
+CONFIGURATION = ("name", "config", "set", "threads", "build", "words", "program",
+                 "drives")
 PEER = ("name", "files", "words")
 KEEP = ("logs", "maps")
+PROGRAMS = ("lio-run", "lio-replay")
 MAX_RUNS = 100_000
 
 
@@ -30,6 +33,7 @@ class Drive:
     truth: str = ""
     rig: str = ""
     words: tuple = ()
+    keep: tuple = ()
     place: str = ""
 
 
@@ -41,7 +45,12 @@ class Configuration:
     threads: int = 1
     build: str = ""
     words: tuple = ()
+    program: str = PROGRAMS[0]
+    drives: frozenset | None = None  # names of those alone that it runs on
     place: str = ""
+
+    def runs_on(self, drive):
+        return self.drives is None or drive.name in self.drives
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,6 +58,9 @@ class Peer:
     name: str
     files: dict  # drive's name to TUM file
     words: tuple = ()
+
+    def runs_on(self, _):
+        return True
 
 
 @dataclasses.dataclass
@@ -58,6 +70,9 @@ class Fleet:
     peers: list
     baseline: str
     keep: tuple
+
+    def keeps_log(self, drive):
+        return "logs" in (*self.keep, *drive.keep)
 
 
 class Reader:
@@ -145,12 +160,12 @@ class Reader:
             return []
         group = self.text(entry, "group") or name
         truth, rig = self.path(entry, "truth"), self.path(entry, "rig")
-        words = self.words(entry, "words")
+        more = {"words": self.words(entry, "words"), "keep": self.keep(entry, KEEP[:1])}
         if "input" in entry.values:
             if "seeds" in entry.values:
                 self.faults.add(entry.place("seeds"), "seeds: only a drive with sim has seeds")
             return [Drive(name, group, input=self.path(entry, "input"), truth=truth, rig=rig,
-                          words=words, place=entry.place())]
+                          place=entry.place(), **more)]
         sim = tuple(self.word_of_sim(entry, word) for word in self.words(entry, "sim"))
         for word in ("--seed", "--out", "--picture", "--list"):
             if any(given.split("=")[0] == word for given in sim):
@@ -160,9 +175,26 @@ class Reader:
             self.faults.add(entry.place("sim"), "sim: needs --scenario NAME; see lio-sim --help")
         seeds = self.seeds(entry)
         return [Drive(f"{name}-{seed}", group, sim=sim, seed=seed, truth=truth, rig=rig,
-                      words=words, place=entry.place("sim")) for seed in seeds]
+                      place=entry.place("sim"), **more) for seed in seeds]
 
-    def configuration(self, entry, names):
+    def one_of(self, entry, key, known):
+        value = self.text(entry, key) or known[0]
+        if value not in known:
+            self.faults.add(entry.place(key), f"{key}: {value}; known are {', '.join(known)}")
+        return value
+
+    def named_drives(self, entry, drives):
+        """The names of the drives that an entry's patterns match, or None where it has no such."""
+        patterns = self.words(entry, "drives")
+        found = {pattern: fnmatch.filter((drive.name for drive in drives), pattern)
+                 for pattern in patterns}
+        for pattern, matched in found.items():
+            if not matched:
+                self.faults.add(entry.place("drives"), f"drives: {pattern} matches no drive's name; "
+                                "a simulated one is called NAME-SEED")
+        return frozenset().union(*found.values()) if patterns else None
+
+    def configuration(self, entry, names, drives):
         self.check_keys(entry, CONFIGURATION)
         name = self.name(entry, names)
         files = []
@@ -180,7 +212,8 @@ class Reader:
             self.faults.add(entry.place("threads"), f"threads: {threads} is not within 1 .. 64")
             threads = "1"
         return Configuration(name, tuple(files), settings, int(threads), self.path(entry, "build"),
-                             self.words(entry, "words"), entry.place())
+                             self.words(entry, "words"), self.one_of(entry, "program", PROGRAMS),
+                             self.named_drives(entry, drives), entry.place())
 
     def peer(self, entry, names, drives):
         self.check_keys(entry, PEER)
@@ -215,11 +248,11 @@ class Reader:
             return Entry(self.file, 1, {"drives": drives}, {})
         return read_yaml(self.file, self.faults) or Entry(self.file, 1, {}, {})
 
-    def keep(self, top):
-        kept = self.words(top, "keep")
+    def keep(self, entry, known):
+        kept = self.words(entry, "keep")
         for word in kept:
-            if word not in KEEP:
-                self.faults.add(top.place("keep"), f"keep: {word}; known are {', '.join(KEEP)}")
+            if word not in known:
+                self.faults.add(entry.place("keep"), f"keep: {word}; known: {', '.join(known)}")
         return kept
 
     def check_expanded(self, top, drives):
@@ -237,7 +270,7 @@ class Reader:
         drives = [drive for entry in self.entries(top, "drives")
                   for drive in self.drives_of(entry, names)]
         self.check_expanded(top, drives)
-        configurations = [self.configuration(entry, systems)
+        configurations = [self.configuration(entry, systems, drives)
                           for entry in self.entries(top, "configurations")]
         peers = [self.peer(entry, systems, drives) for entry in self.entries(top, "peers")]
         if not configurations and "configurations" not in top.values:
@@ -249,7 +282,7 @@ class Reader:
         if baseline and baseline not in systems:
             self.faults.add(top.place("baseline"), f"baseline: {baseline} is neither a "
                             f"configuration nor a peer; known are {', '.join(systems)}")
-        return Fleet(drives, configurations, peers, baseline, self.keep(top))
+        return Fleet(drives, configurations, peers, baseline, self.keep(top, KEEP))
 
 
 def read_fleet(file):
