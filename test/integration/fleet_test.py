@@ -33,6 +33,7 @@ drives:
   - {name: a, sim: --scenario strete, seeds: 1..x}
   - {name: a, input: nowhere.bag, sim: --scenario street}
   - {name: c/d, inptu: nowhere.bag}
+  - {name: e, sim: --scenario street, scans: f}
 configurations:
   - {name: ndt, threads: 0, set: voxel, program: liod, drives: nowhere}
 baseline: nothing
@@ -205,6 +206,24 @@ class Fleet(unittest.TestCase):
         self.assertEqual((ours / "truth.tum").read_bytes(),
                          (out / "drives/kept-1/truth.tum").read_bytes())
 
+    def test_4_a_drive_can_take_the_scans_of_another(self):
+        out, file = self.folder / "shared", self.folder / "shared.yaml"
+        sim = "sim: --scenario street --duration 2 --lidar vlp16"
+        file.write_text("drives:\n"
+                        f"  - {{name: cast, {sim} --without stamp-jitter --without clock-drift}}\n"
+                        f"  - {{name: field, {sim}, scans: cast}}\n"
+                        f"  - {{name: shaken, {sim} --fault shaking:start=1, scans: cast}}\n"
+                        "configurations:\n"
+                        "  - {name: ndt, drives: field-1 shaken-1}\n"
+                        "keep: logs\n")
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([row["status"] for row in table(out).values()], ["done", "done"])
+        self.assertIn(" 0.0 M rays", (out / "drives/field-1/prepare.txt").read_text())
+        self.assertEqual(sorted(log.parent.name for log in out.glob("drives/*/log.lcm")),
+                         ["cast-1", "field-1", "shaken-1"])
+        self.assertIn("nothing to do", fleet(file, out).stderr)
+
     def test_5_runs_that_fail_are_rows(self):
         file = self.folder / "failing.yaml"
         (self.folder / "broken.bag").write_bytes(b"#ROSBAG V2.0\n" + bytes(100))
@@ -250,8 +269,10 @@ class Fleet(unittest.TestCase):
         done = fleet(file, self.folder / "never")
         self.assertEqual(done.returncode, 3, done.stderr)
         for line, text in ((2, "seeds"), (3, "a is taken by"), (3, "either input"), (4, "c/d"),
-                           (4, "did you mean input?"), (6, "threads"), (6, "KEY=VALUE"),
-                           (6, "liod; known"), (6, "nowhere matches no drive"), (7, "nothing is neither"), (8, "extra: unknown key")):
+                           (4, "did you mean input?"), (5, "f-1 is no simulated drive"),
+                           (7, "threads"), (7, "KEY=VALUE"), (7, "liod; known"),
+                           (7, "nowhere matches no drive"), (8, "nothing is neither"),
+                           (9, "extra: unknown key")):
             self.assertTrue(any(f"faulty.yaml:{line}:" in told and text in told
                                 for told in done.stderr.splitlines()), (line, text, done.stderr))
         self.assertFalse((self.folder / "never").exists())

@@ -4,6 +4,7 @@
 import dataclasses
 import difflib
 import fnmatch
+import functools
 import pathlib
 import re
 import shlex
@@ -13,12 +14,15 @@ from located import Entry, Faults, read_tsv, read_yaml
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 SEEDS = re.compile(r"\d+(\.\.\d+)?(\s*,\s*\d+(\.\.\d+)?)*")
 TOP = ("drives", "configurations", "peers", "baseline", "keep")
-DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group", "keep")
+DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group", "keep", "scans", "once")
 CONFIGURATION = ("name", "config", "set", "threads", "build", "words", "program",
                  "drives")
 PEER = ("name", "files", "words")
 KEEP = ("logs", "maps")
 PROGRAMS = ("lio-run", "lio-replay")
+# Words of lio-sim that are the fleet's own, and what to do instead.
+OWN_WORDS = {"--seed": "name the seeds in seeds", "--scans": "name the drive in scans",
+             "--out": "leave it out", "--picture": "leave it out", "--list": "leave it out"}
 MAX_RUNS = 100_000
 
 
@@ -29,11 +33,13 @@ class Drive:
     group: str
     sim: tuple = ()
     seed: int | None = None
+    scans: str = ""  # the drive whose scans are taken
     input: str = ""
     truth: str = ""
     rig: str = ""
     words: tuple = ()
     keep: tuple = ()
+    once: bool = False  # other programs do not make it anew
     place: str = ""
 
 
@@ -70,6 +76,10 @@ class Fleet:
     peers: list
     baseline: str
     keep: tuple
+
+    @functools.cached_property
+    def by_name(self):
+        return {drive.name: drive for drive in self.drives}
 
     def keeps_log(self, drive):
         return "logs" in (*self.keep, *drive.keep)
@@ -160,22 +170,23 @@ class Reader:
             return []
         group = self.text(entry, "group") or name
         truth, rig = self.path(entry, "truth"), self.path(entry, "rig")
-        more = {"words": self.words(entry, "words"), "keep": self.keep(entry, KEEP[:1])}
+        more = {"words": self.words(entry, "words"), "keep": self.keep(entry, KEEP[:1]),
+                "once": self.one_of(entry, "once", ("no", "yes")) == "yes"}
         if "input" in entry.values:
-            if "seeds" in entry.values:
-                self.faults.add(entry.place("seeds"), "seeds: only a drive with sim has seeds")
+            for key in {"seeds", "scans"} & entry.values.keys():
+                self.faults.add(entry.place(key), f"{key}: only a drive with sim has {key}")
             return [Drive(name, group, input=self.path(entry, "input"), truth=truth, rig=rig,
                           place=entry.place(), **more)]
         sim = tuple(self.word_of_sim(entry, word) for word in self.words(entry, "sim"))
-        for word in ("--seed", "--out", "--picture", "--list"):
+        for word, fix in OWN_WORDS.items():
             if any(given.split("=")[0] == word for given in sim):
-                fix = "name the seeds in seeds" if word == "--seed" else "leave it out"
                 self.faults.add(entry.place("sim"), f"sim: {word} is the fleet's own; {fix}")
         if not any(given.split("=")[0] == "--scenario" for given in sim):
             self.faults.add(entry.place("sim"), "sim: needs --scenario NAME; see lio-sim --help")
-        seeds = self.seeds(entry)
+        seeds, scans = self.seeds(entry), self.text(entry, "scans")
         return [Drive(f"{name}-{seed}", group, sim=sim, seed=seed, truth=truth, rig=rig,
-                      place=entry.place("sim"), **more) for seed in seeds]
+                      scans=f"{scans}-{seed}" if scans else "", place=entry.place("sim"), **more)
+                for seed in seeds]
 
     def one_of(self, entry, key, known):
         value = self.text(entry, key) or known[0]
@@ -190,8 +201,8 @@ class Reader:
                  for pattern in patterns}
         for pattern, matched in found.items():
             if not matched:
-                self.faults.add(entry.place("drives"), f"drives: {pattern} matches no drive's name; "
-                                "a simulated one is called NAME-SEED")
+                self.faults.add(entry.place("drives"), f"drives: {pattern} matches no drive's "
+                                "name; a simulated one is called NAME-SEED")
         return frozenset().union(*found.values()) if patterns else None
 
     def configuration(self, entry, names, drives):
@@ -263,6 +274,13 @@ class Reader:
                                 "a seed is put behind a name; rename one")
             seen.add(drive.name)
 
+    def check_scans(self, drives):
+        whole = {drive.name for drive in drives if drive.sim and not drive.scans}
+        for drive in drives:
+            if drive.scans and drive.scans not in whole:
+                self.faults.add(drive.place, f"scans: {drive.scans} is no simulated drive with "
+                                "scans of its own; name one that has the same seeds")
+
     def fleet(self):
         top = self.top()
         self.check_keys(top, TOP)
@@ -270,6 +288,7 @@ class Reader:
         drives = [drive for entry in self.entries(top, "drives")
                   for drive in self.drives_of(entry, names)]
         self.check_expanded(top, drives)
+        self.check_scans(drives)
         configurations = [self.configuration(entry, systems, drives)
                           for entry in self.entries(top, "configurations")]
         peers = [self.peer(entry, systems, drives) for entry in self.entries(top, "peers")]
