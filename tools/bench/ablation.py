@@ -81,7 +81,7 @@ def main():
     seeds = [int(seed) for seed in args.seeds.split(",")]
     places, effects = args.drives.replace(":", "-").split(","), args.effects.split(",")
     code = 0 if args.table else run_fleet(fleet_of(places, seeds, effects), args.work, args.jobs)
-    for grade in GRADES if code < 2 else ():
+    for grade in GRADES if code in (0, 1) else ():
         print_table(args.work, places, seeds, grade, effects)
     return code
 

@@ -89,7 +89,7 @@ def main():
     seeds = [int(seed) for seed in args.seeds.split(",")]
     places = args.drives.replace(":", "-").split(",")
     code = 0 if args.table else run_fleet(fleet_of(places, seeds), args.work, args.jobs)
-    if code < 2:
+    if code in (0, 1):
         print_table(args.work, places, seeds)
     return code
 
