@@ -7,10 +7,10 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/compare.sh LOG TRUTH [OPTIONS]
-Runs every registration method over one log, with and without the IMU, as a fleet (tools/fleet.sh,
-whose needs are its), and makes one Markdown table and one picture. Writes table.md, paths.png and
-the files of the fleet, index.html and runs/METHOD/drive/ among them, into out/compare/NAME/, where
-NAME is the name of LOG's folder. LOG may be any recording that lio-run takes.
+Runs every registration method over one log, with and without the IMU, as a fleet, and makes one
+Markdown table and one picture. Needs what tools/fleet.sh needs. Writes table.md, paths.png and the
+files of the fleet, index.html and runs/METHOD/drive/ among them, into out/compare/NAME/, where NAME
+is the name of LOG's folder. LOG may be any recording that lio-run takes.
   --config FILE  configuration with the rig; can be given several times (default: config.yaml beside
                  LOG, where lio-sim writes it)
   --duration S   run only this many seconds of the log

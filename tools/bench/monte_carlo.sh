@@ -7,13 +7,12 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
-Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline as a fleet
-(tools/fleet.sh, whose needs are its), and judges all runs by NEES and NIS with lio-eval
-consistency. Writes into out/monte_carlo/SCENARIO/: the files of the fleet, index.html and
-runs/liod/SCENARIO-SEED/ among them, and consistency.txt, .json and .png of the steady path,
-consistency_world.* of the level world, and consistency_level.* of the path that is level by the
-last estimate. Seeds that the same programs and settings have finished are kept, so an interrupted
-run continues.
+Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline as a fleet, and
+judges all runs by NEES and NIS with lio-eval consistency. Needs what tools/fleet.sh needs. Writes
+into out/monte_carlo/SCENARIO/: the files of the fleet, index.html and runs/liod/SCENARIO-SEED/
+among them, and consistency.txt, .json and .png of the steady path, consistency_world.* of the level
+world, and consistency_level.* of the path that is level by the last estimate. Seeds that the same
+programs and settings have finished are kept, so an interrupted run continues.
   --set KEY=VALUE    override one key of the estimator; can be given several times
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
   --first N          first seed (1)

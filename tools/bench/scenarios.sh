@@ -7,9 +7,9 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/scenarios.sh [OPTIONS] [SCENARIO...]
-Simulates, runs and evaluates every scenario of lio-sim (or those named) as a fleet (tools/fleet.sh,
-whose needs are its), and prints two Markdown tables. Scored is trajectory_level.tum, the path to
-keep, and beside it the height of trajectory.tum as it was published. Writes into
+Simulates, runs and evaluates every scenario of lio-sim (or those named) as a fleet, and prints two
+Markdown tables. Scored is trajectory_level.tum, the path to keep, and beside it the height of
+trajectory.tum as it was published. Needs what tools/fleet.sh needs. Writes into
 out/scenarios/SEED/: the files of the fleet, index.html and runs/liod/SCENARIO-SEED/ among them,
 table.md, and closeup.png, which shows surfaces that the loop sees at its begin and at its end; the
 loop's log is kept for it. The same command does only what changed.
