@@ -15,6 +15,7 @@ world, and consistency_level.* of the path that is level by the last estimate. S
 programs and settings have finished are kept, so an interrupted run continues.
   --set KEY=VALUE    override one key of the estimator; can be given several times
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
+                     (a sensor's file by its whole path)
   --first N          first seed (1)
   --jobs N           number of runs at a time (all cores)
   --out DIR          write into this folder
