@@ -33,8 +33,9 @@ drives:
   - {name: a, sim: --scenario strete, seeds: 1..x}
   - {name: a, input: nowhere.bag, sim: --scenario street}
   - {name: c/d, inptu: nowhere.bag}
+  - {name: e, sim: --scenario street, scans: f}
 configurations:
-  - {name: ndt, threads: 0, set: voxel}
+  - {name: ndt, threads: 0, set: voxel, program: liod, drives: nowhere}
 baseline: nothing
 extra: 1
 """
@@ -183,6 +184,46 @@ class Fleet(unittest.TestCase):
         self.assertEqual(len(list(out.glob("drives/*/log.lcm"))), 2)
         self.assertEqual(times_of_rows(out), before)
 
+    def test_4_a_configuration_can_run_lio_replay_over_some_drives(self):
+        out, file = self.folder / "replayed", self.folder / "replayed.yaml"
+        file.write_text("drives:\n"
+                        "  - {name: kept, sim: --scenario street --duration 3 --lidar vlp16,\n"
+                        "     keep: logs}\n"
+                        "  - {name: gone, sim: --scenario street --duration 3 --lidar vlp16}\n"
+                        "configurations:\n"
+                        "  - {name: ndt}\n"
+                        "  - {name: late, program: lio-replay, words: --match-lag 9, drives: k*}\n")
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({key: row["status"] for key, row in table(out).items()},
+                         {("ndt", "kept-1"): "done", ("ndt", "gone-1"): "done",
+                          ("late", "kept-1"): "not scored"})
+        self.assertEqual([log.parent.name for log in out.glob("drives/*/log.lcm")], ["kept-1"])
+        ours, late = (out / f"runs/{name}/kept-1" for name in ("ndt", "late"))
+        self.assertEqual((ours / "trajectory.tum").read_bytes(),
+                         (late / "trajectory.tum").read_bytes())
+        self.assertFalse((late / "report.html").exists())
+        self.assertEqual((ours / "truth.tum").read_bytes(),
+                         (out / "drives/kept-1/truth.tum").read_bytes())
+
+    def test_4_a_drive_can_take_the_scans_of_another(self):
+        out, file = self.folder / "shared", self.folder / "shared.yaml"
+        sim = "sim: --scenario street --duration 2 --lidar vlp16"
+        file.write_text("drives:\n"
+                        f"  - {{name: cast, {sim} --without stamp-jitter --without clock-drift}}\n"
+                        f"  - {{name: field, {sim}, scans: cast}}\n"
+                        f"  - {{name: shaken, {sim} --fault shaking:start=1, scans: cast}}\n"
+                        "configurations:\n"
+                        "  - {name: ndt, drives: field-1 shaken-1}\n"
+                        "keep: logs\n")
+        done = fleet(file, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([row["status"] for row in table(out).values()], ["done", "done"])
+        self.assertIn(" 0.0 M rays", (out / "drives/field-1/prepare.txt").read_text())
+        self.assertEqual(sorted(log.parent.name for log in out.glob("drives/*/log.lcm")),
+                         ["cast-1", "field-1", "shaken-1"])
+        self.assertIn("nothing to do", fleet(file, out).stderr)
+
     def test_5_runs_that_fail_are_rows(self):
         file = self.folder / "failing.yaml"
         (self.folder / "broken.bag").write_bytes(b"#ROSBAG V2.0\n" + bytes(100))
@@ -228,8 +269,10 @@ class Fleet(unittest.TestCase):
         done = fleet(file, self.folder / "never")
         self.assertEqual(done.returncode, 3, done.stderr)
         for line, text in ((2, "seeds"), (3, "a is taken by"), (3, "either input"), (4, "c/d"),
-                           (4, "did you mean input?"), (6, "threads"), (6, "KEY=VALUE"),
-                           (7, "nothing is neither"), (8, "extra: unknown key")):
+                           (4, "did you mean input?"), (5, "f-1 is no simulated drive"),
+                           (7, "threads"), (7, "KEY=VALUE"), (7, "liod; known"),
+                           (7, "nowhere matches no drive"), (8, "nothing is neither"),
+                           (9, "extra: unknown key")):
             self.assertTrue(any(f"faulty.yaml:{line}:" in told and text in told
                                 for told in done.stderr.splitlines()), (line, text, done.stderr))
         self.assertFalse((self.folder / "never").exists())

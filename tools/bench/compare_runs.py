@@ -3,24 +3,18 @@
 # SPDX-License-Identifier: MIT
 """Makes the table and the picture of the runs of tools/bench/compare.sh.
 
-    compare_runs.py TRUTH DIR RUN...
+    compare_runs.py DIR    the fleet's folder, into which paths.png is drawn
 """
-import json
 import os
 import pathlib
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plot"))
-import plot_style as style  # noqa: E402
+from fleet_runs import read, scored_runs  # noqa: E402
 from plot_style import np, plt  # noqa: E402
 
 HEADER = ("| method | APE se3 cm | APE deg | drift % | end error cm | z drift cm | step mm "
           "| not fused | ms a scan | p99 ms | MB |")
-
-
-def load(folder):
-    return (json.loads((folder / "eval.json").read_text(encoding="utf-8")),
-            json.loads((folder / "stats.json").read_text(encoding="utf-8")))
 
 
 def row(name, score, stats):
@@ -50,12 +44,13 @@ def aligned_path(folder, score):
                          alignment["translation_m"])
 
 
-def draw(truth, root, scores, picture):
+def draw(folders, scores, picture):
     """Draws the paths from above, and below them each path's error over time."""
+    truth = np.loadtxt(next(iter(folders.values())) / "truth.tum", ndmin=2)
     figure, (plan, error) = plt.subplots(2, 1, figsize=(9, 10), height_ratios=(3, 2))
     plan.plot(truth[:, 1], truth[:, 2], color="black", linewidth=2.5, label="truth")
     for name, score in scores.items():
-        times, path = aligned_path(root / name, score)
+        times, path = aligned_path(folders[name], score)
         line = "--" if name.endswith("-lidar") else "-"
         plan.plot(path[:, 0], path[:, 1], line, linewidth=1, label=name)
         inside = (times >= truth[0, 0]) & (times <= truth[-1, 0])
@@ -72,15 +67,14 @@ def draw(truth, root, scores, picture):
 
 
 def main():
-    truth_file, root, names = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
-    print(HEADER)
-    print("|" + "---|" * (HEADER.count("|") - 1))
-    scores = {}
-    for name in names:
-        scores[name], stats = load(root / name)
-        print(row(name, scores[name], stats))
+    root = pathlib.Path(sys.argv[1])
+    folders = {run["system"]: folder for run, folder in scored_runs(root)}
+    scores = {name: read(folder / "eval_published.json") for name, folder in folders.items()}
+    print(HEADER, "|" + "---|" * (HEADER.count("|") - 1), sep="\n")
+    for name, score in scores.items():
+        print(row(name, score, read(folders[name] / "stats.json")))
     if scores:
-        draw(np.loadtxt(truth_file, ndmin=2), root, scores, root / "paths.png")
+        draw(folders, scores, root / "paths.png")
 
 
 if __name__ == "__main__":

@@ -7,82 +7,74 @@ rig knows nothing of. Prints a Markdown table: ATE [cm] of the level path with t
 and the ratio to it with wrong ones, each as median and worst over the seeds.
 
   tools/bench/densities.py [--seeds 1,2,3] [--drives street:hdl32e,...] [--work out/densities]
-                           [--table]
+                           [--jobs N] [--table]
 
-Results are kept in WORK/results.json; --table prints what is there and measures nothing. Needs
-tools/setup.sh, and 2 GB of disk at a time."""
+All are drives and configurations of a fleet (tools/fleet.sh) in WORK, which goes on where it was
+stopped; --table prints what is there and measures nothing. Needs what the fleet does, and for each
+job 5 GB of disk at a time."""
 import argparse
 import math
+import os
 import pathlib
-import re
-import shutil
 
-from simulated_runs import Drive, Results, median_and_worst, replay, simulate
+import yaml
+
+from fleet_runs import ROOT, figures, median_and_worst, run_fleet
 
 DRIVES = "street:hdl32e,garage:hdl32e,suburb:hdl32e,campus:vlp16"
-KEYS = {"gyro": "rig.imu.gyro_noise_density", "accel": "rig.imu.accel_noise_density"}
+IMU = yaml.safe_load((ROOT / "config/imus/xsens_mti10.yaml").read_text(encoding="utf-8"))
+TRUE = {kind: float(IMU[kind]["noise_density"]) for kind in ("gyro", "accel")}
 # 1 sigma of a sample, as the issue has it of carriers shaken hard; from the middle on.
 SHAKING = {"accel": 0.6, "gyro": 0.01}
-FAULT = "shaking:start=30,accel={accel},gyro={gyro}".format(**SHAKING)
-RATE_HZ = 100.0  # the Xsens'
-WRONG = ("gyro x 10", "gyro / 10", "accel x 10", "accel / 10")
-ROWS = ("right", *WRONG, "shaken, told", "shaken, not told")
+SHAKEN = {kind: math.hypot(TRUE[kind], std / math.sqrt(IMU["rate_hz"]))
+          for kind, std in SHAKING.items()}
+CLOCKS = "--without stamp-jitter --without clock-drift"
+FAULT = "--fault shaking:start=30,accel={accel},gyro={gyro}".format(**SHAKING)
+# Configuration: its row's title, the drives that it runs on, the densities that the rig claims.
+ROWS = {
+    "right": ("right", "still", {}),
+    "gyro-x-10": ("gyro x 10", "still", {"gyro": 10 * TRUE["gyro"]}),
+    "gyro-by-10": ("gyro / 10", "still", {"gyro": 0.1 * TRUE["gyro"]}),
+    "accel-x-10": ("accel x 10", "still", {"accel": 10 * TRUE["accel"]}),
+    "accel-by-10": ("accel / 10", "still", {"accel": 0.1 * TRUE["accel"]}),
+    "told": ("shaken, told", "shaken", SHAKEN),
+    "not-told": ("shaken, not told", "shaken", {}),
+}
+REFERENCES = {"still": "right", "shaken": "told"}
 
 
-def densities(folder):
-    text = (folder / "config.yaml").read_text()
-    return {kind: float(re.search(rf"{kind}_noise_density: (\S+)", text)[1]) for kind in KEYS}
+def drives_of(place, seeds):
+    scenario, lidar = place.split("-")
+    for kind, words in (("scans", CLOCKS), ("still", ""), ("shaken", FAULT)):
+        yield {"name": f"{place}-{kind}", "seeds": ",".join(map(str, seeds)),
+               "scans": "" if kind == "scans" else f"{place}-scans",
+               "sim": f"--scenario {scenario} --lidar {lidar} --duration 60 {words}"}
 
 
-def settings_of(row, true):
-    """The settings that make the rig say what the row's name tells."""
-    if row == "shaken, told":
-        shaken = {kind: std / math.sqrt(RATE_HZ) for kind, std in SHAKING.items()}
-        return [f"{key}={math.hypot(true[kind], shaken[kind])}" for kind, key in KEYS.items()]
-    for kind, key in KEYS.items():
-        if row.startswith(kind):
-            return [f"{key}={true[kind] * (10 if 'x' in row else 0.1)}"]
-    return []
+def fleet_of(places, seeds):
+    configurations = [
+        {"name": name, "drives": f"*-{kind}-*",
+         "set": [f"rig.imu.{sensor}_noise_density={value}" for sensor, value in claimed.items()]}
+        for name, (_, kind, claimed) in ROWS.items()]
+    return {"drives": [drive for place in places for drive in drives_of(place, seeds)],
+            "configurations": configurations}
 
 
-def measure_drive(results, drive, work):
-    if all(f"{drive.name} {row}" in results for row in ROWS):
-        return
-    scans_folder, still, shaken = work / "scans", work / "still", work / "shaken"
-    clocks = ("--without", "stamp-jitter", "--without", "clock-drift")
-    simulate(drive, scans_folder, *clocks)
-    scans = ("--scans", scans_folder / "log.lcm")
-    simulate(drive, still, *scans)
-    simulate(drive, shaken, *scans, "--fault", FAULT)
-    true = densities(still)
-    for row in ROWS:
-        if f"{drive.name} {row}" not in results:
-            folder = shaken if row.startswith("shaken") else still
-            results.keep(f"{drive.name} {row}", replay(folder, *settings_of(row, true)))
-    for folder in (scans_folder, still, shaken):
-        shutil.rmtree(folder, ignore_errors=True)
+def cell(work, place, seeds, name):
+    kind = ROWS[name][1]
+    ates, references = (figures(work, system, f"{place}-{kind}", seeds, "ape_m")
+                        for system in (name, REFERENCES[kind]))
+    if name in REFERENCES.values():
+        return median_and_worst(100 * ate for ate in ates.values()) + " cm"
+    return median_and_worst(ates[seed] / references[seed] for seed in ates.keys() & references)
 
 
-def ratios(results, drives, row):
-    right = "shaken, told" if row.startswith("shaken") else "right"
-    return [results[f"{drive.name} {row}"]["ate_m"] / results[f"{drive.name} {right}"]["ate_m"]
-            for drive in drives if f"{drive.name} {row}" in results]
-
-
-def print_table(results, drives, seeds):
-    print("\n| | " + " | ".join(words.replace(":", ", ") for words in drives) + " |")
-    print("|---" * (len(drives) + 1) + "|")
-    all_seeds = [[Drive(*words.split(":"), seed) for seed in seeds] for words in drives]
-    for row in ROWS:
-        cells = []
-        for one in all_seeds:
-            if row in ("right", "shaken, told"):
-                found = [f"{drive.name} {row}" for drive in one if f"{drive.name} {row}" in results]
-                cells.append(median_and_worst([100 * results[name]["ate_m"] for name in found])
-                             + " cm")
-            else:
-                cells.append(median_and_worst(ratios(results, one, row)))
-        print(f"| {row} | " + " | ".join(cells) + " |")
+def print_table(work, places, seeds):
+    print("\n| | " + " | ".join(place.replace("-", ", ") for place in places) + " |")
+    print("|---" * (len(places) + 1) + "|")
+    for name, (title, _, _) in ROWS.items():
+        cells = [cell(work, place, seeds, name) for place in places]
+        print(f"| {title} | " + " | ".join(cells) + " |")
 
 
 def main():
@@ -91,15 +83,16 @@ def main():
     parser.add_argument("--seeds", default="1,2,3")
     parser.add_argument("--drives", default=DRIVES)
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("out/densities"))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--table", action="store_true")
     args = parser.parse_args()
-    seeds, drives = [int(seed) for seed in args.seeds.split(",")], args.drives.split(",")
-    results = Results(args.work / "results.json")
-    for seed in seeds if not args.table else ():
-        for words in drives:
-            measure_drive(results, Drive(*words.split(":"), seed), args.work)
-    print_table(results, drives, seeds)
+    seeds = [int(seed) for seed in args.seeds.split(",")]
+    places = args.drives.replace(":", "-").split(",")
+    code = 0 if args.table else run_fleet(fleet_of(places, seeds), args.work, args.jobs)
+    if code in (0, 1):
+        print_table(args.work, places, seeds)
+    return code
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(main())

@@ -7,14 +7,15 @@ set -euo pipefail
 usage() {
   cat <<'USAGE'
 Usage: tools/bench/monte_carlo.sh [OPTIONS] SCENARIO [RUNS [DURATION_S]]
-Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline, one per core at a
-time, and judges all runs by NEES and NIS with lio-eval consistency. Needs tools/setup.sh. Writes
-into out/monte_carlo/SCENARIO/: one folder per seed with the files of lio-replay and truth.tum, and
-consistency.txt, .json and .png of the steady path, consistency_world.* of the level world, and
-consistency_level.* of the path that is level by the last estimate. Seeds that the same programs and
-settings have finished are kept, so an interrupted run continues.
+Runs seeds of a scenario (default: 20 seeds of 40 s) through the whole pipeline as a fleet, and
+judges all runs by NEES and NIS with lio-eval consistency. Needs what tools/fleet.sh needs. Writes
+into out/monte_carlo/SCENARIO/: the files of the fleet, index.html and runs/liod/SCENARIO-SEED/
+among them, and consistency.txt, .json and .png of the steady path, consistency_world.* of the level
+world, and consistency_level.* of the path that is level by the last estimate. Seeds that the same
+programs and settings have finished are kept, so an interrupted run continues.
   --set KEY=VALUE    override one key of the estimator; can be given several times
   --sim "ARGUMENTS"  more arguments of lio-sim, e.g. --sim "--lidar vlp16 --moving-start"
+                     (a sensor's file by its whole path)
   --first N          first seed (1)
   --jobs N           number of runs at a time (all cores)
   --out DIR          write into this folder
@@ -36,7 +37,7 @@ while (($#)); do
     --set | --sim | --first | --jobs | --out)
       (($# > 1)) || fail_usage "$1 needs a value"
       case $1 in
-        --set) settings+=(--set "$2") ;;
+        --set) settings+=("$2") ;;
         --sim) sim=$2 ;;
         --first) first=$2 ;;
         --jobs) jobs=$2 ;;
@@ -54,33 +55,28 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 scenario=${words[0]} runs=${words[1]:-20} duration=${words[2]:-40}
 root=${root:-out/monte_carlo/$scenario}
 mkdir -p "$root"
-id="$scenario $duration $sim ${settings[*]} $(cat build/bin/lio-sim build/bin/lio-replay \
-  config/lidars/*.yaml config/imus/*.yaml | cksum)"
 
-one_run() { # SEED SETTINGS...
-  local dir=$root/$1 code=0
-  [[ -f $dir/id && $(<"$dir/id") == "$id" ]] && return
-  rm -rf "$dir" && mkdir -p "$dir"
-  # shellcheck disable=SC2086 # the arguments of lio-sim are words
-  build/bin/lio-sim --scenario "$scenario" --duration "$duration" $sim --seed "$1" \
-    --out "$dir" >"$dir/sim.log"
-  build/bin/lio-replay --config "$dir/config.yaml" "${@:2}" "$dir/log.lcm" --out "$dir" \
-    --overwrite 2>"$dir/replay.log" || code=$?
-  rm "$dir/log.lcm" # it takes up to a gigabyte
-  ((code == 0)) || { cat "$dir/replay.log" >&2 && return "$code"; }
-  echo "$id" >"$dir/id"
-  echo "seed $1 is done" >&2
-}
-export -f one_run
-export root id scenario duration sim
-seq "$first" $((first + runs - 1)) |
-  xargs -P "$jobs" -I{} bash -c 'set -e; one_run "$@"' _ {} "${settings[@]}"
+cat >"$root/fleet.yaml" <<FLEET
+drives:
+  - name: $scenario
+    sim: >-
+      --scenario $scenario --duration $duration $sim
+    seeds: $first..$((first + runs - 1))
+configurations:
+  - name: liod
+    set: >-
+      ${settings[*]@Q}
+FLEET
+tools/fleet.sh "$root/fleet.yaml" --out "$root" --jobs "$jobs"
+
 dirs=()
-for seed in $(seq "$first" $((first + runs - 1))); do dirs+=("$root/$seed"); done
+for seed in $(seq "$first" $((first + runs - 1))); do
+  dirs+=("$root/runs/liod/$scenario-$seed")
+done
 judge() { # NAME TITLE ARGUMENTS...
   echo "== $2"
-  build/bin/lio-eval consistency "${@:3}" truth.tum "${dirs[@]}" --json "$root/$1.json" \
-    --plot "$root/$1.png" | tee "$root/$1.txt"
+  "${LIO_BUILD:-build}/bin/lio-eval" consistency "${@:3}" truth.tum "${dirs[@]}" \
+    --json "$root/$1.json" --plot "$root/$1.png" | tee "$root/$1.txt"
 }
 judge consistency "the steady path: trajectory.tum with covariance.csv"
 judge consistency_world "the level world: trajectory_world.tum with covariance_world.csv" --world

@@ -16,7 +16,6 @@ import sys
 import live
 import reliability_score
 from reliability_cases import START_S, all_cases
-from simulated_runs import BIN
 
 DURATION_S = 60
 IMUS = {"campus": "consumer_mems"}  # in the hand; elsewhere the IMU of a car
@@ -42,7 +41,7 @@ def simulate(scenario, seed, folder, *words):
         return
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    subprocess.run([BIN / "lio-sim", "--scenario", scenario, "--seed", str(seed), "--lidar",
+    subprocess.run([live.BIN / "lio-sim", "--scenario", scenario, "--seed", str(seed), "--lidar",
                     "vlp16", "--imu", IMUS.get(scenario, "xsens_mti10"), "--duration",
                     str(DURATION_S), "--threads", "2", *words, "--out", folder],
                    check=True, capture_output=True)
@@ -51,8 +50,9 @@ def simulate(scenario, seed, folder, *words):
 
 def run_replay(log, run):
     shutil.rmtree(run, ignore_errors=True)
-    return subprocess.run([BIN / "lio-replay", "--config", log / "config.yaml", log / "log.lcm",
-                           "--out", run], check=False, capture_output=True).returncode
+    return subprocess.run([live.BIN / "lio-replay", "--config", log / "config.yaml",
+                           log / "log.lcm", "--out", run], check=False,
+                          capture_output=True).returncode
 
 
 def run_live(log, run):

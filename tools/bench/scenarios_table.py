@@ -2,11 +2,15 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Prints two Markdown tables, a row for each scenario that tools/bench/scenarios.sh has run. Figures
-are those of the level path, but z drift, which is that of the path as it was published."""
+are those of the level path, but z drift, which is that of the path as it was published.
+
+    scenarios_table.py DIR    the fleet's folder
+"""
 import csv
-import json
 import pathlib
 import sys
+
+from fleet_runs import read, scored_runs
 
 ERRORS = ("| scenario | path m | APE se3 cm | drift % | end cm | gap cm | z drift cm | z level cm "
           "| tilt deg | step mm |")
@@ -40,13 +44,11 @@ def status_counts(matches):
     return [counts["converged"], counts["degenerate"], others, unfused]
 
 
-def rows(root, name):
+def rows(name, folder):
     """The scenario's row of each table."""
-    folder = root / name
-    score, published = (json.loads((folder / file).read_text())
-                        for file in ("eval.json", "eval_published.json"))
-    stats = json.loads((folder / "run" / "stats.json").read_text())
-    with open(folder / "run" / "registration.csv", encoding="utf-8") as file:
+    score, published, stats = (read(folder / file) for file in
+                               ("eval.json", "eval_published.json", "stats.json"))
+    with open(folder / "registration.csv", encoding="utf-8") as file:
         matches = list(csv.DictReader(file))
     drift = score["drift"]["translation_percent"] if score["drift"]["num_segments"] else None
     errors = [name, f"{score['path_length_m']:.0f}",
@@ -63,7 +65,7 @@ def rows(root, name):
 
 def main():
     root = pathlib.Path(sys.argv[1])
-    columns = list(zip(*(rows(root, name) for name in sys.argv[2:])))
+    columns = zip(*(rows(row["group"], folder) for row, folder in scored_runs(root)))
     for header, table in zip((ERRORS, MATCHES), columns):
         if header != ERRORS:
             print()

@@ -4,10 +4,10 @@
 """Draws close-ups of surfaces that a drive sees at its begin and again at its end, where it closes
 a loop: they are single when the estimate closes it, and doubled by the drift when it does not.
 
-    wall_closeup.py FOLDER OUT.png
+    wall_closeup.py DRIVE RUN OUT.png
 
-FOLDER holds the files of lio-sim (log.lcm, truth.tum, config.yaml) and lio-replay's results in
-FOLDER/run. Every point is transformed with the pose of its own instant, once the truth's and once
+DRIVE is a fleet's folder of a simulated drive (log.lcm, truth.tum, rig.yaml), and RUN that of its
+run. Every point is transformed with the pose of its own instant, once the truth's and once
 the estimate's; the two worlds are aligned at the first pose. For each direction (along the path,
 across it, up) the flattest patch that both passes see is drawn edge-on, with stretched heights.
 """
@@ -86,7 +86,7 @@ class Path:
 
 
 def numbers_of(config, key):
-    """Returns the list of a key of lio-sim's config.yaml, or None if there is none."""
+    """Returns the list of a key of the rig, or None if there is none."""
     found = re.search(rf"^ *{key}: \[(.*)\]", config, re.MULTILINE)
     return np.array([float(word) for word in found[1].split(",")]) if found else None
 
@@ -104,7 +104,7 @@ def meet(estimate, truth):
 def collect(folder):
     """Returns the points in imu with their times and the pass to which they belong (0 or 1)."""
     truth = Path(folder / "truth.tum")
-    config = (folder / "config.yaml").read_text()
+    config = (folder / "rig.yaml").read_text()
     w, x, y, z = numbers_of(config, "rotation_wxyz")
     R = rotations(np.array([[x, y, z, w]]))[0]
     lever = numbers_of(config, "translation_m")
@@ -186,12 +186,12 @@ def draw(axes, sections, title):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("drive", type=pathlib.Path)
+    parser.add_argument("run", type=pathlib.Path)
     parser.add_argument("picture")
     arguments = parser.parse_args()
-    folder = arguments.folder
-    truth, points_imu, times, which = collect(folder)
-    estimate = Path(folder / "run" / "trajectory_imu_rate.tum")
+    truth, points_imu, times, which = collect(arguments.drive)
+    estimate = Path(arguments.run / "trajectory_imu_rate.tum")
     known = (times >= estimate.t[0]) & (times <= estimate.t[-1])
     points_imu, times, which = points_imu[known], times[known], which[known]
     by_truth = truth.carry(points_imu, times)
@@ -201,7 +201,7 @@ def main():
     forward = np.array([moved[0], moved[1], 0.0]) / np.hypot(moved[0], moved[1])
     found = patches(by_truth, which, forward)
     if not found:
-        sys.exit(f"wall_closeup: {folder}: no flat patch is seen both at the begin and at the end")
+        sys.exit(f"wall_closeup: {arguments.drive}: no flat patch is seen both at the begin and at the end")
     figure, grid = plt.subplots(2, len(found), figsize=(4.2 * len(found), 5.6), squeeze=False,
                                 layout="constrained", sharey=True)
     for column, direction in enumerate(sorted(found)):

@@ -82,12 +82,12 @@ def run_snakemake(given, out, held):
                               preexec_fn=steps.die_with_parent).returncode
 
 
-def sweep(out, keeps_logs):
+def sweep(out, fleet):
     """Removes what a killed fleet left: halves of results, and logs that nobody needs."""
     shutil.rmtree(out / "scratch", ignore_errors=True)
-    if not keeps_logs:
-        for log in out.glob("drives/*/log.lcm"):
-            log.unlink()
+    for drive in fleet.drives:
+        if not fleet.keeps_log(drive):
+            (out / "drives" / drive.name / "log.lcm").unlink(missing_ok=True)
 
 
 def tell_result(out, table):
@@ -123,7 +123,7 @@ def main():
         code = run_snakemake(given, out, held)
         os.chdir(out)
         if code == 0:
-            sweep(out, "logs" in fleet.keep)
+            sweep(out, fleet)
             return tell_result(out, collect.read_table())
         return tell_result(out, collect.collect())
 

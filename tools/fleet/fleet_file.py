@@ -3,6 +3,8 @@
 """The fleet file: which drives, configurations and peers there are. All faults are told at once."""
 import dataclasses
 import difflib
+import fnmatch
+import functools
 import pathlib
 import re
 import shlex
@@ -12,10 +14,14 @@ from located import Entry, Faults, read_tsv, read_yaml
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 SEEDS = re.compile(r"\d+(\.\.\d+)?(\s*,\s*\d+(\.\.\d+)?)*")
 TOP = ("drives", "configurations", "peers", "baseline", "keep")
-DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group")
-CONFIGURATION = ("name", "config", "set", "threads", "build", "words")
+DRIVE = ("name", "input", "sim", "seeds", "truth", "rig", "words", "group", "keep", "scans", "once")
+CONFIGURATION = ("name", "config", "set", "threads", "build", "words", "program", "drives")
 PEER = ("name", "files", "words")
 KEEP = ("logs", "maps")
+PROGRAMS = ("lio-run", "lio-replay")
+# Words of lio-sim that are the fleet's own, and what to do instead.
+OWN_WORDS = {"--seed": "name the seeds in seeds", "--scans": "name the drive in scans",
+             "--out": "leave it out", "--picture": "leave it out", "--list": "leave it out"}
 MAX_RUNS = 100_000
 
 
@@ -26,10 +32,13 @@ class Drive:
     group: str
     sim: tuple = ()
     seed: int | None = None
+    scans: str = ""  # the drive whose scans are taken
     input: str = ""
     truth: str = ""
     rig: str = ""
     words: tuple = ()
+    keep: tuple = ()
+    once: bool = False  # other programs do not make it anew
     place: str = ""
 
 
@@ -41,7 +50,12 @@ class Configuration:
     threads: int = 1
     build: str = ""
     words: tuple = ()
+    program: str = PROGRAMS[0]
+    drives: frozenset | None = None  # names of those alone that it runs on
     place: str = ""
+
+    def runs_on(self, drive):
+        return self.drives is None or drive.name in self.drives
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,6 +63,9 @@ class Peer:
     name: str
     files: dict  # drive's name to TUM file
     words: tuple = ()
+
+    def runs_on(self, _):
+        return True
 
 
 @dataclasses.dataclass
@@ -58,6 +75,13 @@ class Fleet:
     peers: list
     baseline: str
     keep: tuple
+
+    @functools.cached_property
+    def by_name(self):
+        return {drive.name: drive for drive in self.drives}
+
+    def keeps_log(self, drive):
+        return "logs" in (*self.keep, *drive.keep)
 
 
 class Reader:
@@ -145,24 +169,42 @@ class Reader:
             return []
         group = self.text(entry, "group") or name
         truth, rig = self.path(entry, "truth"), self.path(entry, "rig")
-        words = self.words(entry, "words")
+        more = {"words": self.words(entry, "words"), "keep": self.keep(entry, KEEP[:1]),
+                "once": self.one_of(entry, "once", ("no", "yes")) == "yes"}
         if "input" in entry.values:
-            if "seeds" in entry.values:
-                self.faults.add(entry.place("seeds"), "seeds: only a drive with sim has seeds")
+            for key in {"seeds", "scans"} & entry.values.keys():
+                self.faults.add(entry.place(key), f"{key}: only a drive with sim has {key}")
             return [Drive(name, group, input=self.path(entry, "input"), truth=truth, rig=rig,
-                          words=words, place=entry.place())]
+                          place=entry.place(), **more)]
         sim = tuple(self.word_of_sim(entry, word) for word in self.words(entry, "sim"))
-        for word in ("--seed", "--out", "--picture", "--list"):
+        for word, fix in OWN_WORDS.items():
             if any(given.split("=")[0] == word for given in sim):
-                fix = "name the seeds in seeds" if word == "--seed" else "leave it out"
                 self.faults.add(entry.place("sim"), f"sim: {word} is the fleet's own; {fix}")
         if not any(given.split("=")[0] == "--scenario" for given in sim):
             self.faults.add(entry.place("sim"), "sim: needs --scenario NAME; see lio-sim --help")
-        seeds = self.seeds(entry)
+        seeds, scans = self.seeds(entry), self.text(entry, "scans")
         return [Drive(f"{name}-{seed}", group, sim=sim, seed=seed, truth=truth, rig=rig,
-                      words=words, place=entry.place("sim")) for seed in seeds]
+                      scans=f"{scans}-{seed}" if scans else "", place=entry.place("sim"), **more)
+                for seed in seeds]
 
-    def configuration(self, entry, names):
+    def one_of(self, entry, key, known):
+        value = self.text(entry, key) or known[0]
+        if value not in known:
+            self.faults.add(entry.place(key), f"{key}: {value}; known are {', '.join(known)}")
+        return value
+
+    def named_drives(self, entry, drives):
+        """The names of the drives that an entry's patterns match, or None where it has no such."""
+        patterns = self.words(entry, "drives")
+        found = {pattern: fnmatch.filter((drive.name for drive in drives), pattern)
+                 for pattern in patterns}
+        for pattern, matched in found.items():
+            if not matched:
+                self.faults.add(entry.place("drives"), f"drives: {pattern} matches no drive's "
+                                "name; a simulated one is called NAME-SEED")
+        return frozenset().union(*found.values()) if patterns else None
+
+    def configuration(self, entry, names, drives):
         self.check_keys(entry, CONFIGURATION)
         name = self.name(entry, names)
         files = []
@@ -180,7 +222,8 @@ class Reader:
             self.faults.add(entry.place("threads"), f"threads: {threads} is not within 1 .. 64")
             threads = "1"
         return Configuration(name, tuple(files), settings, int(threads), self.path(entry, "build"),
-                             self.words(entry, "words"), entry.place())
+                             self.words(entry, "words"), self.one_of(entry, "program", PROGRAMS),
+                             self.named_drives(entry, drives), entry.place())
 
     def peer(self, entry, names, drives):
         self.check_keys(entry, PEER)
@@ -215,11 +258,11 @@ class Reader:
             return Entry(self.file, 1, {"drives": drives}, {})
         return read_yaml(self.file, self.faults) or Entry(self.file, 1, {}, {})
 
-    def keep(self, top):
-        kept = self.words(top, "keep")
+    def keep(self, entry, known):
+        kept = self.words(entry, "keep")
         for word in kept:
-            if word not in KEEP:
-                self.faults.add(top.place("keep"), f"keep: {word}; known are {', '.join(KEEP)}")
+            if word not in known:
+                self.faults.add(entry.place("keep"), f"keep: {word}; known: {', '.join(known)}")
         return kept
 
     def check_expanded(self, top, drives):
@@ -230,6 +273,13 @@ class Reader:
                                 "a seed is put behind a name; rename one")
             seen.add(drive.name)
 
+    def check_scans(self, drives):
+        whole = {drive.name for drive in drives if drive.sim and not drive.scans}
+        for drive in drives:
+            if drive.scans and drive.scans not in whole:
+                self.faults.add(drive.place, f"scans: {drive.scans} is no simulated drive with "
+                                "scans of its own; name one that has the same seeds")
+
     def fleet(self):
         top = self.top()
         self.check_keys(top, TOP)
@@ -237,7 +287,8 @@ class Reader:
         drives = [drive for entry in self.entries(top, "drives")
                   for drive in self.drives_of(entry, names)]
         self.check_expanded(top, drives)
-        configurations = [self.configuration(entry, systems)
+        self.check_scans(drives)
+        configurations = [self.configuration(entry, systems, drives)
                           for entry in self.entries(top, "configurations")]
         peers = [self.peer(entry, systems, drives) for entry in self.entries(top, "peers")]
         if not configurations and "configurations" not in top.values:
@@ -249,7 +300,7 @@ class Reader:
         if baseline and baseline not in systems:
             self.faults.add(top.place("baseline"), f"baseline: {baseline} is neither a "
                             f"configuration nor a peer; known are {', '.join(systems)}")
-        return Fleet(drives, configurations, peers, baseline, self.keep(top))
+        return Fleet(drives, configurations, peers, baseline, self.keep(top, KEEP))
 
 
 def read_fleet(file):

@@ -22,7 +22,8 @@ const names = {
 const textColumns = new Set(["drive", "group", "system", "kind", "status", "trust", "causes",
   "said"]);
 const verdictClass = { yes: "good", doubtful: "dim", no: "bad", done: "", failed: "bad",
-  "no pose": "bad", absent: "dim", unfinished: "bad", "no truth": "dim" };
+  "no pose": "bad", absent: "dim", unfinished: "bad", "no truth": "dim",
+  "not scored": "dim" };
 
 function element(tag, text, className) {
   const made = document.createElement(tag);

@@ -42,18 +42,21 @@ def programs(build, *names):
     return {name: digest(program(build, name)) for name in names}
 
 
-def drive_key(drive):
-    key = dataclasses.asdict(drive) | {"program": program("", "lio-sim")}
+def drive_key(fleet, drive):
+    name = "lio-sim" if drive.sim else "lio-run"
+    key = dataclasses.asdict(drive) | {"program": name, "digests": {}}
+    if not drive.once:
+        key |= {"program": program("", name), "digests": programs("", name)}
     if drive.sim:
         files = {word: digest(word) for word in drive.sim if pathlib.Path(word).is_file()}
-        key["digests"] = programs("", "lio-sim") | {"sensors": sensors_digest()} | files
-    else:
-        key["digests"] = programs("", "lio-run")
-        key["program"] = program("", "lio-run")
+        key["digests"] |= {"sensors": sensors_digest()} | files
+    if drive.scans:
+        key["scans"] = drive_key(fleet, fleet.by_name[drive.scans])
     for name in ("input", "truth", "rig"):
         if key[name]:
             key["digests"][name] = digest(key[name])
-    del key["group"], key["place"]  # no result depends on them
+    for name in ("group", "keep", "place"):  # no result depends on them
+        del key[name]
     return key
 
 
@@ -63,23 +66,26 @@ def sensors_digest():
     return hashlib.sha256("".join(digest(file) for file in files).encode()).hexdigest()[:16]
 
 
-ROW_VERSION = 1  # a higher one makes all rows anew, when their figures change
+ROW_VERSION = 2  # a higher one makes all rows anew, when their figures change
 
 
-def run_key(drive, configuration, keep):
+def run_key(fleet, drive, configuration):
     build = configuration.build
-    return {"version": ROW_VERSION, "drive": drive_key(drive), "configuration": configuration.name,
-            "config": configuration.config, "set": configuration.set,
-            "words": configuration.words, "threads": configuration.threads,
-            "keep_map": "maps" in keep,
-            "programs": {name: program(build, name) for name in ("lio-run", "lio-eval")},
-            "digests": programs(build, "lio-run", "lio-eval") |
+    # Only lio-run's results are scored.
+    used = [configuration.program] + ["lio-eval"] * (configuration.program == "lio-run")
+    return {"version": ROW_VERSION, "drive": drive_key(fleet, drive),
+            "configuration": configuration.name, "config": configuration.config,
+            "set": configuration.set, "words": configuration.words,
+            "threads": configuration.threads, "program": configuration.program,
+            "keep_map": "maps" in fleet.keep,
+            "programs": {name: program(build, name) for name in used},
+            "digests": programs(build, *used) |
             {file: digest(file) for file in configuration.config}}
 
 
-def peer_key(drive, peer):
+def peer_key(fleet, drive, peer):
     file = peer.files.get(drive.name, "")
-    return {"version": ROW_VERSION, "drive": drive_key(drive), "peer": peer.name,
+    return {"version": ROW_VERSION, "drive": drive_key(fleet, drive), "peer": peer.name,
             "file": file, "words": peer.words,
             "programs": {"lio-eval": program("", "lio-eval")},
             "digests": programs("", "lio-eval") | ({"file": digest(file)} if file else {})}
@@ -139,21 +145,28 @@ def check_scenarios(fleet):
                        "see lio-sim --list")
 
 
+def plan_run(fleet, drive, system, out):
+    """Writes the run's key file; returns its part of the plan."""
+    if system in fleet.peers:
+        key, kind, threads = peer_key(fleet, drive, system), "peer", 1
+    else:
+        key, threads = run_key(fleet, drive, system), system.threads
+        kind = "liod" if system.program == "lio-run" else "replay"
+    write_if_changed(out / f"keys/runs/{system.name}/{drive.name}.json", key)
+    return {"drive": drive.name, "group": drive.group, "seed": drive.seed, "system": system.name,
+            "kind": kind, "threads": threads, "key": key_sum(key)}
+
+
 def write_plan(fleet, out):
-    """Fills OUT/keys and OUT/plan.json; returns the plan."""
-    runs = []
+    """Fills OUT/keys and OUT/plan.json."""
+    runs, systems = [], (*fleet.configurations, *fleet.peers)
     for drive in fleet.drives:
-        write_if_changed(out / f"keys/drives/{drive.name}.json", drive_key(drive))
-        for system in (*fleet.configurations, *fleet.peers):
-            is_peer = system in fleet.peers
-            key = peer_key(drive, system) if is_peer else run_key(drive, system, fleet.keep)
-            write_if_changed(out / f"keys/runs/{system.name}/{drive.name}.json", key)
-            runs.append({"drive": drive.name, "group": drive.group, "seed": drive.seed,
-                         "system": system.name, "kind": "peer" if is_peer else "liod",
-                         "threads": 1 if is_peer else system.threads, "key": key_sum(key)})
-    plan = {"baseline": fleet.baseline, "keep": list(fleet.keep), "runs": runs,
-            "systems": [system.name for system in (*fleet.configurations, *fleet.peers)],
+        write_if_changed(out / f"keys/drives/{drive.name}.json", drive_key(fleet, drive))
+        runs += [plan_run(fleet, drive, system, out) for system in systems if system.runs_on(drive)]
+    plan = {"baseline": fleet.baseline, "runs": runs,
+            "kept_logs": [drive.name for drive in fleet.drives if fleet.keeps_log(drive)],
+            "scans": {drive.name: drive.scans for drive in fleet.drives if drive.scans},
+            "systems": [system.name for system in systems],
             "page": key_sum([digest(HERE / name) for name in sorted(os.listdir(HERE))
                              if (HERE / name).is_file()])}
     write_if_changed(out / "plan.json", plan)
-    return plan

@@ -8,13 +8,16 @@ import pathlib
 import shutil
 import sys
 
+import plan
 import steps
 
 LCM_MAGIC = b"\xed\xa1\xda\x01"
 
 
 def simulate(key, work, log):
-    done = steps.call([key["program"], *key["sim"], "--seed", key["seed"], "--out", work], log)
+    words = [key["program"], *key["sim"], "--seed", key["seed"], "--out", work]
+    words += ["--scans", f"drives/{key['scans']['name']}/log.lcm"] if key["scans"] else []
+    done = steps.call(words, log)
     if (work / "config.yaml").exists():
         (work / "config.yaml").rename(work / "rig.yaml")
         (work / "truth_states.csv").unlink(missing_ok=True)
@@ -91,6 +94,8 @@ def main():
     steps.die_with_parent()
     name = sys.argv[1]
     key = steps.read_json(f"keys/drives/{name}.json")
+    # A drive that is made once has a program's name alone, so that any build's is good.
+    key["program"] = plan.program("", key["program"])
     with steps.replaced(pathlib.Path("drives") / name) as work:
         steps.write_json(work / "drive.json", prepare(key, work))
 

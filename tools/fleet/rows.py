@@ -54,22 +54,23 @@ def figures(folder):
             for columns, name in sources for column, path in columns.items()}
 
 
-def status_of(folder, done, has_truth):
+def status_of(folder, done, unscored):
     if done["exit"] == steps.CONFIGURATION or not (folder / "verdict.json").exists():
         return "failed"
-    if not has_truth:
-        return "no truth"
+    if unscored:
+        return unscored
     return "done" if (folder / "eval.json").exists() else "no pose"
 
 
-def row_of_run(folder, done, has_truth):
-    """The row of lio-run's folder; its exit code is done["exit"]."""
+def row_of_run(folder, done, unscored):
+    """The row of a run's folder; `unscored` is its status where there is nothing to score."""
     verdict = load(folder / "verdict.json")
     said = done["said"] if done["exit"] in (steps.CONFIGURATION, steps.INPUT) else ""
-    return empty_row(status_of(folder, done, has_truth), said) | figures(folder) | {
+    return empty_row(status_of(folder, done, unscored), said) | figures(folder) | {
         "trust": verdict.get("trust"),
         "causes": " ".join(cause["kind"] for cause in verdict.get("causes", [])),
-        "run_cpu_s": done["cpu_s"], "run_wall_s": done["wall_s"]}
+        "run_cpu_s": done["cpu_s"], "run_wall_s": done["wall_s"],
+        "exit": done["exit"]}
 
 
 def row_of_peer(folder, done):

@@ -13,31 +13,50 @@ import rows
 import steps
 
 
+OPTIONS = {"lio-run": (("--rig", "rig.yaml"), ("--truth", "truth.tum")),
+           "lio-replay": (("--config", "rig.yaml"),)}
+
+
 def run_words(key, drive, out):
-    words = [key["programs"]["lio-run"], drive / "log.lcm", "--out", out, "--overwrite",
+    words = [key["programs"][key["program"]], drive / "log.lcm", "--out", out, "--overwrite",
              "--threads", key["threads"], *key["words"]]
-    for option, name in (("--rig", "rig.yaml"), ("--truth", "truth.tum")):
+    for option, name in OPTIONS[key["program"]]:
         words += [option, drive / name] if (drive / name).exists() else []
     words += [word for file in key["config"] for word in ("--config", file)]
     return words + [word for setting in key["set"] for word in ("--set", setting)]
 
 
-def run_ours(key, drive, work):
-    out, log = work / "run", work / "run.txt"
-    done = steps.call(run_words(key, drive, out), log)
-    steps.stop_unless_final(done, log)
-    if (drive / "truth.tum").exists() and (out / "trajectory.tum").exists():
-        judged = steps.call([key["programs"]["lio-eval"], "consistency", drive / "truth.tum", out,
-                             "--json", work / "consistency.json"], log)
+def score(key, truth, out, log):
+    """Adds to lio-run's eval.json of the level path that of the path as it was published, and how
+    true the covariance is; the truth lies beside them for programs that score a run's folder."""
+    for words in (("consistency", truth, out, "--json", out / "consistency.json"),
+                  (truth, out / "trajectory.tum", "--json", out / "eval_published.json")):
+        judged = steps.call([key["programs"]["lio-eval"], *words], log)
         if judged["exit"] < 0:
             steps.stop_unless_final(judged, log)
+    (out / "truth.tum").symlink_to(f"../../../{truth}")
+
+
+def why_unscored(key, truth):
+    if key["program"] == "lio-replay":
+        return "not scored"
+    return "" if truth.exists() else "no truth"
+
+
+def run_ours(key, drive, work):
+    out, log, truth = work / "run", work / "run.txt", drive / "truth.tum"
+    done = steps.call(run_words(key, drive, out), log)
+    steps.stop_unless_final(done, log)
+    unscored = why_unscored(key, truth)
+    if not unscored and (out / "trajectory.tum").exists():
+        score(key, truth, out, log)
     if not key["keep_map"]:
         (out / "map.pcd").unlink(missing_ok=True)
     for file in out.iterdir() if out.is_dir() else ():
         file.rename(work / file.name)
     if out.is_dir():
         out.rmdir()
-    return rows.row_of_run(work, done, (drive / "truth.tum").exists())
+    return rows.row_of_run(work, done, unscored)
 
 
 def score_peer(key, drive, work):

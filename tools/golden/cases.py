@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
-"""The logs that tools/golden.sh replays: name, how the log is made, how it is replayed."""
+"""The logs that tools/golden.sh replays: name, how the log is made, how it is replayed. Cases with
+the same log share a drive of the fleet, and those with the same way of replaying a configuration;
+each is called as the first of them."""
 import dataclasses
 
 
@@ -12,6 +14,16 @@ class Case:
     config: str = ""      # configuration for a real log
     replay: tuple = ()    # further arguments of lio-replay
     lag: int = 0          # messages by which each match is late, as on a busy daemon
+    threads: int = 1
+
+    @property
+    def log(self):
+        return self.sim, self.real, self.config
+
+    @property
+    def way(self):
+        lag = ("--match-lag", str(self.lag)) if self.lag else ()
+        return (*self.replay, *lag), self.threads
 
 
 def lio_sim(scenario, lidar, imu, duration_s, *words):
@@ -59,7 +71,7 @@ CASES = (
     # methods
     Case("loam-street", STREET, replay=LOAM),
     Case("gicp-street", STREET, replay=GICP),
-    Case("threads-street", STREET, replay=("--threads", "3")),
+    Case("threads-street", STREET, threads=3),
     # lidar-only
     Case("lidar-only-street", STREET, replay=LIDAR_ONLY),
     Case("lidar-only-campus-gap", faulty("campus", CONSUMER, "lidar_gap:start=6,duration=2"),

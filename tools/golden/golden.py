@@ -2,18 +2,20 @@
 # SPDX-License-Identifier: MIT
 """Replays the cases of cases.py and compares hashes of the results with the recorded ones."""
 import argparse
-import concurrent.futures
 import csv
 import hashlib
 import json
 import os
 import pathlib
 import shlex
-import shutil
 import subprocess
 import sys
+import tempfile
 
 from cases import CASES
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "bench"))
+from fleet_runs import run_fleet  # noqa: E402
 
 BUILD = pathlib.Path(os.environ.get("LIO_BUILD", "build"))
 DATA = pathlib.Path(os.environ.get("LIO_DATA", "../shared/data"))
@@ -26,6 +28,10 @@ COVARIANCES = ("covariance.csv", "covariance_world.csv")
 # These columns are no part of the registration's hash: searches may be cut differently.
 COUNT_OF_MATCHES = "matches"
 COUNTS_OF_MATCHES = (COUNT_OF_MATCHES, "coarse_matches")
+LOGS, WAYS = {}, {}  # the name of each log's drive, and of each way's configuration
+for _case in CASES:
+    LOGS.setdefault(_case.log, _case.name)
+    WAYS.setdefault(_case.way, _case.name)
 COLUMNS = ("case", "log", "exit", "trajectory", "covariance", "registration", "counters", "matches")
 
 
@@ -33,53 +39,61 @@ def digest(*parts):
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:12]
 
 
-def run(*words):
-    return subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, check=False,
-                          capture_output=True, text=True, env=ENVIRONMENT)
-
-
-def run_well(*words):
-    done = run(*words)
-    if done.returncode != 0:
-        raise RuntimeError(f"{shlex.join(done.args)} ended with {done.returncode}: {done.stderr}")
-
-
 def unpack(archive, folder):
-    if archive.endswith(".tar.xz"):
-        run_well("tar", "-xf", DATA / archive, "-C", folder)
-        return next(folder.glob("kitti_raw/*/*_sync"))
-    bag = folder / archive.removesuffix(".xz")
-    with open(bag, "wb") as stream:
-        subprocess.run(["xz", "-dc", DATA / archive], stdout=stream, check=True)
-    return bag
+    """Returns the recording and its kind, as lio-convert calls it."""
+    if archive.name.endswith(".tar.xz"):
+        subprocess.run(["tar", "-xf", archive, "-C", folder], check=True)
+        return next(folder.glob("kitti_raw/*/*_sync")), "kitti-raw"
+    with open(folder / archive.stem, "wb") as stream:
+        subprocess.run(["xz", "-dc", archive], stdout=stream, check=True)
+    return folder / archive.stem, "rosbag"
 
 
-def make_log(case, folder):
+def converted(name):
+    """The log of a recording of the shared data, which is made once."""
+    log = WORK.resolve() / f"recordings/{name}.lcm"
+    if not log.exists():
+        log.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=log.parent) as folder:
+            source, kind = unpack(DATA / name, pathlib.Path(folder))
+            part = pathlib.Path(folder) / "log.lcm"
+            subprocess.run([BUILD / "bin/lio-convert", kind, source, part], check=True,
+                           env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+            part.rename(log)
+    return str(log)
+
+
+def drive_of(case):
+    drive = {"name": LOGS[case.log], "once": "yes"}
     if case.sim:
-        run_well(BUILD / "bin/lio-sim", *case.sim, "--out", folder)
-        return
-    source = unpack(case.real, folder)
-    kind = "kitti-raw" if source.is_dir() else "rosbag"
-    run_well(BUILD / "bin/lio-convert", kind, source, folder / "log.lcm")
-    shutil.rmtree(folder / "kitti_raw", ignore_errors=True)
-    shutil.copy(case.config, folder / "config.yaml")
+        return drive | {"sim": case.sim}
+    return drive | {"input": converted(case.real), "rig": str(pathlib.Path(case.config).resolve())}
 
 
-def log_folder(case):
-    """Made once; the cases that replay it share it."""
-    name = digest(repr((case.sim, case.real, case.config)).encode())
-    folder = WORK / "logs" / name
-    if not (folder / "complete").exists():
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        make_log(case, folder)
-        (folder / "complete").write_text(file_digest(folder / "log.lcm"))
-    return folder
+def drive_name(case):
+    return LOGS[case.log] + "-1" * bool(case.sim)  # the fleet puts the seed behind the name
 
 
-def file_digest(path):
-    with open(path, "rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()[:12]
+def fleet_of(cases):
+    drives, configurations = {}, {}
+    for case in cases:
+        words, threads = case.way
+        drives.setdefault(case.log, drive_of(case))
+        one = configurations.setdefault(case.way, {
+            "name": WAYS[case.way], "program": "lio-replay", "words": words,
+            "threads": str(threads), "drives": []})
+        one["drives"].append(drive_name(case))
+    return {"drives": list(drives.values()), "configurations": list(configurations.values()),
+            "keep": "logs"}
+
+
+def log_digest(drive):
+    """The sum of the drive's log, which is noted in its folder, since logs are large."""
+    noted = drive / "log.digest"
+    if not noted.exists():
+        with open(drive / "log.lcm", "rb") as stream:
+            noted.write_text(hashlib.file_digest(stream, "sha256").hexdigest()[:12])
+    return noted.read_text()
 
 
 def rows_of(path):
@@ -102,21 +116,16 @@ def counters_of(path):
                        if key.startswith("num_"))).encode()
 
 
-def replay(case):
-    log = log_folder(case)
-    out = WORK / "runs" / case.name
-    shutil.rmtree(out, ignore_errors=True)
-    words = [BUILD / "bin/lio-replay", "--config", log / "config.yaml", *case.replay]
-    if case.lag:
-        words += ["--match-lag", case.lag]
-    done = run(*words, log / "log.lcm", "--out", out)
-    (WORK / "runs" / f"{case.name}.stderr").write_text(done.stderr)
+def result_of(case):
+    drive = WORK / "drives" / drive_name(case)
+    out = WORK / "runs" / WAYS[case.way] / drive.name
 
     def hash_of(names):
         return digest(*((out / name).read_bytes() if (out / name).exists() else b"absent"
                         for name in names))
     registration, matches = rows_of(out / "registration.csv")
-    return {"case": case.name, "log": (log / "complete").read_text(), "exit": str(done.returncode),
+    code = json.loads((out / "row.json").read_text()).get("exit", "none")
+    return {"case": case.name, "log": log_digest(drive), "exit": str(code),
             "trajectory": hash_of(TRAJECTORIES), "covariance": hash_of(COVARIANCES),
             "registration": digest(registration), "matches": digest(matches),
             "counters": digest(counters_of(out / "stats.json"))}
@@ -184,25 +193,26 @@ def main():
     if given.list:
         for case in CASES:
             source = shlex.join(["lio-sim", *case.sim]) if case.sim else case.real
-            lag = ("--match-lag", str(case.lag)) if case.lag else ()
-            print(f"{case.name:24} {source}  |  {shlex.join(['lio-replay', *case.replay, *lag])}")
+            words, threads = case.way
+            print(f"{case.name:24} {source}  |  "
+                  f"{shlex.join(['lio-replay', '--threads', str(threads), *words])}")
         return 0
     cases = chosen(given.cases)
     record = read_record()
-    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
-        distinct = {(case.sim, case.real): case for case in cases}.values()
-        list(pool.map(log_folder, distinct))
-        results = []
-        for found in pool.map(replay, cases):
-            text, _ = verdict(found, record.get(found["case"]))
-            print(f"{found['case']:24} {text}", flush=True)
-            results.append(found)
-    verdicts = [verdict(found, record.get(found["case"]))[1] for found in results]
+    code = run_fleet(fleet_of(cases), WORK, given.jobs, ENVIRONMENT) if cases else 0
+    if code != 0:
+        print("golden: the fleet has not finished, so nothing is compared", file=sys.stderr)
+        return max(code, 1)
+    verdicts, results = [], {case.name: result_of(case) for case in cases}
+    for name, found in results.items():
+        text, is_same = verdict(found, record.get(name))
+        print(f"{name:24} {text}")
+        verdicts.append(is_same)
     num_same, num_skipped = verdicts.count(True), verdicts.count(None)
     num_other = len(verdicts) - num_same - num_skipped
     print(f"golden: {num_same} the same, {num_other} different, {num_skipped} not compared")
     if given.update:
-        record |= {found["case"]: found for found in results}
+        record |= results
         write_record([record[case.name] for case in CASES if case.name in record])
         print(f"golden: recorded in {RECORD}; look at its diff before you commit it")
         return 0
