@@ -26,8 +26,7 @@ bool HasShareOf(const Support& now, const Support& last, double share) {
 // of it.
 bool StandsAsBefore(const Support& now, const Support& last, double share) {
   return last.num_matched < kVerify.min_upright ||
-         (now.num_matched >= kVerify.min_number * last.num_matched &&
-          HasShareOf(now, last, share));
+         (now.num_matched >= kVerify.min_number * last.num_matched && HasShareOf(now, last, share));
 }
 
 bool HasShare(const MatchResult& match, const MatchResult& last, double share) {

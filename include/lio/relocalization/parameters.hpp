@@ -95,7 +95,7 @@ struct PlaceVerificationParameters {
   // The same holds from an unsure prior, for a scan that may be bent. Measured: as min_share.
   double likely_share = 0.8;
   double min_number = 0.2;  // points on surfaces, of the last scan's; chosen: fewer say little
-  int min_upright = 50;  // points on what stands, of the last scan's; chosen: as kMinMatched
+  int min_upright = 50;     // points on what stands, of the last scan's; chosen: as kMinMatched
   // As many end the search and overrule inertial prediction. Chosen; used in
   // docs/experiments/clock_steps.md.
   double plenty_number = 0.6;
