@@ -66,7 +66,7 @@ function(lio_library name)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${name} PRIVATE -fno-semantic-interposition)
   # Fuzzers see which branches an input takes in what reads bytes; the estimator would only be slowed.
-  if(LIO_FUZZ AND name MATCHES "^lio_(io|convert)$")
+  if(LIO_FUZZ AND name MATCHES "^lio_(io|convert|eval|report)$")
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
     target_link_options(${name} INTERFACE -fsanitize=fuzzer-no-link)
   endif()

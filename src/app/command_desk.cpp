@@ -81,6 +81,7 @@ void CommandDesk::Do(const Request& request) {
     case CommandAction::kNewFiles:
       return RenewFiles(request);
     case CommandAction::kStatusNow:
+      to_.board.TellOptions();
       to_.output_worker.AnnounceStatus();
       return Answer(request, true, "LIO_STATUS comes now");
   }

@@ -140,7 +140,9 @@ void FilterLoop::Emit() {
     }
     to_.output_worker.PutRow(std::move(output));
   }
-  to_.board.SetEstimator(odometry_.counters(), odometry_.status(), newest_stamp_);
+  Counters counters = odometry_.counters();
+  counters.ledgers = odometry_.ledgers();
+  to_.board.SetEstimator(counters, odometry_.status(), newest_stamp_);
   if (odometry_.status() != announced_) {
     announced_ = odometry_.status();
     to_.output_worker.AnnounceStatus();

@@ -11,14 +11,26 @@
 #include "lio/io/socket_buffer.hpp"
 
 namespace lio {
+namespace {
+
+// Messages come meanwhile: those that the estimator has not seen wait.
+Account AccountSoFar(const Ledgers& ledgers, const InputCounters& input,
+                     const FilterInbox::Losses& losses) {
+  const auto in_transit = [](std::int64_t taken, std::int64_t dropped, std::int64_t seen) {
+    return TransitCounters{.num_dropped = dropped, .num_waiting = taken - dropped - seen};
+  };
+  return {ledgers, in_transit(input.num_imu_taken, losses.num_imu, ledgers.samples.num_received),
+          in_transit(input.num_chunks_taken, losses.num_chunks, ledgers.chunks.num_received)};
+}
+
+}  // namespace
 
 LiveRunner::LiveRunner(Bus& bus, const Options& options, const LiveOptions& live)
     : live_(live),
       bus_(bus),
       start_utime_(HostUtime()),
       publisher_(bus, live_.channels),
-      board_(Fnv1a(PrintOptions(options)), live.receive_buffer_bytes,
-             options.rig.lidar.clock_offset_s),
+      board_(PrintOptions(options), live.receive_buffer_bytes, options.rig.lidar.clock_offset_s),
       others_(board_.start_utime()),
       watch_({live_.channels.imu, live_.channels.scan, live_.channels.status,
               EffectiveUrl(live.lcm_url), options.pipeline.use_imu},
@@ -83,6 +95,7 @@ void LiveRunner::EndThreads() {
   inbox_.Close();
   if (!filter_thread_.EndsWithin(live_.max_finish)) filter_.CutShort();
   filter_thread_.Join();
+  has_account_ended_ = true;
   match_worker_.Finish();
   output_worker_.Finish();
 }
@@ -113,9 +126,23 @@ void LiveRunner::RenewFiles() {
   if (!inbox_.Put(request)) spdlog::warn("signal: refused, too many commands wait already");
 }
 
-StatusReport LiveRunner::ComposeStatus() {
-  StatusReport report = board_.Compose();
+Account LiveRunner::AccountAtEnd() const {
   const FilterInbox::Losses losses = inbox_.losses();
+  const FilterInbox::Losses waiting = inbox_.waiting();
+  const FilterInbox::Losses& given_up = filter_.given_up();
+  return {filter_.ledgers(),
+          {losses.num_imu, given_up.num_imu, waiting.num_imu},
+          {losses.num_chunks, given_up.num_chunks, waiting.num_chunks}};
+}
+
+StatusReport LiveRunner::ComposeStatus() {
+  // This comes first, so that no message counts as dropped before it counts as taken.
+  const FilterInbox::Losses losses = inbox_.losses();
+  StatusReport report = board_.Compose();
+  report.account =
+      AccountPages(has_account_ended_ ? AccountAtEnd()
+                                      : AccountSoFar(report.counters.ledgers, report.input, losses),
+                   report.input);
   report.num_imu_queue_dropped = losses.num_imu;
   report.num_chunk_queue_dropped = losses.num_chunks;
   if (live_.socket) report.num_kernel_dropped = KernelDrops(*live_.socket).value_or(-1);
@@ -137,14 +164,9 @@ void LiveRunner::WatchInput(StatusReport& report) {
 }
 
 RunStats LiveRunner::JudgedStats() const {
+  const FilterInbox::Losses losses = inbox_.losses();
   RunStats stats = Stats();
-  // Messages come meanwhile: those that the estimator has not seen wait.
-  const auto waits = [](TransitCounters& transit, std::int64_t taken, std::int64_t seen) {
-    transit.num_waiting = taken - transit.num_dropped - transit.num_given_up - seen;
-  };
-  const Ledgers& ledgers = stats.account.ledgers;
-  waits(stats.account.imu, stats.input.num_imu_taken, ledgers.samples.num_received);
-  waits(stats.account.chunks, stats.input.num_chunks_taken, ledgers.chunks.num_received);
+  stats.account = AccountSoFar(stats.account.ledgers, stats.input, losses);
   if (stats.counters.num_imu + stats.counters.num_chunks > 0) stats.verdict = filter_.Judge();
   return stats;
 }
@@ -154,9 +176,7 @@ RunStats LiveRunner::Stats() const {
   RunStats stats;
   if (verdict_) stats.verdict = *verdict_;
   stats.counters = filter_.counters();
-  stats.account = {filter_.ledgers(),
-                   {losses.num_imu, filter_.given_up().num_imu, inbox_.waiting().num_imu},
-                   {losses.num_chunks, filter_.given_up().num_chunks, inbox_.waiting().num_chunks}};
+  stats.account = AccountAtEnd();
   stats.input = board_.input();
   stats.extra = {{"num_imu_queue_dropped", losses.num_imu},
                  {"num_chunks_queue_dropped", losses.num_chunks},

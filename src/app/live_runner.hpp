@@ -14,6 +14,7 @@
 // Stop, which ends the other threads and completes the files with what had been estimated.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -102,6 +103,7 @@ class LiveRunner {
   void EndThreads();
   StatusReport ComposeStatus();
   void WatchInput(StatusReport& report);
+  Account AccountAtEnd() const;  // once receiver and filter have ended
   RunStats Stats() const;
   RunStats JudgedStats() const;  // on the filter thread only
 
@@ -115,6 +117,7 @@ class LiveRunner {
   OtherDaemons others_;
   InputWatch watch_;  // used by the output thread only
   FilterInbox inbox_;
+  std::atomic<bool> has_account_ended_ = false;  // nothing is received or estimated any more
   FaultLatch faults_;
   MatchWorker match_worker_;
   OutputWorker output_worker_;

@@ -38,14 +38,15 @@ std::int64_t ProcessCpuMicroseconds() {
   return us(usage.ru_utime) + us(usage.ru_stime);
 }
 
-StatusBoard::StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
+StatusBoard::StatusBoard(std::string options, std::int32_t receive_buffer_bytes,
                          double configured_offset_s, StatusClocks clocks)
     : clocks_(std::move(clocks)),
+      options_(std::move(options)),
       configured_offset_s_(configured_offset_s),
       last_utime_(clocks_.host_utime()),
       last_cpu_us_(clocks_.process_cpu_us()) {
   report_.start_utime = last_utime_;
-  report_.config_hash = config_hash;
+  report_.config_hash = Fnv1a(options_);
   report_.receive_buffer_bytes = receive_buffer_bytes;
   report_.clock_offset.offset_s = configured_offset_s;
 }
@@ -92,6 +93,11 @@ void StatusBoard::SetAlarm(std::string alarm) {
   alarm_ = std::move(alarm);
 }
 
+void StatusBoard::TellOptions() {
+  const std::lock_guard lock(mutex_);
+  tells_options_ = true;
+}
+
 void StatusBoard::CountRefusedCommand() {
   const std::lock_guard lock(mutex_);
   ++report_.num_commands_refused;
@@ -130,6 +136,7 @@ StatusReport StatusBoard::Compose() {
   latencies_ = {};
   StatusReport report = report_;
   if (!alarm_.empty()) report.note = alarm_;
+  if (std::exchange(tells_options_, false)) report.options = options_;
   ++report_.seq;
   return report;
 }

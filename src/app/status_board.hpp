@@ -24,10 +24,12 @@ struct StatusClocks {
 
 class StatusBoard {
  public:
-  // `configured_offset_s` is rig.lidar.clock_offset_s, which holds until there is an estimate.
-  StatusBoard(std::uint64_t config_hash, std::int32_t receive_buffer_bytes,
+  // `options` are the effective ones as YAML. `configured_offset_s` is rig.lidar.clock_offset_s,
+  // which holds until there is an estimate.
+  StatusBoard(std::string options, std::int32_t receive_buffer_bytes,
               double configured_offset_s = 0.0, StatusClocks clocks = {});
 
+  // The ledgers of the counters are with what waits.
   void SetEstimator(const Counters& counters, TrackingStatus state, Timestamp newest_stamp);
   void SetImuNoise(const ImuNoiseRatios& ratios);
   void SetClockOffset(const ClockOffsetStatus& offset);
@@ -37,6 +39,8 @@ class StatusBoard {
   void SetNote(std::string note);
   // Stands in place of all notes from now on, because it does not pass.
   void SetAlarm(std::string alarm);
+  // The next report has the options, as the first has.
+  void TellOptions();
   void CountRefusedCommand();
   // Adds the times of one scan: `queue_ms` from the arrival of its last datagram to the start of
   // its match, `compute_ms` from there to its odometry.
@@ -56,10 +60,12 @@ class StatusBoard {
   };
 
   const StatusClocks clocks_;
+  const std::string options_;
   const double configured_offset_s_;
   mutable std::mutex mutex_;  // guards everything below
   StatusReport report_;
   std::string alarm_;
+  bool tells_options_ = true;
   Latencies latencies_;
   std::int64_t last_utime_;
   std::int64_t last_cpu_us_;

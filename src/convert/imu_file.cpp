@@ -80,7 +80,7 @@ std::optional<Timestamp> StampOf(std::string_view cell) {
   std::int64_t whole = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), whole);
   const bool is_whole = error == std::errc() && end == cell.data() + cell.size();
-  if (is_whole && whole > kLeastNs) return Timestamp{whole};
+  if (is_whole && whole > kLeastNs && whole <= kMaxStampNs) return Timestamp{whole};
   return ParseStamp(cell);
 }
 

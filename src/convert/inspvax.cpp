@@ -140,7 +140,7 @@ std::optional<InspvaxRow> ToInspvaxRow(const RosNumbers& numbers, Timestamp rece
   if (std::abs(*latitude) > 90.0 || std::abs(*longitude) > 360.0) return {};
   InspvaxRow row;
   row.stamp = *stamp;
-  row.ins_status = *status < 1e6 ? static_cast<int>(*status) : -1;
+  row.ins_status = std::abs(*status) < 1e6 ? static_cast<int>(*status) : -1;
   row.latitude_rad = *latitude * kRadPerDeg;
   row.longitude_rad = *longitude * kRadPerDeg;
   row.ellipsoid_height_m = *height + Find(numbers, {"undulation"}).value_or(0.0);

@@ -14,14 +14,15 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMaxBeams = 256, kMaxColumns = 4096, kMaxPerPacket = 64;
+constexpr int kMaxDepth = 8;  // sections in sections; the drivers' files have two
 
 // Finds a key in any of the sections: files of different ages nest it differently.
-const Json& Find(const Json& all, const std::string& key) {
+const Json& Find(const Json& all, const std::string& key, int depth = 0) {
   static const Json nothing;
   if (all.contains(key)) return all[key];
   for (const auto& section : all) {
-    if (!section.is_object()) continue;
-    const Json& found = Find(section, key);
+    if (!section.is_object() || depth == kMaxDepth) continue;
+    const Json& found = Find(section, key, depth + 1);
     if (!found.is_null()) return found;
   }
   return nothing;

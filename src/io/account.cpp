@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -14,74 +15,81 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Refusals = std::array<std::int64_t, kNumDecodeStatuses>;
 
-// Holds everything that was counted before the estimator.
-struct Entry {
-  std::int64_t num_received;
-  const Refusals& refusals;
-  const TransitCounters& transit;
-};
-
-Entry ImuEntry(const Account& account, const InputCounters& input) {
-  return {input.num_imu_received, input.num_imu_refused, account.imu};
-}
-
-Entry ChunkEntry(const Account& account, const InputCounters& input) {
-  return {input.num_chunks_received, input.num_chunks_refused, account.chunks};
-}
-
-template <typename Ledger>
-std::int64_t Unaccounted(const Entry& entry, const Ledger& ledger) {
-  const std::int64_t num_refused =
-      std::accumulate(entry.refusals.begin(), entry.refusals.end(), std::int64_t{0});
-  return entry.num_received - num_refused - entry.transit.num_dropped - entry.transit.num_given_up -
-         entry.transit.num_waiting - ledger.num_received + ledger.Unaccounted();
-}
+constexpr std::string_view kReceived = "received";
+constexpr std::string_view kWaiting = "waiting";
 
 template <typename Ledger, typename Names>
-void AddFates(const Ledger& ledger, const Names& names, Json& json) {
+void AddFates(const Ledger& ledger, const Names& names, AccountPage& page) {
   for (std::size_t i = 0; i < names.size(); ++i) {
-    json[std::string(names[i])] = ledger.num_settled[i];
+    page.entries.push_back({names[i], ledger.num_settled[i]});
   }
 }
 
-template <typename Ledger, typename Names>
-Json MessageJson(const Entry& entry, const Ledger& ledger, const Names& names) {
-  Json json{{"received", entry.num_received}};
+// Adds everything that was counted before the estimator.
+void AddTransit(const Refusals& refusals, const TransitCounters& transit, AccountPage& page) {
   for (int i = 1; i < kNumDecodeStatuses; ++i) {
-    json[std::string(Name(static_cast<DecodeStatus>(i)))] =
-        entry.refusals[static_cast<std::size_t>(i)];
+    page.entries.push_back(
+        {Name(static_cast<DecodeStatus>(i)), refusals[static_cast<std::size_t>(i)]});
   }
-  json["queue_dropped"] = entry.transit.num_dropped;
-  json["given_up"] = entry.transit.num_given_up;
-  AddFates(ledger, names, json);
-  json["waiting"] = entry.transit.num_waiting + ledger.num_waiting;
-  json["unaccounted"] = Unaccounted(entry, ledger);
-  return json;
+  page.entries.push_back({"queue_dropped", transit.num_dropped});
+  page.entries.push_back({"given_up", transit.num_given_up});
+}
+
+AccountPage ImuPage(const Account& account, const InputCounters& input) {
+  const auto& ledger = account.ledgers.samples;
+  AccountPage page{"imu", {{kReceived, input.num_imu_received}}};
+  AddTransit(input.num_imu_refused, account.imu, page);
+  AddFates(ledger, kSampleFateNames, page);
+  page.entries.push_back({kWaiting, account.imu.num_waiting + ledger.num_waiting});
+  return page;
+}
+
+AccountPage ChunkPage(const Account& account, const InputCounters& input) {
+  const auto& ledger = account.ledgers.chunks;
+  AccountPage page{"chunks", {{kReceived, input.num_chunks_received}}};
+  AddTransit(input.num_chunks_refused, account.chunks, page);
+  AddFates(ledger, kChunkFateNames, page);
+  page.entries.push_back({kWaiting, account.chunks.num_waiting + ledger.num_waiting});
+  return page;
+}
+
+AccountPage ScanPage(const Account& account) {
+  const auto& ledger = account.ledgers.scans;
+  AccountPage page{"scans", {{kReceived, ledger.num_received}}};
+  AddFates(ledger, kScanFateNames, page);
+  page.entries.push_back({kWaiting, ledger.num_waiting});
+  return page;
 }
 
 }  // namespace
 
+std::int64_t AccountPage::Unaccounted() const {
+  return std::accumulate(
+      entries.begin() + 1, entries.end(), num_received(),
+      [](std::int64_t rest, const AccountEntry& entry) { return rest - entry.count; });
+}
+
+std::vector<AccountPage> AccountPages(const Account& account, const InputCounters& input) {
+  return {ImuPage(account, input), ChunkPage(account, input), ScanPage(account)};
+}
+
 std::string AccountJson(const Account& account, const InputCounters& input) {
-  const Ledgers& ledgers = account.ledgers;
-  Json scans{{"received", ledgers.scans.num_received}};
-  AddFates(ledgers.scans, kScanFateNames, scans);
-  scans["waiting"] = ledgers.scans.num_waiting;
-  scans["unaccounted"] = ledgers.scans.Unaccounted();
-  const Json json{
-      {"imu", MessageJson(ImuEntry(account, input), ledgers.samples, kSampleFateNames)},
-      {"chunks", MessageJson(ChunkEntry(account, input), ledgers.chunks, kChunkFateNames)},
-      {"scans", scans}};
+  Json json;
+  for (const AccountPage& page : AccountPages(account, input)) {
+    Json& fates = json[std::string(page.name)];
+    for (const AccountEntry& entry : page.entries) fates[std::string(entry.name)] = entry.count;
+    fates["unaccounted"] = page.Unaccounted();
+  }
   return json.dump();
 }
 
 std::string WhyOpen(const Account& account, const InputCounters& input) {
-  const std::int64_t samples = Unaccounted(ImuEntry(account, input), account.ledgers.samples);
-  const std::int64_t chunks = Unaccounted(ChunkEntry(account, input), account.ledgers.chunks);
-  const std::int64_t scans = account.ledgers.scans.Unaccounted();
-  if (samples == 0 && chunks == 0 && scans == 0) return {};
+  const std::vector<AccountPage> pages = AccountPages(account, input);
+  const auto is_closed = [](const AccountPage& page) { return page.Unaccounted() == 0; };
+  if (std::all_of(pages.begin(), pages.end(), is_closed)) return {};
   return fmt::format(
       "the account does not close: {} inertial samples, {} chunks and {} scans have no fate",
-      samples, chunks, scans);
+      pages[0].Unaccounted(), pages[1].Unaccounted(), pages[2].Unaccounted());
 }
 
 }  // namespace lio

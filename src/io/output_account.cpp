@@ -12,6 +12,32 @@ std::string WhetherCloses(std::int64_t rest, const char* if_positive, const char
   return fmt::format("does not close by {}: {}", rest, rest > 0 ? if_positive : if_negative);
 }
 
+// Fates that no message had are left out.
+std::string PageText(const AccountPage& page) {
+  std::string fates;
+  for (std::size_t i = 1; i < page.entries.size(); ++i) {
+    const AccountEntry& entry = page.entries[i];
+    if (entry.count == 0) continue;
+    fates += fmt::format("{}{} {}", fates.empty() ? "" : " + ", entry.count, entry.name);
+  }
+  return fmt::format("  {}: {} received = {}: {}\n", page.name, page.num_received(),
+                     fates.empty() ? "0" : fates,
+                     WhetherCloses(page.Unaccounted(), "they have no fate; please report this",
+                                   "they have two fates; please report this"));
+}
+
+// Scans that were matched have a row each.
+std::int64_t NumRowsDue(const StatusCounts& status) {
+  std::int64_t num = 0;
+  for (const AccountEntry& entry : status.account.back().entries) {
+    if (entry.name == kScanFateNames[static_cast<std::size_t>(ScanFate::kUsed)] ||
+        entry.name == kScanFateNames[static_cast<std::size_t>(ScanFate::kRejected)]) {
+      num += entry.count;
+    }
+  }
+  return num;
+}
+
 }  // namespace
 
 std::int64_t StatusCounts::NumReceived() const {
@@ -48,16 +74,14 @@ std::string OutputAccount::Text() const {
                       "messages were on the way, lost before liod, or sent before its start",
                       "the recorder lost messages or began later than liod"));
   }
-  const std::int64_t num_lost =
-      c.num_scans_empty + c.num_scans_dropped + c.num_scans_late + c.num_scans_without_imu;
-  text += fmt::format(
-      "  scans: {} closed = {} with a row + {} empty + {} dropped + {} late + {} without inertial "
-      "samples: {}\n",
-      c.num_scans, at_status_.num_rows, c.num_scans_empty, c.num_scans_dropped, c.num_scans_late,
-      c.num_scans_without_imu,
-      WhetherCloses(c.num_scans - at_status_.num_rows - num_lost,
-                    "scans were before the start or wait for their match",
-                    "the recorder began later than liod, or scans were counted twice"));
+  if (at_status_.num_rows > 0) {
+    const std::int64_t num_due = NumRowsDue(*status_);
+    text += fmt::format(
+        "  rows: {} recorded of {} scans that were matched: {}\n", at_status_.num_rows, num_due,
+        WhetherCloses(num_due - at_status_.num_rows,
+                      "the recorder lost rows or began later than liod", "scans have two rows"));
+  }
+  for (const AccountPage& page : status_->account) text += PageText(page);
   return text;
 }
 

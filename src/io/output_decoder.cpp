@@ -11,12 +11,12 @@ namespace lio {
 namespace {
 
 // These are sizes of the encoded messages, including the eight bytes of the fingerprint;
-// docs/messages.md has them, too. A filter state has a covariance behind it, a status its note.
+// docs/messages.md has them, too. A filter state has a covariance behind it, a status its texts.
 constexpr std::size_t kOdometryBytes = 834;
 constexpr std::size_t kFilterStateFixedBytes = 212;
 constexpr std::size_t kRegistrationBytes = 134;
-constexpr std::size_t kStatusFixedBytes = 442;  // with the NUL of an empty note
-constexpr int kMaxDim = 64;                     // states of a filter; liod has 21
+constexpr std::size_t kStatusFixedBytes = 789;
+constexpr int kMaxDim = 64;  // states of a filter; liod has 21
 
 // Reads fields and remembers whether all of them were values that can be.
 class SoundReader {
@@ -91,6 +91,31 @@ void ReadCounts(SoundReader& reader, StatusReport& report) {
         &report.num_outputs_dropped, &report.num_commands_refused, &report.num_handler_faults}) {
     reader.Read(*count);
   }
+  for (AccountPage& page : report.account) {
+    for (AccountEntry& entry : page.entries) reader.Read(entry.count);
+  }
+}
+
+// Takes a text from the front as LCM writes it: its length with the NUL, and both. Returns false
+// where there is none.
+bool TakeText(ByteView& bytes, std::string& text) {
+  constexpr std::size_t kLengthBytes = 4;
+  if (bytes.size() <= kLengthBytes) return false;
+  const std::size_t length = FieldReader(bytes.data()).Read<std::uint32_t>();
+  bytes = bytes.subspan(kLengthBytes);
+  if (length == 0 || length > bytes.size() || bytes[length - 1] != 0) return false;
+  text.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length) - 1);
+  bytes = bytes.subspan(length);
+  return true;
+}
+
+DecodeStatus TakeTexts(ByteView bytes, StatusReport& report) {
+  if (!TakeText(bytes, report.note) || !TakeText(bytes, report.options) || !bytes.empty()) {
+    return DecodeStatus::kSizeMismatch;
+  }
+  const bool is_short =
+      report.note.size() <= kMaxStatusText && report.options.size() <= kMaxStatusText;
+  return is_short ? DecodeStatus::kOk : DecodeStatus::kBadFormat;
 }
 
 void ReadLoad(SoundReader& reader, StatusReport& report) {
@@ -200,14 +225,8 @@ DecodeStatus DecodeStatusReport(ByteView bytes, StatusReport& report) {
   report.trust = reader.ReadEnum(Trust::kNo);
   report.config_hash = static_cast<std::uint64_t>(reader.Read<std::int64_t>());
   for (int part = 0; part < 3; ++part) reader.Read<std::int8_t>();  // version
-  const std::size_t note_bytes = bytes.size() - kStatusFixedBytes;  // without its NUL
-  const auto announced = reader.Read<std::int32_t>();
-  if (announced < 1 || static_cast<std::size_t>(announced) != note_bytes + 1 || bytes.back() != 0) {
-    return DecodeStatus::kSizeMismatch;
-  }
-  const std::uint8_t* note = bytes.data() + kStatusFixedBytes - 1;
-  report.note.assign(note, note + note_bytes);
-  return reader.status();
+  const DecodeStatus texts = TakeTexts(bytes.subspan(kStatusFixedBytes), report);
+  return texts == DecodeStatus::kOk ? reader.status() : texts;
 }
 
 }  // namespace lio

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 #include <charconv>
+#include <numeric>
 
 #include "lcm_wire.hpp"
 #include "lio/base/counters_fields.hpp"
@@ -16,19 +17,37 @@ namespace {
 constexpr std::size_t kCountersOffset = 8 + 8 + 8 + 8 + 4 + 1;
 constexpr std::size_t kStartUtimeOffset = 8 + 8;
 constexpr std::size_t kCountBytes = 8;
-// Behind them stand the refusals by reason, imu_seq_missing, and what queues dropped.
+// Behind them stand the refusals by reason, and what was lost on the way in and out; then the pages
+// of the account.
 constexpr std::size_t kLossesOffset = kCountersOffset + kCounterFields.size() * kCountBytes;
-constexpr std::size_t kNumLosses = kNumDecodeStatuses - 1 + 3;
+constexpr std::size_t kNumLosses = kNumDecodeStatuses - 1 + 8;
+constexpr std::size_t kAccountOffset = kLossesOffset + kNumLosses * kCountBytes;
 constexpr std::int64_t kMaxCount = std::int64_t{1} << 50;  // sums of these do not overflow
+
+// Writes a count at `at`, and moves on to the next.
+void WriteCount(std::int64_t count, Bytes& bytes, std::size_t& at) {
+  const auto value = static_cast<std::uint64_t>(count);
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    bytes.at(at++) = static_cast<std::uint8_t>(value >> shift);
+  }
+}
 
 void WriteCounters(const Counters& counters, Bytes& bytes) {
   std::size_t at = kCountersOffset;
-  for (const CounterField& field : kCounterFields) {
-    const auto value = static_cast<std::uint64_t>(counters.*field.count);
-    for (int shift = 56; shift >= 0; shift -= 8) {
-      bytes.at(at++) = static_cast<std::uint8_t>(value >> shift);
-    }
+  for (const CounterField& field : kCounterFields) WriteCount(counters.*field.count, bytes, at);
+}
+
+void WriteAccount(const std::vector<AccountPage>& account, Bytes& bytes) {
+  std::size_t at = kAccountOffset;
+  for (const AccountPage& page : account) {
+    for (const AccountEntry& entry : page.entries) WriteCount(entry.count, bytes, at);
   }
+}
+
+std::size_t NumEntries(const std::vector<AccountPage>& account) {
+  return std::accumulate(
+      account.begin(), account.end(), std::size_t{0},
+      [](std::size_t num, const AccountPage& page) { return num + page.entries.size(); });
 }
 
 std::int64_t ReadInt64(ByteView bytes, std::size_t at) {
@@ -103,28 +122,34 @@ Bytes EncodeStatus(const StatusReport& report, const std::string& version) {
   message.config_hash = static_cast<std::int64_t>(report.config_hash);
   CopyVersion(version, message.version);
   message.note = report.note;
+  message.options = report.options;
   Bytes bytes = EncodeMessage(message);
   WriteCounters(report.counters, bytes);
+  WriteAccount(report.account, bytes);
   return bytes;
 }
 
 std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes) {
-  if (bytes.size() < kLossesOffset + kNumLosses * kCountBytes) return std::nullopt;
-  if (ReadInt64(bytes, 0) != status_t::getHash()) return std::nullopt;
   StatusCounts counts;
+  if (bytes.size() < kAccountOffset + NumEntries(counts.account) * kCountBytes) return std::nullopt;
+  if (ReadInt64(bytes, 0) != status_t::getHash()) return std::nullopt;
   counts.start_utime = ReadInt64(bytes, kStartUtimeOffset);
   std::size_t at = kCountersOffset;
   bool is_sound = true;
-  const auto next = [&] {
+  const auto next = [&](std::int64_t least = 0) {
     const std::int64_t count = ReadInt64(bytes, at);
     at += kCountBytes;
-    is_sound = is_sound && count >= 0 && count <= kMaxCount;
+    is_sound = is_sound && count >= least && count <= kMaxCount;
     return count;
   };
   for (const CounterField& field : kCounterFields) counts.counters.*field.count = next();
   for (int i = 1; i < kNumDecodeStatuses && is_sound; ++i) counts.num_refused += next();
   at += kCountBytes;  // imu_seq_missing
   for (int i = 0; i < 2 && is_sound; ++i) counts.num_queue_dropped += next();
+  at = kAccountOffset;
+  for (AccountPage& page : counts.account) {
+    for (AccountEntry& entry : page.entries) entry.count = next(-kMaxCount);
+  }
   return is_sound ? std::optional(counts) : std::nullopt;
 }
 

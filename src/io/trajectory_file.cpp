@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -197,9 +196,7 @@ std::optional<Timestamp> ParseStamp(std::string_view text) {
   decimal->digits.resize(size, '0');
   std::uint64_t magnitude = rounds_up ? 1 : 0;
   if (size > 0) magnitude += std::stoull(decimal->digits);
-  if (magnitude > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
-    return std::nullopt;
-  }
+  if (magnitude > static_cast<std::uint64_t>(kMaxStampNs)) return std::nullopt;
   const auto ns = static_cast<std::int64_t>(magnitude);
   return Timestamp{decimal->is_negative ? -ns : ns};
 }

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 #include <optional>
 
-#include "view/access.hpp"
+#include "view/http_request.hpp"
 #include "view/serving.hpp"
 #include "view/web_files.hpp"
 
@@ -15,12 +14,6 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 constexpr std::chrono::seconds kPatience(10);  // for a request, and for taking the answer
-constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::uint64_t kMaxBodyBytes = 1024;
-
-std::string_view View(beast::string_view text) {
-  return {text.data(), text.size()};
-}
 
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
@@ -34,8 +27,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Read() {
     parser_.emplace();
-    parser_->header_limit(kMaxHeaderBytes);
-    parser_->body_limit(kMaxBodyBytes);
+    LimitRequest(*parser_);
     stream_.expires_after(kPatience);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -47,42 +39,38 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   using Response = http::response<http::span_body<const char>>;
 
   void Handle() {
-    const HttpRequest& request = parser_->get();
-    const Target target = ParseTarget(View(request.target()));
-    const Requester requester{View(request[http::field::host]), View(request[http::field::origin]),
-                              target.token};
-    const bool may_see = MaySee(requester, serving_->options.token);
-    if (target.path == "/data" || target.path == "/allowed") {
-      if (!may_see) {
+    const HttpDecision decision = DecideOn(parser_->get(), serving_->options.token);
+    switch (decision.outcome) {
+      case HttpOutcome::kFile:
+        return AnswerFile(decision.path);
+      case HttpOutcome::kWebSocket:
+        return Upgrade();
+      case HttpOutcome::kNoUpgrade:
+        return Answer(http::status::upgrade_required, {"text/plain", "a WebSocket is needed\n"});
+      case HttpOutcome::kAllowed:
+        return Answer(http::status::no_content, {"text/plain", {}});
+      case HttpOutcome::kNoRight:
         ++serving_->counts.num_turned_away;
-        Answer(http::status::unauthorized, {"text/plain", "no right to see this\n"});
-      } else if (target.path == "/allowed") {
-        Answer(http::status::no_content, {"text/plain", {}});
-      } else {
-        Upgrade(request);
-      }
-      return;
+        return Answer(http::status::unauthorized, {"text/plain", "no right to see this\n"});
+      case HttpOutcome::kWrongMethod:
+        return Answer(http::status::method_not_allowed, {"text/plain", "only GET and HEAD\n"});
     }
-    const bool is_read =
-        request.method() == http::verb::get || request.method() == http::verb::head;
-    const auto file = FindWebFile(target.path);
-    if (!is_read) {
-      Answer(http::status::method_not_allowed, {"text/plain", "only GET and HEAD\n"});
-    } else if (file) {
+  }
+
+  void AnswerFile(std::string_view path) {
+    if (const auto file = FindWebFile(path)) {
       Answer(http::status::ok, *file);
     } else {
       Answer(http::status::not_found, {"text/plain", "there is no such file\n"});
     }
   }
 
-  void Upgrade(const HttpRequest& request) {
-    if (!beast::websocket::is_upgrade(request)) {
-      Answer(http::status::upgrade_required, {"text/plain", "a WebSocket is needed\n"});
-    } else if (serving_->num_pages >= kMaxPages) {
+  void Upgrade() {
+    if (serving_->num_pages >= kMaxPages) {
       ++serving_->counts.num_turned_away;
       Answer(http::status::service_unavailable, {"text/plain", "too many pages are open\n"});
     } else {
-      ServePage(std::move(stream_), request, serving_);
+      ServePage(std::move(stream_), parser_->get(), serving_);
     }
   }
 
@@ -126,7 +114,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   beast::tcp_stream stream_;
   std::shared_ptr<Serving> serving_;
   beast::flat_static_buffer<kMaxHeaderBytes + kMaxBodyBytes> buffer_;
-  std::optional<http::request_parser<http::string_body>> parser_;
+  std::optional<HttpParser> parser_;
   Response response_;
   std::optional<http::response_serializer<http::span_body<const char>>> serializer_;
 };

@@ -5,9 +5,9 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 
 #include "lio/view/view_server.hpp"
+#include "view/http_request.hpp"
 
 namespace lio {
 
@@ -22,8 +22,6 @@ struct Serving {
 
 inline constexpr int kMaxConnections = 64;
 inline constexpr int kMaxPages = 16;
-
-using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
 // Reads one request after another of a connection, and hands it on when it asks for a WebSocket.
 void ServeHttp(boost::asio::ip::tcp::socket socket, const std::shared_ptr<Serving>& serving);

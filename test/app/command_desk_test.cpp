@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "lio/io/output_decoder.hpp"
 #include "lio/reply_t.hpp"
 #include "live_fixture.hpp"
 
@@ -101,6 +102,21 @@ TEST_F(CommandDeskTest, EveryCommandIsAnsweredWithItsIdAndWhatCannotBeIsRefused)
   const reply_t refused = ReplyTo(5);
   EXPECT_FALSE(IsDone(refused));
   EXPECT_THAT(refused.text, HasSubstr("quat"));
+  runner.Stop();
+}
+
+TEST_F(CommandDeskTest, TheStatusThatIsAskedForHasTheOptions) {
+  std::atomic<int> num_with_options = 0;
+  const std::string options = PrintOptions(SceneOptions());
+  bus_->Subscribe("LIO_STATUS", 1000, [&](ByteView data, std::int64_t) {
+    StatusReport report;
+    EXPECT_EQ(DecodeStatusReport(data, report), DecodeStatus::kOk);
+    if (report.options == options) ++num_with_options;
+  });
+  LiveRunner runner(*bus_, SceneOptions(), LiveOptions());
+  WaitUntil([&] { return num_with_options == 1; }, "the first status comes");
+  EXPECT_TRUE(IsDone(Ask(CommandAction::kStatusNow)));
+  WaitUntil([&] { return num_with_options == 2; }, "the status that was asked for comes");
   runner.Stop();
 }
 

@@ -4,19 +4,30 @@
 // estimate of a replay.
 #include "app/filter_loop.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/live_fixture.hpp"
+#include "lio/io/output_account.hpp"
 #include "lio/io/output_decoder.hpp"
 
 namespace lio {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 class FilterLoopTest : public LiveRunnerTest {
  protected:
   // Plays the log to a runner, and keeps what came on LIO_STATUS and LIO_STATE.
   void PlayAndHear(const Options& options) {
     const Channels channels;
+    for (const std::string& channel :
+         {channels.imu, channels.scan, channels.registration, channels.status}) {
+      bus_->Subscribe(channel, 100'000, [this, channel](ByteView data, std::int64_t) {
+        account_.Add(channel, data);
+      });
+    }
     bus_->Subscribe(channels.status, 1000, [this](ByteView data, std::int64_t) {
       EXPECT_EQ(DecodeStatusReport(data, statuses_.emplace_back()), DecodeStatus::kOk);
     });
@@ -34,7 +45,38 @@ class FilterLoopTest : public LiveRunnerTest {
 
   std::vector<StatusReport> statuses_;
   std::vector<FilterReport> states_;
+  OutputAccount account_{Channels()};  // hears the whole run, as a recorder does
 };
+
+TEST_F(FilterLoopTest, TheAccountOfEveryStatusCloses) {
+  PlayAndHear(SceneOptions());
+  for (const StatusReport& status : statuses_) {
+    for (const AccountPage& page : status.account) {
+      EXPECT_EQ(page.Unaccounted(), 0) << page.name << " of message " << status.seq;
+      for (const AccountEntry& entry : page.entries) EXPECT_GE(entry.count, 0) << entry.name;
+    }
+  }
+  for (const AccountPage& page : statuses_.back().account) {
+    EXPECT_GT(page.num_received(), 0) << page.name;
+  }
+}
+
+TEST_F(FilterLoopTest, ARecordingClosesUntilANumberIsFalse) {
+  PlayAndHear(SceneOptions());
+  EXPECT_THAT(account_.Text(), HasSubstr("messages: "));
+  EXPECT_THAT(account_.Text(), HasSubstr("rows: "));
+  EXPECT_THAT(account_.Text(), Not(HasSubstr("does not close"))) << account_.Text();
+  StatusReport falsified = statuses_.back();
+  falsified.account[1].entries.front().count -= 3;
+  account_.Add(Channels().status, EncodeStatus(falsified, "1.0.0"));
+  EXPECT_THAT(account_.Text(), HasSubstr("does not close by -3: they have two fates"));
+}
+
+TEST_F(FilterLoopTest, TheFirstStatusAloneHasTheOptions) {
+  PlayAndHear(SceneOptions());
+  EXPECT_EQ(statuses_.front().options, PrintOptions(SceneOptions()));
+  for (std::size_t i = 1; i < statuses_.size(); ++i) EXPECT_EQ(statuses_[i].options, "");
+}
 
 TEST_F(FilterLoopTest, TheStatusHasTheClockOffsetThatTheFilterEstimates) {
   Options options = SceneOptions();

@@ -29,7 +29,7 @@ class ReceiverTest : public ::testing::Test {
   std::unique_ptr<Bus> bus_ = OpenMemoryBus();
   Channels channels_;
   FilterInbox inbox_;
-  StatusBoard board_{0, 0};
+  StatusBoard board_{"", 0};
   OtherDaemons others_{1};
   std::vector<std::string> refusals_;
   Receiver receiver_{*bus_,

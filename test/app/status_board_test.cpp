@@ -10,7 +10,7 @@ namespace lio {
 namespace {
 
 TEST(StatusBoard, WhatWasPinnedIsReported) {
-  StatusBoard board(77, 1 << 20);
+  StatusBoard board("pipeline: {}", 1 << 20);
   Counters counters;
   counters.num_gated = 3;
   board.SetEstimator(counters, TrackingStatus::kCoasting, Timestamp{9});
@@ -21,7 +21,7 @@ TEST(StatusBoard, WhatWasPinnedIsReported) {
   board.SetNote("waiting");
   board.CountRefusedCommand();
   const StatusReport report = board.Compose();
-  EXPECT_EQ(report.config_hash, 77u);
+  EXPECT_EQ(report.config_hash, Fnv1a("pipeline: {}"));
   EXPECT_EQ(report.receive_buffer_bytes, 1 << 20);
   EXPECT_EQ(report.counters.num_gated, 3);
   EXPECT_EQ(report.state, TrackingStatus::kCoasting);
@@ -37,8 +37,17 @@ TEST(StatusBoard, WhatWasPinnedIsReported) {
   EXPECT_EQ(board.Compose().seq, 1);
 }
 
+TEST(StatusBoard, TheOptionsAreInTheFirstReportAndWhenTheyAreAskedFor) {
+  StatusBoard board("pipeline: {}", 0);
+  EXPECT_EQ(board.Compose().options, "pipeline: {}");
+  EXPECT_EQ(board.Compose().options, "");
+  board.TellOptions();
+  EXPECT_EQ(board.Compose().options, "pipeline: {}");
+  EXPECT_EQ(board.Compose().options, "");
+}
+
 TEST(StatusBoard, TheClockOffsetIsTheConfiguredOneUnlessItIsEstimated) {
-  StatusBoard board(0, 0, 0.004);
+  StatusBoard board("", 0, 0.004);
   EXPECT_EQ(board.Compose().clock_offset.offset_s, 0.004);
   board.SetClockOffset({.offset_s = 0.025, .std_s = 0.0004});
   EXPECT_EQ(board.Compose().clock_offset.offset_s, 0.025);
@@ -49,7 +58,7 @@ TEST(StatusBoard, TheClockOffsetIsTheConfiguredOneUnlessItIsEstimated) {
 }
 
 TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
-  StatusBoard board(0, 0);
+  StatusBoard board("", 0);
   for (int i = 1; i <= 100; ++i) board.AddLatency(i, 1000.0);
   const StatusReport report = board.Compose();
   EXPECT_NEAR(report.queue.p50_ms, 50.5, 0.6);
@@ -63,7 +72,7 @@ TEST(StatusBoard, LatenciesAreThoseSinceTheLastReport) {
 TEST(StatusBoard, LoadIsCpuTimeSinceTheLastReport) {
   std::int64_t utime = 1'000'000;
   std::int64_t cpu_us = 70'000;
-  StatusBoard board(0, 0, 0.0, {[&] { return utime; }, [&] { return cpu_us; }});
+  StatusBoard board("", 0, 0.0, {[&] { return utime; }, [&] { return cpu_us; }});
   utime += 2'000'000;
   cpu_us += 500'000;
   EXPECT_EQ(board.Compose().cpu_load_cores, 0.25F);

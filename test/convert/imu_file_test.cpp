@@ -36,10 +36,12 @@ TEST(ImuFile, ATableHasSecondsOrNanosecondsAndPerhapsAHeading) {
 
 TEST(ImuFile, LinesThatAreNoSamplesAreCounted) {
   const test::TempDir dir;
-  const ImuFile imu = ReadImuFile(dir.Write(
-      "imu.csv", "1700000000.25,0.1,-0.2,0.3,1.0,2.0,9.8\n1700000000.26,0.1\n1,2,3,x,5,6,7\n\n"));
+  const ImuFile imu = ReadImuFile(
+      dir.Write("imu.csv",
+                "1700000000.25,0.1,-0.2,0.3,1.0,2.0,9.8\n1700000000.26,0.1\n1,2,3,x,5,6,7\n\n"
+                "9223372036854775807,0.1,-0.2,0.3,1.0,2.0,9.8\n"));
   ExpectSample(imu);
-  EXPECT_EQ(imu.num_damaged, 2);
+  EXPECT_EQ(imu.num_damaged, 3);
 }
 
 TEST(ImuFile, ALogAndABagAreReadToo) {

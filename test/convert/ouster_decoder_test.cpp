@@ -145,6 +145,13 @@ INSTANTIATE_TEST_SUITE_P(Profiles, Ouster,
                            return tested.param == OusterProfile::kLegacy ? "Legacy" : "Rng19";
                          });
 
+// Hostile: a section in a section, and so on.
+std::string DeepSections(int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) text += "{\"a\":";
+  return text + "1" + std::string(static_cast<std::size_t>(depth), '}');
+}
+
 TEST(OusterMetadata, FlatFilesAndDefaultsAreRead) {
   const test::TempDir dir;
   const OusterMetadata sensor = ReadOusterMetadata(
@@ -160,6 +167,7 @@ TEST(OusterMetadata, WhatCannotBeUsedIsRefusedByName) {
   for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
            {"", "no description"},
            {"[]", "no description"},
+           {DeepSections(100'000), "no description"},
            {"{\"beam_altitude_angles\": []}", "no description"},
            {Metadata("RNG15_RFL8_NIR8"), "RNG15_RFL8_NIR8 is not supported"},
            {R"({"lidar_mode": "0x10", "beam_altitude_angles": [1], "beam_azimuth_angles": [0]})",

@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <memory>
-#include <stdexcept>
 
+#include "convert/livox_message.hpp"
 #include "fuzz/scratch_file.hpp"
+#include "fuzz/target_helpers.hpp"
 #include "fuzz/targets.hpp"
 #include "lio/convert/bag_reader.hpp"
+#include "lio/convert/inspvax.hpp"
 #include "lio/convert/kitti_files.hpp"
 #include "lio/convert/oxts.hpp"
 #include "lio/convert/pointcloud2_layout.hpp"
 #include "lio/convert/ros_messages.hpp"
 #include "lio/convert/ros_schema.hpp"
+#include "lio/convert/static_transforms.hpp"
 
 namespace lio::fuzz {
 namespace {
 
-void ReadCloud(ByteView bytes, RosEncoding encoding) {
-  const std::optional<RosCloud> cloud = DecodeRosCloud(bytes, encoding);
+void ReadCloud(const std::optional<RosCloud>& cloud) {
   if (!cloud) return;
   const std::optional<PointLayout> layout = FindLayout(cloud->fields);
   (void)DescribeFields(cloud->fields);
@@ -25,30 +26,46 @@ void ReadCloud(ByteView bytes, RosEncoding encoding) {
   if (layout) ReadPoints(*cloud, *layout, points);
 }
 
+void ReadTransforms(ByteView bytes, RosEncoding encoding) {
+  const auto links = DecodeRosTransforms(bytes, encoding);
+  if (!links || links->empty()) return;
+  FrameTree tree;
+  for (const FrameLink& link : *links) tree.Add(link);
+  (void)tree.Find(links->front().parent, links->back().child);
+}
+
+void ReadPosition(const RosNumbers& numbers) {
+  const auto row = ToInspvaxRow(numbers, Timestamp{1'700'000'000'000'000'000});
+  if (!row) return;
+  (void)InspvaxAttitude(row->roll_rad, row->pitch_rad, row->azimuth_rad);
+  LocalFrame frame;
+  (void)frame.ToLocal(row->latitude_rad, row->longitude_rad, row->ellipsoid_height_m);
+}
+
 void ReadMessage(ByteView bytes, RosEncoding encoding) {
   (void)DecodeRosImu(bytes, encoding);
   (void)DecodeRosOdometry(bytes, encoding);
   (void)DecodeRosPoseStamped(bytes, encoding);
-  ReadCloud(bytes, encoding);
+  ReadCloud(DecodeRosCloud(bytes, encoding));
+  ReadCloud(DecodeLivox(bytes, encoding));
+  ReadTransforms(bytes, encoding);
+}
+
+void ReadBySchema(const std::optional<RosSchema>& schema, ByteView bytes, RosEncoding encoding) {
+  if (!schema) return;
+  if (const auto numbers = schema->Read(bytes, encoding)) ReadPosition(*numbers);
 }
 
 void ReadBag(const char* name, ByteView bytes) {
-  try {
+  MayRefuse([&] {
     const std::unique_ptr<BagReader> bag = OpenBag(ScratchFile(name, bytes));
     BagMessage message;
     while (bag->Next(message)) {
       const BagTopic& topic = bag->topics().at(message.topic);
       ReadMessage(message.data, topic.encoding);
-      if (const auto schema = RosSchema::Parse(topic.definition, topic.type)) {
-        (void)schema->Read(message.data, topic.encoding);
-      }
+      ReadBySchema(RosSchema::Parse(topic.definition, topic.type), message.data, topic.encoding);
     }
-  } catch (const std::runtime_error&) {  // the file is refused
-  }
-}
-
-std::string_view TextOf(ByteView bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  });
 }
 
 }  // namespace
@@ -67,18 +84,16 @@ void Mcap(ByteView bytes) {
 
 // A definition ends at the first zero byte, and a message of that type comes after it.
 void RosMessages(ByteView bytes) {
-  const auto end = std::find(bytes.begin(), bytes.end(), 0);
-  const auto length = static_cast<std::size_t>(end - bytes.begin());
-  const ByteView message = bytes.subspan(std::min(length + 1, bytes.size()));
-  const auto schema = RosSchema::Parse(TextOf(bytes.first(length)), "pkg/Type");
+  ByteView message = bytes;
+  const auto schema = RosSchema::Parse(TextOf(CutPart(message)), "pkg/Type");
   for (const RosEncoding encoding : {RosEncoding::kRos1, RosEncoding::kCdr}) {
     ReadMessage(bytes, encoding);
-    if (schema) (void)schema->Read(message, encoding);
+    ReadBySchema(schema, message, encoding);
   }
 }
 
 void Kitti(ByteView bytes) {
-  try {
+  MayRefuse([&] {
     (void)ReadKittiScan(ScratchFile("0000000000.bin", bytes));
     (void)ReadKittiScan(ScratchFile("0000000000.txt", bytes));
     (void)ParseOxts(std::string(TextOf(bytes)));
@@ -88,8 +103,7 @@ void Kitti(ByteView bytes) {
         (void)ToPose({row.begin(), row.begin() + 9}, {row.end() - 3, row.end()}, key);
     }
     (void)ReadKittiStamps(ScratchFile("timestamps.txt", bytes));
-  } catch (const std::runtime_error&) {  // the file is refused
-  }
+  });
 }
 
 }  // namespace lio::fuzz

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 #include <cstdlib>
-#include <stdexcept>
 
+#include "app/command_rules.hpp"
 #include "fuzz/scratch_file.hpp"
+#include "fuzz/target_helpers.hpp"
 #include "fuzz/targets.hpp"
 #include "lio/io/command.hpp"
 #include "lio/io/event_log.hpp"
@@ -16,13 +17,13 @@
 namespace lio::fuzz {
 namespace {
 
-// Readers of whole files refuse with a std::runtime_error; any other exception is a fault.
-template <typename Read>
-void MayRefuse(Read&& read) {
-  try {
-    read();
-  } catch (const std::runtime_error&) {
-  }
+// A command that is obeyed has a pose of rotation and covariance, and names a file of one folder.
+void JudgeCommand(const Command& command) {
+  if (!WhyUnusable(command).empty()) return;
+  const GivenPose pose = PoseOf(command);
+  if (command.action == CommandAction::kResetAtPose && !pose.cov.allFinite()) std::abort();
+  const std::filesystem::path file = command.name;
+  if (command.action == CommandAction::kSaveMap && file.filename() != file) std::abort();
 }
 
 }  // namespace
@@ -36,8 +37,10 @@ void Messages(ByteView bytes) {
     std::abort();
   }
   Command command;
-  (void)DecodeCommand(bytes, command);
-  (void)DecodeStatusCounts(bytes);
+  if (DecodeCommand(bytes, command) == DecodeStatus::kOk) JudgeCommand(command);
+  OutputAccount account{Channels()};
+  account.Add(Channels().status, bytes);
+  (void)account.Text();
   NavOutput nav;
   (void)DecodeOdometry(bytes, nav);
   FilterReport filter;

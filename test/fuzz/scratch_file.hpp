@@ -36,6 +36,7 @@ inline const std::filesystem::path& ScratchFolder() {
 
 inline std::filesystem::path ScratchFile(const std::string& name, ByteView bytes) {
   const std::filesystem::path path = ScratchFolder() / name;
+  std::filesystem::create_directories(path.parent_path());
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));

@@ -23,6 +23,11 @@ StatusReport ReportOfARun() {
   report.counters.num_scans_empty = 1;
   report.input.num_refused[static_cast<std::size_t>(DecodeStatus::kBadFormat)] = 1;
   report.num_imu_queue_dropped = 1;
+  Account account;
+  account.ledgers.scans.num_received = 2;
+  account.ledgers.scans.Settle(ScanFate::kUsed);
+  account.ledgers.scans.Settle(ScanFate::kEmpty);
+  report.account = AccountPages(account, {});
   return report;
 }
 
@@ -38,6 +43,8 @@ TEST(StatusCounts, ComeBackFromTheWire) {
   EXPECT_EQ(counts->start_utime, 77);
   EXPECT_EQ(counts->counters.num_scans_empty, 1);
   EXPECT_EQ(counts->NumReceived(), 8);
+  EXPECT_EQ(counts->account.back().num_received(), 2);
+  EXPECT_EQ(counts->account.back().Unaccounted(), 0);
 }
 
 TEST(StatusCounts, AreAbsentFromForeignAndDamagedBytes) {
@@ -74,7 +81,24 @@ TEST(OutputAccount, SaysByHowMuchItDoesNotClose) {
   AddTimes(account, "LIO_IMU", 10);
   account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
   EXPECT_THAT(account.Text(), HasSubstr("does not close by 2: messages were on the way"));
-  EXPECT_THAT(account.Text(), HasSubstr("does not close by 1: scans were before the start"));
+}
+
+TEST(OutputAccount, NamesRowsThatWereNotRecorded) {
+  OutputAccount account{Channels()};
+  AddTimes(account, "LIO_REG", 3);
+  account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
+  EXPECT_THAT(account.Text(), HasSubstr("rows: 3 recorded of 1 scans that were matched: does not "
+                                        "close by -2: scans have two rows"));
+}
+
+TEST(OutputAccount, SaysByHowMuchTheStatusItselfDoesNotClose) {
+  OutputAccount account{Channels()};
+  StatusReport report = ReportOfARun();
+  report.account.back().entries.front().count += 3;
+  account.Add("LIO_STATUS", EncodeStatus(report, "1.0.0"));
+  EXPECT_THAT(account.Text(), HasSubstr("imu: 0 received = 0: closes"));
+  EXPECT_THAT(account.Text(), HasSubstr("scans: 5 received = 1 used + 1 empty: does not close by "
+                                        "3: they have no fate"));
 }
 
 TEST(OutputAccount, TheOutputsAloneAreHeldAgainstScansOnly) {
@@ -82,7 +106,8 @@ TEST(OutputAccount, TheOutputsAloneAreHeldAgainstScansOnly) {
   AddTimes(account, "LIO_REG", 1);
   account.Add("LIO_STATUS", EncodeStatus(ReportOfARun(), "1.0.0"));
   EXPECT_THAT(account.Text(), Not(HasSubstr("messages")));
-  EXPECT_THAT(account.Text(), HasSubstr("scans: 2 closed = 1 with a row + 1 empty"));
+  EXPECT_THAT(account.Text(), HasSubstr("rows: 1 recorded of 1 scans that were matched: closes"));
+  EXPECT_THAT(account.Text(), HasSubstr("scans: 2 received = 1 used + 1 empty: closes"));
 }
 
 TEST(OutputAccount, ASecondDaemonCountsFromItsStart) {

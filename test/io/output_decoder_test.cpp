@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -82,6 +83,10 @@ StatusReport SomeStatus() {
   report.trust = Trust::kDoubtful;
   report.config_hash = 0x8000000000000001;
   report.note = "started at rest";
+  report.options = "pipeline: {}";
+  for (AccountPage& page : report.account) {
+    for (AccountEntry& entry : page.entries) entry.count = ++value;
+  }
   return report;
 }
 
@@ -146,9 +151,33 @@ TEST(OutputDecoder, StatusComesBack) {
   ASSERT_EQ(DecodeStatusReport(EncodeStatus(sent, "1.2.3"), got), DecodeStatus::kOk);
   EXPECT_EQ(EncodeStatus(got, "1.2.3"), EncodeStatus(sent, "1.2.3"));
   EXPECT_EQ(got.note, sent.note);
+  EXPECT_EQ(got.options, sent.options);
   EXPECT_EQ(got.latency.p99_ms, sent.latency.p99_ms);
   EXPECT_EQ(got.clock_offset.offset_s, sent.clock_offset.offset_s);
   EXPECT_EQ(got.clock_offset.std_s, sent.clock_offset.std_s);
+}
+
+// The lengths of the texts are a sender's claim.
+TEST(OutputDecoder, HostileTextsOfAStatusAreRefused) {
+  StatusReport status = SomeStatus();
+  const Bytes sound = EncodeStatus(status, "1.2.3");
+  const std::size_t options_at = sound.size() - status.options.size() - 5;  // length and NUL, too
+  const std::size_t note_at = options_at - status.note.size() - 5;
+  for (const std::size_t at : {note_at, options_at}) {
+    for (const int byte : {0x00, 0x7f, 0xff}) {
+      Bytes claims = sound;
+      std::fill_n(claims.begin() + static_cast<std::ptrdiff_t>(at), 4,
+                  static_cast<std::uint8_t>(byte));
+      EXPECT_EQ(Status(claims), DecodeStatus::kSizeMismatch) << at << " " << byte;
+    }
+  }
+  status.options.assign(kMaxStatusText, 'x');
+  EXPECT_EQ(Status(EncodeStatus(status, "1.2.3")), DecodeStatus::kOk);
+  status.options += 'x';
+  EXPECT_EQ(Status(EncodeStatus(status, "1.2.3")), DecodeStatus::kBadFormat);
+  status.options.clear();
+  status.note.assign(kMaxStatusText + 1, 'x');
+  EXPECT_EQ(Status(EncodeStatus(status, "1.2.3")), DecodeStatus::kBadFormat);
 }
 
 TEST(OutputDecoder, EveryTruncationAndEveryTrailingByteIsRefused) {

@@ -64,7 +64,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
   EXPECT_EQ(message.chunks_bad, report.counters.num_chunks_bad);
 }
 
-// Returns the names of the type's int64 fields between "imu" and "bad_truncated", in their order.
+// Returns the names of the type's int64 fields, in their order.
 std::vector<std::string> CountsOfTheType() {
   const std::filesystem::path source = LIO_SOURCE_DIR;
   const std::string type = test::ReadText(source / "lcmtypes" / "lio_status_t.lcm");
@@ -73,8 +73,6 @@ std::vector<std::string> CountsOfTheType() {
   for (std::sregex_iterator at(type.begin(), type.end(), field), end; at != end; ++at) {
     names.push_back((*at)[1]);
   }
-  names.erase(names.begin(), std::find(names.begin(), names.end(), "imu"));
-  names.erase(std::find(names.begin(), names.end(), "bad_truncated"), names.end());
   return names;
 }
 
@@ -83,7 +81,37 @@ TEST(StatusCodec, TheTypeHasTheFieldListsCountsInItsOrder) {
   for (const CounterField& field : kCounterFields) {
     listed.emplace_back(field.name.substr(std::string_view("num_").size()));
   }
-  EXPECT_EQ(CountsOfTheType(), listed);
+  std::vector<std::string> names = CountsOfTheType();
+  names.erase(names.begin(), std::find(names.begin(), names.end(), "imu"));
+  names.erase(std::find(names.begin(), names.end(), "bad_truncated"), names.end());
+  EXPECT_EQ(names, listed);
+}
+
+TEST(StatusCodec, TheTypeHasTheEntriesOfTheAccountInTheirOrder) {
+  std::vector<std::string> listed;
+  for (const AccountPage& page : AccountPages({}, {})) {
+    for (const AccountEntry& entry : page.entries) {
+      listed.push_back("account_" + std::string(page.name) + "_" + std::string(entry.name));
+    }
+  }
+  std::vector<std::string> names = CountsOfTheType();
+  std::erase_if(names, [](const std::string& name) { return !name.starts_with("account_"); });
+  EXPECT_EQ(names, listed);
+}
+
+TEST(StatusCodec, TheAccountArrives) {
+  StatusReport report;
+  report.account.front().entries.front().count = 7;
+  report.account[1].entries.front().count = 8;
+  report.account.back().entries.back().count = -9;
+  const status_t message = Decoded(EncodeStatus(report, "0.1.0"));
+  EXPECT_EQ(message.handler_faults, 0);
+  EXPECT_EQ(message.account_imu_received, 7);
+  EXPECT_EQ(message.account_imu_truncated, 0);
+  EXPECT_EQ(message.account_chunks_received, 8);
+  EXPECT_EQ(message.account_scans_forgotten, 0);
+  EXPECT_EQ(message.account_scans_waiting, -9);
+  EXPECT_EQ(message.rcvbuf_bytes, 0);
 }
 
 TEST(StatusCodec, NoiseOfTheImuArrives) {
@@ -130,6 +158,7 @@ TEST(StatusCodec, LossesLatenciesAndIdentityArrive) {
   report.latency = {1.0F, 2.0F, 3.0F};
   report.config_hash = 0xfedcba9876543210;
   report.note = "waiting for rest";
+  report.options = "pipeline: {}";
   const status_t message = Decoded(EncodeStatus(report, "1.22.3"));
   EXPECT_EQ(message.utime, 5);
   EXPECT_EQ(message.sensor_utime, 7);
@@ -141,6 +170,7 @@ TEST(StatusCodec, LossesLatenciesAndIdentityArrive) {
   EXPECT_EQ(message.version[1], 22);
   EXPECT_EQ(message.version[2], 3);
   EXPECT_EQ(message.note, "waiting for rest");
+  EXPECT_EQ(message.options, "pipeline: {}");
 }
 
 TEST(Fnv1a, AgreesWithPublishedValues) {

@@ -14,6 +14,7 @@ namespace {
 
 using test::kScene;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kBin = LIO_BIN_DIR;
 constexpr const char* kUp = "ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; ";
@@ -256,6 +257,19 @@ TEST_F(LiodTest, SilenceIsSaidOnceAndAgainAfterItHadPassed) {
   EXPECT_EQ(count("liod: no longer so: nothing comes"), 1) << said;
   EXPECT_THAT(said, HasSubstr("ip route get 239.255.76.67"));
   EXPECT_THAT(File("status.lcm"), HasSubstr("nothing comes on LIO_IMU and LIO_SCAN"));
+}
+
+// Whatever a busy machine loses: all that liod knows of has a fate.
+TEST_F(LiodTest, TheAccountOfARecordingCloses) {
+  const auto result = RunAlone("lcm-logger -q -f " + Out("all.lcm") + " & logger=$!; sleep 0.3; " +
+                               Start("") + "lcm-logplayer " + kScene +
+                               "/log.lcm; kill -TERM $liod; wait $liod; rc=$?; sleep 0.5; "
+                               "kill $logger; wait $logger; exit $rc");
+  ASSERT_EQ(result.exit_code, 0) << result.err << File("said");
+  const auto info = test::RunProgram({kBin + "/lio-log", "info", Out("all.lcm")});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("The last status of liod says"));
+  EXPECT_THAT(info.out, Not(HasSubstr("fate"))) << info.out;
 }
 
 TEST_F(LiodTest, ASensorThatIsMissingIsSaid) {

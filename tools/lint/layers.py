@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = "tools/lint/layers.txt"
 DESIGN = ROOT / "docs" / "design.md"
 BEGIN, END = "<!-- layers: begin -->", "<!-- layers: end -->"
-SHARED_TESTS = ("contract", "support")  # they serve several folders
+SHARED_TESTS = ("contract", "fuzz", "support")  # they serve several folders
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]((?<=")[^"]+|lio/[^>]+)[">]')
 
 

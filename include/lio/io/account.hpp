@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "lio/base/ledger.hpp"
 #include "lio/io/input_decoder.hpp"
@@ -31,6 +33,25 @@ struct Account {
   TransitCounters imu;
   TransitCounters chunks;
 };
+
+struct AccountEntry {
+  std::string_view name;
+  std::int64_t count = 0;
+};
+
+// Lists what was received, and then every fate, what waits among them.
+struct AccountPage {
+  std::string_view name;
+  std::vector<AccountEntry> entries;
+
+  [[nodiscard]] std::int64_t num_received() const { return entries.front().count; }
+  // Returns zero when the page closes.
+  [[nodiscard]] std::int64_t Unaccounted() const;
+};
+
+// Returns the pages "imu", "chunks" and "scans", in the order of stats.json and of status_t.
+[[nodiscard]] std::vector<AccountPage> AccountPages(const Account& account,
+                                                    const InputCounters& input);
 
 // Returns the object "account" of stats.json, without its key.
 [[nodiscard]] std::string AccountJson(const Account& account, const InputCounters& input);

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Holds what a recording has of liod's inputs and outputs against the counts of its last status:
-// whether every recorded message arrived, and whether every scan has a row.
+// whether every recorded message arrived, whether every scan that was matched has a row, and
+// whether the account of the status closes.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lio/base/counters.hpp"
-#include "lio/io/input_decoder.hpp"
+#include "lio/io/account.hpp"
 
 namespace lio {
 
@@ -19,6 +21,7 @@ struct StatusCounts {
   Counters counters;             // without ledgers
   std::int64_t num_refused = 0;
   std::int64_t num_queue_dropped = 0;
+  std::vector<AccountPage> account = AccountPages({}, {});
 
   // Messages of the two input channels that the daemon knows of.
   [[nodiscard]] std::int64_t NumReceived() const;

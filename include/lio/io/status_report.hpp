@@ -5,8 +5,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "lio/io/input_decoder.hpp"
+#include "lio/io/account.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/verdict/verdict.hpp"
 
@@ -41,6 +42,7 @@ struct StatusReport {
   std::int64_t num_outputs_dropped = 0;
   std::int64_t num_commands_refused = 0;
   std::int64_t num_handler_faults = 0;
+  std::vector<AccountPage> account = AccountPages({}, {});
   std::int32_t receive_buffer_bytes = 0;  // 0: unknown
   LatencySummary queue;                   // arrival of a scan's last datagram to start of its match
   LatencySummary compute;                 // from there to its odometry
@@ -52,8 +54,13 @@ struct StatusReport {
   ClockOffsetStatus clock_offset;
   Trust trust = Trust::kYes;  // at the last look
   std::uint64_t config_hash = 0;
-  std::string note;  // the last notice
+  std::string note;     // the last notice
+  std::string options;  // the effective ones as YAML, or empty
 };
+
+// Longer texts of a status are refused by its decoder: the longest notice has some hundred bytes,
+// and all options have 11 kB.
+inline constexpr std::size_t kMaxStatusText = std::size_t{1} << 16;
 
 // `version` reads "major.minor.patch".
 [[nodiscard]] Bytes EncodeStatus(const StatusReport& report, const std::string& version);
