@@ -77,12 +77,12 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
 }
 
 bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
-  constexpr PlaceContestParameters kContest = kRelocalization.contest;
+  constexpr PlaceContestParameters kRivals = kRelocalization.contest;
   const auto residual = [](const MatchResult& result) {
     return 1.0 - static_cast<double>(result.num_matched) / std::max(result.num_in_map, 1);
   };
   return residual(match) >=
-         kContest.min_residual_ratio * std::max(residual(other), kContest.least_residual);
+         kRivals.min_residual_ratio * std::max(residual(other), kRivals.least_residual);
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {
