@@ -8,6 +8,8 @@
 
 #include "lio/base/angle.hpp"
 #include "lio/convert/byte_order.hpp"
+#include "lio/convert/point_time.hpp"
+#include "lio/io/trajectory_file.hpp"
 
 namespace lio {
 namespace {
@@ -23,6 +25,10 @@ constexpr double kStandardGravity_mps2 = 9.80665;
 template <typename T>
 T At(ByteView bytes, std::size_t at) {
   return LoadAs<T>(bytes.data() + at, false);
+}
+
+bool IsStamp(std::int64_t ns) {
+  return ns >= 0 && ns <= kMaxStampNs;
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ void OusterDecoder::Add(ByteView payload, Timestamp received) {
   for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i) {
     const Column column = ReadColumn(payload, i);
     if (!column.is_valid) continue;  // the window of the azimuth, or a lost firing
-    if (column.number >= metadata_.columns_per_turn) {
+    if (column.number >= metadata_.columns_per_turn || !IsInTime(column)) {
       is_damaged = true;
       continue;
     }
@@ -75,6 +81,14 @@ OusterDecoder::Column OusterDecoder::ReadColumn(ByteView payload, std::size_t in
   column.stamp_ns = At<std::int64_t>(at, 0);
   column.number = At<std::uint16_t>(at, 8);
   return column;
+}
+
+// No turn takes longer than that.
+bool OusterDecoder::IsInTime(const Column& column) const {
+  if (!IsStamp(column.stamp_ns)) return false;
+  if (frame_ != column.frame || turn_.instants_ns.empty()) return true;
+  const std::int64_t since_first_ns = column.stamp_ns - turn_.instants_ns.front();
+  return Abs(Duration{since_first_ns}) <= Duration::FromSeconds(kMaxSweepSeconds);
 }
 
 void OusterDecoder::AddColumn(const Column& column, Timestamp received) {
@@ -122,9 +136,14 @@ void OusterDecoder::AddImu(ByteView payload, Timestamp received) {
   const auto vector = [&](std::size_t at) {
     return Vector3(At<float>(payload, at), At<float>(payload, at + 4), At<float>(payload, at + 8));
   };
+  const auto stamp_ns = At<std::int64_t>(payload, 16);  // the gyro's own time
+  if (!IsStamp(stamp_ns)) {
+    ++counts_.num_damaged;
+    return;
+  }
   ReceivedImu imu;
   imu.received = received;
-  imu.sample.stamp = Timestamp{At<std::int64_t>(payload, 16)};  // the gyro's own time
+  imu.sample.stamp = Timestamp{stamp_ns};
   imu.sample.f_imu_mps2 = kStandardGravity_mps2 * vector(24);
   imu.sample.w_imu_radps = kRadPerDeg * vector(36);
   imu_.push_back(imu);

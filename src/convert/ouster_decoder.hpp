@@ -31,6 +31,7 @@ class OusterDecoder : public PacketDecoder {
   };
 
   [[nodiscard]] Column ReadColumn(ByteView payload, std::size_t index) const;
+  [[nodiscard]] bool IsInTime(const Column& column) const;
   void AddColumn(const Column& column, Timestamp received);
   void AddPixel(const Column& column, std::size_t beam);
   void AddImu(ByteView payload, Timestamp received);

@@ -10,6 +10,7 @@
 #include "lio/convert/byte_order.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
+#include "lio/io/trajectory_file.hpp"
 
 namespace lio {
 namespace {
@@ -104,8 +105,10 @@ bool UdpCapture::Next(UdpDatagram& datagram) {
   while ((status = pcap_next_ex(capture_.get(), &header, &data)) == 1) {
     ++counts_.num_frames;
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-    datagram.received = Timestamp{std::int64_t{header->ts.tv_sec} * kNsPerSecond +
-                                  header->ts.tv_usec};  // in ns, as was asked for
+    const std::int64_t seconds =
+        std::clamp<std::int64_t>(header->ts.tv_sec, 0, kMaxStampNs / kNsPerSecond);
+    datagram.received =
+        Timestamp{seconds * kNsPerSecond + header->ts.tv_usec};  // in ns, as was asked for
     const auto packet = IpPacket(ByteView(data, header->caplen));
     if (!packet) {
       ++counts_.num_other;

@@ -124,6 +124,26 @@ TEST_P(Ouster, DamageIsCountedAndNeverFollowed) {
   EXPECT_EQ(decoder.counts().num_taken + decoder.counts().num_damaged, 500);
 }
 
+// A turn of columns of any time would have no span that 32 bits of nanoseconds hold.
+TEST_P(Ouster, ColumnsAndSamplesOfAnotherTimeAreDamaged) {
+  OusterDecoder decoder(Read());
+  const std::string sound = LidarPacket(GetParam(), 0);
+  decoder.Add(ViewOf(sound), Timestamp{1});
+  const std::size_t stamp_at = GetParam() == OusterProfile::kLegacy ? 0 : 32;
+  for (const char high : {'\x00', '\x7f', '\xff'}) {
+    std::string packet = sound;
+    packet[stamp_at + 7] = high;
+    decoder.Add(ViewOf(packet), Timestamp{1});
+  }
+  EXPECT_EQ(decoder.counts().num_taken, 1);
+  EXPECT_EQ(decoder.counts().num_damaged, 3);
+  decoder.Add(ViewOf(std::string(kOusterImuBytes, '\xff')), Timestamp{1});
+  EXPECT_EQ(decoder.counts().num_damaged, 4);
+  decoder.Finish();
+  EXPECT_EQ(decoder.TakeTurns().at(0).points.size(), kBeams * (16 + 3 * 15));
+  EXPECT_TRUE(decoder.TakeImu().empty());
+}
+
 TEST_P(Ouster, ItsImuIsInMetresAndRadians) {
   OusterDecoder decoder(Read());
   PacketBytes packet;
