@@ -61,15 +61,22 @@ std::size_t ColumnsOfMode(const Json& all) {
   return std::stoul(Find(all, "lidar_mode").get<std::string>());
 }
 
+// Numbers of other kinds may be too large for a count.
+std::size_t CountOf(const Json& found, const std::string& key) {
+  if (!found.is_number_unsigned()) throw InputError(key + " is no whole number");
+  return found.get<std::size_t>();
+}
+
 OusterMetadata Parse(const Json& all) {
   OusterMetadata sensor;
   sensor.profile = ProfileOf(all);
   sensor.elevation_rad = Angles(all, "beam_altitude_angles");
   sensor.azimuth_offset_rad = Angles(all, "beam_azimuth_angles");
   const Json& columns = Find(all, "columns_per_frame");
-  sensor.columns_per_turn = columns.is_null() ? ColumnsOfMode(all) : columns.get<std::size_t>();
+  sensor.columns_per_turn =
+      columns.is_null() ? ColumnsOfMode(all) : CountOf(columns, "columns_per_frame");
   const Json& per_packet = Find(all, "columns_per_packet");
-  if (!per_packet.is_null()) sensor.columns_per_packet = per_packet.get<std::size_t>();
+  if (!per_packet.is_null()) sensor.columns_per_packet = CountOf(per_packet, "columns_per_packet");
   const Json& origin = Find(all, "lidar_origin_to_beam_origin_mm");
   if (!origin.is_null()) sensor.beam_origin_m = kMetresPerMillimetre * origin.get<double>();
   sensor.T_sensor_lidar = TransformOf(all, "lidar_to_sensor_transform");
