@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "lio/base/stamp_limit.hpp"
 #include "lio/convert/bag_reader.hpp"
 #include "lio/convert/ros_messages.hpp"
 #include "lio/io/event_log.hpp"
@@ -80,7 +81,7 @@ std::optional<Timestamp> StampOf(std::string_view cell) {
   std::int64_t whole = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), whole);
   const bool is_whole = error == std::errc() && end == cell.data() + cell.size();
-  if (is_whole && whole > kLeastNs && whole <= kMaxStampNs) return Timestamp{whole};
+  if (is_whole && whole > kLeastNs && whole <= kMaxStamp_ns) return Timestamp{whole};
   return ParseStamp(cell);
 }
 

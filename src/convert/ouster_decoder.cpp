@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "lio/base/angle.hpp"
+#include "lio/base/stamp_limit.hpp"
 #include "lio/convert/byte_order.hpp"
 #include "lio/convert/point_time.hpp"
-#include "lio/io/trajectory_file.hpp"
 
 namespace lio {
 namespace {
@@ -28,7 +28,7 @@ T At(ByteView bytes, std::size_t at) {
 }
 
 bool IsStamp(std::int64_t ns) {
-  return ns >= 0 && ns <= kMaxStampNs;
+  return ns >= 0 && ns <= kMaxStamp_ns;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ OusterDecoder::Column OusterDecoder::ReadColumn(ByteView payload, std::size_t in
   return column;
 }
 
-// No turn takes longer than that.
+// No turn takes longer than kMaxSweepSeconds.
 bool OusterDecoder::IsInTime(const Column& column) const {
   if (!IsStamp(column.stamp_ns)) return false;
   if (frame_ != column.frame || turn_.instants_ns.empty()) return true;

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 
+#include "lio/base/stamp_limit.hpp"
 #include "lio/convert/byte_order.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
-#include "lio/io/trajectory_file.hpp"
 
 namespace lio {
 namespace {
@@ -106,7 +106,7 @@ bool UdpCapture::Next(UdpDatagram& datagram) {
     ++counts_.num_frames;
     constexpr std::int64_t kNsPerSecond = 1'000'000'000;
     const std::int64_t seconds =
-        std::clamp<std::int64_t>(header->ts.tv_sec, 0, kMaxStampNs / kNsPerSecond);
+        std::clamp<std::int64_t>(header->ts.tv_sec, 0, kMaxStamp_ns / kNsPerSecond);
     datagram.received =
         Timestamp{seconds * kNsPerSecond + header->ts.tv_usec};  // in ns, as was asked for
     const auto packet = IpPacket(ByteView(data, header->caplen));

@@ -35,21 +35,19 @@ void AddTransit(const Refusals& refusals, const TransitCounters& transit, Accoun
   page.entries.push_back({"given_up", transit.num_given_up});
 }
 
-AccountPage ImuPage(const Account& account, const InputCounters& input) {
-  const auto& ledger = account.ledgers.samples;
-  AccountPage page{"imu", {{kReceived, input.num_imu_received}}};
-  AddTransit(input.num_imu_refused, account.imu, page);
-  AddFates(ledger, kSampleFateNames, page);
-  page.entries.push_back({kWaiting, account.imu.num_waiting + ledger.num_waiting});
-  return page;
-}
+struct MessageCounts {
+  std::int64_t num_received;
+  const Refusals& refusals;
+  const TransitCounters& transit;
+};
 
-AccountPage ChunkPage(const Account& account, const InputCounters& input) {
-  const auto& ledger = account.ledgers.chunks;
-  AccountPage page{"chunks", {{kReceived, input.num_chunks_received}}};
-  AddTransit(input.num_chunks_refused, account.chunks, page);
-  AddFates(ledger, kChunkFateNames, page);
-  page.entries.push_back({kWaiting, account.chunks.num_waiting + ledger.num_waiting});
+template <typename Ledger, typename Names>
+AccountPage MessagePage(std::string_view name, const MessageCounts& counts, const Ledger& ledger,
+                        const Names& names) {
+  AccountPage page{name, {{kReceived, counts.num_received}}};
+  AddTransit(counts.refusals, counts.transit, page);
+  AddFates(ledger, names, page);
+  page.entries.push_back({kWaiting, counts.transit.num_waiting + ledger.num_waiting});
   return page;
 }
 
@@ -70,7 +68,13 @@ std::int64_t AccountPage::Unaccounted() const {
 }
 
 std::vector<AccountPage> AccountPages(const Account& account, const InputCounters& input) {
-  return {ImuPage(account, input), ChunkPage(account, input), ScanPage(account)};
+  const Ledgers& ledgers = account.ledgers;
+  return {
+      MessagePage("imu", {input.num_imu_received, input.num_imu_refused, account.imu},
+                  ledgers.samples, kSampleFateNames),
+      MessagePage("chunks", {input.num_chunks_received, input.num_chunks_refused, account.chunks},
+                  ledgers.chunks, kChunkFateNames),
+      ScanPage(account)};
 }
 
 std::string AccountJson(const Account& account, const InputCounters& input) {

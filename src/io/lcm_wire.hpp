@@ -5,17 +5,15 @@
 
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
+#include "lio/base/stamp_limit.hpp"
 #include "lio/io/lcm_codec.hpp"
 
 namespace lio {
 
-// us. Half of the largest number of nanoseconds, so that no difference or offset of stamps
-// overflows.
-inline constexpr std::int64_t kMaxUtime = std::numeric_limits<std::int64_t>::max() / 2000;
+inline constexpr std::int64_t kMaxUtime = kMaxStamp_ns / 1000;  // us
 
 // Reads big-endian fields one after another. The caller has checked the size.
 class FieldReader {

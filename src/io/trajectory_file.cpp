@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lio/base/stamp_limit.hpp"
 #include "lio/io/output_file.hpp"
 
 namespace lio {
@@ -196,7 +197,7 @@ std::optional<Timestamp> ParseStamp(std::string_view text) {
   decimal->digits.resize(size, '0');
   std::uint64_t magnitude = rounds_up ? 1 : 0;
   if (size > 0) magnitude += std::stoull(decimal->digits);
-  if (magnitude > static_cast<std::uint64_t>(kMaxStampNs)) return std::nullopt;
+  if (magnitude > static_cast<std::uint64_t>(kMaxStamp_ns)) return std::nullopt;
   const auto ns = static_cast<std::int64_t>(magnitude);
   return Timestamp{decimal->is_negative ? -ns : ns};
 }

@@ -5,15 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+
+#include "lio/base/stamp_limit.hpp"
 
 namespace py = pybind11;
 
 namespace lio::python {
 namespace {
-
-// The year 2116, as for the stamps of messages.
-constexpr std::int64_t kLastStamp_ns = std::numeric_limits<std::int64_t>::max() / 2;
 
 std::string ShapeText(const py::array& array) {
   std::string text = "(";
@@ -75,7 +73,7 @@ Integers TakeIntegers(const py::object& given, const char* what, std::int64_t le
 }
 
 Integers TakeStamps(const py::object& given, const char* what) {
-  return TakeIntegers(given, what, 0, kLastStamp_ns);
+  return TakeIntegers(given, what, 0, kMaxStamp_ns);
 }
 
 py::array_t<double> PoseMatrix(const Pose& pose) {

@@ -8,15 +8,12 @@
 #include "lio/relocalization/parameters.hpp"
 #include "lio/relocalization/tried_places.hpp"
 #include "relocalization/place_candidates.hpp"
+#include "relocalization/place_verification.hpp"
 
 namespace lio {
 namespace {
 
 constexpr PlaceContestParameters kContest = kRelocalization.contest;
-
-double ShareOf(const MatchResult& match) {
-  return match.num_in_map == 0 ? 0.0 : static_cast<double>(match.num_matched) / match.num_in_map;
-}
 
 double SupportOf(const MatchResult& match) {
   const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
@@ -124,10 +121,9 @@ void PlaceContest::OrderByFit() {
 bool PlaceContest::HasWinner() const {
   const Contender& leader = contenders_.front();
   if (leader.num_good_in_a_row < kContest.num_checks) return false;
-  const double residual = std::max(1.0 - leader.fit(), kContest.least_residual);
   return std::all_of(contenders_.begin() + 1, contenders_.end(), [&](const Contender& rival) {
     return rival.num_checks >= kContest.num_rival_checks &&
-           1.0 - rival.fit() >= kContest.min_residual_ratio * residual;
+           IsBeaten(1.0 - rival.fit(), 1.0 - leader.fit());
   });
 }
 

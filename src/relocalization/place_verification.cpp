@@ -42,6 +42,15 @@ bool IsAsObservable(const MatchResult& match, const MatchResult& last) {
 
 }  // namespace
 
+double ShareOf(const MatchResult& match) {
+  return match.num_in_map == 0 ? 0.0 : static_cast<double>(match.num_matched) / match.num_in_map;
+}
+
+bool IsBeaten(double rival_residual, double residual) {
+  constexpr PlaceContestParameters kRivals = kRelocalization.contest;
+  return rival_residual >= kRivals.min_residual_ratio * std::max(residual, kRivals.least_residual);
+}
+
 bool IsVerified(const MatchResult& match, const MatchResult& last) {
   if (!match.IsUsable() && !Oscillates(match)) return false;
   if (last.num_matched == 0) return true;  // the last scan began the map
@@ -77,12 +86,7 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
 }
 
 bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
-  constexpr PlaceContestParameters kRivals = kRelocalization.contest;
-  const auto residual = [](const MatchResult& result) {
-    return 1.0 - static_cast<double>(result.num_matched) / std::max(result.num_in_map, 1);
-  };
-  return residual(match) >=
-         kRivals.min_residual_ratio * std::max(residual(other), kRivals.least_residual);
+  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other));
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {

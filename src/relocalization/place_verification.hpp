@@ -8,6 +8,13 @@
 
 namespace lio {
 
+// Returns the share of those points that lie on a surface, of all that come to one; 0 where none
+// does.
+[[nodiscard]] double ShareOf(const MatchResult& match);
+
+// Does the map contradict a clearly larger share of the points at a rival than at the place?
+[[nodiscard]] bool IsBeaten(double rival_residual, double residual);
+
 // Does the scan lie on the map's surfaces there? Steps that oscillate around a pose count as a
 // match.
 [[nodiscard]] bool IsVerified(const MatchResult& match, const MatchResult& last);

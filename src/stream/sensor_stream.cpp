@@ -91,15 +91,26 @@ bool SensorStream::RefuseForeign(const ScanChunk& chunk) {
   return true;
 }
 
+void SensorStream::Inbox::Put(Message message) {
+  num_points += message.num_points();
+  num_chunks += message.chunk ? 1 : 0;
+  messages.push_back(std::move(message));
+}
+
+SensorStream::Message SensorStream::Inbox::Take() {
+  Message message = std::move(messages.front());
+  messages.pop_front();
+  num_points -= message.num_points();
+  num_chunks -= message.chunk ? 1 : 0;
+  return message;
+}
+
 // While a match is out, only so many messages wait behind a step: newer ones are dropped and
 // counted.
 void SensorStream::Enqueue(Message message) {
-  const std::size_t num_points = inbox_.num_points + message.num_points();
   if (inbox_.messages.size() < kStream.max_waiting_messages &&
-      num_points <= kStream.max_waiting_points) {
-    inbox_.num_points = num_points;
-    inbox_.messages.push_back(std::move(message));
-    return;
+      inbox_.num_points + message.num_points() <= kStream.max_waiting_points) {
+    return inbox_.Put(std::move(message));
   }
   if (message.chunk) {
     ++counters_->num_chunks;
@@ -126,8 +137,7 @@ void SensorStream::Reject() {
   counters_->num_chunks += static_cast<std::int64_t>(num_held);
   ledgers.chunks.Settle(ChunkFate::kUnwanted, num_held);
   events_.clear();
-  inbox_.num_points = 0;
-  for (const Message& message : std::exchange(inbox_.messages, {})) {
+  for (const Message& message : std::exchange(inbox_, {}).messages) {
     if (message.chunk) {
       ++counters_->num_chunks;
       ledgers.chunks.Settle(ChunkFate::kUnwanted);
@@ -146,11 +156,9 @@ std::size_t SensorStream::NumSweepsReady() const {
 
 Ledgers SensorStream::ledgers() const {
   Ledgers ledgers = counters_->ledgers;
-  const auto num_in_inbox =
-      std::count_if(inbox_.messages.begin(), inbox_.messages.end(),
-                    [](const Message& message) { return message.chunk.has_value(); });
-  ledgers.chunks.num_waiting = num_in_inbox + static_cast<std::int64_t>(lidar_clock_.num_held());
-  ledgers.samples.num_waiting = std::ssize(inbox_.messages) - num_in_inbox +
+  ledgers.chunks.num_waiting =
+      inbox_.num_chunks + static_cast<std::int64_t>(lidar_clock_.num_held());
+  ledgers.samples.num_waiting = std::ssize(inbox_.messages) - inbox_.num_chunks +
                                 std::ssize(step_.result.accepted) + std::ssize(late_imu_) +
                                 static_cast<std::int64_t>(preprocessor_.num_held());
   ledgers.scans.num_waiting =
@@ -199,10 +207,7 @@ bool SensorStream::Advance(bool is_idle) {
     return true;
   }
   if (!inbox_.messages.empty()) {
-    Message message = std::move(inbox_.messages.front());
-    inbox_.messages.pop_front();
-    inbox_.num_points -= message.num_points();
-    Process(std::move(message));
+    Process(inbox_.Take());
     return true;
   }
   if (life_ != Life::kFlushed) return false;

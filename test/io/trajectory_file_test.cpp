@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "lio/base/stamp_limit.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -126,7 +127,7 @@ TEST_F(TrajectoryFile, ALastRowThatIsCutIsLeftOut) {
 TEST(Stamp, TextIsExactAndReadsBack) {
   for (const std::int64_t ns :
        {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1'700'000'000'123'456'789},
-        std::int64_t{-2'000'000'001}, kMaxStampNs, -kMaxStampNs}) {
+        std::int64_t{-2'000'000'001}, kMaxStamp_ns, -kMaxStamp_ns}) {
     const std::optional<Timestamp> stamp = ParseStamp(StampText(Timestamp{ns}));
     ASSERT_TRUE(stamp.has_value()) << ns;
     EXPECT_EQ(stamp->ns, ns);

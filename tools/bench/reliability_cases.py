@@ -69,7 +69,7 @@ def all_cases():
     return [*others(), *outages(), *clocks()]
 
 
-# One of each kind that a change of the estimator could break: CI has minutes.
+# One of each kind that a change of the estimator could break, in a minute.
 BRIEF = ("none", "drop", "chunk_loss", "nan", "gyro_saturation", "empty_scan",
          "IMU silent for 5 s", "lidar silent for 5 s", "both silent for 5 s",
          "both clocks set by -3600 s", "lidar's clock set by -0.2 s for 1 s")

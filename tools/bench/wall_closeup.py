@@ -201,7 +201,8 @@ def main():
     forward = np.array([moved[0], moved[1], 0.0]) / np.hypot(moved[0], moved[1])
     found = patches(by_truth, which, forward)
     if not found:
-        sys.exit(f"wall_closeup: {arguments.drive}: no flat patch is seen both at the begin and at the end")
+        sys.exit(f"wall_closeup: {arguments.drive}: no flat patch is seen both at the begin and at "
+                 "the end")
     figure, grid = plt.subplots(2, len(found), figsize=(4.2 * len(found), 5.6), squeeze=False,
                                 layout="constrained", sharey=True)
     for column, direction in enumerate(sorted(found)):

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,12 +45,8 @@ void WriteKitti(const std::filesystem::path& file, const StampedPoses& poses);
 // Returns the stamp in seconds with 9 decimals, exact.
 [[nodiscard]] std::string StampText(Timestamp stamp);
 
-// The latest stamp that is read from text, in 2116, and the earliest by its sign: no difference of
-// two overflows. Messages have the same limit.
-inline constexpr std::int64_t kMaxStampNs = std::numeric_limits<std::int64_t>::max() / 2;
-
 // Parses decimal seconds, also in exponent form, and rounds to the nearest nanosecond. Gives
-// nothing for any other text and for a stamp beyond kMaxStampNs.
+// nothing for any other text and for a stamp beyond kMaxStamp_ns (base/stamp_limit.hpp).
 [[nodiscard]] std::optional<Timestamp> ParseStamp(std::string_view text);
 
 }  // namespace lio

@@ -56,7 +56,7 @@ class LidarClockCorrector {
   struct Sight {
     Duration lag;      // how far its stamp lies behind the inertial stream
     Duration stride;   // advance of the inertial stream since the one before
-    Duration late_by;  // how far its last point does
+    Duration late_by;  // how far the last point in it does, which is nearly the latest
   };
   enum class Judgement { kSteady, kUnclear, kStepped };
 

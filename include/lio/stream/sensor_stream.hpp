@@ -85,6 +85,10 @@ class SensorStream {
   struct Inbox {
     std::deque<Message> messages;
     std::size_t num_points = 0;
+    std::int64_t num_chunks = 0;
+
+    void Put(Message message);
+    [[nodiscard]] Message Take();
   };
   enum class State {
     kFlowing,
