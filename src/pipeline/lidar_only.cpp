@@ -110,7 +110,9 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const Pose T_map_imu_predicted = tracker_->history().At(middle).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
   trend_.Forget();
-  if (report.fused && !outcome.is_relocalized) NoteError(T_map_imu_predicted, outcome);
+  if (report.fused && !outcome.is_relocalized) {
+    NoteError(T_map_imu_predicted, tracker_->history().At(middle).state.T_map_imu, middle);
+  }
   if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }
@@ -139,10 +141,13 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   return std::nullopt;
 }
 
-void LidarOnly::NoteError(const Pose& T_map_imu_predicted, const MatchOutcome& outcome) {
-  trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
+// The pose that was fused: where a match sees nothing it has the error that was expected, which
+// would confirm itself from scan to scan.
+void LidarOnly::NoteError(const Pose& T_map_imu_predicted, const Pose& T_map_imu_fused,
+                          Timestamp middle) {
+  trend_.Add(T_map_imu_predicted, T_map_imu_fused);
   if (!handover_.last_located) return;
-  const double since_s = SecondsBetween(*handover_.last_located, outcome.sweep->middle());
+  const double since_s = SecondsBetween(*handover_.last_located, middle);
   if (since_s > 0.0) tracker_->NoteTurnError(trend_.error().tail<3>().norm(), since_s);
 }
 

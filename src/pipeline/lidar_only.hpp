@@ -53,7 +53,7 @@ class LidarOnly {
   // some that were not, it is not yet.
   bool IsPlaceSure(const MatchOutcome& outcome) const;
   // A fused scan tells how wrong its prediction was.
-  void NoteError(const Pose& T_map_imu_predicted, const MatchOutcome& outcome);
+  void NoteError(const Pose& T_map_imu_predicted, const Pose& T_map_imu_fused, Timestamp middle);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;

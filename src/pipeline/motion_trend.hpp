@@ -23,9 +23,9 @@ inline constexpr MotionTrendParameters kMotionTrend;
 class MotionTrend {
  public:
   void Forget() { error_.setZero(); }
-  // Takes the pose of a scan as a constant velocity predicted it, and as it was found.
-  void Add(const Pose& T_map_imu_predicted, const Pose& T_map_imu_found) {
-    error_ = LogSe3(T_map_imu_predicted.Inverse() * T_map_imu_found);
+  // Takes the pose of a scan as a constant velocity predicted it, and as it was fused.
+  void Add(const Pose& T_map_imu_predicted, const Pose& T_map_imu_fused) {
+    error_ = LogSe3(T_map_imu_predicted.Inverse() * T_map_imu_fused);
   }
   const Vector6& error() const { return error_; }
   // Returns the error of the next prediction, a right increment [translation (m); rotation (rad)].

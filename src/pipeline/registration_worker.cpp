@@ -221,6 +221,7 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
   const std::vector<float> from_mid_sweep_s = TimesFromMidSweep(times, scan.reduced);
   MatchInput input = scan.InputFrom(outcome.match.T_map_imu, Matrix6::Zero());
   input.from_mid_sweep_s = from_mid_sweep_s;
+  input.is_far_off = false;  // the guess is what was found
   outcome.match = MatchFully(input, scan);
   if (const auto& error = outcome.match.turn_rate_error; error && scan.motion.size() > 1) {
     outcome.turn_rate = Corrected(*error, scan.motion);

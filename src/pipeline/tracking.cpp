@@ -117,7 +117,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   ScanReport report = Fuse(outcome, noise, is_keyframe);
   trend_.Forget();
   if (report.fused && !outcome.is_relocalized) {
-    trend_.Add(T_map_imu_predicted, outcome.match.T_map_imu);
+    trend_.Add(T_map_imu_predicted, history_.At(outcome.sweep->middle()).state.T_map_imu);
   }
   UpdateBesides(outcome, report.fused, noise);
   const Health::Verdict verdict =

@@ -98,14 +98,16 @@ ImuEffects EffectsOn(const Scenario& scenario, ImuEffects effects) {
   return effects;
 }
 
-// Returns the faults asked for and, in the field, the shaking by the carrier's motors.
+// Returns, in the field, the shaking by the carrier's motors, and the faults asked for after it: a
+// sensor at the end of its range does not show how it is shaken.
 std::vector<Fault> FaultsOn(const Scenario& scenario, const RecordOptions& options) {
-  std::vector<Fault> faults = options.faults;
+  std::vector<Fault> faults;
   if (options.imu_effects.vibrates && scenario.shake_accel_mps2 > 0.0) {
     const double start_s = std::max(0.0, kStartRest_s - scenario.begin_s);
     faults.push_back(ParseFault(fmt::format("shaking:start={},accel={},gyro={}", start_s,
                                             scenario.shake_accel_mps2, scenario.shake_gyro_radps)));
   }
+  faults.insert(faults.end(), options.faults.begin(), options.faults.end());
   return faults;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -176,6 +177,25 @@ TEST(Record, ConfigurationIsTakenAsItIsAndTellsTheRig) {
   ASSERT_TRUE(rig.T_imu_lidar);
   EXPECT_NEAR(rig.T_imu_lidar->rotation.angularDistance(scenario.T_imu_lidar.rotation),
               5.0 / 180.0 * 3.14159265, 1e-6);
+}
+
+TEST(Record, GyroAtTheEndOfItsRangeDoesNotShowTheMotorsOfTheCarrier) {
+  Scenario scenario = ShortHall(5.0);
+  scenario.shake_accel_mps2 = 1.0;
+  scenario.shake_gyro_radps = 0.5;
+  const test::TempDir dir;
+  RecordOptions options = Options("vlp16");
+  options.imu_effects.vibrates = true;
+  const auto count_beyond = [&](const std::string& name) {
+    Record(scenario, options, dir.path() / name, {});
+    const DecodedLog log(dir.path() / name / "log.lcm");
+    return std::count_if(log.imu.begin(), log.imu.end(), [](const ImuSample& sample) {
+      return sample.w_imu_radps.lpNorm<Eigen::Infinity>() > 0.25;
+    });
+  };
+  EXPECT_GT(count_beyond("whole"), 50);
+  options.faults = {ParseFault("gyro_saturation:limit=0.25,start=0,duration=10")};
+  EXPECT_EQ(count_beyond("clipped"), 0);
 }
 
 TEST(Record, TruthStatesAreTheDerivativesOfTheTruth) {
