@@ -128,6 +128,24 @@ TEST(LidarOnly, FollowsTheMatchedPosesAndPublishesEachScan) {
   EXPECT_TRUE(b.bench.sweeps.empty());
 }
 
+// A match that sees nothing along the road ends wherever its guess was.
+TEST(LidarOnly, PriorDoesNotDependOnWhereABlindMatchEnded) {
+  const auto prior_after_match_at = [](double ahead_m) {
+    LidarOnlyBench b;
+    EXPECT_FALSE(b.Match(10));
+    const MatchJob job = b.NextJob();
+    MatchOutcome outcome = b.bench.Matched(job, b.motion);
+    outcome.match.T_map_imu = job.prior.T_map_imu * ExpSe3(ahead_m * Vector6::Unit(0));
+    outcome.match.cov(0, 0) = 1e4;
+    outcome.match.status = MatchStatus::kDegenerate;
+    outcome.match.degenerate_mask = 1u;
+    EXPECT_FALSE(b.Finish(outcome));
+    EXPECT_TRUE(b.bench.Take<ScanOutput>().back().scan.fused);
+    return b.NextJob().prior.T_map_imu.translation.x();
+  };
+  EXPECT_NEAR(prior_after_match_at(0.5), prior_after_match_at(0.0), 1e-3);
+}
+
 TEST(LidarOnly, MapThatBeginsBeforeTheTrackIsCountedAsLate) {
   LidarOnlyBench b;
   ASSERT_FALSE(b.Match());

@@ -33,7 +33,7 @@ FAULTS = (
     "imu_gap:start=25,duration=1", "lidar_gap:start=25,duration=1.5", "drop", "chunk_loss",
     "reorder", "duplicate", "shaking:start=20", "dust:start=20,duration=10",
     "clock_offset:offset=0.025", "clock_offset:offset=-0.06",
-    "stamp_jump:start=25,duration=10", "wrong_extrinsic:yaw_deg=5,x=0.1",
+    "wrong_extrinsic:yaw_deg=5,x=0.1",
     "gyro_saturation:start=20,limit=2.0,duration=30")
 # The product of beams, columns and rotor speed, in points a second.
 MAX_RATE_HZ = 1.0e6
