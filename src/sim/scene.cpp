@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -106,6 +108,13 @@ Scene::Scene(const World& world) : impl_(std::make_unique<Impl>()) {
 
 Scene::~Scene() = default;
 
+// Embree interpolates the matrices of two poses, which half a turn makes singular in between.
+static Quaternion ShortOfHalfATurn(const Quaternion& from, const Quaternion& to) {
+  constexpr double kShare = 0.9;
+  const bool is_half_a_turn = from.angularDistance(to) > kShare * std::numbers::pi;
+  return is_half_a_turn ? from.slerp(kShare, to) : to;
+}
+
 Scene::Interval Scene::During(double begin_s, double end_s) const {
   auto interval = std::make_unique<Interval::Impl>();
   interval->world = impl_.get();
@@ -118,9 +127,13 @@ Scene::Interval Scene::During(double begin_s, double end_s) const {
     RTCGeometry instance = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, impl_->shapes[mover.shape].get());
     rtcSetGeometryTimeStepCount(instance, num_steps);
+    std::optional<Quaternion> before;
     for (unsigned i = 0; i < num_steps; ++i) {
       const double t_s = begin_s + (end_s - begin_s) * i / (num_steps - 1);
-      const std::array<float, 12> columns = ToColumns(mover.T_world_mover(t_s));
+      Pose T_world_mover = mover.T_world_mover(t_s);
+      if (before) T_world_mover.rotation = ShortOfHalfATurn(*before, T_world_mover.rotation);
+      before = T_world_mover.rotation;
+      const std::array<float, 12> columns = ToColumns(T_world_mover);
       rtcSetGeometryTransform(instance, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
     }
     rtcCommitGeometry(instance);

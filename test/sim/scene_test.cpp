@@ -60,6 +60,22 @@ TEST(Scene, MoversAreWhereTheyAreAtTheRaysOwnInstant) {
   }
 }
 
+// A walker turns round at once. Half-way a matrix between the two poses would be singular.
+TEST(Scene, AMoverThatTurnsRoundAtOnceStaysWhereItIs) {
+  World world = WallAndMover();
+  world.movers.front().T_world_mover = [](double t) {
+    const Quaternion round(0, 0, 0, 1);
+    return Pose{t < 0.05 ? Quaternion::Identity() : round, {5.0, 0.0, 0.0}};
+  };
+  const Scene scene(world);
+  const auto interval = scene.During(0.0, 0.1);
+  for (int i = 0; i <= 1000; ++i) {
+    const Hit hit = CastOne(interval, {0, 0, 0}, {1, 0, 0}, static_cast<float>(0.001 * i));
+    EXPECT_EQ(hit.object, 0) << i;
+    EXPECT_NEAR(hit.range_m, 4.5, 0.5) << i;
+  }
+}
+
 TEST(Scene, AnswersDoNotDependOnTheCompanyOfARay) {
   const World world = WallAndMover();
   const Scene scene(world);
