@@ -8,6 +8,8 @@
 #include "lio/filter/process_model.hpp"
 #include "pipeline/coarse_tracking.hpp"
 #include "pipeline/estimate_report.hpp"
+#include "pipeline/gravity_check.hpp"
+#include "pipeline/outage.hpp"
 #include "pipeline/prior_error.hpp"
 #include "pipeline/scan_fusion.hpp"
 
@@ -136,8 +138,8 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
   context_.EndSweep(report.fused || starts_map);
+  if (auto transition = TryReturn(outcome, report.fused && is_place_sure)) return transition;
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
-  if (is_imu_back_ && report.fused && is_place_sure) return ReturnToImu(outcome);
   return std::nullopt;
 }
 
@@ -186,7 +188,7 @@ Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {
 
 std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
   if (inertial_ && tracker_) {
-    is_imu_back_ = true;
+    imu_back_since_ = event.first;
     context_.outputs.Notify(event.first, Notice::Severity::kWarning,
                             "inertial samples come again: the next scan that matches goes on with "
                             "them, and nothing need be done");
@@ -199,6 +201,42 @@ std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
   handover.origin = Handover::Origin::kLidar;
   handover.is_map_by_lidar = true;
   return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+}
+
+std::optional<Transition> LidarOnly::TryReturn(const MatchOutcome& outcome, bool is_sure) const {
+  const Timestamp end = outcome.sweep->end;
+  if (!imu_back_since_ || SecondsBetween(*imu_back_since_, end) < kGravityCheck.window_s) {
+    return std::nullopt;
+  }
+  if (IsMisled(end)) return ReturnInNewMap(outcome);
+  return is_sure ? std::optional(ReturnToImu(outcome)) : std::nullopt;
+}
+
+// Scans alone tell no tilt, and where they show little they may turn the path over.
+bool LidarOnly::IsMisled(Timestamp sweep_end) const {
+  if (g_world_.isZero()) return false;
+  const Timestamp from = sweep_end - Duration::FromSeconds(kGravityCheck.window_s);
+  const NavState& before = inertial_->estimate.state;
+  return GravityContradicts(context_.stream.imu().Between(from, sweep_end),
+                            tracker_->history().At(from), tracker_->history().At(sweep_end),
+                            g_world_, {before.gyro_bias, before.accel_bias});
+}
+
+// Nothing that was found since the inertial samples ended is believed.
+Transition LidarOnly::ReturnInNewMap(const MatchOutcome& outcome) const {
+  StartState start = *inertial_;
+  Handover handover = handover_;
+  handover.origin = Handover::Origin::kInertial;
+  handover.keeps_map = true;
+  handover.last_fix = MakeFix(start.estimate.stamp, start.estimate, g_world_);
+  start.estimate = AcrossOutage(start.estimate, outcome.sweep->middle());
+  context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kWarning,
+                          "lost: gravity contradicts the motion that scans alone led to, so "
+                          "nothing is believed of the time without inertial samples");
+  return {.trigger = Trigger::kImuReturned,
+          .handover = std::move(handover),
+          .start = std::move(start),
+          .needs_new_map = true};
 }
 
 // The pose and the velocity are the scan's; biases are as before, but an IMU that was off may have

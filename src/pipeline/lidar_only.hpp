@@ -38,10 +38,10 @@ class LidarOnly {
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
-  // The next scan that is found goes back to the inertial filter, if the way was not lost since it
-  // ended; else the start begins anew.
+  // The next scan that is found once gravity was felt goes back to the inertial filter, if the way
+  // was not lost since it ended; else the start begins anew.
   [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
-  void TakeImuAbsent() { is_imu_back_ = false; }
+  void TakeImuAbsent() { imu_back_since_.reset(); }
 
   TrackingStatus status() const { return health_.status(); }
 
@@ -57,7 +57,11 @@ class LidarOnly {
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;
+  [[nodiscard]] bool IsMisled(Timestamp sweep_end) const;
+  [[nodiscard]] std::optional<Transition> TryReturn(const MatchOutcome& outcome,
+                                                    bool is_sure) const;
   [[nodiscard]] Transition ReturnToImu(const MatchOutcome& outcome) const;
+  [[nodiscard]] Transition ReturnInNewMap(const MatchOutcome& outcome) const;
 
   ModeContext context_;
   Handover handover_;
@@ -70,7 +74,7 @@ class LidarOnly {
   int num_scans_ = 0;                               // scans tracked so far
   std::optional<StartState> inertial_;  // state of the filter that this mode goes on from
   Vector3 g_world_ = Vector3::Zero();   // its gravity, which levelled the world
-  bool is_imu_back_ = false;
+  std::optional<Timestamp> imu_back_since_;
 };
 
 }  // namespace lio

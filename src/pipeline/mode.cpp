@@ -55,9 +55,12 @@ Mode BuildNext(const Mode& mode, Transition transition, const ModeContext& conte
   switch (TakeRule(KindOf(mode), transition.trigger, context.counters).to) {
     case ModeKind::kInitializing:
       return Initializing(context, std::move(transition.handover), transition.initializing_since);
-    case ModeKind::kTracking:
-      return Tracking(context, std::move(transition.handover), transition.start.value(),
-                      transition.is_at_rest);
+    case ModeKind::kTracking: {
+      Tracking next(context, std::move(transition.handover), transition.start.value(),
+                    transition.is_at_rest);
+      if (transition.needs_new_map) next.BeginNewMap();
+      return next;
+    }
     case ModeKind::kLidarOnly:
       return LidarOnly(context, std::move(transition.handover), transition.seed,
                        std::move(transition.start));

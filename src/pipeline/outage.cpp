@@ -52,6 +52,11 @@ void OutageRecovery::Begin(const Estimate& before, const Pose& T_map_imu_seen) {
   Enter(last_match_.degenerate_mask == 0 ? Stage::kSeek : Stage::kFindVelocity);
 }
 
+void OutageRecovery::BeginNewMap(const Estimate& before) {
+  before_ = before;
+  Enter(Stage::kFindVelocity);
+}
+
 void OutageRecovery::Enter(Stage stage) {
   stage_ = stage;
   num_scans_ = 0;

@@ -74,6 +74,8 @@ class OutageRecovery {
   // `T_map_imu_seen`: where the last scan was matched. No search is believed in a scene that did
   // not hold all directions: a new map begins at once.
   void Begin(const Estimate& before, const Pose& T_map_imu_seen);
+  // No search is believed: a new map begins at once.
+  void BeginNewMap(const Estimate& before);
   Stage stage() const { return stage_; }
   bool is_running() const { return stage_ != Stage::kNone; }
   // The present stage asks this of matching. `T_map_imu_if_set` is the pose if no time passed.

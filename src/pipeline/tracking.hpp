@@ -34,6 +34,9 @@ class Tracking {
   // Carries the state over a gap or a step of the clock, unsure of what happened in between.
   void StartSegment(const SegmentStarts& segment);
 
+  // The place in the map is lost: the next scans begin a new one.
+  void BeginNewMap();
+
   // The map so far was found in the initial one: goes on there, from the sweep that was found.
   void EnterMap(const FoundPlace& place, const Sweep& sweep);
 

@@ -27,6 +27,14 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(first);
 }
 
+void Tracking::BeginNewMap() {
+  const Timestamp now = history_.head().stamp;
+  outage_.BeginNewMap(history_.head());
+  (void)health_.AddGap(now);
+  context_.clocks.Interrupt();
+  LeaveMap(now);
+}
+
 // The place is sought as after an outage, from the pose that the inertial samples give, if no scan
 // was matched for so long that matching cannot search all the poses that they leave.
 void Tracking::SeekAfterSilence(Timestamp end) {

@@ -71,8 +71,9 @@ struct Transition {
   Handover handover = {};
   // The filter knew this at kStarted, kImuReturned and kImuAbsent, biases and gravity included.
   std::optional<StartState> start = std::nullopt;
-  bool is_at_rest = false;  // kStarted: from a rest
-  MotionSeed seed = {};     // kNoImu, kImuAbsent
+  bool is_at_rest = false;     // kStarted: from a rest
+  MotionSeed seed = {};        // kNoImu, kImuAbsent
+  bool needs_new_map = false;  // kImuReturned: the place in the map is lost
   std::optional<Timestamp> initializing_since =
       std::nullopt;  // kRetry: the first sweep of the first try
 };

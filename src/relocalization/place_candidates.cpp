@@ -41,17 +41,19 @@ Matrix6 CandidateCov() {
 }
 
 std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& now,
-                                  const Matrix6& cov, const Quaternion& R_level_map) {
+                                  const Matrix6& cov, const Quaternion& R_level_map,
+                                  bool was_unseen) {
   const Quaternion R_level_imu = R_level_map * earlier.T_map_imu.rotation;
   const Vector3 moved_level =
       R_level_map * (now.T_map_imu.translation - earlier.T_map_imu.translation);
   const double turned_rad = YawOf(R_level_map * now.T_map_imu.rotation * R_level_imu.conjugate());
   const double shift_m = kCandidate.range_sigmas * LargestStd(cov.topLeftCorner<3, 3>());
   const double turn_rad = kCandidate.range_sigmas * LargestStd(cov.bottomRightCorner<3, 3>());
+  const double half_way = was_unseen ? 0.5 : 0.0;
   const Vector3 range_m =
-      (0.5 * moved_level.cwiseAbs().array() + shift_m).min(kCandidate.max_shift_m).matrix();
-  const PlanarPose middle{0.5f * moved_level.head<2>().cast<float>(),
-                          static_cast<float>(turned_rad)};
+      (half_way * moved_level.cwiseAbs().array() + shift_m).min(kCandidate.max_shift_m).matrix();
+  const Vector3 middle_m = (1.0 - half_way) * moved_level;
+  const PlanarPose middle{middle_m.head<2>().cast<float>(), static_cast<float>(turned_rad)};
   const PlanarRange range{range_m.head<2>().cast<float>(),
                           static_cast<float>(std::min(turn_rad, std::numbers::pi))};
   const BirdsEyeView view_then(Levelled(earlier.points_imu, R_level_imu));
@@ -63,7 +65,7 @@ std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& n
     candidates.push_back({R_level_map.conjugate() * turn * R_level_imu,
                           earlier.T_map_imu.translation + R_level_map.conjugate() * shift_level});
   }
-  candidates.push_back(earlier.T_map_imu);
+  if (was_unseen) candidates.push_back(earlier.T_map_imu);
   return candidates;
 }
 

@@ -18,11 +18,14 @@ struct PlacedScan {
 };
 
 // Returns candidate poses of `now`, best first, by the bird's-eye views of both scans. The search
-// covers the way from the earlier pose to the prior `now.T_map_imu`, widened by the prior's
-// covariance `cov` (right error). The earlier pose itself comes last, for the clock may have
-// jumped. Roll, pitch and height are taken from the earlier pose and the prior.
+// covers the prior `now.T_map_imu`, widened by its covariance `cov` (right error). The way
+// from the earlier pose to there is searched besides if the body was unseen, and the earlier pose
+// comes last: the body may have stopped, or the clock may have jumped. From one sweep to the next
+// it cannot have, and the earlier pose is where rings on the ground would have it. Roll, pitch and
+// height are taken from the earlier pose and the prior.
 [[nodiscard]] std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& now,
-                                                const Matrix6& cov, const Quaternion& R_level_map);
+                                                const Matrix6& cov, const Quaternion& R_level_map,
+                                                bool was_unseen);
 
 // Returns the rotation R_level_map that turns up in the map to z.
 [[nodiscard]] Quaternion LevelFromMap(const Vector3& up_map);

@@ -143,8 +143,10 @@ void Relocalizer::TryPlaces(const DeskewedScan& scan, const MotionPrior& prior,
                             const std::function<bool(const MatchResult&)>& take) {
   const PlacedScan earlier{last_->points_imu, last_->match.T_map_imu};
   const PlacedScan now{scan.points_imu, prior.T_map_imu};
+  const bool was_unseen = prior.since_last_fix_s > kRelocalization.candidate.unseen_from_s;
   std::vector<Pose> candidates = RankedCandidates(
-      PlaceCandidates(earlier, now, prior.cov, LevelFromMap(prior.up_map)), matcher.match_coarsely);
+      PlaceCandidates(earlier, now, prior.cov, LevelFromMap(prior.up_map), was_unseen),
+      matcher.match_coarsely);
   const auto is_new = [&](const Pose& place) { return !tried_.Contains(prior.T_map_imu, place); };
   if (std::none_of(candidates.begin(), candidates.end(), is_new)) tried_.Clear();
   std::stable_partition(candidates.begin(), candidates.end(), is_new);

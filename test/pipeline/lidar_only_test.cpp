@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "pipeline/gravity_check.hpp"
 #include "pipeline/mode_bench.hpp"
 
 namespace lio {
@@ -32,7 +35,7 @@ struct LidarOnlyBench {
   explicit LidarOnlyBench(double speed_mps = kSpeed_mps, Handover handover = {},
                           std::optional<StartState> inertial = std::nullopt)
       : motion(Straight(speed_mps)),
-        bench(WithoutImu()),
+        bench(inertial ? Options{} : WithoutImu()),
         mode(bench.context(), std::move(handover), Ahead(speed_mps), std::move(inertial)) {}
 
   MatchJob NextJob() {
@@ -283,7 +286,7 @@ TEST(LidarOnly, ScanThatMatchesGoesBackToTheImuWithItsBiases) {
   LidarOnlyBench b(kSpeed_mps, {}, Inertial());
   b.motion = [](double t_s) { return Pose{Quaternion::Identity(), Vector3(8.0 * t_s, 2, 0)}; };
   ASSERT_FALSE(b.Match(5));
-  ASSERT_FALSE(b.mode.TakeImu({StampAt(0.4)}));
+  ASSERT_FALSE(b.mode.TakeImu({StampAt(-0.4)}));
   ASSERT_FALSE(b.Miss());  // nor does the first one that is found again
   ASSERT_FALSE(b.Match());
   const auto transition = b.Match();
@@ -297,6 +300,33 @@ TEST(LidarOnly, ScanThatMatchesGoesBackToTheImuWithItsBiases) {
   EXPECT_EQ(start.state.gyro_bias, Inertial().estimate.state.gyro_bias);
   EXPECT_EQ(start.state.accel_bias, Inertial().estimate.state.accel_bias);
   EXPECT_GT(start.cov(kAccelBias, kAccelBias), 0.0);
+}
+
+TEST(LidarOnly, GravityIsFeltBeforeItGoesBackToTheImu) {
+  LidarOnlyBench b(kSpeed_mps, {}, Inertial());
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.mode.TakeImu({StampAt(0.5)}));
+  const int num_scans = static_cast<int>(std::lround(kGravityCheck.window_s / kSweepSpan_s));
+  EXPECT_FALSE(b.Match(num_scans - 1));
+  EXPECT_TRUE(b.Match());
+}
+
+TEST(LidarOnly, AttitudeThatGravityContradictsGivesUpAllThatWasFoundWithoutTheImu) {
+  StartState tilted = Inertial();
+  tilted.estimate.state.T_world_imu.rotation = ExpSo3(Vector3(0, 1.0, 0));
+  LidarOnlyBench b(kSpeed_mps, {}, tilted);
+  ASSERT_FALSE(b.Match(5));
+  ASSERT_FALSE(b.mode.TakeImu({StampAt(0.5)}));
+  b.bench.FeedImu(b.motion, 0.5, 1.6);
+  const auto transition = b.Match(10);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kImuReturned);
+  EXPECT_TRUE(transition->needs_new_map);
+  const Estimate& start = transition->start->estimate;
+  EXPECT_EQ(start.stamp, StampAt(1.45));
+  EXPECT_GT(std::sqrt(start.cov(kPos, kPos)), 1.4 * kSpeed_mps);
+  EXPECT_EQ(transition->handover.last_fix.stamp, StampAt(0.0));
+  EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
 }
 
 TEST(LidarOnly, ImuThatFallsSilentAgainIsNotGoneBackTo) {

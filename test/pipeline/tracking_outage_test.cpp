@@ -93,6 +93,21 @@ TEST(TrackingOutage, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
   EXPECT_NEAR(report.nav.v_world_imu_mps.x(), kSpeed_mps, 0.5);
 }
 
+TEST(TrackingOutage, ANewMapThatIsAskedForBeginsWithoutASearch) {
+  AfterOneSecond b;
+  b.mode.BeginNewMap();
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
+  const MatchJob first = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
+  EXPECT_EQ(first.map_action, MapAction::kClear);
+  MatchOutcome seen = b.bench.Unmatched(first);
+  seen.match.status = MatchStatus::kEmptyMap;
+  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
+  ASSERT_FALSE(b.Finish(seen));
+  ASSERT_FALSE(b.Match(2));
+  EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
+}
+
 // The scan is of the time before the outage, of which the filter holds nothing any more.
 TEST(TrackingOutage, VelocityOfAScanBeforeTheOutageIsCountedAsLateAndNotTaken) {
   AfterOneSecond b;

@@ -54,6 +54,7 @@ MotionPrior PriorAt(const Pose& T_map_imu, double std_m, double std_rad) {
   MotionPrior prior;
   prior.T_map_imu = T_map_imu;
   prior.cov.diagonal() << Vector3::Constant(std_m * std_m), Vector3::Constant(std_rad * std_rad);
+  prior.since_last_fix_s = 1.0;  // as the stamps below
   return prior;
 }
 

@@ -77,6 +77,9 @@ struct ShiftSearchParameters {
 struct PlaceCandidateParameters {
   double range_sigmas = 2.0;  // searched around the prior; chosen by cost: 95 % of each axis
   double max_shift_m = 60.0;  // chosen: farther off less than half of the views overlaps
+  // The body was unseen from so long on since the last located scan. Chosen: a sweep and a half at
+  // 10 Hz, within which no body stops.
+  double unseen_from_s = 0.15;
   // A candidate has this standard deviation. Chosen: a fine step and what structures lack in place,
   // and about a coarse step of the turn.
   double std_m = 0.5;
