@@ -24,6 +24,7 @@ struct Handover {
   Origin origin = Origin::kNone;
   LastFix last_fix;                 // the last sound scan, as it was published
   Pose T_world_start, T_map_start;  // at the mode's begin, in the axes that were believed then
+  bool was_level = false;           // gravity was felt in this world before it went lidar-only
   bool is_placed = false;           // somebody has said where the body is: at last_fix
   bool keeps_map = false;           // the mode that follows goes on in the map as it is
   bool is_map_by_lidar = false;     // it began lidar-only: no IMU convention is in its axes

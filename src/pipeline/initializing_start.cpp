@@ -163,9 +163,13 @@ Transition Initializing::StartFrom(StartState start, std::size_t first_sweep, bo
     LastFix& fix = handover_.last_fix;
     TurnByGyro(start.estimate, fix, handover_.yaw_doubt);
     if (handover_.origin == Origin::kLidar && has_gravity) {
+      const Pose T_map_world = fix.T_map_imu * fix.T_world_imu.Inverse();
       Level(start.estimate.state.T_world_imu.rotation, fix);
+      // A world that was level before leads to a map that is, too; another map stays as it was.
+      if (handover_.was_level) fix.T_map_imu = T_map_world * fix.T_world_imu;
     }
     PlaceInWorld(fix, has_gravity, start.estimate);
+    if (has_gravity) MoveUnsureYaw(start.estimate, handover_.yaw_doubt);
   }
   handover_.origin = Origin::kInertial;
   handover_.is_placed = false;

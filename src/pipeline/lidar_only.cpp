@@ -74,6 +74,7 @@ void LidarOnly::GoOn() {
   options.goes_on_from = inertial_->estimate;
   tracker_.emplace(inertial_->estimate.stamp, options);
   handover_.origin = Handover::Origin::kLidar;
+  handover_.was_level = !g_world_.isZero();
   const NavState& state = inertial_->estimate.state;
   up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }

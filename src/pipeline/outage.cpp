@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lio/filter/process_model.hpp"
+#include "lio/filter/world_yaw.hpp"
 #include "lio/imu/initialization_parameters.hpp"
 
 namespace lio {
@@ -44,6 +45,15 @@ Estimate AcrossOutage(Estimate before, Timestamp now) {
   SetVelocity(v_imu_mps, LevelCov(velocity_std_mps, kOutage.slope * velocity_std_mps), estimate);
   estimate.stamp = now;
   return estimate;
+}
+
+bool MoveUnsureYaw(Estimate& estimate, YawDoubt& doubt) {
+  Estimate without_yaw = estimate;
+  const double yaw_var = TakeOutYaw(without_yaw);
+  if (yaw_var < kOutage.known_yaw_std_rad * kOutage.known_yaw_std_rad) return false;
+  doubt.Add(yaw_var, without_yaw.state.T_world_imu.translation);
+  estimate = std::move(without_yaw);
+  return true;
 }
 
 void OutageRecovery::Begin(const Estimate& before, const Pose& T_map_imu_seen) {

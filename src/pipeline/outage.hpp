@@ -18,6 +18,7 @@
 #include "lio/filter/nav_state.hpp"
 #include "lio/pipeline/constant_velocity_tracker.hpp"
 #include "lio/pipeline/match_job.hpp"
+#include "pipeline/yaw_doubt.hpp"
 
 namespace lio {
 
@@ -63,6 +64,10 @@ inline constexpr OutageParameters kOutage;
 // Returns the state at `now`, driven on as before, with a covariance that holds a body that
 // stopped, that drove on or turned, and clocks that were set.
 [[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);
+
+// Takes a yaw that is less sure than kOutage.known_yaw_std_rad out of an estimate that begins a new
+// map, and adds it to the doubt. Returns false where the yaw is known, and changes nothing.
+bool MoveUnsureYaw(Estimate& estimate, YawDoubt& doubt);
 
 class OutageRecovery {
  public:

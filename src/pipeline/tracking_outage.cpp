@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "lio/filter/sample_lookup.hpp"
-#include "lio/filter/world_yaw.hpp"
 #include "pipeline/tracking.hpp"
 
 namespace lio {
@@ -93,10 +92,7 @@ void Tracking::AddSamplesAfter(Timestamp stamp) {
 // A yaw that the inertial samples have followed stays in the filter: velocities still tell of it.
 void Tracking::SetYawAside(Timestamp stamp) {
   Estimate estimate = history_.At(stamp);
-  const double yaw_var = TakeOutYaw(estimate);
-  if (yaw_var < kOutage.known_yaw_std_rad * kOutage.known_yaw_std_rad) return;
-  handover_.yaw_doubt.Add(yaw_var, estimate.state.T_world_imu.translation);
-  BeginHistoryAt(estimate);
+  if (MoveUnsureYaw(estimate, handover_.yaw_doubt)) BeginHistoryAt(estimate);
 }
 
 // The map is of no use any more: a new one begins with the next scans.

@@ -127,6 +127,39 @@ TEST(InitializingStart, RestartAfterLidarOnlyLevelsTheWorldAndKeepsTheMap) {
   EXPECT_NEAR(LogSe3(error).norm(), 0.0, 1e-3);
 }
 
+TEST(InitializingStart, RestartInAWorldThatWasLevelLevelsTheMapAlong) {
+  Handover handover;
+  handover.origin = Handover::Origin::kLidar;
+  handover.was_level = true;
+  handover.last_fix.stamp = StampAt(-1.0);
+  handover.last_fix.T_world_imu = {ExpSo3(Vector3(0.5, 0.3, 0)), Vector3(10, 5, 2)};
+  const Pose T_map_world{ExpSo3(Vector3(0, 0, 0.2)), Vector3(-3, 3, 7)};
+  handover.last_fix.T_map_imu = T_map_world * handover.last_fix.T_world_imu;
+  InitializingBench b({}, handover);
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  const NavState& state = transition->start->estimate.state;
+  const Pose error = (T_map_world * state.T_world_imu).Inverse() * state.T_map_imu;
+  EXPECT_NEAR(LogSe3(error).norm(), 0.0, 1e-3);
+}
+
+TEST(InitializingStart, AnUnsureYawOfTheLastFixStandsBesideTheFilter) {
+  for (const double yaw_std_rad : {0.05, 1.0}) {
+    Handover handover;
+    handover.origin = Handover::Origin::kLidar;
+    handover.last_fix.stamp = StampAt(-0.1);
+    handover.last_fix.pose_cov(5, 5) = yaw_std_rad * yaw_std_rad;
+    InitializingBench b({}, handover);
+    const auto transition = b.Drive(Straight(0.0), 0.0, 2.0);
+    ASSERT_TRUE(transition);
+    WorldEstimate published;
+    transition->handover.yaw_doubt.AddTo(published);
+    const double in_filter = transition->start->estimate.cov(kRot + 2, kRot + 2);
+    EXPECT_EQ(in_filter < 0.01, true) << yaw_std_rad;
+    EXPECT_EQ(published.cov(kRot + 2, kRot + 2) > 0.9, yaw_std_rad > 0.5);
+  }
+}
+
 // Each second a tenth of a second of samples is missing, which no alignment in motion accepts.
 TEST(InitializingStart, DriveThatCannotBeAlignedIsTriedAgainWithoutTheGyro) {
   const Motion drive = test::WindingDrive(0.0);

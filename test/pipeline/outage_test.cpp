@@ -55,6 +55,22 @@ TEST(AcrossOutage, DrivesOnInWorldAndInMapAlike) {
   EXPECT_NEAR((after.state.v_world_imu - Vector3(0, 10, 0)).norm(), 0.0, 1e-9);
 }
 
+TEST(MoveUnsureYaw, TakesOutWhatIsUnsureAndLeavesWhatIsKnown) {
+  for (const double std_rad : {0.5 * kOutage.known_yaw_std_rad, 2.0 * kOutage.known_yaw_std_rad}) {
+    Estimate estimate = HeadingAlongY();
+    estimate.cov(kRot + 2, kRot + 2) = std_rad * std_rad;
+    const Estimate before = estimate;
+    YawDoubt doubt;
+    const bool is_moved = MoveUnsureYaw(estimate, doubt);
+    EXPECT_EQ(is_moved, std_rad > kOutage.known_yaw_std_rad);
+    WorldEstimate published;
+    doubt.AddTo(published);
+    EXPECT_NEAR(published.cov(kRot + 2, kRot + 2), is_moved ? std_rad * std_rad : 0.0, 1e-9);
+    EXPECT_NEAR(estimate.cov(kRot + 2, kRot + 2), is_moved ? 0.0 : std_rad * std_rad, 1e-9);
+    EXPECT_EQ(estimate.state.T_world_imu.translation, before.state.T_world_imu.translation);
+  }
+}
+
 TEST(AcrossOutage, CovarianceHoldsWhoeverStoppedDroveOnFasterOrTurned) {
   const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(25.0));
   for (const Vector3& truth : {Vector3(3, 4, 5), Vector3(3, 54, 5), Vector3(3, 90, 9),
