@@ -40,8 +40,10 @@ void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeCo
   const bool is_contradicted_by_guess =
       outcome.match.degenerate_mask == 0 &&
       IsMotionHiddenSince(health.last_fused(), outcome.sweep->end, context);
-  settings.force = is_contradicted_by_guess || outcome.is_relocalized ||
-                   health.MustForce(filter.max_gated_in_a_row);
+  // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
+  const bool is_insisted_on =
+      health.MustForce(filter.max_gated_in_a_row) && !settings.is_map_unproved;
+  settings.force = is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
   if (settings.force) settings.max_unseen = MaxUnseenMotion(outcome, settings, context, history);
   const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
   health.AddFusion(fused);

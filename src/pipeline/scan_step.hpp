@@ -42,6 +42,7 @@ struct FusionSettings {
   bool grows_map = false;        // the scan will be inserted
   bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
   bool force = false;            // fuse even beyond the gate
+  bool is_map_unproved = false;  // it began anew, and no scan has been fused with it yet
   bool replaces_motion = false;  // nothing is known of the motion since the last fused scan
 };
 

@@ -178,6 +178,7 @@ ScanReport Tracking::Fuse(const MatchOutcome& outcome, const ImuNoise& noise, bo
   settings.alike_factor = zero_velocity_.match_cov_factor();
   settings.grows_map = is_keyframe;
   settings.is_level = FeelsGravity();
+  settings.is_map_unproved = is_map_rebased_;
   settings.replaces_motion = outage_.stage() == OutageRecovery::Stage::kSeek;
   FuseScan(outcome, settings, context_, history_, health_, report);
   return report;

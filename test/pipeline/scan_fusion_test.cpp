@@ -62,9 +62,9 @@ class ScanFusionTest : public testing::Test {
     outcome.match.cov = 1e-6 * Matrix6::Identity();
     return outcome;
   }
-  ScanReport Fuse(const MatchOutcome& outcome) {
+  ScanReport Fuse(const MatchOutcome& outcome, const FusionSettings& settings = {}) {
     ScanReport report;
-    FuseScan(outcome, {}, bench_.context(), *history_, health_, report);
+    FuseScan(outcome, settings, bench_.context(), *history_, health_, report);
     return report;
   }
 
@@ -85,6 +85,15 @@ TEST_F(ScanFusionTest, AMatchFarOffThatSeesAllIsFusedAtLastWhereNothingIsKnownOf
   FeedImu(-4.0, 2.0);
   for (int i = 0; i < kMaxGated; ++i) EXPECT_FALSE(Fuse(MatchedAt(5.0)).fused) << i;
   EXPECT_TRUE(Fuse(MatchedAt(5.0)).fused);
+}
+
+TEST_F(ScanFusionTest, AMatchFarOffInAMapThatBeganAnewIsRefusedForGood) {
+  FeedImu(-4.0, 2.0);
+  FusionSettings settings;
+  settings.is_map_unproved = true;
+  for (int i = 0; i < 2 * kMaxGated + 2; ++i) {
+    EXPECT_FALSE(Fuse(MatchedAt(5.0), settings).fused) << i;
+  }
 }
 
 TEST_F(ScanFusionTest, AMatchFarOffThatDoesNotSeeAllIsRefusedForGood) {
