@@ -110,7 +110,7 @@ Scene::~Scene() = default;
 
 // Embree interpolates the matrices of two poses, which half a turn makes singular in between.
 static Quaternion ShortOfHalfATurn(const Quaternion& from, const Quaternion& to) {
-  constexpr double kShare = 0.9;
+  constexpr double kShare = 0.9999;
   const bool is_half_a_turn = from.angularDistance(to) > kShare * std::numbers::pi;
   return is_half_a_turn ? from.slerp(kShare, to) : to;
 }
