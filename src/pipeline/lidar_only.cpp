@@ -113,13 +113,13 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const Pose T_map_imu_predicted = tracker_->history().At(middle).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
   trend_.Forget();
-  if (report.fused && !outcome.is_relocalized) {
-    NoteError(T_map_imu_predicted, tracker_->history().At(middle).state.T_map_imu, middle);
-  }
   if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }
   const Estimate estimate = tracker_->history().At(middle);
+  if (report.fused && !outcome.is_relocalized) {
+    NoteError(T_map_imu_predicted, estimate.state.T_map_imu, middle);
+  }
   if (starts_map || (report.fused && is_keyframe)) {
     insert.T_map_imu = estimate.state.T_map_imu;
     keyframes_.Accept(estimate.state.T_map_imu);

@@ -21,6 +21,17 @@ using test::XOf;
 
 using Step = ImuPreprocessor::Step;
 
+// The next scan is asked for the velocity alone, in a cleared map, and tells it.
+void FindTheVelocityForANewMap(AfterOneSecond& b) {
+  const MatchJob first = b.NextJob();
+  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
+  EXPECT_EQ(first.map_action, MapAction::kClear);
+  MatchOutcome seen = b.bench.Unmatched(first);
+  seen.match.status = MatchStatus::kEmptyMap;
+  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
+  ASSERT_FALSE(b.Finish(seen));
+}
+
 TEST(TrackingOutage, LostAtOnceAfterAnOutage) {
   AfterOneSecond b;
   b.StartSegment(6.0, Step::kGap);
@@ -72,13 +83,7 @@ TEST(TrackingOutage, FoundNowhereAfterAnOutageANewMapGoesOnWithTheDoubt) {
   AfterOneSecond b;
   b.StartSegment(6.0, Step::kGap);
   ASSERT_FALSE(b.Miss(kOutage.max_scans_sought));
-  const MatchJob first = b.NextJob();
-  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
-  EXPECT_EQ(first.map_action, MapAction::kClear);
-  MatchOutcome seen = b.bench.Unmatched(first);
-  seen.match.status = MatchStatus::kEmptyMap;
-  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
-  ASSERT_FALSE(b.Finish(seen));
+  FindTheVelocityForANewMap(b);
   EXPECT_FALSE(b.insert.T_map_imu);
   const MatchJob begin = b.NextJob();
   EXPECT_EQ(begin.map_action, MapAction::kClear);
@@ -97,13 +102,7 @@ TEST(TrackingOutage, ANewMapThatIsAskedForBeginsWithoutASearch) {
   AfterOneSecond b;
   b.mode.BeginNewMap();
   EXPECT_EQ(b.mode.status(), TrackingStatus::kLost);
-  const MatchJob first = b.NextJob();
-  EXPECT_TRUE(std::holds_alternative<FindVelocity>(first.task));
-  EXPECT_EQ(first.map_action, MapAction::kClear);
-  MatchOutcome seen = b.bench.Unmatched(first);
-  seen.match.status = MatchStatus::kEmptyMap;
-  seen.v_map_imu_mps = Vector3(kSpeed_mps, 0, 0);
-  ASSERT_FALSE(b.Finish(seen));
+  FindTheVelocityForANewMap(b);
   ASSERT_FALSE(b.Match(2));
   EXPECT_EQ(b.mode.status(), TrackingStatus::kOk);
 }

@@ -33,10 +33,9 @@ FAULTS = (
     "imu_gap:start=25,duration=1", "lidar_gap:start=25,duration=1.5", "drop", "chunk_loss",
     "reorder", "duplicate", "shaking:start=20", "dust:start=20,duration=10",
     "clock_offset:offset=0.025", "clock_offset:offset=-0.06",
-    "wrong_extrinsic:yaw_deg=5,x=0.1",
+    "nan", "wrong_extrinsic:yaw_deg=5,x=0.1",
     "gyro_saturation:start=20,limit=2.0,duration=30")
-# The product of beams, columns and rotor speed, in points a second.
-MAX_RATE_HZ = 1.0e6
+MAX_POINTS_PER_S = 1.0e6
 
 
 def log_uniform(draw, low, high):
@@ -45,18 +44,18 @@ def log_uniform(draw, low, high):
 
 def elevations_deg(draw, beams):
     """Evenly spread, or denser near the horizon, as long-range lidars have them."""
-    top, bottom = draw.uniform(8, 45), -draw.uniform(12, 45)
+    up, down = draw.uniform(8, 45), draw.uniform(12, 45)
     power = draw.choice((1.0, 1.0, 1.8))
     ratios = [2.0 * beam / (beams - 1) - 1.0 for beam in range(beams)]
     bent = [math.copysign(abs(ratio) ** power, ratio) for ratio in ratios]
-    return [round(top * ratio if ratio > 0 else -bottom * ratio, 3) for ratio in bent]
+    return [round((up if ratio > 0 else down) * ratio, 3) for ratio in bent]
 
 
 def random_lidar(draw):
     beams = draw.choice((16, 16, 32, 32, 40, 64, 128))
     rotation_hz = draw.choice((10.0, 10.0, 20.0))
     columns = draw.choice([columns for columns in (512, 900, 1024, 1300, 1800, 2048)
-                           if beams * columns * rotation_hz <= MAX_RATE_HZ] or [512])
+                           if beams * columns * rotation_hz <= MAX_POINTS_PER_S] or [512])
     period_us = 1e6 / rotation_hz / columns
     round_us = draw.choice((0.0, 0.6)) * period_us  # a flash of all beams, or one after another
     stagger_deg = draw.choice((0.0, 0.0, 1.0, 3.0))
