@@ -12,6 +12,7 @@
 #include "lio/pipeline/options.hpp"
 #include "lio/stream/sensor_stream.hpp"
 #include "lio/verdict/rig_examiner.hpp"
+#include "pipeline/blind_axis.hpp"
 #include "pipeline/clock_offset_follower.hpp"
 #include "pipeline/extrinsic_follower.hpp"
 #include "pipeline/health.hpp"
@@ -38,6 +39,7 @@ struct ModeContext {
   ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
   SensorFixedErrors& sensor_errors;
+  BlindAxis& blind_axis;
   RigExaminer& examiner;
   const PlaceKnowledge& place;
 

@@ -54,7 +54,7 @@ struct Odometry::Impl {
         place(start_in == StartIn::kInitialMap, options.pipeline.map_locked),
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
               outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise,
-              sensor_errors, examiner, place},
+              sensor_errors, blind_axis, examiner, place},
              place, handover) {}
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
@@ -83,6 +83,7 @@ struct Odometry::Impl {
   ImuConventionMonitor convention;
   ImuNoiseWatch imu_noise;
   SensorFixedErrors sensor_errors;
+  BlindAxis blind_axis;
   RigExaminer examiner;
   ClockOffsetFollower clocks;
   ExtrinsicFollower extrinsic;

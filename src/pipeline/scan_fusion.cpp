@@ -35,6 +35,7 @@ UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& 
 void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeContext& context,
               FilterHistory& history, Health& health, ScanReport& report) {
   const FilterOptions& filter = context.options.filter;
+  settings.match_cov = context.blind_axis.CovOf(outcome.match);
   if (settings.grows_map) context.sensor_errors.Add(outcome.match);
   settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
   const bool is_contradicted_by_guess =

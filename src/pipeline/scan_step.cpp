@@ -58,8 +58,9 @@ EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settin
                        const FilterOptions& filter, FilterHistory& history, double& nis) {
   PoseEvent event;
   event.measurement.T_map_imu = outcome.match.T_map_imu;
-  event.measurement.cov = filter.registration_cov_scale * outcome.match.cov +
-                          DeskewCov(*outcome.sweep, history, settings.gyro_density);
+  event.measurement.cov =
+      filter.registration_cov_scale * settings.match_cov.value_or(outcome.match.cov) +
+      DeskewCov(*outcome.sweep, history, settings.gyro_density);
   event.measurement.cov *= settings.alike_factor;
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;

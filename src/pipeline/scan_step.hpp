@@ -36,6 +36,8 @@ struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
   // The covariance of matches is scaled by this, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
+  // The covariance of the match; absent: as the match says.
+  std::optional<Matrix6> match_cov = {};
   // SensorFixedErrors::CovPerReplacement()
   Matrix6 sensor_error_cov = Matrix6::Zero();
   UnseenMotion max_unseen;       // as PoseEvent's

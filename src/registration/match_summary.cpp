@@ -6,6 +6,21 @@
 #include <cmath>
 
 namespace lio {
+namespace {
+
+std::vector<BlindDirection> BlindDirectionsOf(const DirectionSplit& split) {
+  std::vector<BlindDirection> directions;
+  const Vector6 scale = split.Scale();
+  for (int i = 0; i < 6; ++i) {
+    if (!(split.degenerate_mask & (1u << i))) continue;
+    const Vector6 direction = split.directions.col(i);
+    directions.push_back({direction.cwiseQuotient(scale), direction.cwiseProduct(scale)});
+  }
+  return directions;
+}
+
+}  // namespace
+
 Vector6f MatchSums::AddRow(const Vector6f& row, float residual_m, float weight,
                            const RobustKernel& kernel) {
   const Vector6f row_gradient = (weight * residual_m) * row;
@@ -46,6 +61,7 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   const double curvature = sums.curvature_ratio();
   result.eigenvalues = split.eigenvalues;
   result.degenerate_mask = split.degenerate_mask;
+  result.blind_directions = BlindDirectionsOf(split);
   const Matrix6 inverse = ObservableInverse(split);
   result.shift_per_score = inverse / curvature;
   result.observable_cov = CovarianceFromScores(result.shift_per_score, score_cov);

@@ -235,6 +235,22 @@ Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {
   return gradients_.by_part.Covariance() + kSharedStd_m * kSharedStd_m * sides;
 }
 
+// Noise of the normals answers a shift along the direction by a score of each cell, and the pose
+// across it by the shift that these scores make.
+void NdtMatcher::LookAlong(double curvature_ratio, MatchResult& result) {
+  for (BlindDirection& blind : result.blind_directions) {
+    const Vector6f shift = blind.shift.cast<float>();
+    along_.Reset(map_.cell_capacity());
+    for (std::size_t k = 0; k < scores_.size(); ++k) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(scores_[k].num_rows); ++i) {
+        const PointScore::OfRow& row = scores_[k].rows[i];
+        along_.Add(pairs_[k].cell, row.weight * row.jacobian.dot(shift) * row.jacobian);
+      }
+    }
+    blind.cov = CovarianceFromScores(curvature_ratio * result.shift_per_score, along_.Covariance());
+  }
+}
+
 TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
                                    double curvature_ratio) {
   turn_.Reset(map_.cell_capacity());
@@ -284,6 +300,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
   result.beam_scores = gradients_.by_beam.ByDirection();
+  LookAlong(sums.curvature_ratio(), result);
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }

@@ -50,13 +50,14 @@ class ModeBench {
   ModeBench& operator=(const ModeBench&) = delete;
 
   ModeContext context() {
-    return {options_,   ChiSquareQuantile6(options_.filter.gate_probability),
-            nullptr,    counters,
-            outputs_,   stream_,
-            sweeps,     convention_,
-            clocks_,    extrinsic_,
-            imu_noise_, sensor_errors_,
-            examiner,   place};
+    return {options_,    ChiSquareQuantile6(options_.filter.gate_probability),
+            nullptr,     counters,
+            outputs_,    stream_,
+            sweeps,      convention_,
+            clocks_,     extrinsic_,
+            imu_noise_,  sensor_errors_,
+            blind_axis_, examiner,
+            place};
   }
 
   const ExtrinsicFollower& extrinsic() const { return extrinsic_; }
@@ -161,6 +162,7 @@ class ModeBench {
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
   SensorFixedErrors sensor_errors_;
+  BlindAxis blind_axis_;
   ClockOffsetFollower clocks_;
   ExtrinsicFollower extrinsic_;
   std::int32_t num_sweeps_ = 0;

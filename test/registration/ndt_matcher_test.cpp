@@ -185,6 +185,34 @@ TEST(NdtMatcher, CorridorHasOneDegenerateDirectionAlongItsAxis) {
   EXPECT_NEAR(error.z(), 0.0, 0.01);
 }
 
+// What all matches of a map have in common, such as the slope that rings give to their cells, is
+// none of it.
+TEST(NdtMatcher, TellsHowMuchTheDirectionThatItDoesNotSeeVaries) {
+  constexpr int kRuns = 40;
+  NdtMatcherIn corridor(test::Corridor());
+  for (double x = 0.0; x <= 10.0; x += 1.0) corridor.InsertFrom({ExpSo3({0, 0, 0.3}), {x, 0, 0}});
+  Eigen::Matrix<double, 3, kRuns> found;
+  Vector3 told_var = Vector3::Zero();
+  for (int i = 0; i < kRuns; ++i) {
+    const Pose truth{ExpSo3({0, 0.01 * (i % 3), 0.3}), {3.0 + 0.1 * i, 0.2, 0.0}};
+    const MatchResult result = corridor.MatchFrom(truth, Vector6::Zero(), 0.02);
+    ASSERT_EQ(result.blind_directions.size(), 1u);
+    const BlindDirection& blind = result.blind_directions.front();
+    EXPECT_NEAR(blind.weight.dot(blind.shift), 1.0, 1e-9);
+    const Vector3 along = truth.rotation * blind.shift.head<3>();
+    found.col(i) = along / along.x();
+    const Matrix3 R = truth.rotation.toRotationMatrix();
+    const Matrix3 told = R * blind.cov.topLeftCorner<3, 3>() * R.transpose();
+    told_var += told.diagonal() / kRuns;
+  }
+  const Eigen::Matrix<double, 3, kRuns> apart = found.colwise() - found.rowwise().mean();
+  for (int axis = 1; axis < 3; ++axis) {
+    const double seen_var = apart.row(axis).squaredNorm() / (kRuns - 1);
+    EXPECT_GT(seen_var, told_var[axis] / 9.0) << axis;
+    EXPECT_LT(seen_var, told_var[axis] * 9.0) << axis;
+  }
+}
+
 TEST(NdtMatcher, EmptyMapGivesTheGuessAndSaysSo) {
   NdtMatcherIn street(test::Street());
   const MatchResult result = street.MatchFrom(OnRoad(0.0), Vector6::Zero(), 0.1);

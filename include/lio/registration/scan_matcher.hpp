@@ -67,6 +67,15 @@ struct Support {
   int num_matched = 0;
 };
 
+// A degenerate direction, which the noise of the cells' normals turns a little in each match.
+struct BlindDirection {
+  Vector6 shift = Vector6::Zero();   // right increment [translation (m); rotation (rad)] by a unit
+  Vector6 weight = Vector6::Zero();  // weight . increment is how many units it has
+  // Covariance of `shift`, across itself: how the direction varies from match to match. Zero where
+  // the method does not tell.
+  Matrix6 cov = Matrix6::Zero();
+};
+
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
@@ -76,6 +85,7 @@ struct [[nodiscard]] MatchResult {
       Matrix6::Zero();                    // the same without the part along degenerate directions
   Vector6 eigenvalues = Vector6::Zero();  // the information's, rotations scaled to metres
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
+  std::vector<BlindDirection> blind_directions;  // one for each bit
   int num_matched = 0;
   LevelCounts num_matched_at{};   // by level of the map; method ndt
   int num_matched_in_finest = 0;  // at the finest level in use, which depends on the place
