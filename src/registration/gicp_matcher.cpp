@@ -187,7 +187,7 @@ MatchSums GicpMatcher::SumTerms(const Pose& T_map_imu, const SearchRadius& radiu
     const Vector3 place = (T_map_imu * point.cast<double>()) / GicpParameters::kClusterVoxel_m;
     const auto cell = [](double v) { return static_cast<std::int32_t>(std::floor(v)); };
     const VoxelKey key = PackVoxel(cell(place.x()), cell(place.y()), cell(place.z()));
-    scores->Add(clusters.FindOrAdd(key).voxel, point, score);
+    scores->Add(point, {clusters.FindOrAdd(key).voxel, term.weight, row, score});
   }
   return sums;
 }

@@ -59,10 +59,14 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
   const auto row = [&](const Eigen::Vector3f& point, const Vector3& direction) {
     return JacobianRow(point, (to_imu * direction).cast<float>());
   };
-  const auto add_score = [&](const auto& term, const Vector6f& score) {
+  const auto add_row = [&](const auto& term, const Vector6f& jacobian, double residual_m) {
+    const auto weight = static_cast<float>(term.weight);
+    const Vector6f score = static_cast<float>(term.weight * residual_m) * jacobian;
+    sums.information.Add(jacobian, weight);
     sums.gradient += score.cast<double>();
     if (scores == nullptr) return;
-    scores->Add(term.part, points_imu[static_cast<std::size_t>(term.point)], score);
+    scores->Add(points_imu[static_cast<std::size_t>(term.point)],
+                {term.part, weight, jacobian, score});
   };
   for (PlaneTerm& term : planes_) {
     const Eigen::Vector3f& point = points_imu[static_cast<std::size_t>(term.point)];
@@ -70,13 +74,11 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
         term.axes.col(0).dot(T_target_imu * point.cast<double>() - term.on_plane);
     const double kernel = HuberWeight(std::abs(residual), options_.huber_m);
     term.weight = kernel / (options_.surface_std_m * options_.surface_std_m);
-    const Vector6f normal_row = row(point, term.axes.col(0));
-    sums.information.Add(normal_row, static_cast<float>(term.weight));
+    add_row(term, row(point, term.axes.col(0)), residual);
     for (int j = 0; j < 2; ++j) {
       sums.noise_information.Add(row(point, term.axes.col(j + 1)),
                                  static_cast<float>(term.weight * term.normal_var[j]));
     }
-    add_score(term, static_cast<float>(term.weight * residual) * normal_row);
     Count(kernel, term.weight, residual * residual, sums);
   }
   for (EdgeTerm& term : edges_) {
@@ -88,9 +90,7 @@ MatchSums LoamTerms::Linearize(std::span<const Eigen::Vector3f> points_imu,
     const Vector3 side = term.direction.unitOrthogonal();
     const Vector3 other_side = term.direction.cross(side);
     for (const Vector3& axis : {side, other_side}) {
-      const Vector6f side_row = row(point, axis);
-      sums.information.Add(side_row, static_cast<float>(term.weight));
-      add_score(term, static_cast<float>(term.weight * axis.dot(across)) * side_row);
+      add_row(term, row(point, axis), axis.dot(across));
     }
     sums.noise_information.Add(row(point, term.direction),
                                static_cast<float>(2.0 * term.weight * term.direction_var));

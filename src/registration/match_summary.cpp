@@ -78,15 +78,39 @@ void TakeLastStep(const Vector6& step, MatchResult& result) {
     result.T_map_imu = result.T_map_imu * ExpSe3(step);
 }
 
-void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
-                 MatchResult& result) {
+void MatchScores::Reset(std::size_t num_parts, const Pose& T_imu_lidar) {
+  by_part_.Reset(num_parts);
+  along_.Reset(num_parts);
+  by_beam_.Reset(T_imu_lidar);
+  rows_.clear();
+}
+
+void MatchScores::Add(const Eigen::Vector3f& point_imu, const ScoredRow& row) {
+  by_part_.Add(row.part, row.score);
+  by_beam_.Add(point_imu, row.score);
+  rows_.push_back(row);
+}
+
+void MatchScores::Complete(double curvature_ratio, MatchResult& result) {
+  result.beam_scores = by_beam_.ByDirection();
+  for (BlindDirection& blind : result.blind_directions) {
+    const Vector6f shift = blind.shift.cast<float>();
+    along_.Reset(0);
+    for (const ScoredRow& row : rows_) {
+      along_.Add(row.part, row.weight * row.jacobian.dot(shift) * row.jacobian);
+    }
+    blind.cov = CovarianceFromScores(curvature_ratio * result.shift_per_score, along_.Covariance());
+  }
+}
+
+void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, MatchResult& result) {
   result.num_matched = sums.num_matched;
   if (!has_enough) {
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  TakeLastStep(Summarise(sums, scores.by_part.Covariance(), result), result);
-  result.beam_scores = scores.by_beam.ByDirection();
+  TakeLastStep(Summarise(sums, scores.Covariance(), result), result);
+  scores.Complete(sums.curvature_ratio(), result);
 }
 
 }  // namespace lio

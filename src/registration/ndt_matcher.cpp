@@ -226,29 +226,13 @@ Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {
     const auto num_rows = static_cast<std::size_t>(scores_[k].num_rows);
     for (std::size_t i = 0; i < num_rows; ++i) {
       const PointScore::OfRow& row = scores_[k].rows[i];
-      gradients_.Add(pairs_[k].cell, input.points_imu[k], row.gradient);
+      gradients_.Add(input.points_imu[k], {pairs_[k].cell, row.weight, row.jacobian, row.gradient});
       if (num_rows == 2) per_metre_[i].Add(pairs_[k].cell, row.weight * row.jacobian);
     }
   }
   constexpr double kSharedStd_m = NdtParameters::kSharedVerticalStd_m;
   const Matrix6 sides = per_metre_[0].SumOfSquares() + per_metre_[1].SumOfSquares();
-  return gradients_.by_part.Covariance() + kSharedStd_m * kSharedStd_m * sides;
-}
-
-// Noise of the normals answers a shift along the direction by a score of each cell, and the pose
-// across it by the shift that these scores make.
-void NdtMatcher::LookAlong(double curvature_ratio, MatchResult& result) {
-  for (BlindDirection& blind : result.blind_directions) {
-    const Vector6f shift = blind.shift.cast<float>();
-    along_.Reset(map_.cell_capacity());
-    for (std::size_t k = 0; k < scores_.size(); ++k) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(scores_[k].num_rows); ++i) {
-        const PointScore::OfRow& row = scores_[k].rows[i];
-        along_.Add(pairs_[k].cell, row.weight * row.jacobian.dot(shift) * row.jacobian);
-      }
-    }
-    blind.cov = CovarianceFromScores(curvature_ratio * result.shift_per_score, along_.Covariance());
-  }
+  return gradients_.Covariance() + kSharedStd_m * kSharedStd_m * sides;
 }
 
 TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
@@ -299,8 +283,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
     return;
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
-  result.beam_scores = gradients_.by_beam.ByDirection();
-  LookAlong(sums.curvature_ratio(), result);
+  gradients_.Complete(sums.curvature_ratio(), result);
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }

@@ -97,7 +97,7 @@ TEST_F(LoamTermsTest, ScoresOfThePartsMakeTheGradient) {
   const MatchSums of_one =
       one.Linearize(points_, kLoamTruth * ExpSe3(0.01 * Vector6::Ones()), &scores_);
   const Matrix6 square = of_one.gradient * of_one.gradient.transpose();
-  EXPECT_LT((scores_.by_part.SumOfSquares() - square).norm(), 1e-4 * square.norm());
+  EXPECT_LT((scores_.Covariance() - square).norm(), 1e-4 * square.norm());
 }
 
 // A point that is 5 times Huber's limit off has a weight of a fifth and adds no curvature, and its

@@ -158,7 +158,8 @@ TEST(Summarise, OtherStatesThanConvergedAreKept) {
 TEST(FinishMatch, FewTermsAreToldWithTheirNumberAlone) {
   MatchResult result;
   result.status = MatchStatus::kConverged;
-  FinishMatch(HeldSums(3, 0.02f), {}, false, result);
+  MatchScores none;
+  FinishMatch(HeldSums(3, 0.02f), none, false, result);
   EXPECT_EQ(result.status, MatchStatus::kTooFewPoints);
   EXPECT_EQ(result.num_matched, 150);
   EXPECT_EQ(result.information, Matrix6::Zero());
@@ -169,19 +170,41 @@ TEST(FinishMatch, EnoughTermsGiveTheSummaryAndTheLastStep) {
   MatchScores scores;
   scores.Reset(20, Pose::Identity());
   for (int part = 0; part < 20; ++part) {
-    scores.Add(part, {5.f, 0.f, 0.f}, Vector6f::Unit(part % 6));
+    scores.Add({5.f, 0.f, 0.f}, {part, 1.f, Vector6f::Zero(), Vector6f::Unit(part % 6)});
   }
   MatchResult result;
   result.status = MatchStatus::kConverged;
   FinishMatch(sums, scores, true, result);
   MatchResult expected;
   expected.status = MatchStatus::kConverged;
-  TakeLastStep(Summarise(sums, scores.by_part.Covariance(), expected), expected);
+  TakeLastStep(Summarise(sums, scores.Covariance(), expected), expected);
   EXPECT_EQ(result.status, MatchStatus::kConverged);
   EXPECT_EQ(result.cov, expected.cov);
   EXPECT_GT(result.T_map_imu.translation.norm(), 0.0);
   EXPECT_EQ(result.T_map_imu.translation, expected.T_map_imu.translation);
   EXPECT_FALSE(result.beam_scores.empty());
+}
+
+// Two walls along x, whose normals lean by 10 mrad either way: a metre along x moves the pose by as
+// much across, to one side or to the other.
+TEST(MatchScores, ABlindDirectionVariesByTheLeaningOfTheNormals) {
+  constexpr float kLean = 0.01f;
+  constexpr int kParts = 100;
+  MatchScores scores;
+  scores.Reset(kParts, Pose::Identity());
+  for (int part = 0; part < kParts; ++part) {
+    Vector6f row = Vector6f::Unit(1);
+    row[0] = part % 2 == 0 ? kLean : -kLean;
+    scores.Add({5.f, 0.f, 0.f}, {part, 1.f, row, Vector6f::Zero()});
+  }
+  MatchResult result;
+  result.shift_per_score(1, 1) = 1.0 / kParts;  // of a hundred rows of weight one
+  result.blind_directions = {{Vector6::UnitX(), Vector6::UnitX()}};
+  scores.Complete(1.0, result);
+  const Matrix6& cov = result.blind_directions.front().cov;
+  const double mean_var = kLean * kLean / kParts;
+  EXPECT_NEAR(cov(1, 1), mean_var, 0.1 * mean_var);  // 100 / 94 by the dimensions
+  EXPECT_EQ(cov(0, 0), 0.0);
 }
 
 // --- new content

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "lio/registration/beam_scores.hpp"
 #include "lio/registration/cluster_scores.hpp"
@@ -91,19 +92,32 @@ struct MatchSums {
 
 [[nodiscard]] DirectionSplit SplitDirections(const MatchSums& sums);
 
-// Holds the scores of a match at its solution.
-struct MatchScores {
-  PoseScores by_part;  // one per part of the map
-  BeamScores by_beam;
+// One row of the problem at the solution.
+struct ScoredRow {
+  std::int32_t part = 0;  // of the map
+  float weight = 0.f;     // [1/m^2]
+  Vector6f jacobian;
+  Vector6f score;  // the row's gradient
+};
 
-  void Reset(std::size_t num_parts, const Pose& T_imu_lidar) {
-    by_part.Reset(num_parts);
-    by_beam.Reset(T_imu_lidar);
-  }
-  void Add(std::int32_t part, const Eigen::Vector3f& point_imu, const Vector6f& score) {
-    by_part.Add(part, score);
-    by_beam.Add(point_imu, score);
-  }
+// Holds the scores of a match at its solution.
+class MatchScores {
+ public:
+  void Reset(std::size_t num_parts, const Pose& T_imu_lidar);
+  void Add(const Eigen::Vector3f& point_imu, const ScoredRow& row);
+
+  // Returns the covariance of the whole gradient.
+  [[nodiscard]] Matrix6 Covariance() const { return by_part_.Covariance(); }
+  // Fills the result's scores by beam direction, and the covariances of its blind directions: the
+  // noise of the normals answers a shift along one by a score of each part, and the pose by the
+  // shift across it that these scores make.
+  void Complete(double curvature_ratio, MatchResult& result);
+
+ private:
+  PoseScores by_part_;
+  PoseScores along_;  // by part, of a shift along a blind direction
+  BeamScores by_beam_;
+  std::vector<ScoredRow> rows_;
 };
 
 // Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
@@ -120,8 +134,7 @@ void TakeLastStep(const Vector6& step, MatchResult& result);
 // The end of a match whose parts are told by `scores`: the result, at whose pose the sums were
 // taken, gets the number of terms and, unless those are too few, all that Summarise() gives and the
 // last step.
-void FinishMatch(const MatchSums& sums, const MatchScores& scores, bool has_enough,
-                 MatchResult& result);
+void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, MatchResult& result);
 
 // Takes the mean over matched points of (points that this scan adds to a voxel) / (points in it
 // after), which is MatchResult::new_content_share.

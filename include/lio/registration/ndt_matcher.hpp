@@ -105,8 +105,6 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   [[nodiscard]] Support UprightSupport() const;
   double NewContentShare() const;
   Matrix6 ScoreCovariance(const MatchInput& input);
-  // Fills the covariances of the blind directions (docs/filter.md).
-  void LookAlong(double curvature_ratio, MatchResult& result);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
@@ -122,7 +120,6 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::vector<PointScore> scores_;        // in the last match, one a point
   MatchScores gradients_;                 // by cell and by beam
   std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
-  PoseScores along_;                      // by cell, for a shift along a blind direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // number of the last count; older counts are void
