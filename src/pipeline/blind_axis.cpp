@@ -19,18 +19,19 @@ bool IsHeld(const MatchResult& match, const Vector6& weight) {
 
 }  // namespace
 
-Matrix6 BlindAxis::CovOf(const MatchResult& match) {
+BlindAxis::Answer BlindAxis::Judge(const MatchResult& match) {
   Transport(match.T_map_imu);
-  if (match.blind_directions.empty() && SeesNoMoreThanBefore(match)) {
-    return match.cov + BlindCov();
-  }
+  const bool is_blind = match.degenerate_mask != 0;
+  blind_share_ += kBlindAxis.share_rate * ((is_blind ? 1.0 : 0.0) - blind_share_);
+  if (!is_blind && IsBlindByChance(match)) return {match.cov + BlindCov(), true};
   if (match.blind_directions.size() != 1 || match.blind_directions.front().cov.isZero(0.0)) {
-    mean_.reset();
-    return match.cov;
+    if (is_blind || blind_share_ < 0.5) mean_.reset();
+    return {match.cov, is_blind};
   }
   const BlindDirection& measured = match.blind_directions.front();
-  Take(measured, measured.shift.dot(match.information * measured.shift));
-  return IsHeld(match, measured.weight) ? match.cov : match.observable_cov + BlindCov();
+  Take(measured, match.observability.Ratio(measured.shift));
+  if (IsHeld(match, measured.weight)) return {match.cov, true};
+  return {match.observable_cov + BlindCov(), true};
 }
 
 void BlindAxis::Transport(const Pose& T_map_imu) {
@@ -42,10 +43,11 @@ void BlindAxis::Transport(const Pose& T_map_imu) {
   mean_->cov = (along * mean_->cov * along.transpose()).eval();
 }
 
-// The information that matches had while they were blind is the noise of this place.
-bool BlindAxis::SeesNoMoreThanBefore(const MatchResult& match) const {
-  return mean_ && mean_->shift.dot(match.information * mean_->shift) <
-                      kBlindAxis.min_information_ratio * mean_->information;
+// The ratio that matches had while they were blind is the noise of this place.
+bool BlindAxis::IsBlindByChance(const MatchResult& match) const {
+  return mean_ && blind_share_ > 0.5 &&
+         match.observability.Ratio(mean_->shift) <
+             kBlindAxis.min_information_ratio * mean_->information_ratio;
 }
 
 Matrix6 BlindAxis::BlindCov() const {
@@ -53,9 +55,9 @@ Matrix6 BlindAxis::BlindCov() const {
 }
 
 // Fuses two directions, of which only what lies across them is uncertain.
-void BlindAxis::Take(const BlindDirection& measured, double information) {
+void BlindAxis::Take(const BlindDirection& measured, double information_ratio) {
   if (!mean_ || !Agrees(measured)) {
-    mean_ = Mean{measured.shift, measured.cov, information};
+    mean_ = Mean{measured.shift, measured.cov, information_ratio};
     return;
   }
   const double kept = 1.0 - kBlindAxis.forgotten_share;
@@ -64,7 +66,8 @@ void BlindAxis::Take(const BlindDirection& measured, double information) {
   mean_->shift += gain * apart;
   const Matrix6 cov = mean_->cov - gain * mean_->cov;
   mean_->cov = 0.5 / kept * (cov + cov.transpose());
-  mean_->information += kBlindAxis.forgotten_share * (information - mean_->information);
+  mean_->information_ratio +=
+      kBlindAxis.forgotten_share * (information_ratio - mean_->information_ratio);
 }
 
 // Gives the mean the length and the sign of the measured one, and compares them.
@@ -72,7 +75,9 @@ bool BlindAxis::Agrees(const BlindDirection& measured) {
   const double length = measured.weight.dot(mean_->shift);
   if (std::abs(length) < kBlindAxis.min_length) return false;
   mean_->shift /= length;
-  mean_->cov /= length * length;
+  const Matrix6 across =
+      (Matrix6::Identity() - mean_->shift * measured.weight.transpose()) / length;
+  mean_->cov = (across * mean_->cov * across.transpose()).eval();
   const Vector6 apart = measured.shift - mean_->shift;
   return apart.dot(Spread(measured).solve(apart)) < kBlindAxis.max_chi_square;
 }

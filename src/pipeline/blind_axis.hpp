@@ -11,7 +11,8 @@
 // the same as the body moves and turns, where Ad(D^-1) takes it along by the motion D.
 //
 // In such a place some matches pass the limit below which a direction counts as blind, by chance.
-// They are believed once they tell clearly more than the blind ones did.
+// A match is believed there, as long as most of the last ones were blind, if it tells clearly more
+// than those (docs/experiments/blind_axis.md).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -26,38 +27,51 @@ struct BlindAxisParameters {
   // Directions that differ by more than this begin a mean anew. Statistics: 99.9 % of chi-square
   // with five degrees of freedom.
   double max_chi_square = 20.5;
-  // Older scans are forgotten by this share. Chosen: 50 scans, a tunnel's bend of 75 m at 15 m/s.
+  // A scan makes older ones count less by this share. Chosen: the mean is over 50 scans, which are
+  // 75 m of a tunnel at 15 m/s and 10 Hz.
   double forgotten_share = 0.02;
-  // Half a unit along the measured direction. Chosen: what is less is another direction.
+  // The share of blind matches is a mean over the last ones with this weight. Chosen: ten scans.
+  double share_rate = 0.1;
+  // A mean that has less than this along a measured direction is another direction. Chosen: half of
+  // the measured one's length.
   double min_length = 0.5;
-  // A match that tells less than this many times what blind ones told here is blind, too. Chosen:
-  // they differ by a fifth, and at the end of a tunnel the ratio is soon ten.
+  // A match whose ratio of information to noise is less than this many times that of blind ones is
+  // blind, too. Chosen: blind matches differ by a fifth, and at the end of a tunnel the ratio is
+  // soon ten times as large.
   double min_information_ratio = 2.0;
 };
 inline constexpr BlindAxisParameters kBlindAxis;
 
 class BlindAxis {
  public:
-  // Takes a match into the mean, and returns the covariance of its pose with that direction in
-  // place of its own. It is the match's where none or several directions are blind, or its method
-  // does not tell how well it knows them.
-  [[nodiscard]] Matrix6 CovOf(const MatchResult& match);
+  struct Answer {
+    Matrix6 cov;    // the error of the match's pose, right [m; rad]
+    bool is_blind;  // along one direction at least
+  };
+  // Takes a match into the mean, and returns its covariance with that direction in place of its
+  // own. It is the match's where none or several directions are blind, or its method does not tell
+  // how they vary.
+  [[nodiscard]] Answer Judge(const MatchResult& match);
+
+  // The matches to come are in another map, of another body, or somewhere else.
+  void Reset() { *this = {}; }
 
  private:
   void Transport(const Pose& T_map_imu);
-  [[nodiscard]] bool SeesNoMoreThanBefore(const MatchResult& match) const;
+  [[nodiscard]] bool IsBlindByChance(const MatchResult& match) const;
   [[nodiscard]] Matrix6 BlindCov() const;
-  void Take(const BlindDirection& measured, double information);
+  void Take(const BlindDirection& measured, double information_ratio);
   [[nodiscard]] bool Agrees(const BlindDirection& measured);
   [[nodiscard]] Eigen::LDLT<Matrix6> Spread(const BlindDirection& measured) const;
 
   struct Mean {
     Vector6 shift;  // as BlindDirection's
     Matrix6 cov;
-    double information;  // along it, of blind matches
+    double information_ratio;  // along it, of blind matches
   };
   std::optional<Mean> mean_;
-  Pose T_map_imu_;  // of the last match
+  double blind_share_ = 0.0;  // mean over the last matches
+  Pose T_map_imu_;            // the last match's
 };
 
 }  // namespace lio

@@ -61,6 +61,7 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   handover_.origin = Handover::Origin::kLidar;
   handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());
   context_.convention.BeginMap(sweep.start);
+  context_.blind_axis.Reset();
   up_map_ = options.T_world_start.rotation * MeanUp({}, context_.options.rig);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Every mode works with these. Odometry owns all of it and outlives the modes; none of it is about
-// the motion, so nothing of a motion crosses a change of mode here (handover.hpp is for that).
+// the motion, so nothing of a motion crosses a change of mode here (handover.hpp is for that). The
+// blind axis is of the map, and begins anew with it.
 #pragma once
 
 #include <fmt/format.h>

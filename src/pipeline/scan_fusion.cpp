@@ -15,8 +15,9 @@ bool IsMotionHiddenSince(std::optional<Timestamp> last_fused, Timestamp until,
 
 // An error that the rig made in the motion is left in the estimate, above all in its velocity, for
 // as long as a missed motion is: for the filter's window.
-UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& settings,
-                             const ModeContext& context, const FilterHistory& history) {
+UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, bool is_blind,
+                             const FusionSettings& settings, const ModeContext& context,
+                             const FilterHistory& history) {
   if (outcome.is_relocalized || outcome.is_clock_set || settings.replaces_motion) return {};
   const Timestamp until = outcome.sweep->end;
   const Duration window = Duration::FromSeconds(context.options.filter.history_s);
@@ -27,7 +28,7 @@ UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& 
     return MotionByRigErrors(*bounds, samples, history.At(until).state.v_world_imu.norm());
   }
   // Nothing is known of the rig yet: a match that sees all directions is believed.
-  return outcome.match.degenerate_mask == 0 ? UnseenMotion{} : UnseenMotion{0.0, 0.0};
+  return is_blind ? UnseenMotion{0.0, 0.0} : UnseenMotion{};
 }
 
 }  // namespace
@@ -35,17 +36,19 @@ UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& 
 void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeContext& context,
               FilterHistory& history, Health& health, ScanReport& report) {
   const FilterOptions& filter = context.options.filter;
-  settings.match_cov = context.blind_axis.CovOf(outcome.match);
+  if (outcome.is_relocalized) context.blind_axis.Reset();
+  const BlindAxis::Answer answer = context.blind_axis.Judge(outcome.match);
+  settings.match_cov = answer.cov;
   if (settings.grows_map) context.sensor_errors.Add(outcome.match);
   settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
   const bool is_contradicted_by_guess =
-      outcome.match.degenerate_mask == 0 &&
-      IsMotionHiddenSince(health.last_fused(), outcome.sweep->end, context);
+      !answer.is_blind && IsMotionHiddenSince(health.last_fused(), outcome.sweep->end, context);
   // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
   const bool is_insisted_on =
       health.MustForce(filter.max_gated_in_a_row) && !settings.is_map_unproved;
   settings.force = is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
-  if (settings.force) settings.max_unseen = MaxUnseenMotion(outcome, settings, context, history);
+  if (settings.force)
+    settings.max_unseen = MaxUnseenMotion(outcome, answer.is_blind, settings, context, history);
   const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
   health.AddFusion(fused);
   report.fused = fused == EventOutcome::kApplied;

@@ -32,6 +32,7 @@ Tracking::Tracking(const ModeContext& context, Handover handover, const StartSta
       health_(true, TrackingStatus::kOk, start.estimate.stamp, context.counters),
       zero_velocity_(context.options.rig.imu, is_at_rest),
       is_first_scan_(!std::exchange(handover_.keeps_map, false)) {
+  if (is_first_scan_) context_.blind_axis.Reset();
   history_.KeepFrom(start.estimate.stamp);
   AddSamplesAfter(start.estimate.stamp);
 }

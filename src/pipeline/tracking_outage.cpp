@@ -100,6 +100,7 @@ void Tracking::LeaveMap(Timestamp stamp) {
   handover_.clock_step.End();
   handover_.last_located.reset();
   keyframes_.Reset();
+  context_.blind_axis.Reset();
   context_.convention.BeginMap(stamp);
   SetYawAside(stamp);
   context_.outputs.Notify(

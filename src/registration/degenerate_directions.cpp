@@ -11,6 +11,9 @@
 namespace lio {
 namespace {
 
+// Sure information needs no margin above the noise: it counts as many times as the threshold says.
+constexpr double kMoreForSure = DegeneracyParameters::kMinInformationRatio - 1.0;
+
 // How many directions have less information than the threshold times what noise induces, and an
 // orthonormal basis whose first columns span them. The ratio's extremes are the generalised
 // eigenvalues of the two matrices: eigenvectors of the information alone mix a degenerate direction
@@ -67,13 +70,16 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_
     return inverse_scale.asDiagonal() * matrix * inverse_scale.asDiagonal();
   };
   const Matrix6 scaled = in_metres(information);
-  constexpr double kMoreForSure = DegeneracyParameters::kMinInformationRatio - 1.0;
   const Subspaces found = FindSubspaces(scaled + kMoreForSure * in_metres(sure_information),
                                         in_metres(noise_information));
   SplitWithin(scaled, found.basis, 0, found.num_degenerate, split);
   SplitWithin(scaled, found.basis, found.num_degenerate, 6 - found.num_degenerate, split);
   split.degenerate_mask = (1u << found.num_degenerate) - 1u;
   return split;
+}
+
+Matrix6 CountedInformation(const Matrix6& information, const Matrix6& sure_information) {
+  return information + kMoreForSure * sure_information;
 }
 
 Matrix6 ObservableInverse(const DirectionSplit& split) {

@@ -56,6 +56,9 @@ DirectionSplit SplitDirections(const MatchSums& sums) {
 
 Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
+  result.observability.counted =
+      CountedInformation(result.information, sums.sure_information.Full());
+  result.observability.noise = sums.noise_information.Full();
   const DirectionSplit split = SplitDirections(sums);
   // The sandwich is made with the robust cost's own curvature, which is less than the information.
   const double curvature = sums.curvature_ratio();

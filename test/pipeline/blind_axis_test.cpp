@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBlindStd_m = 100.0;
 constexpr double kPoseStd = 1e-3;       // m, rad, across the axis
-constexpr double kInformation = 1e3;    // along the axis
+constexpr double kRatio = 7.0;          // the information over that of noise, along the axis
 constexpr double kDirectionStd = 1e-3;  // m, rad per metre along the axis
 
 // Returns a match at a pose that sees all but a metre along `shift`, where rotations count as
@@ -30,17 +30,19 @@ MatchResult BlindAlong(const Vector6& shift, const Pose& T_map_imu) {
   match.cov = match.observable_cov + kBlindStd_m * kBlindStd_m * unit * unit.transpose();
   match.blind_directions = {{unit, unit, kDirectionStd * kDirectionStd * across}};
   match.degenerate_mask = 1;
-  match.information = kInformation * Matrix6::Identity();
+  match.observability.counted = kRatio * Matrix6::Identity();
+  match.observability.noise = Matrix6::Identity();
   return match;
 }
 
-// Returns a match that sees all directions, with so many times the information.
-MatchResult SeeingAll(double information_ratio) {
+// Returns a match that sees all directions, with so many times the ratio of blind ones.
+MatchResult SeeingAll(double factor) {
   MatchResult match;
   match.status = MatchStatus::kConverged;
   match.observable_cov = kPoseStd * kPoseStd * Matrix6::Identity();
   match.cov = match.observable_cov;
-  match.information = information_ratio * kInformation * Matrix6::Identity();
+  match.observability.counted = factor * kRatio * Matrix6::Identity();
+  match.observability.noise = Matrix6::Identity();
   return match;
 }
 
@@ -80,7 +82,7 @@ TEST(BlindAxis, NoisyDirectionsOfATunnelDoNotTellThePlaceAlongIt) {
   BlindAxis axis;
   const double own_m = StdAlongTunnel(400, [](const MatchResult& match) { return match.cov; });
   const double mean_m =
-      StdAlongTunnel(400, [&](const MatchResult& match) { return axis.CovOf(match); });
+      StdAlongTunnel(400, [&](const MatchResult& match) { return axis.Judge(match).cov; });
   EXPECT_LT(own_m, 0.05);
   EXPECT_GT(mean_m, 4.0 * own_m);
 }
@@ -105,7 +107,7 @@ TEST(BlindAxis, TheMeanIsNearerToTheTruthThanItsMatchesAlongACircleToo) {
     const Pose pose{ExpSo3(Vector3(0, 0, angle_rad)),
                     kRadius_m * Vector3(std::sin(angle_rad), 1.0 - std::cos(angle_rad), 0.0)};
     const MatchResult match = BlindAlong(WithNoise(truth, random), pose);
-    const Vector6 mean = BlindDirectionOf(axis.CovOf(match));
+    const Vector6 mean = BlindDirectionOf(axis.Judge(match).cov);
     if (i < 50) continue;
     of_matches += (match.blind_directions.front().shift - truth).squaredNorm();
     of_mean += (mean - truth).squaredNorm();
@@ -120,50 +122,76 @@ TEST(BlindAxis, AnotherTunnelBeginsAnew) {
   Vector6 other = TunnelAxisAt(at_rest);
   other[1] = 0.1;
   for (int i = 0; i < 30; ++i) {
-    (void)axis.CovOf(BlindAlong(WithNoise(TunnelAxisAt(at_rest), random), at_rest));
+    (void)axis.Judge(BlindAlong(WithNoise(TunnelAxisAt(at_rest), random), at_rest));
   }
   const MatchResult match = BlindAlong(other, at_rest);
-  EXPECT_LT((axis.CovOf(match) - match.cov).norm(), 1e-9 * match.cov.norm());
+  EXPECT_LT((axis.Judge(match).cov - match.cov).norm(), 1e-9 * match.cov.norm());
 }
 
 TEST(BlindAxis, MatchesThatSeeAllOrTwoDirectionsLessStayAsTheyAre) {
   BlindAxis axis;
   MatchResult match = BlindAlong(Vector6::UnitX(), {});
   match.blind_directions.push_back(BlindAlong(Vector6::UnitY(), {}).blind_directions.front());
-  EXPECT_EQ(axis.CovOf(match), match.cov);
+  EXPECT_EQ(axis.Judge(match).cov, match.cov);
   match.blind_directions.clear();
-  EXPECT_EQ(axis.CovOf(match), match.cov);
+  EXPECT_EQ(axis.Judge(match).cov, match.cov);
+}
+
+BlindAxis AfterBlindMatches(int num) {
+  BlindAxis axis;
+  for (int i = 0; i < num; ++i) (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}));
+  return axis;
 }
 
 TEST(BlindAxis, AMatchThatTellsNoMoreThanBlindOnesIsBlind) {
-  BlindAxis axis;
-  (void)axis.CovOf(BlindAlong(Vector6::UnitX(), {}));
-  const Matrix6 cov = axis.CovOf(SeeingAll(1.2));
-  EXPECT_GT(cov(0, 0), 0.9 * kBlindStd_m * kBlindStd_m);
-  EXPECT_NEAR(cov(1, 1), kPoseStd * kPoseStd, 1e-9);
+  BlindAxis axis = AfterBlindMatches(10);
+  const BlindAxis::Answer answer = axis.Judge(SeeingAll(1.2));
+  EXPECT_TRUE(answer.is_blind);
+  EXPECT_GT(answer.cov(0, 0), 0.9 * kBlindStd_m * kBlindStd_m);
+  EXPECT_NEAR(answer.cov(1, 1), kPoseStd * kPoseStd, 1e-9);
 }
 
-TEST(BlindAxis, TheEndOfATunnelIsSeen) {
+TEST(BlindAxis, AMatchThatTellsClearlyMoreIsBelieved) {
+  BlindAxis axis = AfterBlindMatches(10);
+  const BlindAxis::Answer answer = axis.Judge(SeeingAll(3.0));
+  EXPECT_FALSE(answer.is_blind);
+  EXPECT_EQ(answer.cov, SeeingAll(3.0).cov);
+}
+
+TEST(BlindAxis, OneBlindMatchAmongManyChangesNoOther) {
   BlindAxis axis;
-  (void)axis.CovOf(BlindAlong(Vector6::UnitX(), {}));
-  EXPECT_EQ(axis.CovOf(SeeingAll(3.0)), SeeingAll(3.0).cov);
-  EXPECT_EQ(axis.CovOf(SeeingAll(1.2)), SeeingAll(1.2).cov) << "the mean was forgotten";
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
+  EXPECT_TRUE(axis.Judge(BlindAlong(Vector6::UnitX(), {})).is_blind);
+  EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
+}
+
+TEST(BlindAxis, MatchesThatGoOnSeeingAreBelieved) {
+  BlindAxis axis = AfterBlindMatches(100);
+  int num_blind = 0;
+  for (int i = 0; i < 20; ++i) num_blind += axis.Judge(SeeingAll(1.2)).is_blind ? 1 : 0;
+  EXPECT_LT(num_blind, 8);
+}
+
+TEST(BlindAxis, ResetForgetsTheAxis) {
+  BlindAxis axis = AfterBlindMatches(100);
+  axis.Reset();
+  EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
 }
 
 TEST(BlindAxis, AMethodThatDoesNotTellHowWellItKnowsTheDirectionIsBelieved) {
   BlindAxis axis;
-  (void)axis.CovOf(BlindAlong(Vector6::UnitX(), {}));
+  (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}));
   std::mt19937_64 random(4);
   MatchResult match = BlindAlong(WithNoise(Vector6::UnitX(), random), {});
   match.blind_directions.front().cov.setZero();
-  EXPECT_EQ(axis.CovOf(match), match.cov);
+  EXPECT_EQ(axis.Judge(match).cov, match.cov);
 }
 
 TEST(BlindAxis, ADirectionThatIsHeldOtherwiseStaysHeld) {
   BlindAxis axis;
   MatchResult match = BlindAlong(Vector6::UnitX(), {});
   match.cov(0, 0) = 0.01;
-  EXPECT_EQ(axis.CovOf(match), match.cov);
+  EXPECT_EQ(axis.Judge(match).cov, match.cov);
 }
 
 }  // namespace

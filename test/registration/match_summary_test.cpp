@@ -198,7 +198,7 @@ TEST(MatchScores, ABlindDirectionVariesByTheLeaningOfTheNormals) {
     scores.Add({5.f, 0.f, 0.f}, {part, 1.f, row, Vector6f::Zero()});
   }
   MatchResult result;
-  result.shift_per_score(1, 1) = 1.0 / kParts;  // of a hundred rows of weight one
+  result.shift_per_score(1, 1) = 1.0 / kParts;  // a hundred rows have weight one
   result.blind_directions = {{Vector6::UnitX(), Vector6::UnitX()}};
   scores.Complete(1.0, result);
   const Matrix6& cov = result.blind_directions.front().cov;

@@ -185,8 +185,8 @@ TEST(NdtMatcher, CorridorHasOneDegenerateDirectionAlongItsAxis) {
   EXPECT_NEAR(error.z(), 0.0, 0.01);
 }
 
-// What all matches of a map have in common, such as the slope that rings give to their cells, is
-// none of it.
+// It does not contain what all matches of a map have in common, such as the slope that rings give
+// to their cells.
 TEST(NdtMatcher, TellsHowMuchTheDirectionThatItDoesNotSeeVaries) {
   constexpr int kRuns = 40;
   NdtMatcherIn corridor(test::Corridor());

@@ -42,6 +42,11 @@ struct DirectionSplit {
                                              const Matrix6& noise_information,
                                              const Matrix6& sure_information = Matrix6::Zero());
 
+// Returns the information that is compared with that which noise induces: the sure part counts as
+// many times as the threshold says.
+[[nodiscard]] Matrix6 CountedInformation(const Matrix6& information,
+                                         const Matrix6& sure_information);
+
 // Returns the Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
 [[nodiscard]] Vector6 StepInObservableDirections(const DirectionSplit& split,
                                                  const Vector6& gradient);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "lio/registration/beam_scores.hpp"
@@ -94,7 +95,7 @@ struct MatchSums {
 
 // One row of the problem at the solution.
 struct ScoredRow {
-  std::int32_t part = 0;  // of the map
+  std::int32_t part = 0;  // the map's
   float weight = 0.f;     // [1/m^2]
   Vector6f jacobian;
   Vector6f score;  // the row's gradient

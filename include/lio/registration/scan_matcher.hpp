@@ -76,10 +76,22 @@ struct BlindDirection {
   Matrix6 cov = Matrix6::Zero();
 };
 
+// The information that counts for SplitDirections(), and that which noise alone induces.
+struct Observability {
+  Matrix6 counted = Matrix6::Zero();
+  Matrix6 noise = Matrix6::Zero();
+
+  // Returns their ratio along an increment.
+  [[nodiscard]] double Ratio(const Vector6& shift) const {
+    return shift.dot(counted * shift) / shift.dot(noise * shift);
+  }
+};
+
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
   Matrix6 information = Matrix6::Zero();  // Hessian of the cost at the solution, right error
+  Observability observability;
   Matrix6 cov = Matrix6::Zero();  // error of T_map_imu, right; 100 m along degenerate directions
   Matrix6 observable_cov =
       Matrix6::Zero();                    // the same without the part along degenerate directions
