@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/blind_axis.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "lio/registration/registration_parameters.hpp"
@@ -54,38 +55,38 @@ Matrix6 BlindAxis::BlindCov() const {
   return kBlindVar_m2 * mean_->shift * mean_->shift.transpose();
 }
 
-// Fuses two directions, of which only what lies across them is uncertain.
 void BlindAxis::Take(const BlindDirection& measured, double information_ratio) {
-  if (!mean_ || !Agrees(measured)) {
-    mean_ = Mean{measured.shift, measured.cov, information_ratio};
-    return;
-  }
-  const double kept = 1.0 - kBlindAxis.forgotten_share;
-  const Vector6 apart = measured.shift - mean_->shift;
-  const Matrix6 gain = Spread(measured).solve(mean_->cov).transpose();
-  mean_->shift += gain * apart;
-  const Matrix6 cov = mean_->cov - gain * mean_->cov;
-  mean_->cov = 0.5 / kept * (cov + cov.transpose());
-  mean_->information_ratio +=
-      kBlindAxis.forgotten_share * (information_ratio - mean_->information_ratio);
+  if (mean_ && AlignTo(measured) && Fuse(measured, information_ratio)) return;
+  mean_ = Mean{measured.shift, measured.cov, information_ratio};
 }
 
-// Gives the mean the length and the sign of the measured one, and compares them.
-bool BlindAxis::Agrees(const BlindDirection& measured) {
+// Gives the mean the length and the sign of the measured direction, unless it is another one.
+bool BlindAxis::AlignTo(const BlindDirection& measured) {
   const double length = measured.weight.dot(mean_->shift);
   if (std::abs(length) < kBlindAxis.min_length) return false;
   mean_->shift /= length;
   const Matrix6 across =
       (Matrix6::Identity() - mean_->shift * measured.weight.transpose()) / length;
   mean_->cov = (across * mean_->cov * across.transpose()).eval();
-  const Vector6 apart = measured.shift - mean_->shift;
-  return apart.dot(Spread(measured).solve(apart)) < kBlindAxis.max_chi_square;
+  return true;
 }
 
-// The covariance of the difference, filled up along the direction, where there is none.
-Eigen::LDLT<Matrix6> BlindAxis::Spread(const BlindDirection& measured) const {
+// Only what lies across the directions is uncertain, so that the covariance of their difference is
+// filled up along them.
+bool BlindAxis::Fuse(const BlindDirection& measured, double information_ratio) {
+  const Vector6 apart = measured.shift - mean_->shift;
   const Matrix6 both = mean_->cov + measured.cov;
-  return Eigen::LDLT<Matrix6>(both + both.trace() * measured.shift * measured.shift.transpose());
+  const Eigen::LDLT<Matrix6> spread(both +
+                                    both.trace() * measured.shift * measured.shift.transpose());
+  if (!(apart.dot(spread.solve(apart)) < kBlindAxis.max_chi_square)) return false;
+  const double kept = 1.0 - kBlindAxis.forgotten_share;
+  const Matrix6 gain = spread.solve(mean_->cov).transpose();
+  mean_->shift += gain * apart;
+  const Matrix6 cov = mean_->cov - gain * mean_->cov;
+  mean_->cov = 0.5 / kept * (cov + cov.transpose());
+  mean_->information_ratio +=
+      kBlindAxis.forgotten_share * (information_ratio - mean_->information_ratio);
+  return true;
 }
 
 }  // namespace lio

@@ -15,7 +15,6 @@
 // than those (docs/experiments/blind_axis.md).
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <optional>
 
 #include "lio/base/pose.hpp"
@@ -61,8 +60,8 @@ class BlindAxis {
   [[nodiscard]] bool IsBlindByChance(const MatchResult& match) const;
   [[nodiscard]] Matrix6 BlindCov() const;
   void Take(const BlindDirection& measured, double information_ratio);
-  [[nodiscard]] bool Agrees(const BlindDirection& measured);
-  [[nodiscard]] Eigen::LDLT<Matrix6> Spread(const BlindDirection& measured) const;
+  [[nodiscard]] bool AlignTo(const BlindDirection& measured);
+  [[nodiscard]] bool Fuse(const BlindDirection& measured, double information_ratio);
 
   struct Mean {
     Vector6 shift;  // as BlindDirection's
