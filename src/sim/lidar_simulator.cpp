@@ -47,6 +47,7 @@ LidarPoint PointAt(double range_m, const Vector3& direction) {
 }
 
 bool IsInView(const LidarModel& model, const Vector3& direction) {
+  if (model.view_rad >= kTurn_rad) return true;
   const double azimuth_rad = std::atan2(direction.y(), direction.x()) - model.view_azimuth_rad;
   return std::abs(std::remainder(azimuth_rad, kTurn_rad)) <= 0.5 * model.view_rad;
 }

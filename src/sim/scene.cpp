@@ -3,6 +3,7 @@
 #include "lio/sim/scene.hpp"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,13 @@ namespace {
 
 constexpr int kLanes = 8;
 
+// Builds the scene's tree by the calling thread alone, so that the tree, and with it the choice
+// between equally near hits, does not depend on the number of threads. Embree's own option for
+// that, threads=1, would hold all of TBB to one thread as long as the device lives.
+void Commit(RTCScene scene) {
+  tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
+}
+
 ScenePtr MakeMeshScene(RTCDevice device, const Mesh& mesh) {
   ScenePtr scene(rtcNewScene(device));
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -44,7 +52,7 @@ ScenePtr MakeMeshScene(RTCDevice device, const Mesh& mesh) {
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(scene.get());
+  Commit(scene.get());
   return scene;
 }
 
@@ -82,13 +90,12 @@ struct Scene::Interval::Impl {
   std::vector<Matrix3> to_mover;  // rotation from world to mover at the interval's middle
 };
 
-// Embree builds with one thread of its own, so that its tree, and with it the choice between
-// equally near hits, does not depend on the machine; and it casts with the instructions that every
-// x86-64 processor has, so that the last bits of ranges do not depend on the processor.
+// Embree casts with the instructions that every x86-64 processor has, so that the last bits of
+// ranges do not depend on the processor.
 #if defined(__x86_64__)
-constexpr const char* kEmbreeConfiguration = "threads=1,isa=sse2";
+constexpr const char* kEmbreeConfiguration = "isa=sse2";
 #else
-constexpr const char* kEmbreeConfiguration = "threads=1";
+constexpr const char* kEmbreeConfiguration = "";
 #endif
 
 Scene::Scene(const World& world) : impl_(std::make_unique<Impl>()) {
@@ -142,7 +149,7 @@ Scene::Interval Scene::During(double begin_s, double end_s) const {
     const Pose middle = mover.T_world_mover(0.5 * (begin_s + end_s));
     interval->to_mover.push_back(middle.rotation.toRotationMatrix().transpose());
   }
-  rtcCommitScene(interval->movers.get());
+  Commit(interval->movers.get());
   return Interval(std::move(interval));
 }
 

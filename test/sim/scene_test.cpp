@@ -3,6 +3,7 @@
 #include "lio/sim/scene.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "sim/mesh_checks.hpp"
 
@@ -34,6 +35,15 @@ TEST(Scene, FindsTheWallItsMaterialAndIncidence) {
   EXPECT_NEAR(hit.range_m, 10.0 * std::sqrt(2.0), 1e-4);
   EXPECT_NEAR(hit.cos_incidence, std::sqrt(0.5), 1e-5);
   EXPECT_EQ(hit.material, Material::kBrick);
+}
+
+TEST(Scene, LeavesTbbAllThreadsOfTheMachine) {
+  using tbb::global_control;
+  const std::size_t before = global_control::active_value(global_control::max_allowed_parallelism);
+  const World world = WallAndMover();
+  const Scene scene(world);
+  const auto interval = scene.During(0.0, 0.1);
+  EXPECT_EQ(global_control::active_value(global_control::max_allowed_parallelism), before);
 }
 
 TEST(Scene, NothingInReachIsNothing) {

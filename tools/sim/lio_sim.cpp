@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 // lio-sim simulates a drive through a synthetic world and writes the log of its sensors and the
 // truth.
+#include <tbb/info.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -164,7 +167,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   AddCarrier(app, arguments);
   AddErrors(app, arguments);
   app.add_option("--threads", arguments.num_threads,
-                 "number of threads; the files do not depend on it")
+                 "number of threads, at most as many as the machine has; the files do not\n"
+                 "depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
   app.footer(Footer());
@@ -185,7 +189,7 @@ sim::RecordOptions MakeOptions(const Arguments& arguments, const sim::Scenario& 
   sim::SetRealism(arguments.realism, arguments.effects, options);
   options.scans = arguments.scans;
   options.seed = arguments.sensor_seed.value_or(arguments.seed);
-  options.num_threads = arguments.num_threads;
+  options.num_threads = std::min(arguments.num_threads, tbb::info::default_concurrency());
   return options;
 }
 
@@ -209,8 +213,9 @@ void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options
       per_cent * static_cast<double>(stats.num_in_between),
       per_cent * static_cast<double>(stats.num_mirrored),
       per_cent * static_cast<double>(stats.num_through_glass));
-  std::printf("%.1f s on %d thread%s: %.2f M rays/s, %.2f in a second of CPU time\n", spent.wall_s,
-              options.num_threads, options.num_threads == 1 ? "" : "s", mega_rays / spent.wall_s,
+  std::printf("%.1f s on %d thread%s, %.1f times real time: %.2f M rays/s, %.2f in a second of CPU\n",
+              spent.wall_s, options.num_threads, options.num_threads == 1 ? "" : "s",
+              scenario.duration_s / spent.wall_s, mega_rays / spent.wall_s,
               mega_rays / spent.cpu_s);
 }
 
@@ -224,7 +229,7 @@ void Write(const Arguments& arguments, const sim::Scenario& scenario,
            const sim::RecordOptions& options) {
   using Clock = std::chrono::steady_clock;
   if (!arguments.picture.empty()) {
-    sim::WritePpm(sim::DrawFromAbove(scenario, {}, arguments.num_threads), arguments.picture);
+    sim::WritePpm(sim::DrawFromAbove(scenario, {}, options.num_threads), arguments.picture);
   }
   if (arguments.folder.empty()) return;
   const auto start = Clock::now();
