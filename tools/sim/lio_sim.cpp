@@ -213,10 +213,10 @@ void PrintStats(const sim::Scenario& scenario, const sim::RecordOptions& options
       per_cent * static_cast<double>(stats.num_in_between),
       per_cent * static_cast<double>(stats.num_mirrored),
       per_cent * static_cast<double>(stats.num_through_glass));
-  std::printf("%.1f s on %d thread%s, %.1f times real time: %.2f M rays/s, %.2f in a second of CPU\n",
-              spent.wall_s, options.num_threads, options.num_threads == 1 ? "" : "s",
-              scenario.duration_s / spent.wall_s, mega_rays / spent.wall_s,
-              mega_rays / spent.cpu_s);
+  std::printf(
+      "%.1f s on %d thread%s, %.1f times real time: %.2f M rays/s, %.2f in a second of CPU\n",
+      spent.wall_s, options.num_threads, options.num_threads == 1 ? "" : "s",
+      scenario.duration_s / spent.wall_s, mega_rays / spent.wall_s, mega_rays / spent.cpu_s);
 }
 
 int Fail(const std::string& message, int code) {
