@@ -14,14 +14,19 @@ constexpr double kCoarseCell_m = 6.0;
 constexpr double kCoarseDrop_m =
     0.06;  // the coarse mesh lies this much lower, so that the fine one hides it
 
-double DistanceToLine(const Vector2& p, const std::vector<Vector2>& line) {
-  double best_sq = 1e18;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Vector2 d = line[i + 1] - line[i];
-    const double t = std::clamp((p - line[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
-    best_sq = std::min(best_sq, (p - line[i] - t * d).squaredNorm());
-  }
-  return std::sqrt(best_sq);
+constexpr std::size_t kPieceSegments = 16;
+constexpr double kRounding_m = 1e-4;  // boxes are compared with distances of rounded numbers
+
+double SquaredDistanceToSegment(const Vector2& p, const Vector2& from, const Vector2& to) {
+  const Vector2 d = to - from;
+  const double t = std::clamp((p - from).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  return (p - from - t * d).squaredNorm();
+}
+
+Eigen::AlignedBox2d BoxOf(const Vector2* points, std::size_t num) {
+  Eigen::AlignedBox2d box;
+  for (std::size_t i = 0; i < num; ++i) box.extend(points[i]);
+  return box;
 }
 
 struct Bounds {
@@ -104,10 +109,13 @@ void ForEachCell(const Terrain& terrain, const RoadNetwork& network, double cell
   const auto ny = static_cast<std::size_t>((bounds.high.y() - bounds.low.y()) / cell_m) + 1;
   const auto make_row = [&](std::size_t iy) {
     std::vector<GroundCorner> row(nx + 1);
-    for (std::size_t ix = 0; ix <= nx; ++ix) {
+    double within_m = -1e9;  // the corner is at least this far
+    for (std::size_t ix = 0; ix <= nx; ++ix, within_m -= cell_m) {
       GroundCorner& c = row[ix];
       c.p = bounds.low + cell_m * Vector2(static_cast<double>(ix), static_cast<double>(iy));
-      c.distance = network.SignedDistance(c.p);
+      // The distance changes by no more than the way to the next corner.
+      if (within_m < reach_m + kRounding_m) within_m = network.SignedDistance(c.p);
+      c.distance = within_m;
       c.height = c.distance < reach_m ? terrain.Height(c.p) : 0.0;
     }
     return row;
@@ -151,14 +159,39 @@ double Terrain::Height(const Vector2& p_m) const {
 }
 
 RoadNetwork::RoadNetwork(std::vector<Road> roads, double rounding_m)
-    : roads_(std::move(roads)), rounding_m_(rounding_m) {}
+    : roads_(std::move(roads)), rounding_m_(rounding_m) {
+  for (const Road& road : roads_) {
+    const std::vector<Vector2>& line = road.line_m;
+    boxes_.push_back({BoxOf(line.data(), line.size()), {}});
+    for (std::size_t first = 0; first + 1 < line.size(); first += kPieceSegments) {
+      const std::size_t num = std::min(kPieceSegments + 1, line.size() - first);
+      boxes_.back().pieces.push_back(BoxOf(line.data() + first, num));
+    }
+  }
+}
+
+double RoadNetwork::DistanceToLine(std::size_t road, const Vector2& p_m) const {
+  const std::vector<Vector2>& line = roads_[road].line_m;
+  const std::vector<Eigen::AlignedBox2d>& pieces = boxes_[road].pieces;
+  double best_sq = 1e18;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (pieces[k].squaredExteriorDistance(p_m) > best_sq + kRounding_m) continue;
+    const std::size_t last = std::min((k + 1) * kPieceSegments, line.size() - 1);
+    for (std::size_t i = k * kPieceSegments; i < last; ++i) {
+      best_sq = std::min(best_sq, SquaredDistanceToSegment(p_m, line[i], line[i + 1]));
+    }
+  }
+  return std::sqrt(best_sq);
+}
 
 double RoadNetwork::SignedDistance(const Vector2& p_m) const {
   // This is a polynomial smooth minimum (Quilez): it equals the minimum where one road is clearly
   // nearest.
   double result = 1e9;
-  for (const Road& road : roads_) {
-    const double d = DistanceToLine(p_m, road.line_m) - road.half_width_m;
+  for (std::size_t i = 0; i < roads_.size(); ++i) {
+    const double reach_m = result + rounding_m_ + roads_[i].half_width_m;
+    if (boxes_[i].whole.exteriorDistance(p_m) > reach_m + kRounding_m) continue;
+    const double d = DistanceToLine(i, p_m) - roads_[i].half_width_m;
     const double h = std::max(rounding_m_ - std::abs(result - d), 0.0) / rounding_m_;
     result = std::min(result, d) - 0.25 * h * h * rounding_m_;
   }

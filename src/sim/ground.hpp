@@ -3,6 +3,7 @@
 // Makes uneven, sloping ground with roads that lie lower than it, between kerbs.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "lio/sim/mesh.hpp"
@@ -47,7 +48,16 @@ class RoadNetwork {
   const std::vector<Road>& roads() const { return roads_; }
 
  private:
+  // Holds boxes around a road and around pieces of its line, which need no look when they are far.
+  struct Boxes {
+    Eigen::AlignedBox2d whole;
+    std::vector<Eigen::AlignedBox2d> pieces;
+  };
+
+  double DistanceToLine(std::size_t road, const Vector2& p_m) const;
+
   std::vector<Road> roads_;
+  std::vector<Boxes> boxes_;  // one per road
   double rounding_m_;
 };
 

@@ -61,6 +61,27 @@ TEST(RoadNetwork, RoundsTheCornersOfCrossings) {
   EXPECT_NEAR(network.SignedDistance({4.5, 4.5}), -1.0, 1e-9);
 }
 
+// A road of many pieces has the distance that its segments have alone.
+TEST(RoadNetwork, PiecesOfALongRoadHideNoNearerSegment) {
+  Random random(6, Purpose::kWorld);
+  Road road{{{0, 0}}, 4.0};
+  std::vector<Road> segments;
+  for (int i = 0; i < 100; ++i) {
+    const Vector2 from = road.line_m.back();
+    road.line_m.emplace_back(from + Vector2(random.Uniform(-9, 12), random.Uniform(-9, 12)));
+    segments.push_back({{from, road.line_m.back()}, 4.0});
+  }
+  const RoadNetwork whole({road});
+  for (int i = 0; i < 500; ++i) {
+    const Vector2 p(random.Uniform(-100, 250), random.Uniform(-100, 250));
+    double nearest_m = 1e9;
+    for (const Road& segment : segments) {
+      nearest_m = std::min(nearest_m, RoadNetwork({segment}).SignedDistance(p));
+    }
+    EXPECT_NEAR(whole.SignedDistance(p), nearest_m, 1e-9);
+  }
+}
+
 // --- the mesh of a crossing
 
 class GroundTest : public ::testing::Test {
