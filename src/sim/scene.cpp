@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "sim/mesh_part.hpp"
 
 namespace lio::sim {
 
@@ -28,6 +31,8 @@ using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
 namespace {
 
 constexpr int kLanes = 8;
+constexpr double kCell_m = 200.0;     // a part of the world is for casting from one such cell
+constexpr std::size_t kMaxParts = 2;  // are kept; intervals keep those that they cast into
 
 // Builds the scene's tree by the calling thread alone, so that the tree, and with it the choice
 // between equally near hits, does not depend on the number of threads. Embree's own option for
@@ -73,19 +78,70 @@ std::array<float, 12> ToColumns(const Pose& pose) {
 
 }  // namespace
 
-struct Scene::Impl {
-  DevicePtr device;
-  ScenePtr fixed;
-  std::vector<Material> fixed_materials;
-  std::vector<ScenePtr> shapes;
-  std::vector<std::vector<Material>> shape_materials;
-  std::vector<Mover> movers;
+// Holds what stands still, in the whole world or within one cell of it and its surroundings.
+struct FixedPart {
+  std::array<std::int64_t, 2> cell{};
+  ScenePtr scene;
+  std::vector<Material> materials;
 };
+using FixedPartPtr = std::shared_ptr<const FixedPart>;
+
+struct Scene::Impl {
+  Impl(const World& world_, double reach_m_, std::size_t max_triangles)
+      : world(world_),
+        reach_m(reach_m_),
+        is_whole(std::isinf(reach_m_) || world_.fixed.triangles.size() <= max_triangles) {}
+
+  // Returns what is within reach of the place. Safe from any thread.
+  FixedPartPtr FixedAround(const Vector3& place_m);
+  FixedPartPtr MakePart(std::array<std::int64_t, 2> cell) const;
+
+  const World& world;
+  double reach_m;
+  bool is_whole;
+  DevicePtr device;
+  std::vector<ScenePtr> shapes;
+  std::mutex mutex;  // guards `parts`
+  std::vector<FixedPartPtr> parts;
+};
+
+FixedPartPtr Scene::Impl::MakePart(std::array<std::int64_t, 2> cell) const {
+  auto part = std::make_shared<FixedPart>();
+  part->cell = cell;
+  if (is_whole) {
+    part->scene = MakeMeshScene(device.get(), world.fixed);
+    part->materials = world.fixed.materials;
+    return part;
+  }
+  const Vector2 low(kCell_m * static_cast<double>(cell[0]), kCell_m * static_cast<double>(cell[1]));
+  const Vector2 reach = Vector2::Constant(reach_m);
+  const Eigen::AlignedBox2d box(low - reach, low + Vector2::Constant(kCell_m) + reach);
+  Mesh mesh = PartOf(world.fixed, box.cast<float>());
+  part->scene = MakeMeshScene(device.get(), mesh);
+  part->materials = std::move(mesh.materials);
+  return part;
+}
+
+FixedPartPtr Scene::Impl::FixedAround(const Vector3& place_m) {
+  std::array<std::int64_t, 2> cell{};
+  if (!is_whole) {
+    cell = {std::llround(std::floor(place_m.x() / kCell_m)),
+            std::llround(std::floor(place_m.y() / kCell_m))};
+  }
+  const std::lock_guard lock(mutex);
+  for (const FixedPartPtr& part : parts) {
+    if (part->cell == cell) return part;
+  }
+  if (parts.size() == kMaxParts) parts.erase(parts.begin());
+  parts.push_back(MakePart(cell));
+  return parts.back();
+}
 
 struct Scene::Interval::Impl {
   Hit HitOf(const RTCRayHit8& packet, std::size_t i, const Ray& ray) const;
 
-  const Scene::Impl* world = nullptr;
+  const Scene::Impl* scene = nullptr;
+  FixedPartPtr fixed;
   ScenePtr movers;                // null when nothing moves
   std::vector<Matrix3> to_mover;  // rotation from world to mover at the interval's middle
 };
@@ -98,19 +154,16 @@ constexpr const char* kEmbreeConfiguration = "isa=sse2";
 constexpr const char* kEmbreeConfiguration = "";
 #endif
 
-Scene::Scene(const World& world) : impl_(std::make_unique<Impl>()) {
+Scene::Scene(const World& world, double reach_m, std::size_t max_triangles)
+    : impl_(std::make_unique<Impl>(world, reach_m, max_triangles)) {
   impl_->device.reset(rtcNewDevice(kEmbreeConfiguration));
   if (!impl_->device) {
     throw std::runtime_error("Embree cannot start: error " +
                              std::to_string(rtcGetDeviceError(nullptr)));
   }
-  impl_->fixed = MakeMeshScene(impl_->device.get(), world.fixed);
-  impl_->fixed_materials = world.fixed.materials;
   for (const Mesh& shape : world.shapes) {
     impl_->shapes.push_back(MakeMeshScene(impl_->device.get(), shape));
-    impl_->shape_materials.push_back(shape.materials);
   }
-  impl_->movers = world.movers;
 }
 
 Scene::~Scene() = default;
@@ -122,15 +175,17 @@ static Quaternion ShortOfHalfATurn(const Quaternion& from, const Quaternion& to)
   return is_half_a_turn ? from.slerp(kShare, to) : to;
 }
 
-Scene::Interval Scene::During(double begin_s, double end_s) const {
+Scene::Interval Scene::During(double begin_s, double end_s, const Vector3& place_m) const {
   auto interval = std::make_unique<Interval::Impl>();
-  interval->world = impl_.get();
-  if (impl_->movers.empty()) return Interval(std::move(interval));
+  interval->scene = impl_.get();
+  interval->fixed = impl_->FixedAround(place_m);
+  const std::vector<Mover>& movers = impl_->world.movers;
+  if (movers.empty()) return Interval(std::move(interval));
   const auto num_steps =
       std::clamp(static_cast<unsigned>(std::ceil((end_s - begin_s) / kMoverStep_s)) + 1u, 2u, 129u);
   interval->movers.reset(rtcNewScene(impl_->device.get()));
   rtcSetSceneFlags(interval->movers.get(), RTC_SCENE_FLAG_ROBUST);
-  for (const Mover& mover : impl_->movers) {
+  for (const Mover& mover : movers) {
     RTCGeometry instance = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, impl_->shapes[mover.shape].get());
     rtcSetGeometryTimeStepCount(instance, num_steps);
@@ -191,10 +246,11 @@ Hit Scene::Interval::Impl::HitOf(const RTCRayHit8& packet, std::size_t i, const 
   hit.range_m = packet.ray.tfar[i];
   if (mover == RTC_INVALID_GEOMETRY_ID) {
     hit.object = Hit::kFixed;
-    hit.material = world->fixed_materials[triangle];
+    hit.material = fixed->materials[triangle];
   } else {
     hit.object = static_cast<int>(mover);
-    hit.material = world->shape_materials[world->movers[mover].shape][triangle];
+    const World& world = scene->world;
+    hit.material = world.shapes[world.movers[mover].shape].materials[triangle];
     direction = (to_mover[mover] * direction.cast<double>()).cast<float>();
     hit.normal = (to_mover[mover].transpose() * hit.normal.cast<double>()).cast<float>();
   }
@@ -212,7 +268,7 @@ void Scene::Interval::Cast(std::span<const Ray> rays, float max_range_m,
   for (std::size_t first = 0; first < rays.size(); first += kLanes) {
     const std::size_t num = std::min<std::size_t>(kLanes, rays.size() - first);
     Load(rays.subspan(first, num), max_range_m, packet, valid);
-    rtcIntersect8(valid.data(), impl_->world->fixed.get(), &context, &packet);
+    rtcIntersect8(valid.data(), impl_->fixed->scene.get(), &context, &packet);
     if (impl_->movers) rtcIntersect8(valid.data(), impl_->movers.get(), &context, &packet);
     for (std::size_t i = 0; i < num; ++i)
       hits[first + i] = impl_->HitOf(packet, i, rays[first + i]);

@@ -20,7 +20,8 @@ class Caster {
   Caster(const CastSetup& setup, const TurnColumns& columns)
       : setup_(setup),
         columns_(columns),
-        interval_(setup.scene.During(columns.begin_s, columns.end_s)),
+        interval_(setup.scene.During(columns.begin_s, columns.end_s,
+                                     setup.trajectory.At(columns.begin_s).T_world_imu.translation)),
         num_beams_(setup.directions.size()),
         rays_(static_cast<std::size_t>(columns.num) * num_beams_),
         axes_(static_cast<std::size_t>(columns.num)) {

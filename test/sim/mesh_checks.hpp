@@ -70,7 +70,7 @@ inline sim::Hit CastOne(const sim::Scene::Interval& interval, const sim::Vector3
 class StillScene {
  public:
   explicit StillScene(const sim::Mesh& mesh)
-      : scene_(WorldOf(mesh)), interval_(scene_.During(0, 0.1)) {}
+      : world_(WorldOf(mesh)), scene_(world_), interval_(scene_.During(0, 0.1)) {}
 
   sim::Hit Cast(const Vector3& from, const Vector3& direction) const {
     return CastOne(interval_, from.cast<float>(), direction.cast<float>());
@@ -88,6 +88,7 @@ class StillScene {
     world.fixed = mesh;
     return world;
   }
+  sim::World world_;
   sim::Scene scene_;
   sim::Scene::Interval interval_;
 };

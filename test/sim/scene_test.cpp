@@ -46,6 +46,34 @@ TEST(Scene, LeavesTbbAllThreadsOfTheMachine) {
   EXPECT_EQ(global_control::active_value(global_control::max_allowed_parallelism), before);
 }
 
+// A row of walls is seen in parts of it as it is seen whole, while the sensor goes along.
+TEST(Scene, PartsOfALargeWorldShowWhatLiesInReach) {
+  World world;
+  for (int i = -20; i <= 20; ++i) {
+    AddQuad(world.fixed, {60.0 * i, 10, -5}, {60.0 * i + 40, 10, -5}, {60.0 * i + 40, 10, 5},
+            {60.0 * i, 10, 5}, i % 2 == 0 ? Material::kBrick : Material::kGlass);
+  }
+  const double reach_m = 100.0;
+  const Scene whole(world);
+  const Scene parts(world, reach_m, 10);
+  int num_hits = 0;
+  for (double x = -1100.0; x < 1100.0; x += 17.0) {
+    const auto in_whole = whole.During(0.0, 0.1, {x, 0, 0});
+    const auto in_parts = parts.During(0.0, 0.1, {x, 0, 0});
+    for (double along = -6.0; along <= 6.0; along += 0.31) {
+      const Vector3f from(static_cast<float>(x), 0, 0);
+      const Vector3f direction(static_cast<float>(along), 1, 0);
+      const Hit hit = CastOne(in_whole, from, direction);
+      const Hit same = CastOne(in_parts, from, direction);
+      ASSERT_EQ(hit.object, same.object) << x << " " << along;
+      ASSERT_EQ(hit.material, same.material);
+      ASSERT_FLOAT_EQ(hit.range_m, same.range_m);
+      if (hit.object == Hit::kFixed) ++num_hits;
+    }
+  }
+  EXPECT_GT(num_hits, 1000);
+}
+
 TEST(Scene, NothingInReachIsNothing) {
   const World world = WallAndMover();
   const Scene scene(world);

@@ -14,6 +14,7 @@
 namespace lio::sim {
 
 inline constexpr double kMoverStep_s = 0.011;
+inline constexpr std::size_t kMaxTriangles = 2'000'000;  // some 400 MB with Embree's tree
 
 struct Ray {
   Vector3f origin_m;
@@ -37,14 +38,18 @@ class Scene {
   // Holds the movers over one interval of time; it is cheap to make and used by one thread.
   class Interval;
 
-  // Copies what it needs of `world` except the movers' functions, which must outlive it. Throws
+  // `world` must outlive it. A world of more than `max_triangles` is held in part: what lies
+  // within `reach_m` of where rays are cast, which keeps memory flat on long ways. Throws
   // std::runtime_error when Embree cannot start.
-  explicit Scene(const World& world);
+  explicit Scene(const World& world, double reach_m = std::numeric_limits<double>::infinity(),
+                 std::size_t max_triangles = kMaxTriangles);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  [[nodiscard]] Interval During(double begin_s, double end_s) const;
+  // Rays of the interval see all that lies within `reach_m` of `place_m` (world).
+  [[nodiscard]] Interval During(double begin_s, double end_s,
+                                const Vector3& place_m = Vector3::Zero()) const;
 
  private:
   struct Impl;
