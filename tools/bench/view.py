@@ -7,6 +7,7 @@ lio-view to the page.
 
   tools/bench/view.py            needs a build with tests, Chromium, and network namespaces
 """
+import argparse
 import os
 import pathlib
 import subprocess
@@ -76,6 +77,9 @@ def measure_all():
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args()
     if not browser.BROWSER:
         sys.exit("chromium is not installed")
     if os.environ.get("LIO_ALONE") == "yes":
