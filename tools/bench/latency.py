@@ -4,11 +4,15 @@
 """Measures the latency of liod with lio-bench-latency while scans are matched, both on the same
 cores, and prints histograms; see --help."""
 import argparse
+import contextlib
 import os
 import pathlib
 import subprocess
+import sys
 
 import live
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "test/integration"))
 
 
 def arguments():
@@ -18,8 +22,30 @@ def arguments():
     parser.add_argument("--lidar", default="vlp16")
     parser.add_argument("--duration", default="60", help="of the drive [s] (60)")
     parser.add_argument("--cores", type=int, default=2, help="cores that all share (2)")
+    parser.add_argument("--view", action="store_true",
+                        help="with lio-view and a page in Chromium, on the same cores")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/latency"))
     return parser.parse_args()
+
+
+@contextlib.contextmanager
+def page_of_lio_view():
+    """Yields a page that shows what liod sends."""
+    os.environ.setdefault("LIO_BUILD", str(live.BIN.parent))
+    import browser  # pylint: disable=import-outside-toplevel
+    import view_test  # pylint: disable=import-outside-toplevel
+    with view_test.viewer() as running, browser.open_browser() as chromium:
+        page = chromium.open(running.url)
+        page.wait_for("window.lioView && lioView.seen.hello")
+        yield page
+
+
+def measure(drive, speed, page=None):
+    """Plays the drive, prints the latencies and, with a page, how many frames that has drawn."""
+    subprocess.run([live.BIN / "lio-bench-latency", drive / "log.lcm", speed], check=True)
+    if page:
+        frames, points = page.run("[lioView.stage.numDrawn, lioView.stage.map.num]")
+        print(f"the page drew {frames} frames, {points} points at last")
 
 
 def main():
@@ -34,7 +60,11 @@ def main():
     liod = live.Liod(options.out / "run", "--config", drive / "config.yaml")
     print(f"speed {options.speed}, {options.lidar}, load before "
           f"{os.getloadavg()[0]:.1f}", flush=True)
-    subprocess.run([live.BIN / "lio-bench-latency", drive / "log.lcm", options.speed], check=True)
+    if options.view:
+        with page_of_lio_view() as page:
+            measure(drive, options.speed, page)
+    else:
+        measure(drive, options.speed)
     liod.stop()
     stats = liod.stats()
     print(f"scans {stats['num_scans']}, dropped {stats['num_scans_dropped']}, messages and scans "
