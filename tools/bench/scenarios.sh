@@ -60,7 +60,7 @@ fleet() {
   for scenario in "${scenarios[@]}"; do
     cat <<DRIVE
   - name: $scenario
-    sim: --scenario $scenario --threads $(nproc) $cut
+    sim: --scenario $scenario $cut
     seeds: $seed
     keep: $([[ $scenario != loop ]] || echo logs)
 DRIVE
