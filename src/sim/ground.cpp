@@ -15,7 +15,7 @@ constexpr double kCoarseDrop_m =
     0.06;  // the coarse mesh lies this much lower, so that the fine one hides it
 
 constexpr std::size_t kPieceSegments = 16;
-constexpr double kRounding_m = 1e-4;  // boxes are compared with distances of rounded numbers
+constexpr double kRounding = 1e-4;  // m or m^2, far above the rounding of distances
 
 double SquaredDistanceToSegment(const Vector2& p, const Vector2& from, const Vector2& to) {
   const Vector2 d = to - from;
@@ -29,22 +29,12 @@ Eigen::AlignedBox2d BoxOf(const Vector2* points, std::size_t num) {
   return box;
 }
 
-struct Bounds {
-  Vector2 low = Vector2::Constant(1e9);
-  Vector2 high = Vector2::Constant(-1e9);
-};
-
-Bounds BoundsOf(const RoadNetwork& network, double reach_m) {
-  Bounds bounds;
-  for (const Road& road : network.roads()) {
-    for (const Vector2& p : road.line_m) {
-      bounds.low = bounds.low.cwiseMin(p);
-      bounds.high = bounds.high.cwiseMax(p);
-    }
-  }
-  bounds.low.array() -= reach_m;
-  bounds.high.array() += reach_m;
-  return bounds;
+Eigen::AlignedBox2d BoundsOf(const RoadNetwork& network, double reach_m) {
+  Eigen::AlignedBox2d bounds;
+  for (const Road& road : network.roads())
+    bounds.extend(BoxOf(road.line_m.data(), road.line_m.size()));
+  const Vector2 reach = Vector2::Constant(reach_m);
+  return {bounds.min() - reach, bounds.max() + reach};
 }
 
 // Holds a corner of the lattice.
@@ -104,17 +94,17 @@ class GroundWriter {
 template <typename Add>
 void ForEachCell(const Terrain& terrain, const RoadNetwork& network, double cell_m, double reach_m,
                  const Add& add) {
-  const Bounds bounds = BoundsOf(network, reach_m);
-  const auto nx = static_cast<std::size_t>((bounds.high.x() - bounds.low.x()) / cell_m) + 1;
-  const auto ny = static_cast<std::size_t>((bounds.high.y() - bounds.low.y()) / cell_m) + 1;
+  const Eigen::AlignedBox2d bounds = BoundsOf(network, reach_m);
+  const auto nx = static_cast<std::size_t>(bounds.sizes().x() / cell_m) + 1;
+  const auto ny = static_cast<std::size_t>(bounds.sizes().y() / cell_m) + 1;
   const auto make_row = [&](std::size_t iy) {
     std::vector<GroundCorner> row(nx + 1);
     double within_m = -1e9;  // the corner is at least this far
     for (std::size_t ix = 0; ix <= nx; ++ix, within_m -= cell_m) {
       GroundCorner& c = row[ix];
-      c.p = bounds.low + cell_m * Vector2(static_cast<double>(ix), static_cast<double>(iy));
+      c.p = bounds.min() + cell_m * Vector2(static_cast<double>(ix), static_cast<double>(iy));
       // The distance changes by no more than the way to the next corner.
-      if (within_m < reach_m + kRounding_m) within_m = network.SignedDistance(c.p);
+      if (within_m < reach_m + kRounding) within_m = network.SignedDistance(c.p);
       c.distance = within_m;
       c.height = c.distance < reach_m ? terrain.Height(c.p) : 0.0;
     }
@@ -175,7 +165,7 @@ double RoadNetwork::DistanceToLine(std::size_t road, const Vector2& p_m) const {
   const std::vector<Eigen::AlignedBox2d>& pieces = boxes_[road].pieces;
   double best_sq = 1e18;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (pieces[k].squaredExteriorDistance(p_m) > best_sq + kRounding_m) continue;
+    if (pieces[k].squaredExteriorDistance(p_m) > best_sq + kRounding) continue;
     const std::size_t last = std::min((k + 1) * kPieceSegments, line.size() - 1);
     for (std::size_t i = k * kPieceSegments; i < last; ++i) {
       best_sq = std::min(best_sq, SquaredDistanceToSegment(p_m, line[i], line[i + 1]));
@@ -190,7 +180,7 @@ double RoadNetwork::SignedDistance(const Vector2& p_m) const {
   double result = 1e9;
   for (std::size_t i = 0; i < roads_.size(); ++i) {
     const double reach_m = result + rounding_m_ + roads_[i].half_width_m;
-    if (boxes_[i].whole.exteriorDistance(p_m) > reach_m + kRounding_m) continue;
+    if (boxes_[i].whole.exteriorDistance(p_m) > reach_m + kRounding) continue;
     const double d = DistanceToLine(i, p_m) - roads_[i].half_width_m;
     const double h = std::max(rounding_m_ - std::abs(result - d), 0.0) / rounding_m_;
     result = std::min(result, d) - 0.25 * h * h * rounding_m_;

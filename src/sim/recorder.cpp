@@ -31,8 +31,8 @@ constexpr const char* kStatesFile = "truth_states.csv";
 constexpr Duration kEpoch{1'700'000'000'000'000'000};
 constexpr Duration kImuDelay{300'000};        // from an IMU sample to its receipt
 constexpr Duration kChunkDelay{500'000};      // from a chunk's last point to its receipt
-constexpr double kSweepReach_m = 20.0;        // a sweep's motion; mirrored rays go out twice
 constexpr Duration kDisorder{2'000'000'000};  // messages are held this long to be put in order
+constexpr double kSweepMotion_m = 20.0;       // at most, of a lidar during a sweep
 
 // Writes truth.tum and truth_states.csv.
 class TruthWriter {
@@ -273,7 +273,8 @@ RecordStats Record(const Scenario& scenario, const RecordOptions& options,
     CopyScans(options.scans, recording);
     return recording.Finish();
   }
-  const double reach_m = 2.0 * options.lidar.max_range_m + kSweepReach_m;
+  // A mirrored ray goes as far again from its mirror.
+  const double reach_m = 2.0 * options.lidar.max_range_m + kSweepMotion_m;
   const Scene scene(scenario.world, reach_m);
   LidarErrors errors = options.lidar_errors;
   const std::vector<Dust> dust = DustOf(options.faults, scenario.begin_s);

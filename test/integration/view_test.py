@@ -58,6 +58,15 @@ def viewer(*words):
             running.end()
 
 
+@contextlib.contextmanager
+def live_page():
+    """A page in a browser of its own that shows what a lio-view hears."""
+    with viewer() as running, browser.open_browser() as chromium:
+        page = chromium.open(running.url)
+        page.wait_for("window.lioView && lioView.seen.hello")
+        yield page
+
+
 def is_like(colour, wanted):
     return all(abs(a - b) <= 24 for a, b in zip(colour, wanted))
 

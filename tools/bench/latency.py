@@ -12,7 +12,11 @@ import sys
 
 import live
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "test/integration"))
+sys.path.insert(0, str(live.ROOT / "test/integration"))
+os.environ.setdefault("LIO_BUILD", str(live.BIN.parent))
+
+import browser  # noqa: E402
+import view_test  # noqa: E402
 
 
 def arguments():
@@ -28,19 +32,7 @@ def arguments():
     return parser.parse_args()
 
 
-@contextlib.contextmanager
-def page_of_lio_view():
-    """Yields a page that shows what liod sends."""
-    os.environ.setdefault("LIO_BUILD", str(live.BIN.parent))
-    import browser  # pylint: disable=import-outside-toplevel
-    import view_test  # pylint: disable=import-outside-toplevel
-    with view_test.viewer() as running, browser.open_browser() as chromium:
-        page = chromium.open(running.url)
-        page.wait_for("window.lioView && lioView.seen.hello")
-        yield page
-
-
-def measure(drive, speed, page=None):
+def measure(drive, speed, page):
     """Plays the drive, prints the latencies and, with a page, how many frames that has drawn."""
     subprocess.run([live.BIN / "lio-bench-latency", drive / "log.lcm", speed], check=True)
     if page:
@@ -50,6 +42,8 @@ def measure(drive, speed, page=None):
 
 def main():
     options = arguments()
+    if options.view and not browser.BROWSER:
+        sys.exit("chromium is not installed")
     live.enter_namespace()
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:options.cores])
     drive = options.out / f"{options.scenario}-{options.lidar}"
@@ -60,11 +54,8 @@ def main():
     liod = live.Liod(options.out / "run", "--config", drive / "config.yaml")
     print(f"speed {options.speed}, {options.lidar}, load before "
           f"{os.getloadavg()[0]:.1f}", flush=True)
-    if options.view:
-        with page_of_lio_view() as page:
-            measure(drive, options.speed, page)
-    else:
-        measure(drive, options.speed)
+    with view_test.live_page() if options.view else contextlib.nullcontext() as page:
+        measure(drive, options.speed, page)
     liod.stop()
     stats = liod.stats()
     print(f"scans {stats['num_scans']}, dropped {stats['num_scans_dropped']}, messages and scans "

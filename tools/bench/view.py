@@ -53,9 +53,7 @@ def measure(page, name, layers=None):
 
 def measure_all():
     log = view_test.circle_log(SECONDS, POINTS_A_SCAN)
-    with view_test.viewer() as running, browser.open_browser() as chromium:
-        page = chromium.open(running.url)
-        page.wait_for("window.lioView && lioView.seen.hello")
+    with view_test.live_page() as page:
         player = subprocess.Popen(["lcm-logplayer", log], stdout=subprocess.DEVNULL)
         print("| view | points | sixteenths drawn | odometry Hz | frames a second | shown after ms, median"
               " | p99 | poses skipped a second |\n|---|---|---|---|---|---|---|---|")

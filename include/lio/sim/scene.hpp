@@ -39,8 +39,8 @@ class Scene {
   class Interval;
 
   // `world` must outlive it. A world of more than `max_triangles` is held in part: what lies
-  // within `reach_m` of where rays are cast, which keeps memory flat on long ways. Throws
-  // std::runtime_error when Embree cannot start.
+  // within `reach_m` of where rays are cast, so that Embree's tree does not grow with the way.
+  // Throws std::runtime_error when Embree cannot start.
   explicit Scene(const World& world, double reach_m = std::numeric_limits<double>::infinity(),
                  std::size_t max_triangles = kMaxTriangles);
   ~Scene();
