@@ -80,6 +80,7 @@ void FilterLoop::Handle(Arrival<ImuSample>& arrival) {
   decode_ns_ += arrival.decode_ns;
   NoteArrival(arrival.recv_utime, arrival.data.stamp);
   odometry_.AddImu(arrival.data);
+  Emit();  // first, because subscribers wait for it
   HandOutJob();
 }
 

@@ -18,7 +18,7 @@ MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_ma
       initial_map_(initial_map),
       collects_map_(collects_map),
       deliver_(std::move(deliver)),
-      thread_("match", std::move(on_fault)) {
+      thread_("match", std::move(on_fault), Urgency::kSoon) {
   Begin();
   thread_.Start([this] { Run(); });
 }

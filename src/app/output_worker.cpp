@@ -26,7 +26,7 @@ OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, std::string 
       version_(std::move(version)),
       compose_(std::move(compose)),
       on_write_failure_(std::move(on_write_failure)),
-      thread_("output", std::move(on_fault)) {
+      thread_("output", std::move(on_fault), Urgency::kLater) {
   thread_.Start([this] { Run(); });
 }
 
@@ -55,8 +55,10 @@ void OutputWorker::PutRow(Output row) {
     ++num_rows_dropped_;
     return;
   }
+  // The rows at the IMU's rate wait for the next of a scan: each waking takes time from others.
+  const bool is_frequent = std::holds_alternative<NavOutput>(row);
   tasks_.rows.emplace_back(std::move(row));
-  put_.notify_one();
+  if (!is_frequent) put_.notify_one();
 }
 
 void OutputWorker::Put(FileTask task) {

@@ -3,6 +3,8 @@
 #include "lio/io/worker_thread.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <exception>
@@ -15,6 +17,24 @@ std::string FaultText(const std::string& who, const char* what) {
   std::string text = fmt::format("{} failed: {}", who, what);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
+}
+
+// The thread works as well, but not as soon, where the system refuses.
+void DescribeToSystem(const std::string& name, Urgency urgency) {
+  constexpr std::size_t kMaxNameBytes = 15;
+  (void)pthread_setname_np(pthread_self(), name.substr(0, kMaxNameBytes).c_str());
+  if (urgency == Urgency::kAtOnce) return;
+  constexpr pid_t kThisThread = 0;
+  const int policy = sched_getscheduler(kThisThread);
+  const bool is_realtime = policy == SCHED_FIFO || policy == SCHED_RR;
+  if (urgency == Urgency::kSoon && is_realtime) {
+    // A service that may set no real-time policy may still lower its priority in it.
+    const sched_param lowest{.sched_priority = sched_get_priority_min(policy)};
+    (void)sched_setparam(kThisThread, &lowest);
+  } else {
+    const sched_param none{};
+    (void)sched_setscheduler(kThisThread, SCHED_BATCH, &none);
+  }
 }
 
 }  // namespace
@@ -30,8 +50,8 @@ std::optional<std::string> RunCatching(const std::string& who, const std::functi
   }
 }
 
-WorkerThread::WorkerThread(std::string name, OnFault on_fault)
-    : name_(std::move(name)), on_fault_(std::move(on_fault)) {}
+WorkerThread::WorkerThread(std::string name, OnFault on_fault, Urgency urgency)
+    : name_(std::move(name)), on_fault_(std::move(on_fault)), urgency_(urgency) {}
 
 WorkerThread::~WorkerThread() {
   Join();
@@ -42,6 +62,7 @@ void WorkerThread::Start(std::function<void()> body) {
 }
 
 void WorkerThread::Run(const std::function<void()>& body) {
+  DescribeToSystem(name_, urgency_);
   if (const auto fault = RunCatching("the " + name_ + " thread", body)) on_fault_(*fault);
   ended_.set_value();
 }

@@ -3,9 +3,13 @@
 #include "lio/io/worker_thread.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 namespace lio {
 namespace {
@@ -46,6 +50,60 @@ TEST(WorkerThread, ABodyThatEndsWellReportsNothing) {
   thread.Start([] {});
   thread.Join();
   thread.Join();  // again: does nothing
+}
+
+// How the system runs a thread.
+struct Scheduling {
+  int policy = -1;
+  int priority = -1;
+  std::string name;
+};
+
+Scheduling SchedulingHere() {
+  Scheduling here;
+  sched_param param{};
+  char name[16];
+  here.policy = sched_getscheduler(0);  // 0 is this thread; pthread's own call may be out of date
+  if (sched_getparam(0, &param) == 0) here.priority = param.sched_priority;
+  if (pthread_getname_np(pthread_self(), name, sizeof(name)) == 0) here.name = name;
+  return here;
+}
+
+Scheduling SchedulingOf(Urgency urgency) {
+  Scheduling seen;
+  WorkerThread thread(
+      "a name of many letters", [](const std::string& fault) { ADD_FAILURE() << fault; }, urgency);
+  thread.Start([&] { seen = SchedulingHere(); });
+  thread.Join();
+  return seen;
+}
+
+TEST(WorkerThread, WhatIsNeededLaterInterruptsNothing) {
+  const Scheduling at_once = SchedulingOf(Urgency::kAtOnce);
+  EXPECT_EQ(at_once.policy, SchedulingHere().policy);
+  EXPECT_EQ(at_once.name, "a name of many ");
+  EXPECT_EQ(SchedulingOf(Urgency::kSoon).policy, SCHED_BATCH);
+  EXPECT_EQ(SchedulingOf(Urgency::kLater).policy, SCHED_BATCH);
+}
+
+TEST(WorkerThread, OfAProcessInRealTimeLowersItsPriority) {
+  bool may_be_realtime = false;
+  Scheduling at_once;
+  Scheduling soon;
+  Scheduling later;
+  std::thread([&] {
+    const sched_param wanted{.sched_priority = 2};
+    may_be_realtime = sched_setscheduler(0, SCHED_FIFO, &wanted) == 0;
+    at_once = SchedulingOf(Urgency::kAtOnce);
+    soon = SchedulingOf(Urgency::kSoon);
+    later = SchedulingOf(Urgency::kLater);
+  }).join();
+  if (!may_be_realtime) GTEST_SKIP() << "the system allows no real-time policy here";
+  EXPECT_EQ(at_once.policy, SCHED_FIFO);
+  EXPECT_EQ(at_once.priority, 2);
+  EXPECT_EQ(soon.policy, SCHED_FIFO);
+  EXPECT_EQ(soon.priority, 1);
+  EXPECT_EQ(later.policy, SCHED_BATCH);
 }
 
 TEST(WorkerThread, TellsWhetherItsBodyHasEnded) {

@@ -26,15 +26,18 @@ def arguments():
     parser.add_argument("--lidar", default="vlp16")
     parser.add_argument("--duration", default="60", help="of the drive [s] (60)")
     parser.add_argument("--cores", type=int, default=2, help="cores that all share (2)")
+    parser.add_argument("--realtime", action="store_true",
+                        help="liod and the player have real-time priority (SCHED_FIFO; as root)")
     parser.add_argument("--view", action="store_true",
                         help="with lio-view and a page in Chromium, on the same cores")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/latency"))
     return parser.parse_args()
 
 
-def measure(drive, speed, page):
+def measure(drive, speed, priority, page):
     """Plays the drive, prints the latencies and, with a page, how many frames that has drawn."""
-    subprocess.run([live.BIN / "lio-bench-latency", drive / "log.lcm", speed], check=True)
+    player = [live.BIN / "lio-bench-latency", drive / "log.lcm", speed]
+    subprocess.run([*priority, *player], check=True)
     if page:
         frames, points = page.run("[lioView.stage.numDrawn, lioView.stage.map.num]")
         print(f"the page drew {frames} frames, {points} points at last")
@@ -51,11 +54,12 @@ def main():
         subprocess.run([live.BIN / "lio-sim", "--scenario", options.scenario, "--lidar",
                         options.lidar, "--imu", "xsens_mti10", "--duration", options.duration,
                         "--threads", "2", "--out", drive], check=True)
-    liod = live.Liod(options.out / "run", "--config", drive / "config.yaml")
+    priority = ["chrt", "--fifo", "20"] if options.realtime else []
+    liod = live.Liod(options.out / "run", "--config", drive / "config.yaml", prefix=priority)
     print(f"speed {options.speed}, {options.lidar}, load before "
           f"{os.getloadavg()[0]:.1f}", flush=True)
     with view_test.live_page() if options.view else contextlib.nullcontext() as page:
-        measure(drive, options.speed, page)
+        measure(drive, options.speed, priority, page)
     liod.stop()
     stats = liod.stats()
     print(f"scans {stats['num_scans']}, dropped {stats['num_scans_dropped']}, messages and scans "

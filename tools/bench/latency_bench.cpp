@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Plays a log to a running liod and measures how long its answers take: from an inertial sample to
 // its LIO_ODOM_IMU, and from the last chunk of a scan to its LIO_ODOM. Times are those of the
-// host's clock: before a message is sent, and when the kernel received the answer.
+// host's clock: before a message is sent, and when the kernel received the answer. A thread that
+// sends each inertial sample back as it is shows what LCM and the machine alone take.
 //   lio-bench-latency LOG SPEED
 #include <algorithm>
 #include <atomic>
@@ -14,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -28,6 +30,7 @@ namespace {
 
 constexpr std::size_t kUtimeOffset = 8;     // in odometry_t and imu_t, behind the fingerprint
 constexpr std::size_t kScanSeqOffset = 16;  // in odometry_t
+constexpr const char* kEchoChannel = "LIO_ECHO";
 constexpr int kQueueCapacity = 10'000;
 constexpr double kBinsPerDecade = 5.0;
 
@@ -79,12 +82,15 @@ class Stopwatch {
 };
 
 struct Stopwatches {
-  Stopwatch imu, scan;
+  Stopwatch imu, echo, scan;
 };
 
 void Send(const LogEvent& event, const Channels& channels, Bus& bus, Stopwatches& watches) {
   const std::int64_t now = HostUtime();
-  if (event.channel == channels.imu) watches.imu.Start(ReadInt64(event.data, kUtimeOffset), now);
+  if (event.channel == channels.imu) {
+    watches.imu.Start(ReadInt64(event.data, kUtimeOffset), now);
+    watches.echo.Start(ReadInt64(event.data, kUtimeOffset), now);
+  }
   ScanChunk chunk;
   if (event.channel == channels.scan && DecodeChunk(event.data, chunk) == DecodeStatus::kOk &&
       chunk.chunk_index + 1 == chunk.chunk_count) {
@@ -118,6 +124,16 @@ void Listen(const std::atomic<bool>& has_played, Bus& bus) {
   }
 }
 
+// Sends each inertial sample back, until `token` asks to end.
+void Echo(const std::stop_token& token) {
+  constexpr std::chrono::milliseconds kLookInterval(50);
+  const std::unique_ptr<Bus> bus = OpenLcmBus("");
+  bus->Subscribe(Channels().imu, kQueueCapacity, [&](ByteView data, std::int64_t) {
+    if (!bus->Publish(kEchoChannel, data)) std::fputs("an echo could not be sent\n", stderr);
+  });
+  while (!token.stop_requested()) (void)bus->Receive(kLookInterval);
+}
+
 void Measure(const std::string& log, double speed) {
   const Channels channels;
   const std::unique_ptr<Bus> bus = OpenLcmBus("");
@@ -126,9 +142,13 @@ void Measure(const std::string& log, double speed) {
                  [&](ByteView data, std::int64_t utime) {
                    watches.imu.Stop(ReadInt64(data, kUtimeOffset), utime);
                  });
+  bus->Subscribe(kEchoChannel, kQueueCapacity, [&](ByteView data, std::int64_t utime) {
+    watches.echo.Stop(ReadInt64(data, kUtimeOffset), utime);
+  });
   bus->Subscribe(channels.odometry, kQueueCapacity, [&](ByteView data, std::int64_t utime) {
     watches.scan.Stop(ReadInt64(data, kScanSeqOffset), utime);
   });
+  const std::jthread echo(Echo);
   std::atomic<bool> has_played = false;
   const std::jthread player([&] {
     Play(log, speed, watches);
@@ -136,6 +156,7 @@ void Measure(const std::string& log, double speed) {
   });
   Listen(has_played, *bus);
   watches.imu.Print("inertial sample to LIO_ODOM_IMU");
+  watches.echo.Print("inertial sample to its echo");
   watches.scan.Print("last chunk of a scan to LIO_ODOM");
 }
 

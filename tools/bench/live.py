@@ -35,16 +35,17 @@ def enter_namespace():
 
 
 class Liod:
-    """A running liod; `out` also gets its stderr as liod.log."""
+    """A running liod; `out` also gets its stderr as liod.log. `prefix` is a command that becomes
+    liod, such as chrt with its words."""
 
-    def __init__(self, out, *words):
+    def __init__(self, out, *words, prefix=()):
         self.out = pathlib.Path(out)
         self.out.mkdir(parents=True, exist_ok=True)
         self.log_path = self.out / "liod.log"
+        command = [*prefix, BIN / "liod", "--out", out, "--overwrite", *words]
         with open(self.log_path, "w", encoding="utf-8") as log:
-            self.process = subprocess.Popen(
-                [str(word) for word in (BIN / "liod", "--out", out, "--overwrite", *words)],
-                stderr=log, stdin=subprocess.DEVNULL)
+            self.process = subprocess.Popen([str(word) for word in command], stderr=log,
+                                            stdin=subprocess.DEVNULL)
         deadline = time.monotonic() + START_TIMEOUT_S
         while "listening" not in self.log_path.read_text(encoding="utf-8"):
             if self.process.poll() is not None or time.monotonic() > deadline:

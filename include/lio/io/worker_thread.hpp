@@ -23,10 +23,20 @@ using OnFault = std::function<void(const std::string& fault)>;
 [[nodiscard]] std::optional<std::string> RunCatching(const std::string& who,
                                                      const std::function<void()>& body);
 
+// How soon a thread must run once there is something for it to do.
+enum class Urgency {
+  kAtOnce,  // as the thread that starts it, at its priority
+  // After all threads that are needed at once: waking it interrupts none of them (SCHED_BATCH). In
+  // a process with a real-time policy it keeps that policy, at the lowest priority.
+  kSoon,
+  kLater,  // likewise, and without a real-time policy
+};
+
 class WorkerThread {
  public:
-  // `on_fault` is called on the thread itself, after the body was left by an exception.
-  WorkerThread(std::string name, OnFault on_fault);
+  // The system's tools show the first 15 characters of the name. `on_fault` is called on the thread
+  // itself, after the body was left by an exception.
+  WorkerThread(std::string name, OnFault on_fault, Urgency urgency = Urgency::kAtOnce);
   ~WorkerThread();  // joins: whoever owns the thread tells its body to end first
   WorkerThread(const WorkerThread&) = delete;
   WorkerThread& operator=(const WorkerThread&) = delete;
@@ -44,6 +54,7 @@ class WorkerThread {
 
   std::string name_;
   OnFault on_fault_;
+  const Urgency urgency_;
   std::promise<void> ended_;
   std::future<void> has_ended_ = ended_.get_future();
   std::thread thread_;
