@@ -47,7 +47,7 @@ struct GroundCorner {
 // Writes the cells of the lattice, cut along the kerb.
 class GroundWriter {
  public:
-  GroundWriter(Mesh& mesh, const GroundOptions& options) : mesh_(mesh), options_(options) {}
+  GroundWriter(PagedMesh& mesh, const GroundOptions& options) : mesh_(mesh), options_(options) {}
 
   void AddCell(const std::array<GroundCorner, 4>& corners) {
     std::vector<GroundCorner> road;
@@ -70,8 +70,8 @@ class GroundWriter {
     AddFan(verge, options_.kerb_m,
            middle < options_.pavement_m ? options_.pavement : options_.beyond);
     for (std::size_t i = 0; i + 1 < edge.size() && options_.kerb_m > 0.0; i += 2) {
-      AddQuad(mesh_, At(edge[i], 0.0), At(edge[i + 1], 0.0), At(edge[i + 1], options_.kerb_m),
-              At(edge[i], options_.kerb_m), Material::kConcrete);
+      AddQuad(mesh_.page(), At(edge[i], 0.0), At(edge[i + 1], 0.0),
+              At(edge[i + 1], options_.kerb_m), At(edge[i], options_.kerb_m), Material::kConcrete);
     }
   }
 
@@ -81,12 +81,12 @@ class GroundWriter {
   }
   void AddFan(const std::vector<GroundCorner>& polygon, double raise, Material material) {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-      AddTriangle(mesh_, At(polygon[0], raise), At(polygon[i], raise), At(polygon[i + 1], raise),
-                  material);
+      AddTriangle(mesh_.page(), At(polygon[0], raise), At(polygon[i], raise),
+                  At(polygon[i + 1], raise), material);
     }
   }
 
-  Mesh& mesh_;
+  PagedMesh& mesh_;
   const GroundOptions& options_;
 };
 
@@ -188,7 +188,7 @@ double RoadNetwork::SignedDistance(const Vector2& p_m) const {
   return result;
 }
 
-void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
+void AddGround(PagedMesh& mesh, const Terrain& terrain, const RoadNetwork& network,
                const GroundOptions& options) {
   GroundWriter writer(mesh, options);
   ForEachCell(terrain, network, options.cell_m, options.reach_m,
@@ -203,7 +203,7 @@ void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
     for (std::size_t i = 0; i < 4; ++i) {
       p[i] << cell[i].p, cell[i].height + options.kerb_m - kCoarseDrop_m;
     }
-    AddQuad(mesh, p[0], p[1], p[2], p[3], options.beyond);
+    AddQuad(mesh.page(), p[0], p[1], p[2], p[3], options.beyond);
   };
   if (options.far_reach_m > options.reach_m) {
     ForEachCell(terrain, network, kCoarseCell_m, options.far_reach_m, far);

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "lio/sim/mesh.hpp"
+#include "lio/sim/paged_mesh.hpp"
 #include "lio/sim/random.hpp"
 
 namespace lio::sim {
@@ -74,7 +74,7 @@ struct GroundOptions {
 
 // Appends the ground to `mesh`: roads lie at the terrain's height, everything else lies a kerb
 // higher, and the kerb is a step along the exact edge of the road.
-void AddGround(Mesh& mesh, const Terrain& terrain, const RoadNetwork& network,
+void AddGround(PagedMesh& mesh, const Terrain& terrain, const RoadNetwork& network,
                const GroundOptions& options);
 
 }  // namespace lio::sim

@@ -4,9 +4,8 @@
 
 namespace lio::sim {
 
-Mesh PartOf(const Mesh& mesh, const Eigen::AlignedBox2f& box_m) {
+void AddPartOf(const Mesh& mesh, const Eigen::AlignedBox2f& box_m, Mesh& part) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  Mesh part;
   std::vector<std::uint32_t> in_part(mesh.vertices_m.size(), kNone);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Eigen::AlignedBox2f bounds;
@@ -23,7 +22,6 @@ Mesh PartOf(const Mesh& mesh, const Eigen::AlignedBox2f& box_m) {
     part.triangles.push_back(triangle);
     part.materials.push_back(mesh.materials[i]);
   }
-  return part;
 }
 
 }  // namespace lio::sim

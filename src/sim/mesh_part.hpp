@@ -9,7 +9,8 @@
 
 namespace lio::sim {
 
-// Returns the triangles whose bounds in x and y meet `box_m`, in the mesh's order.
-[[nodiscard]] Mesh PartOf(const Mesh& mesh, const Eigen::AlignedBox2f& box_m);
+// Appends the triangles whose bounds in x and y meet `box_m`, in the mesh's order, and the vertices
+// that they use.
+void AddPartOf(const Mesh& mesh, const Eigen::AlignedBox2f& box_m, Mesh& part);
 
 }  // namespace lio::sim

@@ -226,9 +226,11 @@ void DrawWay(Picture& picture, const Camera& camera, const Painter& painter,
 Picture DrawFromAbove(const Scenario& scenario, const PictureOptions& options, int num_threads) {
   const std::vector<Vector3> way = WayPoints(scenario);
   const Camera camera = MakeCamera(scenario, way, options);
-  const Scene scene(scenario.world);
+  const double seen_m = camera.pixel_m * (options.width + options.height);
+  const Scene scene(scenario.world, 2.0 * seen_m);
   const double now_s = scenario.begin_s + scenario.view_share * scenario.duration_s;
-  const Scene::Interval interval = scene.During(now_s - 0.005, now_s + 0.005);
+  const Vector3 place = scenario.trajectory->At(now_s).T_world_imu.translation;
+  const Scene::Interval interval = scene.During(now_s - 0.005, now_s + 0.005, place);
   const Painter painter(interval, camera);
   Picture picture{options.width, options.height, {}};
   picture.rgb.resize(static_cast<std::size_t>(3 * options.width * options.height));

@@ -35,13 +35,13 @@ void AddArcade(World& world, const Town& town) {
   for (double x = from; x <= to; x += 3.6) {
     for (const double side : {-2.1, 2.1}) {
       const double foot = town.GroundHeight({x, y + side});
-      AddBox(world.fixed, UprightPose({x, y + side, foot - 0.2}, 0.0), {0.55, 0.55, 0.5},
+      AddBox(world.fixed.page(), UprightPose({x, y + side, foot - 0.2}, 0.0), {0.55, 0.55, 0.5},
              Material::kConcrete);
-      AddBar(world.fixed, {x, y + side, foot + 0.3}, {x, y + side, floor + 3.6}, 0.19, 0.17, 12,
-             Material::kPlaster);
+      AddBar(world.fixed.page(), {x, y + side, foot + 0.3}, {x, y + side, floor + 3.6}, 0.19, 0.17,
+             12, Material::kPlaster);
     }
   }
-  AddBox(world.fixed, UprightPose({0.5 * (from + to), y, floor + 3.5}, 0.0),
+  AddBox(world.fixed.page(), UprightPose({0.5 * (from + to), y, floor + 3.5}, 0.0),
          {to - from + 1.2, 5.2, 0.4}, Material::kConcrete);
 }
 

@@ -119,7 +119,7 @@ void AddStructure(Mesh& mesh, double z, bool has_ceiling, Random& random) {
 
 void AddStorey(World& world, int storey, bool has_ceiling, Random& random) {
   const double z = kStorey_m * storey;
-  Mesh& mesh = world.fixed;
+  Mesh& mesh = world.fixed.page();
   if (storey > 0) {
     AddBox(mesh, At(0.5 * kEast_m, 0.5 * (kSouth_m + kNorth_m), z - kSlab_m),
            {kEast_m, kNorth_m - kSouth_m, kSlab_m}, Material::kConcrete);

@@ -146,8 +146,8 @@ Scenario MakeHall(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(45.0);
   Random random(options.seed, Purpose::kWorld, 11);
-  AddShell(scenario.world.fixed);
-  AddFittings(scenario.world.fixed, random);
+  AddShell(scenario.world.fixed.page());
+  AddFittings(scenario.world.fixed.page(), random);
   AddPlayers(scenario.world, random);
   MotionPlan plan;
   plan.knot_interval_s = kHallKnot_s;

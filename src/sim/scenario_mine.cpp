@@ -173,8 +173,8 @@ Scenario MakeMine(const ScenarioOptions& options) {
   low.z() = -3.5;
   high.z() = 6.5;
   AddIsosurface(
-      scenario.world.fixed, [&](const Vector3& p_m) { return galleries.Distance(p_m); }, low, high,
-      kCell_m, Material::kEarth);
+      scenario.world.fixed.page(), [&](const Vector3& p_m) { return galleries.Distance(p_m); }, low,
+      high, kCell_m, Material::kEarth);
   const auto floor = [&](const Vector2& p_m, double along_m) {
     const double level_m = LevelAt(along_m);
     // A drone does not follow each stone.

@@ -95,11 +95,11 @@ void AddFurniture(World& world, Town& town, const Path& road) {
   }
   for (double s = kMotorwayBefore_m + 260.0; s < end_m; s += random.Uniform(350.0, 550.0)) {
     const PathPoint p = road.At(s);
-    AddBridge(world.fixed, p, town.GroundHeight(p.position_m));
+    AddBridge(world.fixed.page(), p, town.GroundHeight(p.position_m));
   }
   for (double s = kMotorwayBefore_m + 120.0; s < end_m; s += random.Uniform(400.0, 700.0)) {
     const PathPoint p = road.At(s);
-    AddGantry(world.fixed, p, town.GroundHeight(p.position_m));
+    AddGantry(world.fixed.page(), p, town.GroundHeight(p.position_m));
   }
 }
 

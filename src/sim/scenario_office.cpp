@@ -133,7 +133,7 @@ void AddDoors(World& world, const std::shared_ptr<const Drive>& drive,
   AddDoor(world,
           {UprightPose({Shape::kHighDoor_m - kHalf_m, -y, kTop_m}, 0.0), -kRoomOpen_rad, {3, 4}},
           drive, floor);
-  AddMesh(world.fixed, MakeDoorLeaf(), stair_door(Shape::kStorey_m));
+  AddMesh(world.fixed.page(), MakeDoorLeaf(), stair_door(Shape::kStorey_m));
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ Scenario MakeOffice(const ScenarioOptions& options) {
   scenario.duration_s = options.duration_s.value_or(108.0);
   const double planned_s = PlannedSeconds(scenario, options);
   Random random(options.seed, Purpose::kWorld, 12);
-  AddOffice(scenario.world.fixed, random);
+  AddOffice(scenario.world.fixed.page(), random);
 
   const Path way = Way();
   DriveLimits limits;

@@ -68,7 +68,7 @@ void AddCutting(World& world, Town& town, double from_m, double to_m) {
     const auto at = [&](double dx, double dy) {
       return Vector3(x + dx, side * (y + dy), height(x + dx, side * (y + dy)));
     };
-    AddQuad(world.fixed, at(0, 0), at(2, 0), at(2, 2), at(0, 2), Material::kGrass);
+    AddQuad(world.fixed.page(), at(0, 0), at(2, 0), at(2, 2), at(0, 2), Material::kGrass);
   };
   for (const double side : {-1.0, 1.0}) {
     for (double x = from_m; x < to_m; x += 2.0) {
@@ -79,7 +79,7 @@ void AddCutting(World& world, Town& town, double from_m, double to_m) {
       const double y = side * random.Uniform(kFoot_m + 1.0, kTop_m);
       const Mesh plant = random.Chance(0.5) ? MakeTree(random.Uniform(5.0, 9.0), random)
                                             : MakeBush({2.0, 2.0, 1.5}, random);
-      AddMesh(world.fixed, plant, UprightPose({x, y, height(x, y) - 0.1}, 0.0));
+      AddMesh(world.fixed.page(), plant, UprightPose({x, y, height(x, y) - 0.1}, 0.0));
     }
   }
 }
@@ -98,7 +98,7 @@ void AddGantry(Mesh& mesh, double x) {
 
 void AddOutside(World& world, Town& town, const Path& road, double from_m, double to_m) {
   AddCutting(world, town, from_m, to_m);
-  for (double x = from_m + 10.0; x < to_m - 10.0; x += 45.0) AddGantry(world.fixed, x);
+  for (double x = from_m + 10.0; x < to_m - 10.0; x += 45.0) AddGantry(world.fixed.page(), x);
   const double offset_m = road.At(0.0).position_m.x();
   for (const bool left : {true, false}) {
     const Frontage side{from_m - offset_m + 4.0, to_m - offset_m - 3.0, kHalfTunnelRoad_m + 1.6,
@@ -131,7 +131,7 @@ Scenario MakeTunnel(const ScenarioOptions& options) {
   ground.pavement_m = 2.0;
   Town town(scenario.world, terrain, RoadNetwork({{road.Sampled(1000.0), kHalfTunnelRoad_m}}),
             ground, options.seed);
-  AddTube(scenario.world.fixed, 0.0, far_m);
+  AddTube(scenario.world.fixed.page(), 0.0, far_m);
   AddOutside(scenario.world, town, road, road.At(0.0).position_m.x(), 0.0);
   AddOutside(scenario.world, town, road, far_m, road.At(road.length_m()).position_m.x());
 

@@ -162,8 +162,9 @@ Scenario MakeWarehouse(const ScenarioOptions& options) {
   Scenario scenario;
   scenario.duration_s = options.duration_s.value_or(100.0);
   Random random(options.seed, Purpose::kWorld, 14);
-  AddHall(scenario.world.fixed);
-  for (int row = 0; row < kRows; ++row) AddRack(scenario.world.fixed, RackMiddle(row), random);
+  AddHall(scenario.world.fixed.page());
+  for (int row = 0; row < kRows; ++row)
+    AddRack(scenario.world.fixed.page(), RackMiddle(row), random);
   AddTraffic(scenario.world, random);
   const Path way = Way(LimitsOf(carrier).speed_mps * PlannedSeconds(scenario, options));
   const auto floor = [](const Vector2&, double) { return 0.0; };

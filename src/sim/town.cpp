@@ -53,7 +53,8 @@ double Town::GroundHeight(const Vector2& p_m) const {
 }
 
 void Town::Place(const Mesh& mesh, const Vector2& p_m, double heading_rad) {
-  AddMesh(world_.fixed, mesh, UprightPose({p_m.x(), p_m.y(), GroundHeight(p_m)}, heading_rad));
+  AddMesh(world_.fixed.page(), mesh,
+          UprightPose({p_m.x(), p_m.y(), GroundHeight(p_m)}, heading_rad));
 }
 
 bool Town::Overlaps(const Footprint& a, const Footprint& b) {
@@ -206,11 +207,11 @@ void Town::AddBarrier(const Path& path, const Frontage& f, double post_m, double
     const Vector3 begin = foot(along_m);
     const Vector3 end = foot(std::min(along_m + post_m, f.to_m));
     const double heading = std::atan2(end.y() - begin.y(), end.x() - begin.x());
-    AddBox(world_.fixed, UprightPose(begin - Vector3(0, 0, 0.2), heading),
+    AddBox(world_.fixed.page(), UprightPose(begin - Vector3(0, 0, 0.2), heading),
            {0.12, 0.12, high_m + 0.2}, Material::kMetal);
     const Vector3 out = 0.05 * Vector3(-std::sin(heading), std::cos(heading), 0.0);
     for (const double side : {-1.0, 1.0}) {
-      AddQuad(world_.fixed, begin + side * out + Vector3(0, 0, low_m),
+      AddQuad(world_.fixed.page(), begin + side * out + Vector3(0, 0, low_m),
               end + side * out + Vector3(0, 0, low_m), end + side * out + Vector3(0, 0, high_m),
               begin + side * out + Vector3(0, 0, high_m), material);
     }
@@ -228,7 +229,7 @@ void Town::AddLaneMarks(const Path& path, const Frontage& f, double dash_m, doub
       const Vector2 p = OnFrontage(path, f, at_m, extra_m).position_m;
       return Vector3(p.x(), p.y(), terrain_.Height(p) + kAbove_m);
     };
-    AddQuad(world_.fixed, at(along_m, -kHalf_m), at(along_m + length_m, -kHalf_m),
+    AddQuad(world_.fixed.page(), at(along_m, -kHalf_m), at(along_m + length_m, -kHalf_m),
             at(along_m + length_m, kHalf_m), at(along_m, kHalf_m), Material::kMarking);
   }
 }

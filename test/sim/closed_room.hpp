@@ -10,7 +10,7 @@ namespace lio::test {
 
 inline sim::World Room(sim::Material material = sim::Material::kPlaster) {
   sim::World world;
-  AddBox(world.fixed, sim::UprightPose({0.0, 0.0, -2.0}, 0.0), {40.0, 30.0, 9.0}, material);
+  AddBox(world.fixed.page(), sim::UprightPose({0.0, 0.0, -2.0}, 0.0), {40.0, 30.0, 9.0}, material);
   return world;
 }
 

@@ -87,9 +87,9 @@ TEST(RoadNetwork, PiecesOfALongRoadHideNoNearerSegment) {
 class GroundTest : public ::testing::Test {
  protected:
   StillScene Build(const GroundOptions& options) const {
-    Mesh mesh;
+    PagedMesh mesh;
     AddGround(mesh, terrain_, network_, options);
-    return StillScene(mesh);
+    return StillScene(mesh.Whole());
   }
   Random random_{5, Purpose::kWorld};
   Terrain terrain_{{{0.02, -0.01}, 0.8, 0.01}, random_};

@@ -142,8 +142,8 @@ TEST(LidarEffects, TheBeamTableIsOffByAFiftiethOfADegreeEitherWay) {
 // A pane 10 m ahead has a wall 3 m behind it. Seen through the pane the wall is where it is.
 TEST(LidarEffects, AWallBehindAPaneIsSeenThroughItAtItsPlace) {
   World world;
-  AddQuad(world.fixed, {10, -5, -5}, {10, 5, -5}, {10, 5, 5}, {10, -5, 5}, Material::kGlass);
-  AddQuad(world.fixed, {13, -30, -30}, {13, 30, -30}, {13, 30, 30}, {13, -30, 30},
+  AddQuad(world.fixed.page(), {10, -5, -5}, {10, 5, -5}, {10, 5, 5}, {10, -5, 5}, Material::kGlass);
+  AddQuad(world.fixed.page(), {13, -30, -30}, {13, 30, -30}, {13, 30, 30}, {13, -30, 30},
           Material::kPlaster);
   const SimulatedSweep sweep = SweepIn(world, Only("glass"));
   int num = 0;
@@ -159,8 +159,8 @@ TEST(LidarEffects, AWallBehindAPaneIsSeenThroughItAtItsPlace) {
 // wall's image behind it, where the wall would be if it went on there.
 TEST(LidarEffects, AGrazedPaneShowsTheImageOfAWallBehindIt) {
   World world;
-  AddQuad(world.fixed, {0, 3, -5}, {20, 3, -5}, {20, 3, 5}, {0, 3, 5}, Material::kGlass);
-  AddQuad(world.fixed, {20, -30, -30}, {20, 2.9, -30}, {20, 2.9, 30}, {20, -30, 30},
+  AddQuad(world.fixed.page(), {0, 3, -5}, {20, 3, -5}, {20, 3, 5}, {0, 3, 5}, Material::kGlass);
+  AddQuad(world.fixed.page(), {20, -30, -30}, {20, 2.9, -30}, {20, 2.9, 30}, {20, -30, 30},
           Material::kPlaster);
   const SimulatedSweep sweep = SweepIn(world, Only("glass"));
   int num = 0;

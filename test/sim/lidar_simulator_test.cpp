@@ -246,7 +246,7 @@ TEST(LidarSimulator, IntensityTellsMaterialsApart) {
 
 TEST(LidarSimulator, DarkAndSlantedSurfacesFarOffAreLost) {
   World world;  // a road 2 m below the sensor
-  AddQuad(world.fixed, {-200, -200, -2}, {200, -200, -2}, {200, 200, -2}, {-200, 200, -2},
+  AddQuad(world.fixed.page(), {-200, -200, -2}, {200, -200, -2}, {200, 200, -2}, {-200, 200, -2},
           Material::kAsphalt);
   const Scene scene(world);
   const Trajectory trajectory = Still();
@@ -263,9 +263,9 @@ TEST(LidarSimulator, DarkAndSlantedSurfacesFarOffAreLost) {
 
 TEST(LidarSimulator, BeamsThatStraddleAnEdgeGiveMixedPixels) {
   World world;  // a plate 0.4 m before a wall
-  AddQuad(world.fixed, {10, -30, -10}, {10, 30, -10}, {10, 30, 10}, {10, -30, 10},
+  AddQuad(world.fixed.page(), {10, -30, -10}, {10, 30, -10}, {10, 30, 10}, {10, -30, 10},
           Material::kPlaster);
-  AddQuad(world.fixed, {9.6, -2, -10}, {9.6, 2, -10}, {9.6, 2, 10}, {9.6, -2, 10},
+  AddQuad(world.fixed.page(), {9.6, -2, -10}, {9.6, 2, -10}, {9.6, 2, 10}, {9.6, -2, 10},
           Material::kPlaster);
   const Scene scene(world);
   const Trajectory trajectory = Still();

@@ -85,7 +85,7 @@ class StillScene {
  private:
   static sim::World WorldOf(const sim::Mesh& mesh) {
     sim::World world;
-    world.fixed = mesh;
+    world.fixed.page() = mesh;
     return world;
   }
   sim::World world_;

@@ -13,7 +13,8 @@ TEST(MeshPart, HasTheTrianglesThatMeetTheBoxAndTheirVerticesAlone) {
   AddQuad(mesh, {5, 0, 0}, {9, 0, 0}, {9, 1, 0}, {5, 1, 0}, Material::kGlass);
   AddQuad(mesh, {20, 0, 9}, {21, 0, 9}, {21, 1, 9}, {20, 1, 9}, Material::kBark);
   const Eigen::AlignedBox2f box(Eigen::Vector2f(8, -3), Eigen::Vector2f(22, 3));
-  const Mesh part = PartOf(mesh, box);
+  Mesh part;
+  AddPartOf(mesh, box, part);
   ASSERT_EQ(part.triangles.size(), 4u);
   EXPECT_EQ(part.materials.front(), Material::kGlass);
   EXPECT_EQ(part.materials.back(), Material::kBark);
@@ -29,7 +30,9 @@ TEST(MeshPart, IsEmptyFarFromEverything) {
   Mesh mesh;
   AddQuad(mesh, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, Material::kBrick);
   const Eigen::AlignedBox2f box(Eigen::Vector2f(2, 2), Eigen::Vector2f(3, 3));
-  EXPECT_TRUE(PartOf(mesh, box).triangles.empty());
+  Mesh part;
+  AddPartOf(mesh, box, part);
+  EXPECT_TRUE(part.triangles.empty());
 }
 
 }  // namespace

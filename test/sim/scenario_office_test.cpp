@@ -156,7 +156,7 @@ TEST_F(Office, FurnitureDependsOnTheSeedAndTheBuildingDoesNot) {
   ScenarioOptions options;
   options.seed = 2;
   const Scenario other = MakeScenario("office", options);
-  EXPECT_NE(other.world.fixed.vertices_m, scenario_.world.fixed.vertices_m);
+  EXPECT_NE(other.world.fixed.Whole().vertices_m, scenario_.world.fixed.Whole().vertices_m);
   const Scene scene(other.world);
   const Ray ray{Vector3f(14.0f, 0.0f, 1.5f), Vector3f::UnitY(), 0.5f};
   Hit hit;

@@ -14,7 +14,7 @@ using test::CastOne;
 
 World WallAndMover() {
   World world;
-  AddQuad(world.fixed, {10, -50, -50}, {10, 50, -50}, {10, 50, 50}, {10, -50, 50},
+  AddQuad(world.fixed.page(), {10, -50, -50}, {10, 50, -50}, {10, 50, 50}, {10, -50, 50},
           Material::kBrick);
   Mesh box;
   AddBox(box, UprightPose({0, 0, -0.5}, 0.0), {1.0, 1.0, 1.0}, Material::kRetro);
@@ -46,17 +46,27 @@ TEST(Scene, LeavesTbbAllThreadsOfTheMachine) {
   EXPECT_EQ(global_control::active_value(global_control::max_allowed_parallelism), before);
 }
 
-// A row of walls is seen in parts of it as it is seen whole, while the sensor goes along.
+// A row of walls with boxes that pass before it is seen in parts as it is seen whole, while the
+// sensor goes along.
 TEST(Scene, PartsOfALargeWorldShowWhatLiesInReach) {
   World world;
   for (int i = -20; i <= 20; ++i) {
-    AddQuad(world.fixed, {60.0 * i, 10, -5}, {60.0 * i + 40, 10, -5}, {60.0 * i + 40, 10, 5},
+    AddQuad(world.fixed.page(), {60.0 * i, 10, -5}, {60.0 * i + 40, 10, -5}, {60.0 * i + 40, 10, 5},
             {60.0 * i, 10, 5}, i % 2 == 0 ? Material::kBrick : Material::kGlass);
+  }
+  Mesh box;
+  AddBox(box, UprightPose({0, 0, -1}, 0.0), {4.0, 2.0, 2.0}, Material::kCarPaint);
+  world.shapes.push_back(box);
+  for (int i = -9; i <= 9; ++i) {
+    world.movers.push_back({0, [i](double t_s) {
+                              return UprightPose({120.0 * i + 30.0 * t_s, 7.0, 0.0}, 0.0);
+                            }});
   }
   const double reach_m = 100.0;
   const Scene whole(world);
   const Scene parts(world, reach_m, 10);
   int num_hits = 0;
+  int num_boxes = 0;
   for (double x = -1100.0; x < 1100.0; x += 17.0) {
     const auto in_whole = whole.During(0.0, 0.1, {x, 0, 0});
     const auto in_parts = parts.During(0.0, 0.1, {x, 0, 0});
@@ -69,9 +79,11 @@ TEST(Scene, PartsOfALargeWorldShowWhatLiesInReach) {
       ASSERT_EQ(hit.material, same.material);
       ASSERT_FLOAT_EQ(hit.range_m, same.range_m);
       if (hit.object == Hit::kFixed) ++num_hits;
+      if (hit.object >= 0) ++num_boxes;
     }
   }
   EXPECT_GT(num_hits, 1000);
+  EXPECT_GT(num_boxes, 100);
 }
 
 TEST(Scene, NothingInReachIsNothing) {

@@ -45,8 +45,8 @@ double AngleOf(std::size_t column) {
 // Makes a board of 2 m 10 m ahead, in front of a wall at 14 m.
 World BoardBeforeWall() {
   World world;
-  AddBox(world.fixed, UprightPose({14.5, 0, -50}, 0.0), {1, 100, 100}, Material::kBrick);
-  AddBox(world.fixed, UprightPose({10.05, 0, -1}, 0.0), {0.1, 2, 2}, Material::kPlaster);
+  AddBox(world.fixed.page(), UprightPose({14.5, 0, -50}, 0.0), {1, 100, 100}, Material::kBrick);
+  AddBox(world.fixed.page(), UprightPose({10.05, 0, -1}, 0.0), {0.1, 2, 2}, Material::kPlaster);
   return world;
 }
 
@@ -96,10 +96,10 @@ TEST(SweepCaster, AMirrorShowsWhatIsBesideAndAWindowWhatIsBehind) {
   setup.errors.has_glass = true;
   World world;
   // A pane ahead that is turned by 45 degrees, a wall to the left of it and one behind it.
-  AddBox(world.fixed, UprightPose({10, 0, -2}, M_PI / 4), {0.001, 3, 4}, Material::kGlass);
-  AddBox(world.fixed, UprightPose({10, 7.5, -2}, 0.0), {4, 1, 4}, Material::kPlaster);
-  AddBox(world.fixed, UprightPose({10, -7.5, -2}, 0.0), {4, 1, 4}, Material::kPlaster);
-  AddBox(world.fixed, UprightPose({14.5, 0, -2}, 0.0), {1, 4, 4}, Material::kBrick);
+  AddBox(world.fixed.page(), UprightPose({10, 0, -2}, M_PI / 4), {0.001, 3, 4}, Material::kGlass);
+  AddBox(world.fixed.page(), UprightPose({10, 7.5, -2}, 0.0), {4, 1, 4}, Material::kPlaster);
+  AddBox(world.fixed.page(), UprightPose({10, -7.5, -2}, 0.0), {4, 1, 4}, Material::kPlaster);
+  AddBox(world.fixed.page(), UprightPose({14.5, 0, -2}, 0.0), {1, 4, 4}, Material::kBrick);
   const SweepHits sweep = CastIn(world, setup);
   ASSERT_EQ(sweep.hits[0].material, Material::kGlass);
   const Behind* behind = sweep.BehindOf(0);

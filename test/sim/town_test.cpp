@@ -34,7 +34,7 @@ class TownTest : public ::testing::Test {
   // Returns the share of places along y where a ray from above meets something that `wanted`
   // accepts.
   double ShareOver(double y, const std::function<bool(const Hit&, double height_m)>& wanted) const {
-    const StillScene scene(world_.fixed);
+    const StillScene scene(world_.fixed.Whole());
     int num = 0, num_wanted = 0;
     for (double x = 10.0; x < 190.0; x += 0.13, ++num) {
       double height_m = 0.0;
@@ -89,7 +89,7 @@ TEST_F(TownTest, ThingsArePutOnTheGroundAsTheyHead) {
   Mesh box;
   AddBox(box, UprightPose({2.0, 0.0, 0.0}, 0.0), {1.0, 1.0, 2.0}, Material::kRetro);
   town_.Place(box, {50.0, 10.0}, 0.5 * M_PI);  // its x goes along y
-  const StillScene scene(world_.fixed);
+  const StillScene scene(world_.fixed.Whole());
   double height_m = 0.0;
   EXPECT_EQ(scene.Down({50.0, 12.0}, height_m).material, Material::kRetro);
   EXPECT_NEAR(height_m, GroundOptions{}.kerb_m + 2.0, 1e-4);
@@ -105,7 +105,7 @@ TEST_F(TownTest, HousesStandInARowAndFaceTheRoad) {
   EXPECT_GT(ShareAbove(14.0, 8.0), 0.9);
   EXPECT_LT(ShareAbove(6.0, 2.0), 0.01) << "nothing stands on the pavement";
   // Fronts have windows; rears have none.
-  const StillScene scene(world_.fixed);
+  const StillScene scene(world_.fixed.Whole());
   int num_front = 0, num_rear = 0;
   for (double x = 15.0; x < 185.0; x += 0.5) {
     num_front += scene.Cast({x, 0.0, 6.0}, Vector3::UnitY()).material == Material::kGlass;
@@ -117,19 +117,19 @@ TEST_F(TownTest, HousesStandInARowAndFaceTheRoad) {
 
 TEST_F(TownTest, NothingIsBuiltWhereSomethingStands) {
   ASSERT_TRUE(town_.Reserve({100.0, 15.0}, 0.0, {180.0, 10.0}, 1.0));
-  const std::size_t before = world_.fixed.triangles.size();
+  const std::size_t before = world_.fixed.num_triangles();
   town_.AddHouses(road_, Beside(10.0), {});
   town_.AddTrees(road_, Beside(12.0), 5.0, 6.0);
   town_.AddLamps(road_, Beside(12.0), 5.0);
   town_.AddHedges(road_, Beside(12.0), 1.0);
   town_.AddStreetThings(road_, Beside(12.0), 5.0);
   town_.AddStandingPeople(road_, Beside(12.0), 10);
-  EXPECT_EQ(world_.fixed.triangles.size(), before);
+  EXPECT_EQ(world_.fixed.num_triangles(), before);
 }
 
 TEST_F(TownTest, LampsStandAtTheirSpacingAndLeanOverTheRoad) {
   town_.AddLamps(road_, {10.0, 61.0, 5.0, true}, 10.0);
-  const StillScene scene(world_.fixed);
+  const StillScene scene(world_.fixed.Whole());
   for (double x = 10.0; x < 61.0; x += 10.0) {
     double height_m = 0.0;
     EXPECT_EQ(scene.Down({x, 5.0 - 1.6}, height_m).material, Material::kDarkMetal) << x;
@@ -143,10 +143,10 @@ TEST_F(TownTest, CarsParkByTheKerbOnly) {
   town_.AddParkedCars(road_, Beside(2.9), 1.0);
   EXPECT_GT(ShareAbove(2.9, 0.4), 0.6);
   EXPECT_LT(ShareAbove(0.5, 0.1), 1e-9) << "the lane is free";
-  const std::size_t before = world_.fixed.triangles.size();
+  const std::size_t before = world_.fixed.num_triangles();
   town_.AddParkedCars(road_, Beside(0.0), 1.0);
   town_.AddParkedCars(road_, Beside(8.0), 1.0);
-  EXPECT_EQ(world_.fixed.triangles.size(), before) << "neither in the middle nor off the road";
+  EXPECT_EQ(world_.fixed.num_triangles(), before) << "neither in the middle nor off the road";
 }
 
 TEST_F(TownTest, TheShareOfParkedCarsIsKept) {
@@ -164,7 +164,7 @@ TEST_F(TownTest, HedgesAreAsHighAsHedges) {
 TEST_F(TownTest, BarriersRunThroughBetweenTheirHeights) {
   town_.AddBarrier(road_, Beside(6.0), 4.0, 0.5, 0.8, Material::kMetal);
   const double ground_m = GroundOptions{}.kerb_m;
-  const StillScene scene(world_.fixed);
+  const StillScene scene(world_.fixed.Whole());
   for (double x = 11.0; x < 189.0; x += 1.7) {
     const Hit hit = scene.Cast({x, 0.0, ground_m + 0.65}, Vector3::UnitY());
     EXPECT_NEAR(hit.range_m, 5.95, 0.02) << x;
@@ -187,7 +187,7 @@ TEST_F(TownTest, OneSeedMakesOneTown) {
     Town town(world, Flat(), RoadNetwork({{{{0, 0}, {200, 0}}, 4.0}}), {}, seed);
     town.AddHouses(Road(), Beside(10.0), {});
     town.AddTrees(Road(), Beside(6.0), 8.0, 6.0);
-    return world.fixed.vertices_m;
+    return world.fixed.Whole().vertices_m;
   };
   EXPECT_EQ(build(3), build(3));
   EXPECT_NE(build(3), build(4));

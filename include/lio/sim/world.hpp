@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lio/sim/mesh.hpp"
+#include "lio/sim/paged_mesh.hpp"
 
 namespace lio::sim {
 
@@ -16,7 +17,7 @@ struct Mover {
 };
 
 struct World {
-  Mesh fixed;
+  PagedMesh fixed;
   std::vector<Mesh> shapes;
   std::vector<Mover> movers;
 };
