@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/filter/estimate_change.hpp"
+
 namespace lio {
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lio/filter/estimate_change.hpp"
 #include "lio/filter/filter_parameters.hpp"
-#include "lio/filter/process_model.hpp"
 
 namespace lio {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "lio/filter/estimate_change.hpp"
 #include "lio/scan/sweep.hpp"
 
 namespace lio {

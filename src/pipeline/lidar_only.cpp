@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lio/filter/process_model.hpp"
+#include "lio/filter/estimate_change.hpp"
 #include "pipeline/coarse_tracking.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/gravity_check.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/filter/process_model.hpp"
+#include "lio/filter/estimate_change.hpp"
 #include "lio/filter/world_yaw.hpp"
 #include "lio/imu/initialization_parameters.hpp"
 

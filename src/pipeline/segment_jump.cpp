@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/filter/process_model.hpp"
-
 namespace lio {
 namespace {
 

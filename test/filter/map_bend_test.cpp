@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lio/filter/estimate_change.hpp"
 #include "lio/filter/pose_update.hpp"
 #include "lio/filter/process_model.hpp"
 #include "support/numeric_jacobian.hpp"
