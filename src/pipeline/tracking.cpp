@@ -98,55 +98,69 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
 
 std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
   const std::int64_t begin_ns = context_.NowNs();
-  const Timestamp end = outcome.sweep->end;
+  const MatchedScan scan = Look(outcome);
   // A scan that comes too late for the filter's window comes too late to set its noise.
-  const ImuNoise noise = context_.stream.imu().NoiseAt(end);
-  (void)history_.AddNoise(end, noise);
+  (void)history_.AddNoise(scan.end(), scan.noise);
   if (outage_.stage() == OutageRecovery::Stage::kFindVelocity) {
     AddScanAfterOutage(outcome, false);
-    Publish(outcome, MakeScanReport(outcome), noise, begin_ns);
+    Publish(scan, MakeScanReport(outcome), begin_ns);
     return std::nullopt;
   }
-  const bool is_sought = outage_.stage() == OutageRecovery::Stage::kSeek ||
-                         outage_.stage() == OutageRecovery::Stage::kCheck;
-  const bool starts_map = outcome.match.status == MatchStatus::kEmptyMap;
-  if (starts_map) context_.examiner.record().BeginMap();
-  const bool is_keyframe = !is_sought && !context_.place.is_map_locked() &&
-                           keyframes_.IsKeyframe(outcome.match.T_map_imu);
-  const bool is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
-  const Pose T_map_imu_predicted = history_.At(outcome.sweep->middle()).state.T_map_imu;
-  ScanReport report = Fuse(outcome, noise, is_keyframe);
-  trend_.Forget();
-  if (report.fused && !outcome.is_relocalized) {
-    trend_.Add(T_map_imu_predicted, history_.At(outcome.sweep->middle()).state.T_map_imu);
-  }
-  UpdateBesides(outcome, report.fused, noise);
+  if (scan.starts_map()) context_.examiner.record().BeginMap();
+  const ScanReport report = FuseWithTrend(scan);
+  UpdateBesides(scan, report.fused);
   const Health::Verdict verdict =
-      health_.AddScan(end, outcome.match, outcome.num_used, report.fused);
+      health_.AddScan(scan.end(), outcome.match, outcome.num_used, report.fused);
   // An initial map is not of this path, so it never goes on from a prediction; nor does a map from
   // one that may be anywhere.
-  const bool rebases_map = verdict.rebases_map && !is_sought && !context_.place.is_inside() &&
-                           IsPriorSure(outcome.sweep->middle());
-  GrowMap(outcome, report, is_keyframe, rebases_map, insert);
+  const bool rebases_map = verdict.rebases_map && !scan.is_sought && !context_.place.is_inside() &&
+                           IsPriorSure(scan.middle());
+  GrowMap(scan, report, rebases_map, insert);
   AddScanAfterOutage(outcome, report.fused);
   if (rebases_map || report.fused) is_map_rebased_ = rebases_map;
-  if (report.fused || starts_map) {
-    handover_.last_fused = end;
-    handover_.last_located = outcome.sweep->middle();
-    handover_.last_seq = outcome.sweep->scan_seq;
-  }
   is_first_scan_ = false;
+  RememberForHandover(scan, report.fused);
   if (verdict.is_newly_lost) {
-    NotifyLost(end, context_.outputs);
-    SeekAfterSilence(end);
+    NotifyLost(scan.end(), context_.outputs);
+    SeekAfterSilence(scan.end());
   }
-  if (report.fused && is_sound) {
-    handover_.last_fix =
-        MakeFix(outcome.sweep->middle(), history_.At(outcome.sweep->middle()), g_world_);
+  RememberFix(scan, report.fused);
+  Publish(scan, report, begin_ns);
+  LookAtRig(scan.end());
+  return JudgeSelf(scan.end(), verdict.restarts);
+}
+
+Tracking::MatchedScan Tracking::Look(const MatchOutcome& outcome) const {
+  MatchedScan scan{.outcome = outcome};
+  scan.noise = context_.stream.imu().NoiseAt(scan.end());
+  scan.is_sought = outage_.stage() == OutageRecovery::Stage::kSeek ||
+                   outage_.stage() == OutageRecovery::Stage::kCheck;
+  scan.is_keyframe = !scan.is_sought && !context_.place.is_map_locked() &&
+                     keyframes_.IsKeyframe(outcome.match.T_map_imu);
+  scan.is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+  return scan;
+}
+
+ScanReport Tracking::FuseWithTrend(const MatchedScan& scan) {
+  const Pose T_map_imu_predicted = history_.At(scan.middle()).state.T_map_imu;
+  ScanReport report = Fuse(scan);
+  trend_.Forget();
+  if (report.fused && !scan.outcome.is_relocalized) {
+    trend_.Add(T_map_imu_predicted, history_.At(scan.middle()).state.T_map_imu);
   }
-  Publish(outcome, report, noise, begin_ns);
-  LookAtRig(end);
-  return JudgeSelf(end, verdict.restarts);
+  return report;
+}
+
+void Tracking::RememberForHandover(const MatchedScan& scan, bool is_fused) {
+  if (!is_fused && !scan.starts_map()) return;
+  handover_.last_fused = scan.end();
+  handover_.last_located = scan.middle();
+  handover_.last_seq = scan.outcome.sweep->scan_seq;
+}
+
+void Tracking::RememberFix(const MatchedScan& scan, bool is_fused) {
+  if (!is_fused || !scan.is_sound) return;
+  handover_.last_fix = MakeFix(scan.middle(), history_.At(scan.middle()), g_world_);
 }
 
 bool Tracking::IsPriorSure(Timestamp middle) const {
@@ -154,30 +168,30 @@ bool Tracking::IsPriorSure(Timestamp middle) const {
 }
 
 // Gives the scan's row and takes it off the queue.
-void Tracking::Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
-                       std::int64_t begin_ns) {
-  const Timestamp end = outcome.sweep->end;
-  CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
+void Tracking::Publish(const MatchedScan& scan, ScanReport report, std::int64_t begin_ns) {
+  const Timestamp end = scan.end();
+  CompleteTimes(scan.outcome.stage_ns, context_.NowNs() - begin_ns, report);
   FilterReport filter = MakeFilterReport(history_.At(end), report, MakeReportContext());
-  filter.imu_noise = NoiseRatiosOf(noise, context_.options.rig.imu);
+  filter.imu_noise = NoiseRatiosOf(scan.noise, context_.options.rig.imu);
   if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
-  context_.EndSweep(report.fused || outcome.match.status == MatchStatus::kEmptyMap);
+  context_.EndSweep(report.fused || scan.starts_map());
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
 }
 
-ScanReport Tracking::Fuse(const MatchOutcome& outcome, const ImuNoise& noise, bool is_keyframe) {
+ScanReport Tracking::Fuse(const MatchedScan& scan) {
+  const MatchOutcome& outcome = scan.outcome;
   ScanReport report = MakeScanReport(outcome);
   if (!outcome.match.IsUsable()) return report;
   context_.convention.AddPose({outcome.sweep->middle(), outcome.match.T_map_imu});
   Examine(outcome);
   FusionSettings settings;
-  settings.gyro_density = RaisedTo(noise, context_.options.rig.imu).gyro_noise_density;
+  settings.gyro_density = RaisedTo(scan.noise, context_.options.rig.imu).gyro_noise_density;
   settings.alike_factor = zero_velocity_.match_cov_factor();
-  settings.grows_map = is_keyframe;
+  settings.grows_map = scan.is_keyframe;
   settings.is_level = FeelsGravity();
   settings.is_map_unproved = is_map_rebased_;
   settings.replaces_motion = outage_.stage() == OutageRecovery::Stage::kSeek;
@@ -198,7 +212,8 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
 }
 
 // Updates the filters that stand beside this one.
-void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise) {
+void Tracking::UpdateBesides(const MatchedScan& scan, bool is_fused) {
+  const MatchOutcome& outcome = scan.outcome;
   if (is_fused) {
     SettleClockStep(outcome);
     if (context_.options.filter.use_zero_velocity &&
@@ -206,21 +221,21 @@ void Tracking::UpdateBesides(const MatchOutcome& outcome, bool is_fused, const I
       ++context_.counters.num_standstills;
     }
   }
-  const double gyro_density = RaisedTo(noise, context_.options.rig.imu).gyro_noise_density;
+  const double gyro_density = RaisedTo(scan.noise, context_.options.rig.imu).gyro_noise_density;
   if (const auto news = context_.clocks.AddScan(outcome, history_, gyro_density)) {
-    context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kInfo, *news);
+    context_.outputs.Notify(scan.end(), Notice::Severity::kInfo, *news);
   }
 }
 
 // The map is grown at the predicted pose if it has nothing to match against.
-void Tracking::GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
-                       bool rebases_map, InsertTask& insert) {
-  const Timestamp middle = outcome.sweep->middle();
-  const bool begins_map = outcome.match.status == MatchStatus::kEmptyMap || rebases_map;
+void Tracking::GrowMap(const MatchedScan& scan, const ScanReport& report, bool rebases_map,
+                       InsertTask& insert) {
+  const Timestamp middle = scan.middle();
+  const bool begins_map = scan.starts_map() || rebases_map;
   if (begins_map && history_.AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }
-  if (!begins_map && !(report.fused && is_keyframe)) return;
+  if (!begins_map && !(report.fused && scan.is_keyframe)) return;
   const NavState state = history_.At(middle).state;
   insert.T_map_imu = begins_map || !FeelsGravity() ? state.T_map_imu : LevelMapPose(state, 1.0);
   keyframes_.Accept(*insert.T_map_imu);

@@ -52,6 +52,19 @@ class Tracking {
   Timestamp begin() const { return history_.start_stamp(); }
 
  private:
+  // What is known of a scan as it comes back from matching.
+  struct MatchedScan {
+    const MatchOutcome& outcome;
+    ImuNoise noise = {};       // at its end
+    bool is_sought = false;    // its place is being looked for
+    bool is_keyframe = false;  // the map may grow by it
+    bool is_sound = false;     // all scans just before it were matched
+
+    [[nodiscard]] Timestamp middle() const { return outcome.sweep->middle(); }
+    [[nodiscard]] Timestamp end() const { return outcome.sweep->end; }
+    [[nodiscard]] bool starts_map() const { return outcome.match.status == MatchStatus::kEmptyMap; }
+  };
+
   bool FeelsGravity() const { return !g_world_.isZero(); }
   // Matching from the prediction finds the scan, if it is there.
   bool IsPriorSure(Timestamp middle) const;
@@ -71,15 +84,18 @@ class Tracking {
   void ForgetPoses(Timestamp stamp);
   std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
   void SettleClockStep(const MatchOutcome& outcome);
-  ScanReport Fuse(const MatchOutcome& outcome, const ImuNoise& noise, bool is_keyframe);
+  [[nodiscard]] MatchedScan Look(const MatchOutcome& outcome) const;
+  ScanReport Fuse(const MatchedScan& scan);
+  ScanReport FuseWithTrend(const MatchedScan& scan);
+  void RememberForHandover(const MatchedScan& scan, bool is_fused);
+  void RememberFix(const MatchedScan& scan, bool is_fused);
   void Examine(const MatchOutcome& outcome) const;
   void LookAtRig(Timestamp end);
   void CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end);
-  void UpdateBesides(const MatchOutcome& outcome, bool is_fused, const ImuNoise& noise);
-  void GrowMap(const MatchOutcome& outcome, const ScanReport& report, bool is_keyframe,
-               bool rebases_map, InsertTask& insert);
-  void Publish(const MatchOutcome& outcome, ScanReport report, const ImuNoise& noise,
-               std::int64_t begin_ns);
+  void UpdateBesides(const MatchedScan& scan, bool is_fused);
+  void GrowMap(const MatchedScan& scan, const ScanReport& report, bool rebases_map,
+               InsertTask& insert);
+  void Publish(const MatchedScan& scan, ScanReport report, std::int64_t begin_ns);
   [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
   [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
   void PublishAtImuRate();
