@@ -5,6 +5,7 @@
 configure_file(${CMAKE_SOURCE_DIR}/packaging/liod.service.in ${CMAKE_BINARY_DIR}/liod.service @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/liod.service DESTINATION lib/systemd/system)
 install(FILES packaging/60-liod.conf DESTINATION ${CMAKE_INSTALL_DATADIR}/liod/sysctl)
+install(FILES packaging/realtime.conf DESTINATION ${CMAKE_INSTALL_DATADIR}/liod/systemd)
 
 # A manual page of each program, from its --help.
 find_program(LIO_HELP2MAN help2man)

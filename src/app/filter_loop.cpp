@@ -56,17 +56,22 @@ void FilterLoop::Run() {
       continue;
     }
     std::visit([this](auto& content) { Handle(content); }, *item);
-    Emit();
+    GoOn();
   }
   odometry_.Flush();
-  HandOutJob();
+  GoOn();
   while (has_job_out_) {
     std::optional<MatchOutcome> outcome = to_.inbox.TakeOutcome();
     if (!outcome) break;
     Handle(*outcome);
-    Emit();
+    GoOn();
   }
+}
+
+// Gives what there is first, because subscribers wait for it.
+void FilterLoop::GoOn() {
   Emit();
+  if (HandOutJob()) Emit();
 }
 
 void FilterLoop::NoteArrival(std::int64_t recv_utime, Timestamp stamp) {
@@ -80,8 +85,6 @@ void FilterLoop::Handle(Arrival<ImuSample>& arrival) {
   decode_ns_ += arrival.decode_ns;
   NoteArrival(arrival.recv_utime, arrival.data.stamp);
   odometry_.AddImu(arrival.data);
-  Emit();  // first, because subscribers wait for it
-  HandOutJob();
 }
 
 void FilterLoop::Handle(Arrival<ScanChunk>& arrival) {
@@ -90,7 +93,6 @@ void FilterLoop::Handle(Arrival<ScanChunk>& arrival) {
   lidar_check_.Add(arrival.data);
   odometry_.AddChunk(std::move(arrival.data), std::exchange(decode_ns_, 0) + arrival.decode_ns);
   odometry_.ShedLoad();
-  HandOutJob();
 }
 
 void FilterLoop::Reset(const std::optional<GivenPose>& at, const std::string& why) {
@@ -116,19 +118,18 @@ void FilterLoop::Handle(MatchOutcome& outcome) {
   clouds_.points_imu = insert.points_imu;
   to_.match_worker.Tell(std::move(insert));
   ++num_matches_done_;
-  Emit();
-  HandOutJob();
 }
 
-void FilterLoop::HandOutJob() {
-  if (has_job_out_ || is_cut_short_) return;
+bool FilterLoop::HandOutJob() {
+  if (has_job_out_ || is_cut_short_) return false;
   std::optional<MatchJob> job = odometry_.NextJob();
-  if (!job) return;
+  if (!job) return false;
   has_job_out_ = true;
   timings_.Of(job->sweep->scan_seq).started_utime = HostUtime();
   clouds_.full = {};
   if (publishes_full_cloud_) clouds_.full = {job->sweep, job->T_any_imu, *job->T_imu_lidar, {}};
   to_.match_worker.Tell(std::move(*job));
+  return true;
 }
 
 void FilterLoop::Emit() {

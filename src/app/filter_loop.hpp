@@ -77,7 +77,8 @@ class FilterLoop {
   void Handle(Ping&) { to_.answer_ping(); }
   void Handle(MatchOutcome& outcome);
   void NoteArrival(std::int64_t recv_utime, Timestamp stamp);
-  void HandOutJob();
+  [[nodiscard]] bool HandOutJob();
+  void GoOn();
   void Emit();
   void Emit(const ScanOutput& output);
   void EmitClouds(const ScanOutput& output);

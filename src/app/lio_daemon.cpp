@@ -18,6 +18,7 @@
 #include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/socket_buffer.hpp"
+#include "lio/io/worker_thread.hpp"
 
 namespace lio {
 namespace {
@@ -91,6 +92,7 @@ int Run(const DaemonArguments& arguments, const Options& options,
   LiveRunner runner(*bus, options, live);
   service.Tell("READY=1\nSTATUS=listening on " + live.channels.imu + " and " + live.channels.scan);
   spdlog::info("listening on {} and {}", live.channels.imu, live.channels.scan);
+  SetUrgency(Urgency::kSoon);  // from here on this thread waits for signals and ends the run
   Serve(signals, service, runner);
   service.Tell("STOPPING=1");
   return EndRun(runner, arguments.lcm_url);

@@ -19,8 +19,10 @@ MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_ma
       collects_map_(collects_map),
       deliver_(std::move(deliver)),
       thread_("match", std::move(on_fault), Urgency::kSoon) {
-  Begin();
-  thread_.Start([this] { Run(); });
+  thread_.Start([this] {
+    Begin();  // here, since threads that it starts for matching inherit this one's priority
+    Run();
+  });
 }
 
 void MatchWorker::Begin() {

@@ -12,6 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kStatusInterval(1);
+constexpr std::size_t kRowsPerWaking = 50;  // half a second of 100 Hz
 // Pauses between the chunks of a full cloud: a burst overruns receivers with stock buffers.
 constexpr std::chrono::milliseconds kChunkPause(1);
 
@@ -26,7 +27,7 @@ OutputWorker::OutputWorker(Publisher& publisher, RunWriter* writer, std::string 
       version_(std::move(version)),
       compose_(std::move(compose)),
       on_write_failure_(std::move(on_write_failure)),
-      thread_("output", std::move(on_fault), Urgency::kLater) {
+      thread_("output", std::move(on_fault), Urgency::kSoon) {
   thread_.Start([this] { Run(); });
 }
 
@@ -55,10 +56,11 @@ void OutputWorker::PutRow(Output row) {
     ++num_rows_dropped_;
     return;
   }
-  // The rows at the IMU's rate wait for the next of a scan: each waking takes time from others.
+  // Rows at the IMU's rate wait for more of them, for a scan's or for the next status: each waking
+  // takes time from others.
   const bool is_frequent = std::holds_alternative<NavOutput>(row);
   tasks_.rows.emplace_back(std::move(row));
-  if (!is_frequent) put_.notify_one();
+  if (!is_frequent || tasks_.rows.size() % kRowsPerWaking == 0) put_.notify_one();
 }
 
 void OutputWorker::Put(FileTask task) {

@@ -19,24 +19,6 @@ std::string FaultText(const std::string& who, const char* what) {
   return text;
 }
 
-// The thread works as well, but not as soon, where the system refuses.
-void DescribeToSystem(const std::string& name, Urgency urgency) {
-  constexpr std::size_t kMaxNameBytes = 15;
-  (void)pthread_setname_np(pthread_self(), name.substr(0, kMaxNameBytes).c_str());
-  if (urgency == Urgency::kAtOnce) return;
-  constexpr pid_t kThisThread = 0;
-  const int policy = sched_getscheduler(kThisThread);
-  const bool is_realtime = policy == SCHED_FIFO || policy == SCHED_RR;
-  if (urgency == Urgency::kSoon && is_realtime) {
-    // A service that may set no real-time policy may still lower its priority in it.
-    const sched_param lowest{.sched_priority = sched_get_priority_min(policy)};
-    (void)sched_setparam(kThisThread, &lowest);
-  } else {
-    const sched_param none{};
-    (void)sched_setscheduler(kThisThread, SCHED_BATCH, &none);
-  }
-}
-
 }  // namespace
 
 std::optional<std::string> RunCatching(const std::string& who, const std::function<void()>& body) {
@@ -47,6 +29,20 @@ std::optional<std::string> RunCatching(const std::string& who, const std::functi
     return FaultText(who, error.what());
   } catch (...) {
     return FaultText(who, "an exception of an unknown type");
+  }
+}
+
+void SetUrgency(Urgency urgency) {
+  if (urgency == Urgency::kAtOnce) return;
+  constexpr pid_t kThisThread = 0;
+  const int policy = sched_getscheduler(kThisThread);
+  if (policy == SCHED_FIFO || policy == SCHED_RR) {
+    // A service that may set no real-time policy may still lower its priority in it.
+    const sched_param lowest{.sched_priority = sched_get_priority_min(policy)};
+    (void)sched_setparam(kThisThread, &lowest);
+  } else if (policy == SCHED_OTHER) {
+    const sched_param none{};
+    (void)sched_setscheduler(kThisThread, SCHED_BATCH, &none);
   }
 }
 
@@ -62,7 +58,9 @@ void WorkerThread::Start(std::function<void()> body) {
 }
 
 void WorkerThread::Run(const std::function<void()>& body) {
-  DescribeToSystem(name_, urgency_);
+  constexpr std::size_t kMaxNameBytes = 15;
+  (void)pthread_setname_np(pthread_self(), name_.substr(0, kMaxNameBytes).c_str());
+  SetUrgency(urgency_);
   if (const auto fault = RunCatching("the " + name_ + " thread", body)) on_fault_(*fault);
   ended_.set_value();
 }

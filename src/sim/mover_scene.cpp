@@ -13,7 +13,8 @@
 namespace lio::sim {
 namespace {
 
-constexpr double kFastest_mps = 60.0;    // nothing moves as fast
+// Nothing drives as fast. What jumps back to where it began does so out of sight or within reach.
+constexpr double kFastest_mps = 60.0;
 constexpr std::int64_t kKeptFor = 64;    // intervals without use
 constexpr unsigned kMaxTimeSteps = 129;  // as Embree allows
 

@@ -28,6 +28,9 @@ class MoverScenes {
   // thread.
   [[nodiscard]] MoverScene During(double begin_s, double end_s, const Vector3& place_m);
 
+  // Shapes that are kept ready. Not while another thread calls During.
+  [[nodiscard]] std::size_t num_shapes() const { return shapes_.size(); }
+
  private:
   struct Shape {
     ScenePtr scene;

@@ -5,21 +5,38 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
 
+#include "lio/io/input_error.hpp"
 #include "sim/mesh_part.hpp"
 
 namespace lio::sim {
 namespace {
 
-[[noreturn]] void Fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
+[[noreturn]] void Fail(const std::string& what, int error) {
+  throw WriteError("the simulated world cannot be " + what + " a temporary file in " +
+                   std::filesystem::temp_directory_path().string() + ": " + std::strerror(error) +
+                   "; TMPDIR may name a folder with room");
+}
+
+// Returns a file without a name.
+std::FILE* MakeTemporaryFile() {
+  std::string path = (std::filesystem::temp_directory_path() / "lio-sim-XXXXXX").string();
+  const int descriptor = mkstemp(path.data());
+  if (descriptor < 0) Fail("kept in", errno);
+  unlink(path.c_str());
+  std::FILE* file = fdopen(descriptor, "w+b");
+  if (file == nullptr) Fail("kept in", errno);
+  return file;
 }
 
 template <typename Item>
 void Write(std::FILE* file, const std::vector<Item>& items) {
   if (std::fwrite(items.data(), sizeof(Item), items.size(), file) != items.size()) {
-    Fail("the simulated world cannot be written to a temporary file");
+    Fail("written to", errno);
   }
 }
 
@@ -30,11 +47,17 @@ void Read(std::FILE* file, std::int64_t& at_bytes, std::vector<Item>& items) {
   std::size_t left = items.size() * sizeof(Item);
   while (left > 0) {
     const ssize_t num = ::pread(fileno(file), to, left, at_bytes);
-    if (num <= 0) Fail("the simulated world cannot be read from its temporary file");
+    if (num < 0 && errno == EINTR) continue;
+    if (num <= 0) Fail("read from", num < 0 ? errno : EIO);
     to += num;
     left -= static_cast<std::size_t>(num);
     at_bytes += num;
   }
+}
+
+template <typename Item>
+std::int64_t BytesOf(const std::vector<Item>& items) {
+  return static_cast<std::int64_t>(items.size() * sizeof(Item));
 }
 
 Eigen::AlignedBox2f BoundsOf(const Mesh& mesh) {
@@ -64,17 +87,13 @@ std::size_t PagedMesh::num_triangles() const {
 }
 
 void PagedMesh::StorePage() {
-  if (!file_) file_.reset(std::tmpfile());
-  if (!file_) Fail("no temporary file can be made for the simulated world");
-  const std::int64_t begin_bytes = std::ftell(file_.get());
+  if (!file_) file_.reset(MakeTemporaryFile());
   Write(file_.get(), page_.vertices_m);
   Write(file_.get(), page_.triangles);
   Write(file_.get(), page_.materials);
-  if (std::fflush(file_.get()) != 0) {
-    Fail("the simulated world cannot be written to a temporary file");
-  }
-  stored_.push_back(
-      {begin_bytes, page_.vertices_m.size(), page_.triangles.size(), BoundsOf(page_)});
+  if (std::fflush(file_.get()) != 0) Fail("written to", errno);
+  stored_.push_back({num_bytes_, page_.vertices_m.size(), page_.triangles.size(), BoundsOf(page_)});
+  num_bytes_ += BytesOf(page_.vertices_m) + BytesOf(page_.triangles) + BytesOf(page_.materials);
   num_stored_triangles_ += page_.triangles.size();
   page_.vertices_m.clear();
   page_.triangles.clear();

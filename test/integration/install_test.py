@@ -98,7 +98,8 @@ class Install(unittest.TestCase):
             self.assertTrue(path.is_file(), path)
 
     def test_what_a_service_needs_is_there(self):
-        for path in ("lib/systemd/system/liod.service", "share/liod/sysctl/60-liod.conf"):
+        for path in ("lib/systemd/system/liod.service", "share/liod/sysctl/60-liod.conf",
+                     "share/liod/systemd/realtime.conf"):
             self.assertTrue((self.prefix / path).is_file(), path)
         unit = (self.prefix / "lib/systemd/system/liod.service").read_text(encoding="utf-8")
         self.assertRegex(unit, r"(?m)^ExecStart=/\S+/liod ")

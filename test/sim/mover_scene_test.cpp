@@ -65,7 +65,10 @@ TEST_F(MoverScenesTest, TellHowMoversAreTurnedAtTheMiddle) {
 TEST_F(MoverScenesTest, OutlastTheShapesThatAreDropped) {
   MoverScenes scenes(world_, kReach_m, device_.get());
   const MoverScene before = scenes.During(0.0, 0.1, {0, 0, 0});
-  for (int i = 0; i < 100; ++i) (void)scenes.During(0.0, 0.1, {200, 0, 0});
+  for (int i = 0; i < 10; ++i) (void)scenes.During(0.0, 0.1, {200, 0, 0});
+  EXPECT_EQ(scenes.num_shapes(), 2u);
+  for (int i = 0; i < 90; ++i) (void)scenes.During(0.0, 0.1, {200, 0, 0});
+  EXPECT_EQ(scenes.num_shapes(), 1u);
   EXPECT_TRUE(IsThere(before, 0.0));
   EXPECT_TRUE(IsThere(scenes.During(0.0, 0.1, {0, 0, 0}), 0.0));
 }

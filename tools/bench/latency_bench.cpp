@@ -124,14 +124,10 @@ void Listen(const std::atomic<bool>& has_played, Bus& bus) {
   }
 }
 
-// Sends each inertial sample back, until `token` asks to end.
-void Echo(const std::stop_token& token) {
+// Sends what it receives back, until `token` asks to end.
+void Echo(const std::stop_token& token, Bus& bus) {
   constexpr std::chrono::milliseconds kLookInterval(50);
-  const std::unique_ptr<Bus> bus = OpenLcmBus("");
-  bus->Subscribe(Channels().imu, kQueueCapacity, [&](ByteView data, std::int64_t) {
-    if (!bus->Publish(kEchoChannel, data)) std::fputs("an echo could not be sent\n", stderr);
-  });
-  while (!token.stop_requested()) (void)bus->Receive(kLookInterval);
+  while (!token.stop_requested()) (void)bus.Receive(kLookInterval);
 }
 
 void Measure(const std::string& log, double speed) {
@@ -148,7 +144,11 @@ void Measure(const std::string& log, double speed) {
   bus->Subscribe(channels.odometry, kQueueCapacity, [&](ByteView data, std::int64_t utime) {
     watches.scan.Stop(ReadInt64(data, kScanSeqOffset), utime);
   });
-  const std::jthread echo(Echo);
+  const std::unique_ptr<Bus> echo_bus = OpenLcmBus("");
+  echo_bus->Subscribe(channels.imu, kQueueCapacity, [&](ByteView data, std::int64_t) {
+    if (!echo_bus->Publish(kEchoChannel, data)) std::fputs("an echo could not be sent\n", stderr);
+  });
+  const std::jthread echo([&](const std::stop_token& token) { Echo(token, *echo_bus); });
   std::atomic<bool> has_played = false;
   const std::jthread player([&] {
     Play(log, speed, watches);

@@ -263,6 +263,8 @@ int Run(const Arguments& arguments) {
     options = MakeOptions(arguments, *scenario);
   } catch (const std::invalid_argument& error) {
     return Fail(error.what(), kExitUsage);
+  } catch (const OutputError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     return Fail(error.what(), kExitConfiguration);
   }

@@ -27,10 +27,13 @@ using OnFault = std::function<void(const std::string& fault)>;
 enum class Urgency {
   kAtOnce,  // as the thread that starts it, at its priority
   // After all threads that are needed at once: waking it interrupts none of them (SCHED_BATCH). In
-  // a process with a real-time policy it keeps that policy, at the lowest priority.
+  // a process with a real-time policy it keeps that policy at the lowest priority, so that no
+  // ordinary program stops it while it holds what an urgent thread waits for.
   kSoon,
-  kLater,  // likewise, and without a real-time policy
 };
+
+// Makes the calling thread as urgent as that. Where the system refuses, it stays as it was.
+void SetUrgency(Urgency urgency);
 
 class WorkerThread {
  public:

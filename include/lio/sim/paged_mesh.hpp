@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Holds a mesh of any size in little memory: all but the last page of triangles lies in a temporary
-// file, which has no name and is gone with the process.
+// Holds a mesh of any size in little memory: all but the last page of triangles lies in a file in
+// the folder for temporary ones (TMPDIR), which has no name and is gone with the process.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,14 +22,14 @@ class PagedMesh {
       : page_triangles_(page_triangles) {}
 
   // Returns the page that is being filled: append to it. Ask for it anew for each thing that is
-  // added, because a page that is full goes to the file then. Throws std::system_error when that
-  // cannot be written.
+  // added, because a page that is full goes to the file then. Throws WriteError (input_error.hpp)
+  // when that cannot be written.
   Mesh& page();
 
   [[nodiscard]] std::size_t num_triangles() const;
 
   // Returns all triangles, in the order in which they were added. These and the next one are safe
-  // from any thread and throw std::system_error when the file cannot be read.
+  // from any thread and throw WriteError when the file cannot be read.
   [[nodiscard]] Mesh Whole() const;
   // Returns the triangles whose bounds in x and y meet `box_m`, in that order, and their vertices.
   [[nodiscard]] Mesh Around(const Eigen::AlignedBox2f& box_m) const;
@@ -53,6 +53,7 @@ class PagedMesh {
   Mesh page_;
   std::vector<Stored> stored_;
   std::size_t num_stored_triangles_ = 0;
+  std::int64_t num_bytes_ = 0;  // of the file
   std::unique_ptr<std::FILE, FileCloser> file_;
 };
 
