@@ -66,7 +66,7 @@ class Bench(unittest.TestCase):
                      "parked", "hall")
         errors, matches = tables(done.stdout)
         for table in (errors, matches):
-            self.assertEqual(list(table), ["scenario", "parked", "hall"])
+            self.assertEqual(list(table), ["drive", "parked", "hall"])
             self.assertEqual({len(row) for row in table.values()}, {len(table["scenario"])})
         self.assertEqual(done.stdout, (out / "table.md").read_text())
         self.assertLess(float(errors["parked"][1]), 5)

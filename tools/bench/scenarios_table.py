@@ -14,7 +14,7 @@ from fleet_runs import read, scored_runs
 
 ERRORS = ("| drive | path m | APE cm | drift % | end cm | gap cm | z drift cm | z level cm "
           "| tilt ° | step mm |")
-MATCHES = "| scenario | scans | converged | degenerate | no match | not fused | ms a scan | MB |"
+MATCHES = "| drive | scans | converged | degenerate | no match | not fused | ms a scan | MB |"
 CLOSED_RATIO = 0.01  # a path that ends this near its start, relative to its length, is closed
 
 
