@@ -52,7 +52,7 @@ class Tracking {
   Timestamp begin() const { return history_.start_stamp(); }
 
  private:
-  // What is known of a scan as it comes back from matching.
+  // Holds what is known of a scan as it comes back from matching.
   struct MatchedScan {
     const MatchOutcome& outcome;
     ImuNoise noise = {};       // at its end

@@ -13,7 +13,7 @@
 namespace lio::sim {
 namespace {
 
-// Nothing drives as fast. What jumps back to where it began does so out of sight or within reach.
+// Nothing drives as fast. A mover that jumps back to its start does so out of sight or in reach.
 constexpr double kFastest_mps = 60.0;
 constexpr std::int64_t kKeptFor = 64;    // intervals without use
 constexpr unsigned kMaxTimeSteps = 129;  // as Embree allows

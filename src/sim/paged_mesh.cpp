@@ -17,7 +17,7 @@ namespace lio::sim {
 namespace {
 
 [[noreturn]] void Fail(const std::string& what, int error) {
-  throw WriteError("the simulated world cannot be " + what + " a temporary file in " +
+  throw WriteError("the simulated world cannot be " + what + ": the temporary file in " +
                    std::filesystem::temp_directory_path().string() + ": " + std::strerror(error) +
                    "; TMPDIR may name a folder with room");
 }
@@ -26,17 +26,17 @@ namespace {
 std::FILE* MakeTemporaryFile() {
   std::string path = (std::filesystem::temp_directory_path() / "lio-sim-XXXXXX").string();
   const int descriptor = mkstemp(path.data());
-  if (descriptor < 0) Fail("kept in", errno);
+  if (descriptor < 0) Fail("kept", errno);
   unlink(path.c_str());
   std::FILE* file = fdopen(descriptor, "w+b");
-  if (file == nullptr) Fail("kept in", errno);
+  if (file == nullptr) Fail("kept", errno);
   return file;
 }
 
 template <typename Item>
 void Write(std::FILE* file, const std::vector<Item>& items) {
   if (std::fwrite(items.data(), sizeof(Item), items.size(), file) != items.size()) {
-    Fail("written to", errno);
+    Fail("written in full", errno);
   }
 }
 
@@ -48,7 +48,7 @@ void Read(std::FILE* file, std::int64_t& at_bytes, std::vector<Item>& items) {
   while (left > 0) {
     const ssize_t num = ::pread(fileno(file), to, left, at_bytes);
     if (num < 0 && errno == EINTR) continue;
-    if (num <= 0) Fail("read from", num < 0 ? errno : EIO);
+    if (num <= 0) Fail("read", num < 0 ? errno : EIO);
     to += num;
     left -= static_cast<std::size_t>(num);
     at_bytes += num;
@@ -91,7 +91,7 @@ void PagedMesh::StorePage() {
   Write(file_.get(), page_.vertices_m);
   Write(file_.get(), page_.triangles);
   Write(file_.get(), page_.materials);
-  if (std::fflush(file_.get()) != 0) Fail("written to", errno);
+  if (std::fflush(file_.get()) != 0) Fail("written in full", errno);
   stored_.push_back({num_bytes_, page_.vertices_m.size(), page_.triangles.size(), BoundsOf(page_)});
   num_bytes_ += BytesOf(page_.vertices_m) + BytesOf(page_.triangles) + BytesOf(page_.materials);
   num_stored_triangles_ += page_.triangles.size();

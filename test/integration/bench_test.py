@@ -67,7 +67,7 @@ class Bench(unittest.TestCase):
         errors, matches = tables(done.stdout)
         for table in (errors, matches):
             self.assertEqual(list(table), ["drive", "parked", "hall"])
-            self.assertEqual({len(row) for row in table.values()}, {len(table["scenario"])})
+            self.assertEqual({len(row) for row in table.values()}, {len(table["drive"])})
         self.assertEqual(done.stdout, (out / "table.md").read_text())
         self.assertLess(float(errors["parked"][1]), 5)
         self.assertEqual(list(out.glob("drives/*/log.lcm")), [])

@@ -76,7 +76,7 @@ TEST(PagedMeshDeathTest, SaysThatTheFileCannotBeWritten) {
     std::_Exit(2);
   };
   EXPECT_EXIT(fill(), testing::ExitedWithCode(0),
-              "simulated world cannot be written.*: File too large; TMPDIR");
+              "simulated world cannot be written in full: .*: File too large; TMPDIR");
 }
 
 }  // namespace

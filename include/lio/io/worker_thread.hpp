@@ -32,7 +32,7 @@ enum class Urgency {
   kSoon,
 };
 
-// Makes the calling thread as urgent as that. Where the system refuses, it stays as it was.
+// Makes the calling thread as urgent as that; it stays as it was where the system refuses.
 void SetUrgency(Urgency urgency);
 
 class WorkerThread {

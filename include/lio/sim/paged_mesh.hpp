@@ -53,7 +53,7 @@ class PagedMesh {
   Mesh page_;
   std::vector<Stored> stored_;
   std::size_t num_stored_triangles_ = 0;
-  std::int64_t num_bytes_ = 0;  // of the file
+  std::int64_t num_bytes_ = 0;  // in the file
   std::unique_ptr<std::FILE, FileCloser> file_;
 };
 
