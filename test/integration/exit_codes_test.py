@@ -124,7 +124,7 @@ class ExitCodes(unittest.TestCase):
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir()
         for max_bytes, program, words in (
-                (9000, "lio-sim", ("--scenario", "street", "--duration", "1", "--out", out)),
+                (9000, "lio-sim", ("--scenario", "hall", "--duration", "1", "--out", out)),
                 (9000, "lio-replay", (*self.config, log, "--out", out, "--overwrite")),
                 (9000, "lio-run", (self.drive, "--out", out / "run")),
                 (9000, "lio-log", ("export", log, "--inputs", "--mcap", out / "log.mcap")),
@@ -135,6 +135,11 @@ class ExitCodes(unittest.TestCase):
                 self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
                 self.assertEqual(done.stderr.count("in full: "), 1, done.stderr)
                 self.assertIn(str(out), done.stderr)
+        # The world of a street goes to a temporary file.
+        done = self.run_with_small_files(9000, "lio-sim", "--scenario", "street", "--duration", "1",
+                                         "--out", out)
+        self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
+        self.assertIn("TMPDIR", done.stderr)
 
     def kitti_sequence(self):
         """A folder of two scans with a few thousand points each."""
