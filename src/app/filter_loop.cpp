@@ -68,10 +68,10 @@ void FilterLoop::Run() {
   }
 }
 
-// Gives what there is first, because subscribers wait for it.
+// Gives what there is first, because subscribers wait for it. A job brings no outputs of its own.
 void FilterLoop::GoOn() {
   Emit();
-  if (HandOutJob()) Emit();
+  HandOutJob();
 }
 
 void FilterLoop::NoteArrival(std::int64_t recv_utime, Timestamp stamp) {
@@ -120,16 +120,15 @@ void FilterLoop::Handle(MatchOutcome& outcome) {
   ++num_matches_done_;
 }
 
-bool FilterLoop::HandOutJob() {
-  if (has_job_out_ || is_cut_short_) return false;
+void FilterLoop::HandOutJob() {
+  if (has_job_out_ || is_cut_short_) return;
   std::optional<MatchJob> job = odometry_.NextJob();
-  if (!job) return false;
+  if (!job) return;
   has_job_out_ = true;
   timings_.Of(job->sweep->scan_seq).started_utime = HostUtime();
   clouds_.full = {};
   if (publishes_full_cloud_) clouds_.full = {job->sweep, job->T_any_imu, *job->T_imu_lidar, {}};
   to_.match_worker.Tell(std::move(*job));
-  return true;
 }
 
 void FilterLoop::Emit() {

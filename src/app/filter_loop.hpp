@@ -77,7 +77,7 @@ class FilterLoop {
   void Handle(Ping&) { to_.answer_ping(); }
   void Handle(MatchOutcome& outcome);
   void NoteArrival(std::int64_t recv_utime, Timestamp stamp);
-  [[nodiscard]] bool HandOutJob();
+  void HandOutJob();
   void GoOn();
   void Emit();
   void Emit(const ScanOutput& output);

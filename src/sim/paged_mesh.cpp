@@ -66,15 +66,6 @@ Eigen::AlignedBox2f BoundsOf(const Mesh& mesh) {
   return bounds;
 }
 
-void Append(Mesh& mesh, const Mesh& part) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-  mesh.vertices_m.insert(mesh.vertices_m.end(), part.vertices_m.begin(), part.vertices_m.end());
-  for (const auto& t : part.triangles) {
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  mesh.materials.insert(mesh.materials.end(), part.materials.begin(), part.materials.end());
-}
-
 }  // namespace
 
 Mesh& PagedMesh::page() {
@@ -114,8 +105,8 @@ Mesh PagedMesh::Load(const Stored& stored) const {
 
 Mesh PagedMesh::Whole() const {
   Mesh whole;
-  for (const Stored& stored : stored_) Append(whole, Load(stored));
-  Append(whole, page_);
+  for (const Stored& stored : stored_) AddMesh(whole, Load(stored), Pose{});
+  AddMesh(whole, page_, Pose{});
   return whole;
 }
 

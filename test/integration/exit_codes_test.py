@@ -139,6 +139,7 @@ class ExitCodes(unittest.TestCase):
         done = self.run_with_small_files(9000, "lio-sim", "--scenario", "street", "--duration", "1",
                                          "--out", out)
         self.assertEqual(done.returncode, WRITE_FAILED, done.stderr)
+        self.assertEqual(done.stderr.count("in full: "), 1, done.stderr)
         self.assertIn("TMPDIR", done.stderr)
 
     def kitti_sequence(self):

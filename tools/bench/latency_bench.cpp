@@ -88,8 +88,9 @@ struct Stopwatches {
 void Send(const LogEvent& event, const Channels& channels, Bus& bus, Stopwatches& watches) {
   const std::int64_t now = HostUtime();
   if (event.channel == channels.imu) {
-    watches.imu.Start(ReadInt64(event.data, kUtimeOffset), now);
-    watches.echo.Start(ReadInt64(event.data, kUtimeOffset), now);
+    const std::int64_t utime = ReadInt64(event.data, kUtimeOffset);
+    watches.imu.Start(utime, now);
+    watches.echo.Start(utime, now);
   }
   ScanChunk chunk;
   if (event.channel == channels.scan && DecodeChunk(event.data, chunk) == DecodeStatus::kOk &&
