@@ -88,7 +88,9 @@ void ScanPoses::Match(std::shared_ptr<const Sweep> sweep) {
       path_ != nullptr ? outcome.match.T_map_imu : tracker_->history().At(middle).state.T_map_imu;
   if (starts_map || keyframes_.IsKeyframe(T_map_lidar)) {
     keyframes_.Accept(T_map_lidar);
-    matching_.Insert({std::move(outcome.points_imu), T_map_lidar, std::move(outcome.tags)});
+    matching_.Insert({.points_imu = std::move(outcome.points_imu),
+                      .T_map_imu = T_map_lidar,
+                      .tags = std::move(outcome.tags)});
   }
   last_found_ = middle;
   found_.push_back({middle, starts_map ? T_map_lidar : outcome.match.T_map_imu});

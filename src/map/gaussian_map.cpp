@@ -114,11 +114,11 @@ void GaussianMap::FindCells() {
 }
 
 void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-                         const Workers& workers) {
+                         const Workers& workers, const SeenBeams& beams) {
   const auto view_of = [&](std::size_t i) -> Eigen::Vector3f {
     return (points_map[i] - sensor_map).cast<float>().normalized();
   };
-  Add(points_map, view_of, workers);
+  Add(points_map, view_of, workers, beams);
   DropOldCells();
   DropFarCells(sensor_map);
 }
@@ -155,13 +155,13 @@ void GaussianMap::InsertKept(std::span<const Vector3> points_map,
 
 template <class ViewOf>
 void GaussianMap::Add(std::span<const Vector3> points_map, const ViewOf& view_of,
-                      const Workers& workers) {
+                      const Workers& workers, const SeenBeams& beams) {
   places_.resize(points_map.size());
   workers.ForEachBlock(points_map.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) places_[i] = PlaceOf(points_map[i]);
   });
   FindCells();
-  AddPoints(view_of);
+  AddPoints(view_of, beams);
   workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
   });
@@ -176,7 +176,7 @@ void GaussianMap::Prefetch(std::int32_t cell) const {
 }
 
 template <class ViewOf>
-void GaussianMap::AddPoints(const ViewOf& view_of) {
+void GaussianMap::AddPoints(const ViewOf& view_of, const SeenBeams& beams) {
   ++scan_number_;
   touched_cells_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -201,6 +201,11 @@ void GaussianMap::AddPoints(const ViewOf& view_of) {
       if (is_of_another) continue;
     }
     AddPoint(sums, places_[i].local.cast<double>(), view);
+    const bool is_plane = sums.is_known && patch.kind == SurfacePatch::Kind::kPlane;
+    if (is_plane && i % SeenBeams::kSampling == 0 && !beams.beams.empty()) {
+      voxels_.Of<CellBeams>(cell).Add(beams.beams[i / SeenBeams::kSampling], patch.normal,
+                                      beams.path_m);
+    }
   }
 }
 

@@ -96,9 +96,10 @@ void MultiResolutionMap::SetUp(const Vector3& up_map) {
 }
 
 void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-                                const Workers& workers, std::size_t finest) {
+                                const Workers& workers, std::size_t finest,
+                                const SeenBeams& beams) {
   for (std::size_t i = finest; i < levels_.size(); ++i) {
-    levels_[i].Insert(points_map, sensor_map, workers);
+    levels_[i].Insert(points_map, sensor_map, workers, beams);
   }
 }
 

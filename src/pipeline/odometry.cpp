@@ -153,6 +153,7 @@ InsertTask Odometry::FinishJob(MatchOutcome outcome) {
   if (impl_->queue.Finish(outcome.sweep, impl_->mode.next_sweep())) {
     insert = impl_->mode.FinishJob(outcome);
     insert.points_imu = std::move(outcome.points_imu);
+    insert.points_lidar = std::move(outcome.points_lidar);
     insert.tags = std::move(outcome.tags);
   }
   impl_->ConsumeEvents();

@@ -70,11 +70,13 @@ SweepTimes TimesOf(const Sweep& sweep) {
 struct RegistrationWorker::ScanInWork {
   const MatchJob& job;
   Pose T_imu_lidar;
+  BeamCalibration* calibration;
   ReducedScan reduced = {};
   StampedPoses motion;  // the trajectory that the points are deskewed by
   MatchOutcome outcome = {};
   std::vector<Eigen::Vector3f> to_match = {};  // chosen from outcome.points_imu
   std::vector<FeatureTag> tags_to_match = {};
+  std::vector<ScanPoint> beams_to_match = {};
   MatchBudget budget = MatchBudget(MaxMatches(job));
 
   MatchInput InputFrom(const Pose& T_map_imu_guess, const Matrix6& cov) const {
@@ -86,7 +88,9 @@ struct RegistrationWorker::ScanInWork {
             .scan_points_imu = outcome.points_imu,
             .shift_std_m = job.prior.shift_std_m,
             .from_mid_sweep_s = {},
-            .T_imu_lidar = T_imu_lidar};
+            .T_imu_lidar = T_imu_lidar,
+            .calibration = calibration,
+            .beam_points = beams_to_match};
   }
 };
 
@@ -104,6 +108,14 @@ RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
 
 void RegistrationWorker::AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const {
   outcome.stage_ns[static_cast<std::size_t>(stage)] += Now() - since_ns;
+}
+
+void RegistrationWorker::CorrectBeams(std::vector<ScanPoint>& points) const {
+  const BeamErrors& errors = calibration_.errors();
+  if (errors.rings.empty()) return;
+  for (ScanPoint& point : points) {
+    point.position -= Displacement(errors, point.ring, AxesOf(point.position));
+  }
 }
 
 void RegistrationWorker::ClearMap(const Vector3& up_map) {
@@ -127,6 +139,7 @@ void RegistrationWorker::Do(const Track& task, ScanInWork& scan) {
 }
 
 void RegistrationWorker::Do(const Relocalize& task, ScanInWork& scan) {
+  scan.calibration = nullptr;  // the match that counts may be any of several
   MatchFromPrior(task.track, &task.search, scan);
   FinishMatch(task.track, scan);
 }
@@ -145,6 +158,7 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
   const MatchJob& job = scan.job;
   scan.tags_to_match = Pick(scan.reduced.tags, scan.reduced.to_match);
   scan.to_match = Pick(scan.outcome.points_imu, scan.reduced.to_match);
+  scan.beams_to_match = Pick(scan.reduced.points, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
   const MotionPrior prior = task.aligns_prior ? relocalizer_.Align(deskewed, job.prior) : job.prior;
   scan.outcome.match = job.bends_scan
@@ -232,8 +246,9 @@ void RegistrationWorker::RefineDeskew(ScanInWork& scan) {
 void RegistrationWorker::TakeDensePoints(ScanInWork& scan) {
   const std::int64_t begin = Now();
   const Sweep& sweep = *scan.job.sweep;
-  const std::vector<ScanPoint> dense = DensePoints(sweep, filter_);
-  scan.outcome.points_imu = Deskew(dense, TimesOf(sweep), scan.motion, T_imu_lidar_);
+  scan.reduced.points = DensePoints(sweep, filter_);
+  CorrectBeams(scan.reduced.points);
+  scan.outcome.points_imu = Deskew(scan.reduced.points, TimesOf(sweep), scan.motion, T_imu_lidar_);
   AddTime(Stage::kDeskew, begin, scan.outcome);
 }
 
@@ -262,9 +277,13 @@ void RegistrationWorker::SeekPlace(ScanInWork& scan) {
 MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   const Sweep& sweep = *job.sweep;
   if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
-  ScanInWork scan{.job = job, .T_imu_lidar = T_imu_lidar_, .motion = job.T_any_imu};
+  ScanInWork scan{.job = job,
+                  .T_imu_lidar = T_imu_lidar_,
+                  .calibration = &calibration_,
+                  .motion = job.T_any_imu};
   MatchOutcome& outcome = scan.outcome;
   outcome.sweep = job.sweep;
+  calibration_.ForgetScan();
   if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
   if (job.map_action == MapAction::kEnter && initial_) {
     initial_->Enter(matcher_);
@@ -273,6 +292,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
 
   std::int64_t begin = Now();
   scan.reduced = reducer_->Reduce(sweep);
+  CorrectBeams(scan.reduced.points);
   outcome.num_used = static_cast<int>(scan.reduced.to_match.size());
   outcome.num_nonfinite = scan.reduced.num_nonfinite;
   AddTime(Stage::kReduce, begin, outcome);
@@ -282,6 +302,8 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   AddTime(Stage::kDeskew, begin, outcome);
 
   std::visit([&](const auto& task) { Do(task, scan); }, job.task);
+  new_content_share_ = outcome.match.new_content_share;
+  outcome.points_lidar = std::move(scan.reduced.points);
   outcome.tags = std::move(scan.reduced.tags);
   outcome.features = std::move(scan.reduced.features);
   StageTimes& times = outcome.stage_ns;
@@ -297,7 +319,13 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
 void RegistrationWorker::Insert(const InsertTask& task) {
   if (!task.T_map_imu) return;
   const std::int64_t begin = Now();
-  matcher_->Insert({task.points_imu, task.tags, T_imu_lidar_.translation}, *task.T_map_imu);
+  matcher_->Insert({.points_imu = task.points_imu,
+                    .tags = task.tags,
+                    .T_imu_lidar = T_imu_lidar_,
+                    .beam_points = task.points_lidar,
+                    .corrected = &calibration_.errors()},
+                   *task.T_map_imu);
+  calibration_.Keep(new_content_share_);
   last_insert_ns_ = Now() - begin;
 }
 

@@ -41,6 +41,7 @@ NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
 void NdtMatcher::Clear() {
   map_ = MultiResolutionMap(options_, static_cast<int>(kNumFinerLevels));
   width_ = {};
+  inserted_at_.reset();
 }
 
 void NdtMatcher::SetUp(const Vector3& up_map) {
@@ -60,12 +61,55 @@ std::vector<Vector3> NdtMatcher::InGrid(std::span<const Eigen::Vector3f> points,
   return points_grid;
 }
 
+std::vector<SeenBeam> NdtMatcher::BeamsOf(const ScanView& scan,
+                                          const Eigen::Matrix3f& grid_from_lidar) const {
+  std::vector<SeenBeam> beams;
+  if (scan.beam_points.size() != scan.points_imu.size() || scan.corrected == nullptr) return beams;
+  beams.reserve(scan.beam_points.size() / SeenBeams::kSampling + 1);
+  for (std::size_t i = 0; i < scan.beam_points.size(); i += SeenBeams::kSampling) {
+    const ScanPoint& point = scan.beam_points[i];
+    SeenBeam& beam = beams.emplace_back();
+    beam.ring = point.ring;
+    beam.axes = Turned(AxesOf(point.position), grid_from_lidar);
+    beam.correction_m = Displacement(*scan.corrected, point.ring, beam.axes);
+  }
+  return beams;
+}
+
+void NdtMatcher::Teach(const MatchInput& input, const Pose& T_grid_imu) const {
+  const Eigen::Matrix3f grid_from_lidar =
+      (T_grid_imu.rotation * input.T_imu_lidar.rotation).toRotationMatrix().cast<float>();
+  const std::size_t step = scores_.size() / BeamCalibrationParameters::kMaxRows + 1;
+  input.calibration->BeginScan(path_m_, static_cast<int>(step));
+  for (std::size_t i = 0; i < scores_.size(); i += step) {
+    if (scores_[i].num_rows != 1) continue;
+    const SurfacePatch& patch = map_.patch(pairs_[i].cell);
+    const CellBeams& cell = map_.beams(pairs_[i].cell);
+    const auto num_remembered = static_cast<float>(SeenBeams::kSampling * cell.num_points);
+    if (num_remembered < BeamCalibrationParameters::kMinRemembered * patch.num_points) continue;
+    const ScanPoint& point = input.beam_points[i];
+    const PointScore::OfRow& row = scores_[i].rows[0];
+    input.calibration->Add({.ring = point.ring,
+                            .axes = Turned(AxesOf(point.position), grid_from_lidar),
+                            .cell = &cell,
+                            .normal = patch.normal,
+                            .residual_m = row.residual_m,
+                            .weight = row.weight,
+                            .jacobian = row.jacobian});
+  }
+}
+
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
-  sensor_imu_ = scan.sensor_imu;
+  sensor_imu_ = scan.T_imu_lidar.translation;
   if (width_.is_unknown()) width_.Add(scan.points_imu, options_.voxel_m);
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
-  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.sensor_imu, workers_,
-              LevelsInUse().finest);
+  if (inserted_at_) path_m_ += static_cast<float>((T_map_imu.translation - *inserted_at_).norm());
+  inserted_at_ = T_map_imu.translation;
+  const Eigen::Matrix3f grid_from_lidar =
+      (T_grid_imu.rotation * scan.T_imu_lidar.rotation).toRotationMatrix().cast<float>();
+  const std::vector<SeenBeam> beams = BeamsOf(scan, grid_from_lidar);
+  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * sensor_imu_, workers_,
+              LevelsInUse().finest, {beams, path_m_});
 }
 
 bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
@@ -281,6 +325,9 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   if (sums.num_matched < MatchParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;
     return;
+  }
+  if (input.calibration != nullptr && input.beam_points.size() == input.points_imu.size()) {
+    Teach(input, T_grid_imu);
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
   gradients_.Complete(sums.curvature_ratio(), result);

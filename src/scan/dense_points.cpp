@@ -22,7 +22,7 @@ std::vector<ScanPoint> DensePoints(const Sweep& sweep, const PointFilter& filter
   std::vector<ScanPoint> points;
   points.reserve(chosen.size());
   for (const LidarPoint* point : chosen) {
-    points.push_back({{point->x_m, point->y_m, point->z_m}, point->t_offset_ns});
+    points.push_back({{point->x_m, point->y_m, point->z_m}, point->t_offset_ns, point->ring});
   }
   return points;
 }

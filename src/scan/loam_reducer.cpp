@@ -14,7 +14,7 @@ namespace {
 void Append(const Sweep& sweep, const LoamFeatures& features, std::uint32_t i, FeatureKind kind,
             ReducedScan& result) {
   const LidarPoint& point = sweep.points[i];
-  result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
+  result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns, point.ring});
   result.tags.push_back(
       {kind, features.rebuilt_rings.empty() ? point.ring : features.rebuilt_rings[i]});
 }

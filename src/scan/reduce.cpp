@@ -125,7 +125,7 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   for (const Chosen& chosen : SortedChoice(sweep)) {
     if (mixed_pixels_.IsMixed(chosen.index)) continue;
     const LidarPoint& point = sweep.points[chosen.index];
-    result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns});
+    result.points.push_back({{point.x_m, point.y_m, point.z_m}, point.t_offset_ns, point.ring});
   }
   result.to_match = SpreadIndices(result.points.size(), options_.match_points);
   voxel_m_ = AdaptedVoxel(options_, voxel_m_, choices_.size());

@@ -27,7 +27,8 @@ MatchJob EmptyJob(std::int32_t scan_seq) {
 }
 
 InsertTask SomePoints() {
-  return {{Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)}, Pose::Identity()};
+  return {.points_imu = {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)},
+          .T_map_imu = Pose::Identity()};
 }
 
 TEST(MatchWorker, JobsAndInsertionsAreDoneInOrderAndToTheEnd) {

@@ -14,6 +14,7 @@
 namespace lio {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Vector6f = Eigen::Matrix<float, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 struct Pose {

@@ -22,6 +22,7 @@
 #include "lio/base/parallel.hpp"
 #include "lio/base/rotation.hpp"
 #include "lio/base/voxel_map.hpp"
+#include "lio/map/cell_beams.hpp"
 #include "lio/map/ndt_options.hpp"
 
 namespace lio {
@@ -68,10 +69,13 @@ class GaussianMap {
   // Sets the vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
+  // Returns the beams that the points of a plane came from.
+  const CellBeams& beams(std::int32_t cell) const { return voxels_.Of<CellBeams>(cell); }
+
   // Adds a scan taken from `sensor_map`; then drops cells that are too far from there and, beyond
   // max_cells, those without new points for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-              const Workers& workers = Workers(1));
+              const Workers& workers = Workers(1), const SeenBeams& beams = {});
 
   // Adds points of which nobody knows where they were seen from, such as those of a saved map.
   // `sides` (surface_sides.hpp): of each point. Their cells stay for good: they are neither dropped
@@ -106,9 +110,10 @@ class GaussianMap {
   void FindCells();
   // `view_of(i)` points along the beam that saw the point, unit; or is zero.
   template <class ViewOf>
-  void Add(std::span<const Vector3> points_map, const ViewOf& view_of, const Workers& workers);
+  void Add(std::span<const Vector3> points_map, const ViewOf& view_of, const Workers& workers,
+           const SeenBeams& beams = {});
   template <class ViewOf>
-  void AddPoints(const ViewOf& view_of);
+  void AddPoints(const ViewOf& view_of, const SeenBeams& beams);
   void Prefetch(std::int32_t cell) const;
   void AddPoint(Sums& sums, const Vector3& local, const Eigen::Vector3f& view) const;
   void Remove(std::int32_t cell);
@@ -125,7 +130,7 @@ class GaussianMap {
   bool finds_vertical_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
-  VoxelMap<SurfacePatch, Sums> voxels_;
+  VoxelMap<SurfacePatch, Sums, CellBeams> voxels_;
   // Insert() uses these as scratch.
   std::vector<Place> places_;
   std::vector<std::int32_t> cells_;  // one per place

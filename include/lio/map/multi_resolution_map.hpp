@@ -39,6 +39,9 @@ class MultiResolutionMap {
   const SurfacePatch& patch(std::int32_t cell) const {
     return levels_[LevelOf(cell)].patch(InLevel(cell));
   }
+  const CellBeams& beams(std::int32_t cell) const {
+    return levels_[LevelOf(cell)].beams(InLevel(cell));
+  }
   [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
     return levels_[LevelOf(cell)].IsFrozen(InLevel(cell));
   }
@@ -52,7 +55,8 @@ class MultiResolutionMap {
   void SetUp(const Vector3& up_map);
   // Adds a scan taken from `sensor_map`, to all levels from `finest` on.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
-              const Workers& workers = Workers(1), std::size_t finest = 0);
+              const Workers& workers = Workers(1), std::size_t finest = 0,
+              const SeenBeams& beams = {});
   // Does the same as GaussianMap::InsertKept(), in all levels.
   void InsertKept(std::span<const Vector3> points_map, std::span<const Eigen::Vector3f> sides,
                   const Workers& workers = Workers(1));

@@ -79,6 +79,7 @@ struct MatchOutcome {
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
+  std::vector<ScanPoint> points_lidar;           // the same as their beams saw them
   std::vector<FeatureTag> tags;                  // one a point; empty where the method needs none
   std::shared_ptr<const LoamFeatures> features;  // the sweep's, where the method has them
   StageTimes stage_ns{};                         // kInsert: of the scan before
@@ -86,8 +87,9 @@ struct MatchOutcome {
 
 struct InsertTask {
   std::vector<Eigen::Vector3f> points_imu;
-  std::optional<Pose> T_map_imu;      // absent: do not insert
-  std::vector<FeatureTag> tags = {};  // one a point; empty where the method needs none
+  std::vector<ScanPoint> points_lidar = {};  // the same as their beams saw them; may be empty
+  std::optional<Pose> T_map_imu;             // absent: do not insert
+  std::vector<FeatureTag> tags = {};         // one a point; empty where the method needs none
 };
 
 }  // namespace lio

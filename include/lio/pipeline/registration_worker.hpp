@@ -39,6 +39,8 @@ class RegistrationWorker {
   struct ScanInWork;  // shared by the steps of one job
 
   std::int64_t Now() const { return clock_ == nullptr ? 0 : clock_(); }
+  // Takes the errors of the beams off, as far as they are known.
+  void CorrectBeams(std::vector<ScanPoint>& points) const;
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
   void ClearMap(const Vector3& up_map);
   void Do(const FindVelocity& task, ScanInWork& scan);
@@ -57,6 +59,8 @@ class RegistrationWorker {
   void TakeDensePoints(ScanInWork& scan);
 
   Pose T_imu_lidar_;  // the last job's
+  BeamCalibration calibration_;
+  double new_content_share_ = 0.0;  // the last match has brought it
   ClockNs clock_;
   bool warms_up_densely_;  // a new map gets all points of a sweep: only NDT's cells want them
   PointFilter filter_;

@@ -17,8 +17,6 @@
 
 namespace lio {
 
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-
 // Returns the derivative of n . (T p) by the right perturbation of T, for n given in the imu's
 // axes.
 inline Vector6f JacobianRow(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {

@@ -106,6 +106,10 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   double NewContentShare() const;
   Matrix6 ScoreCovariance(const MatchInput& input);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
+  // Tells what each beam saw, for the map to remember.
+  std::vector<SeenBeam> BeamsOf(const ScanView& scan, const Eigen::Matrix3f& grid_from_lidar) const;
+  // Shows the rows of the match, as they are in scores_, to the calibration of the beams.
+  void Teach(const MatchInput& input, const Pose& T_grid_imu) const;
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
@@ -114,6 +118,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   Vector3 up_grid_ = Vector3::Zero();  // not known yet: everything stands
   PlaceWidth width_;
   Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
+  std::optional<Vector3> inserted_at_;    // the last scan's place in the map
+  float path_m_ = 0.f;                    // the way over all scans that were inserted
   std::vector<Pair> pairs_;               // in the current iteration, one a point
   Pose paired_at_;                        // T_grid_imu of the pairs
   std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell

@@ -223,4 +223,31 @@ struct IntraSweepRateParameters {
   static constexpr double kRateStd_radps = 0.5;
 };
 
+// Sets priors and limits of the beams' calibration.
+struct BeamCalibrationParameters {
+  // Standard deviations of the errors. Data sheets state a range accuracy of 2 to 3 cm (HDL-32E,
+  // VLP-16, OS1) with noise and all, of which a laser's constant part is half or less; the beam
+  // table has two digits, and angles are stated to 0.01 to 0.03 deg; an encoder is stated to 0.01
+  // deg at most.
+  static constexpr double kRangeStd_m = 0.01;
+  static constexpr double kAngleStd_rad = 5e-4;
+  static constexpr double kEncoderStd_rad = 1.2e-4;
+  // Chosen: ranges at grazing incidence are a few millimetres times the term too long.
+  static constexpr double kGrazingStd_m = 0.01;
+  // A cell remembers the beams of this share of its points at least: those before its plane was
+  // known are not. Chosen: half.
+  static constexpr float kMinRemembered = 0.15f;
+  // A map that bends has these deviations over a way of so many metres. Chosen: more than any that
+  // was seen; they only keep directions that nothing holds.
+  static constexpr float kDriftPath_m = 10.f;
+  static constexpr double kMaxDriftVar_m2 = 1e-4;
+  static constexpr double kMaxDriftVar_rad2 = 1e-6;
+  // So many rows of a match, evenly spread, are enough, and fewer than so many are no match.
+  // Chosen: a scan counts with a few percent of them anyway.
+  static constexpr std::size_t kMaxRows = 500;
+  static constexpr int kMinRows = 100;
+  // Chosen: the map turns over in tens of scans.
+  static constexpr int kSolvePeriod_scans = 10;
+};
+
 }  // namespace lio

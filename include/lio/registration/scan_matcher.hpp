@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "lio/base/pose.hpp"
+#include "lio/registration/beam_calibration.hpp"
 #include "lio/registration/match_status.hpp"
 #include "lio/scan/feature_tag.hpp"
+#include "lio/scan/reduced_scan.hpp"
 
 namespace lio {
 
@@ -23,7 +25,11 @@ namespace lio {
 struct ScanView {
   std::span<const Eigen::Vector3f> points_imu;
   std::span<const FeatureTag> tags = {};  // one a point; empty where the method needs none
-  Vector3 sensor_imu = Vector3::Zero();   // the lidar's place
+  Pose T_imu_lidar = {};                  // the lidar's place
+  // The same points in the lidar frame, each at its own instant, and the errors that were taken off
+  // them; empty where the beams are not known.
+  std::span<const ScanPoint> beam_points = {};
+  const BeamErrors* corrected = nullptr;
 };
 
 struct TurnRate {
@@ -51,6 +57,10 @@ struct MatchInput {
   // it.
   std::span<const float> shares_of_correction = {};
   Pose T_imu_lidar = {};  // tells the points' beams apart
+  // Learns from the match, where given, and each of points_imu as its beam saw it. Only the method
+  // ndt teaches it.
+  BeamCalibration* calibration = nullptr;
+  std::span<const ScanPoint> beam_points = {};
 };
 
 // The whole scan is inserted, of which a part, evenly spread, is matched: so many points go into

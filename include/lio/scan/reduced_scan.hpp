@@ -19,6 +19,7 @@ namespace lio {
 struct ScanPoint {
   Eigen::Vector3f position;       // m
   std::uint32_t t_offset_ns = 0;  // after the sweep's start
+  std::uint16_t ring = 0;         // 0 is the lowest beam
 };
 
 struct ReducedScan {

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Finds the errors of a lidar's beams (sensor/beam_errors.hpp) from the matches of a drive.
+//
+// A point that lies off its surface by r, along the normal n, differs from the cell's mean by the
+// errors of its own beam, less the mean errors of the beams that the cell was seen by:
+//   r = n . (B - mean(B)) theta + (f - mean(f)) gamma + J xi + a J zeta + noise
+// with B theta the displacement by the errors theta, J xi that by the error of the scan's pose, and
+// a J zeta that by the drift of the map over the way a since the cell was seen: a map that grows
+// from wrong matches bends, so xi and zeta (6 unknowns each) are eliminated from each scan. gamma
+// is how much longer ranges are at grazing incidence: f = n . d (1 / |n . d| - 1), d the beam. It
+// keeps the elevations of beams that see mostly ground free of that effect, and is not corrected.
+//
+// Cells have errors of their own, which all scans that see them share, so a scan counts with the
+// share of the map that is new in it; while the vehicle stands nothing is learned. The errors have
+// the prior of a data sheet. Sources: the beams' errors that the sum of least squares is over
+// follow Glennie, Lichti, "Static calibration and analysis of the Velodyne HDL-64E S2", Remote
+// Sensing 2(6), 2010; the difference to the map's own errors is ours
+// (docs/experiments/beam_errors.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lio/base/pose.hpp"
+#include "lio/map/cell_beams.hpp"
+#include "lio/sensor/beam_errors.hpp"
+
+namespace lio {
+
+// One point on a plane of the map. Vectors are in one frame that does not turn with the sensor.
+struct BeamRow {
+  std::uint16_t ring = 0;
+  BeamAxes axes;           // the point's
+  const CellBeams* cell;   // the plane's
+  Eigen::Vector3f normal;  // the plane's
+  float residual_m = 0.f;  // from the plane to the point, which has had errors() taken off
+  float weight = 0.f;      // 1 / m^2
+  Vector6f jacobian;       // by the scan's pose
+};
+
+class BeamCalibration {
+ public:
+  // Forgets the rows of the scan before, if they were not kept. `path_m`: the vehicle's way up to
+  // here. `stands_for`: each row is one of so many of the match.
+  void BeginScan(float path_m, int stands_for);
+  void Add(const BeamRow& row);
+  void ForgetScan() { scan_.num_rows = 0; }
+  // The scan at hand was inserted, and has brought this share of the map.
+  void Keep(double new_content_share);
+
+  // Measured minus true. Unknown as long as no scan was kept.
+  [[nodiscard]] const BeamErrors& errors() const { return errors_; }
+  // How much longer ranges are at grazing incidence, m.
+  [[nodiscard]] double grazing_m() const { return grazing_m_; }
+
+ private:
+  using Nuisance = Eigen::Matrix<double, 12, 1>;  // xi and zeta
+  struct Term {
+    int unknown = 0;
+    float value = 0.f;
+  };
+
+  void FindTerms(const BeamRow& row);
+  void AddTerms(int ring, const BeamShift& shift, float share);
+  void MakeRoomFor(int num_unknowns);
+  void Solve();
+
+  // The normal equations of all scans, poses eliminated, and of the scan at hand.
+  Eigen::MatrixXd information_;
+  Eigen::VectorXd score_;
+  struct OfScan {
+    Eigen::MatrixXd information;  // its lower triangle
+    Eigen::Matrix<double, 12, Eigen::Dynamic> mixed;
+    Eigen::Matrix<double, 12, 12> nuisance;
+    Eigen::VectorXd score;
+    Nuisance nuisance_score;
+    float path_m = 0.f;
+    int num_rows = 0;
+    int stands_for = 1;
+  };
+  OfScan scan_;
+  std::vector<Term> terms_;  // the row at hand has them
+  BeamErrors errors_;
+  double grazing_m_ = 0.0;
+  int num_kept_ = 0;
+};
+
+}  // namespace lio

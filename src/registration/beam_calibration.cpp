@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/beam_calibration.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "lio/registration/registration_parameters.hpp"
+
+namespace lio {
+namespace {
+
+using Parameters = BeamCalibrationParameters;
+
+// The order of the unknowns: rings come last, so that more of them can be added.
+constexpr int kCos = 0;
+constexpr int kSin = 1;
+constexpr int kGrazing = 2;
+constexpr int kFirstRing = 3;
+constexpr int RangeOf(int ring) {
+  return kFirstRing + 3 * ring;
+}
+constexpr int ElevationOf(int ring) {
+  return RangeOf(ring) + 1;
+}
+constexpr int AzimuthOf(int ring) {
+  return RangeOf(ring) + 2;
+}
+
+}  // namespace
+
+void BeamCalibration::BeginScan(float path_m, int stands_for) {
+  scan_.path_m = path_m;
+  scan_.stands_for = stands_for;
+  scan_.num_rows = 0;
+  const Eigen::Index size = score_.size();
+  scan_.information.setZero(size, size);
+  scan_.mixed.setZero(12, size);
+  scan_.nuisance.setZero();
+  scan_.score.setZero(size);
+  scan_.nuisance_score.setZero();
+}
+
+void BeamCalibration::MakeRoomFor(int num_unknowns) {
+  const Eigen::Index before = score_.size();
+  if (num_unknowns <= before) return;
+  const auto grow = [&](auto& matrix, Eigen::Index rows) {
+    matrix.conservativeResize(rows, num_unknowns);
+    matrix.rightCols(num_unknowns - before).setZero();
+    if (rows == num_unknowns) matrix.bottomRows(num_unknowns - before).setZero();
+  };
+  grow(information_, num_unknowns);
+  grow(scan_.information, num_unknowns);
+  grow(scan_.mixed, 12);
+  for (Eigen::VectorXd* vector : {&score_, &scan_.score}) {
+    vector->conservativeResize(num_unknowns);
+    vector->tail(num_unknowns - before).setZero();
+  }
+}
+
+void BeamCalibration::FindTerms(const BeamRow& row) {
+  const CellBeams& cell = *row.cell;
+  const BeamShift shift = ShiftAlong(row.normal, row.axes);
+  terms_.clear();
+  terms_.push_back({kCos, shift.azimuth * row.axes.cos_azimuth - cell.cos_azimuth});
+  terms_.push_back({kSin, shift.azimuth * row.axes.sin_azimuth - cell.sin_azimuth});
+  terms_.push_back({kGrazing, GrazingShift(shift.range) - cell.grazing});
+  AddTerms(row.ring, shift, 1.f);
+  float num_points = 0.f;
+  for (const CellBeams::OfRing& seen : cell.rings) num_points += seen.num_points;
+  for (const CellBeams::OfRing& seen : cell.rings) {
+    if (seen.num_points == 0) break;
+    AddTerms(seen.ring, seen.shift, -seen.num_points / num_points);
+  }
+}
+
+void BeamCalibration::AddTerms(int ring, const BeamShift& shift, float share) {
+  terms_.push_back({RangeOf(ring), share * shift.range});
+  terms_.push_back({ElevationOf(ring), share * shift.elevation});
+  terms_.push_back({AzimuthOf(ring), share * shift.azimuth});
+}
+
+void BeamCalibration::Add(const BeamRow& row) {
+  if (row.ring >= CellBeams::kNumRings) return;
+  FindTerms(row);
+  int num_unknowns = 0;
+  for (const Term& term : terms_) num_unknowns = std::max(num_unknowns, term.unknown + 1);
+  MakeRoomFor(num_unknowns);
+  // The residual without any correction.
+  const Eigen::Vector3f correction_m = Displacement(errors_, row.ring, row.axes);
+  const double residual_m = row.residual_m + row.normal.dot(correction_m) - row.cell->correction_m;
+  Nuisance jacobian;
+  jacobian.head<6>() = row.jacobian.cast<double>();
+  jacobian.tail<6>() =
+      (scan_.path_m - row.cell->path_m) / Parameters::kDriftPath_m * jacobian.head<6>();
+  const double weight = row.weight;
+  scan_.nuisance.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
+  scan_.nuisance_score += weight * residual_m * jacobian;
+  for (const Term& a : terms_) {
+    const double weighted = weight * a.value;
+    scan_.mixed.col(a.unknown) += weighted * jacobian;
+    scan_.score[a.unknown] += weighted * residual_m;
+    for (const Term& b : terms_) {
+      if (b.unknown <= a.unknown) scan_.information(a.unknown, b.unknown) += weighted * b.value;
+    }
+  }
+  ++scan_.num_rows;
+}
+
+void BeamCalibration::Keep(double new_content_share) {
+  if (scan_.num_rows < Parameters::kMinRows || !(new_content_share > 0.0)) return;
+  Eigen::Matrix<double, 12, 12> nuisance = scan_.nuisance.selfadjointView<Eigen::Lower>();
+  // Keeps a direction that no surface shows from becoming singular.
+  nuisance.diagonal().array() += 1e-9 * nuisance.diagonal().maxCoeff();
+  nuisance.diagonal().segment<3>(6).array() += 1.0 / Parameters::kMaxDriftVar_m2;
+  nuisance.diagonal().segment<3>(9).array() += 1.0 / Parameters::kMaxDriftVar_rad2;
+  const Eigen::LDLT<Eigen::Matrix<double, 12, 12>> solver(nuisance);
+  const Eigen::Matrix<double, 12, Eigen::Dynamic> shift = solver.solve(scan_.mixed);
+  scan_.information.triangularView<Eigen::Lower>() -= scan_.mixed.transpose() * shift;
+  const double weight = new_content_share * scan_.stands_for;
+  information_.triangularView<Eigen::Lower>() += weight * scan_.information;
+  score_ += weight * (scan_.score - shift.transpose() * scan_.nuisance_score);
+  scan_.num_rows = 0;
+  if (num_kept_++ % Parameters::kSolvePeriod_scans == 0) Solve();
+}
+
+void BeamCalibration::Solve() {
+  const Eigen::Index size = score_.size();
+  Eigen::MatrixXd posterior = information_;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double prior_std = i < kGrazing                ? Parameters::kEncoderStd_rad
+                             : i == kGrazing             ? Parameters::kGrazingStd_m
+                             : (i - kFirstRing) % 3 == 0 ? Parameters::kRangeStd_m
+                                                         : Parameters::kAngleStd_rad;
+    posterior(i, i) += 1.0 / (prior_std * prior_std);
+  }
+  const Eigen::VectorXf found =
+      posterior.selfadjointView<Eigen::Lower>().ldlt().solve(score_).cast<float>();
+  errors_.encoder_rad = {found[kCos], found[kSin]};
+  grazing_m_ = found[kGrazing];
+  errors_.rings.resize(static_cast<std::size_t>((size - kFirstRing) / 3));
+  for (std::size_t ring = 0; ring < errors_.rings.size(); ++ring) {
+    const int number = static_cast<int>(ring);
+    errors_.rings[ring] = {found[RangeOf(number)], found[ElevationOf(number)],
+                           found[AzimuthOf(number)]};
+  }
+}
+
+}  // namespace lio

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "lio/registration/beam_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "lio/registration/ndt_matcher.hpp"
+#include "support/scene.hpp"
+
+namespace lio {
+namespace {
+
+using test::Lidar;
+using test::Scene;
+
+struct BeamScan {
+  std::vector<ScanPoint> beams;
+  std::vector<Eigen::Vector3f> points_imu;
+};
+
+// Drives along a street with a lidar whose beams err, matches and inserts.
+class CalibrationDrive {
+ public:
+  CalibrationDrive() : scene_(test::Street()), lidar_(test::TestLidar()) {
+    lidar_.num_azimuths = 200;
+    std::normal_distribution<float> normal;
+    for (std::size_t i = 0; i < lidar_.elevations_rad.size(); ++i) {
+      truth_.rings.push_back(
+          {0.012f * normal(random_), 6e-4f * normal(random_), 6e-4f * normal(random_)});
+    }
+    truth_.encoder_rad = {3e-4f, -2e-4f};
+  }
+
+  void Go(double from_m, double to_m, double step_m, double new_content_share = 0.05) {
+    for (double x = from_m; x <= to_m; x += step_m) Step(PoseAt(x), new_content_share);
+  }
+  void Stand(int num_scans, double new_content_share) {
+    for (int i = 0; i < num_scans; ++i) Step(PoseAt(0.0), new_content_share);
+  }
+
+  const BeamErrors& truth() const { return truth_; }
+  const BeamErrors& found() const { return calibration_.errors(); }
+  const BeamCalibration& calibration() const { return calibration_; }
+
+ private:
+  static Pose PoseAt(double x_m) { return {Quaternion::Identity(), Vector3(x_m, 0.0, 0.0)}; }
+
+  std::uint16_t RingOf(const Eigen::Vector3f& position) const {
+    const double elevation_rad = std::asin(position.z() / position.norm());
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < lidar_.elevations_rad.size(); ++i) {
+      if (std::abs(lidar_.elevations_rad[i] - elevation_rad) <
+          std::abs(lidar_.elevations_rad[nearest] - elevation_rad)) {
+        nearest = i;
+      }
+    }
+    return static_cast<std::uint16_t>(nearest);
+  }
+
+  BeamScan See(const Pose& T_world_imu) {
+    BeamScan scan;
+    const Pose T_lidar_imu = lidar_.T_imu_lidar.Inverse();
+    for (const Eigen::Vector3f& true_imu : test::CastStill(scene_, lidar_, T_world_imu, random_)) {
+      Eigen::Vector3f position = (T_lidar_imu * true_imu.cast<double>()).cast<float>();
+      const std::uint16_t ring = RingOf(position);
+      position += Displacement(truth_, ring, AxesOf(position));
+      position -= Displacement(found(), ring, AxesOf(position));
+      scan.beams.push_back({position, 0, ring});
+      scan.points_imu.push_back((lidar_.T_imu_lidar * position.cast<double>()).cast<float>());
+    }
+    return scan;
+  }
+
+  void Step(const Pose& T_world_imu, double new_content_share) {
+    const BeamScan scan = See(T_world_imu);
+    MatchInput input{.points_imu = scan.points_imu,
+                     .T_map_imu_guess = T_world_imu,
+                     .guess_cov = 1e-4 * Matrix6::Identity(),
+                     .T_imu_lidar = lidar_.T_imu_lidar,
+                     .calibration = &calibration_,
+                     .beam_points = scan.beams};
+    const MatchResult match = matcher_.Match(input);
+    matcher_.Insert({.points_imu = scan.points_imu,
+                     .T_imu_lidar = lidar_.T_imu_lidar,
+                     .beam_points = scan.beams,
+                     .corrected = &found()},
+                    match.IsUsable() ? match.T_map_imu : T_world_imu);
+    calibration_.Keep(new_content_share);
+  }
+
+  std::mt19937_64 random_{7};
+  Scene scene_;
+  Lidar lidar_;
+  BeamErrors truth_;
+  BeamCalibration calibration_;
+  NdtMatcher matcher_{NdtOptions{}};
+};
+
+// Root of the mean square over the rings, of the truth and of what is left of it.
+template <class ValueOf>
+std::pair<double, double> TrueAndLeft(const CalibrationDrive& drive, const ValueOf& value_of) {
+  double true_sq = 0.0;
+  double left_sq = 0.0;
+  const std::size_t num_rings = drive.truth().rings.size();
+  for (std::size_t i = 0; i < num_rings; ++i) {
+    const double truth = value_of(drive.truth().rings[i]);
+    true_sq += truth * truth;
+    left_sq += std::pow(truth - value_of(drive.found().rings[i]), 2);
+  }
+  const auto count = static_cast<double>(num_rings);
+  return {std::sqrt(true_sq / count), std::sqrt(left_sq / count)};
+}
+
+TEST(BeamCalibration, FindsTheErrorsOfBeamsAlongAStreet) {
+  CalibrationDrive drive;
+  drive.Go(-40.0, 140.0, 0.6);
+  ASSERT_GE(drive.found().rings.size(), drive.truth().rings.size());
+  const auto [range, range_left] =
+      TrueAndLeft(drive, [](const BeamErrors::OfRing& ring) { return ring.range_m; });
+  EXPECT_LT(range_left, 0.5 * range);
+  const auto [elevation, elevation_left] =
+      TrueAndLeft(drive, [](const BeamErrors::OfRing& ring) { return ring.elevation_rad; });
+  EXPECT_LT(elevation_left, 0.9 * elevation);
+  const auto [azimuth, azimuth_left] =
+      TrueAndLeft(drive, [](const BeamErrors::OfRing& ring) { return ring.azimuth_rad; });
+  EXPECT_LT(azimuth_left, 0.8 * azimuth);
+}
+
+TEST(BeamCalibration, LearnsNothingFromScansThatBringNothingNew) {
+  CalibrationDrive drive;
+  drive.Stand(20, 0.0);
+  EXPECT_TRUE(drive.found().rings.empty());
+}
+
+// An error that all sightings of a cell have in common does not show: the prior holds.
+TEST(BeamCalibration, WhileStandingNoErrorIsFoundThatIsNotThere) {
+  CalibrationDrive drive;
+  drive.Stand(60, 0.05);
+  for (const BeamErrors::OfRing& ring : drive.found().rings) {
+    EXPECT_LT(std::abs(ring.range_m), 0.03f);
+    EXPECT_LT(std::abs(ring.elevation_rad), 1.5e-3f);
+    EXPECT_LT(std::abs(ring.azimuth_rad), 1.5e-3f);
+  }
+}
+
+// The rows of one plane that a pose error alone explains teach nothing.
+TEST(BeamCalibration, APoseThatIsOffIsNoErrorOfABeam) {
+  BeamCalibration calibration;
+  CellBeams cell;
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  for (int scan = 0; scan < 50; ++scan) {
+    calibration.BeginScan(static_cast<float>(scan), 1);
+    for (int i = 0; i < 400; ++i) {
+      const double azimuth = 0.1 * i;
+      const double range_m = 5.0 + 0.1 * (i % 100);
+      const Eigen::Vector3f position(static_cast<float>(range_m * std::cos(azimuth)),
+                                     static_cast<float>(range_m * std::sin(azimuth)), -1.7f);
+      const auto ring = static_cast<std::uint16_t>(i % 8);
+      if (scan == 0) cell.Add({ring, AxesOf(position), Eigen::Vector3f::Zero()}, up, 0.f);
+      Vector6f jacobian;
+      jacobian << 0, 0, 1, position.y(), -position.x(), 0;
+      const float off_m = 0.02f + 0.001f * position.y() - 0.002f * position.x();
+      calibration.Add({.ring = ring,
+                       .axes = AxesOf(position),
+                       .cell = &cell,
+                       .normal = up,
+                       .residual_m = off_m,
+                       .weight = 1e3f,
+                       .jacobian = jacobian});
+    }
+    calibration.Keep(0.1);
+  }
+  ASSERT_EQ(calibration.errors().rings.size(), 8u);
+  for (const BeamErrors::OfRing& ring : calibration.errors().rings) {
+    EXPECT_LT(std::abs(ring.range_m), 1e-4f);
+    EXPECT_LT(std::abs(ring.elevation_rad), 1e-5f);
+  }
+}
+
+TEST(BeamCalibration, FewRowsAreNoMatch) {
+  BeamCalibration calibration;
+  CellBeams cell;
+  const Eigen::Vector3f position(10.f, 0.f, -1.f);
+  cell.Add({0, AxesOf(position), Eigen::Vector3f::Zero()}, Eigen::Vector3f::UnitZ(), 0.f);
+  calibration.BeginScan(0.f, 1);
+  calibration.Add({.ring = 0,
+                   .axes = AxesOf(position),
+                   .cell = &cell,
+                   .normal = Eigen::Vector3f::UnitZ(),
+                   .residual_m = 0.1f,
+                   .weight = 1e3f,
+                   .jacobian = Vector6f::Ones()});
+  calibration.Keep(1.0);
+  EXPECT_TRUE(calibration.errors().rings.empty());
+}
+
+}  // namespace
+}  // namespace lio
