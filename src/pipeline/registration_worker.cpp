@@ -139,7 +139,6 @@ void RegistrationWorker::Do(const Track& task, ScanInWork& scan) {
 }
 
 void RegistrationWorker::Do(const Relocalize& task, ScanInWork& scan) {
-  scan.calibration = nullptr;  // the match that counts may be any of several
   MatchFromPrior(task.track, &task.search, scan);
   FinishMatch(task.track, scan);
 }
@@ -200,7 +199,9 @@ void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) 
   };
   const int num_for_deskew = scan.job.refines_deskew ? 1 : 0;
   const CandidateMatcher matcher{[&](const Pose& guess, const Matrix6& cov) {
-                                   return MatchFully(scan.InputFrom(guess, cov), scan);
+                                   MatchInput input = scan.InputFrom(guess, cov);
+                                   input.calibration = nullptr;
+                                   return MatchFully(input, scan);
                                  },
                                  [&](const Pose& guess, const Matrix6& cov) {
                                    pick_few();
@@ -208,6 +209,7 @@ void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) 
                                    input.points_imu = few_points;
                                    input.tags = few_tags;
                                    input.is_far_off = false;
+                                   input.calibration = nullptr;
                                    scan.budget.CountCoarse();
                                    return matcher_->Match(input);
                                  },
@@ -215,6 +217,8 @@ void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) 
   const DeskewedScan deskewed{scan.job.sweep->middle(), scan.to_match};
   const Relocalizer::Found found =
       relocalizer_.Search(request, deskewed, scan.job.prior, scan.outcome.match, matcher);
+  // The rows of the first match are of another place.
+  if (found.is_relocalized || found.is_clock_set) calibration_.ForgetScan();
   scan.outcome.match = found.match;
   scan.outcome.is_relocalized = found.is_relocalized;
   scan.outcome.is_clock_set = found.is_clock_set;
