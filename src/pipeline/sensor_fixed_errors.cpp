@@ -20,6 +20,7 @@ void SensorFixedErrors::Add(const MatchResult& match) {
 Matrix6 SensorFixedErrors::CovPerReplacement(const MatchResult& match) const {
   Matrix6 sum = Matrix6::Zero();
   for (const Vector6& mean : mean_scores_) sum += mean * mean.transpose();
+  if (match.beam_error_score_cov) sum = 0.5 * (sum + *match.beam_error_score_cov);
   return 2.0 * num_replacements_ * CovarianceFromScores(match.shift_per_score, sum);
 }
 

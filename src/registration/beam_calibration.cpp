@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "lio/registration/beam_calibration.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -118,11 +117,19 @@ void BeamCalibration::Keep(double new_content_share) {
   const Eigen::LDLT<Eigen::Matrix<double, 12, 12>> solver(nuisance);
   const Eigen::Matrix<double, 12, Eigen::Dynamic> shift = solver.solve(scan_.mixed);
   scan_.information.triangularView<Eigen::Lower>() -= scan_.mixed.transpose() * shift;
-  const double weight = new_content_share * scan_.stands_for;
+  const double weight = Parameters::kInformationPerShare * new_content_share * scan_.stands_for;
   information_.triangularView<Eigen::Lower>() += weight * scan_.information;
   score_ += weight * (scan_.score - shift.transpose() * scan_.nuisance_score);
   scan_.num_rows = 0;
   if (num_kept_++ % Parameters::kSolvePeriod_scans == 0) Solve();
+}
+
+std::optional<Matrix6> BeamCalibration::ScoreCov() const {
+  const Eigen::Index num_known = posterior_.cols();
+  if (scan_.num_rows == 0 || num_known == 0) return std::nullopt;
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> score_per_error =
+      scan_.stands_for * scan_.mixed.topLeftCorner(6, num_known);
+  return Matrix6(score_per_error * posterior_.solve(score_per_error.transpose()));
 }
 
 void BeamCalibration::Solve() {
@@ -135,8 +142,8 @@ void BeamCalibration::Solve() {
                                                          : Parameters::kAngleStd_rad;
     posterior(i, i) += 1.0 / (prior_std * prior_std);
   }
-  const Eigen::VectorXf found =
-      posterior.selfadjointView<Eigen::Lower>().ldlt().solve(score_).cast<float>();
+  posterior_.compute(posterior);  // reads the lower triangle
+  const Eigen::VectorXf found = posterior_.solve(score_).cast<float>();
   errors_.encoder_rad = {found[kCos], found[kSin]};
   grazing_m_ = found[kGrazing];
   errors_.rings.resize(static_cast<std::size_t>((size - kFirstRing) / 3));

@@ -19,8 +19,10 @@
 // (docs/experiments/beam_errors.md).
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,6 +52,10 @@ class BeamCalibration {
   void ForgetScan() { scan_.num_rows = 0; }
   // The scan at hand was inserted, and has brought this share of the map.
   void Keep(double new_content_share);
+
+  // The errors that are left pull the pose: the covariance of the gradient (score) that they give
+  // to the cost of the scan at hand. Absent as long as nothing is known.
+  [[nodiscard]] std::optional<Matrix6> ScoreCov() const;
 
   // Measured minus true. Unknown as long as no scan was kept.
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
@@ -82,7 +88,8 @@ class BeamCalibration {
     int stands_for = 1;
   };
   OfScan scan_;
-  std::vector<Term> terms_;  // the row at hand has them
+  std::vector<Term> terms_;                 // the row at hand has them
+  Eigen::LDLT<Eigen::MatrixXd> posterior_;  // of errors_, with the prior
   BeamErrors errors_;
   double grazing_m_ = 0.0;
   int num_kept_ = 0;

@@ -123,6 +123,9 @@ struct [[nodiscard]] MatchResult {
   std::optional<TurnRate> turn_rate_error;
   // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
   std::vector<Vector6> beam_scores;
+  // Covariance of the gradient by what is not known of the beams' errors (BeamCalibration); absent
+  // as long as none are known.
+  std::optional<Matrix6> beam_error_score_cov;
   // A unit of gradient shifts the pose by this, right error: the robust cost's curvature inverted,
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
