@@ -7,7 +7,7 @@
 namespace lio {
 
 void SensorFixedErrors::Add(const MatchResult& match) {
-  const std::vector<Vector6>& scores = match.beam_scores;
+  const std::vector<Vector6>& scores = match.beam_pull.scores;
   const double share = match.new_content_share;
   if (scores.empty() || !(share > 0.0)) return;
   mean_scores_.resize(scores.size(), Vector6::Zero());
@@ -20,7 +20,7 @@ void SensorFixedErrors::Add(const MatchResult& match) {
 Matrix6 SensorFixedErrors::CovPerReplacement(const MatchResult& match) const {
   Matrix6 sum = Matrix6::Zero();
   for (const Vector6& mean : mean_scores_) sum += mean * mean.transpose();
-  if (match.beam_error_score_cov) sum = 0.5 * (sum + *match.beam_error_score_cov);
+  if (match.beam_pull.unknown_cov) sum = 0.5 * (sum + *match.beam_pull.unknown_cov);
   return 2.0 * num_replacements_ * CovarianceFromScores(match.shift_per_score, sum);
 }
 

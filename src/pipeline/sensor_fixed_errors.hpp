@@ -8,7 +8,7 @@
 // is inserted there carries the error into its share of the map. After N replacements of the map by
 // new content the drift is N A^-1 m, with the covariance N^2 S where S = A^-1 (sum m m^T) A^-1, the
 // sum over beam directions. It therefore grows by 2 N S per replacement, and no constant says how
-// long such errors last: scores that change sign leave a small mean. Where the beams' errors are
+// long such errors last: scores that change sign leave a small mean. Once the beams' errors are
 // found and taken off (registration/beam_calibration.hpp), the scores become too small, since the
 // found errors are fitted to them, and the covariance of what is left of the errors is too large by
 // the scores of before. Each tells the whole, and the mean of both sums is taken.

@@ -95,7 +95,7 @@ void MatchScores::Add(const Eigen::Vector3f& point_imu, const ScoredRow& row) {
 }
 
 void MatchScores::Complete(double curvature_ratio, MatchResult& result) {
-  result.beam_scores = by_beam_.ByDirection();
+  result.beam_pull.scores = by_beam_.ByDirection();
   for (BlindDirection& blind : result.blind_directions) {
     const Vector6f shift = blind.shift.cast<float>();
     along_.Reset(0);

@@ -328,7 +328,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   }
   if (input.calibration != nullptr && input.beam_points.size() == input.points_imu.size()) {
     Teach(input, T_grid_imu);
-    result.beam_error_score_cov = input.calibration->ScoreCov();
+    result.beam_pull.unknown_cov = input.calibration->ScoreCov();
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
   gradients_.Complete(sums.curvature_ratio(), result);

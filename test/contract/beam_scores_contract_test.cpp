@@ -30,7 +30,7 @@ TEST_P(MatcherBeamScores, CountOnceByElevationAndOnceByOctant) {
   MethodBench bench(GetParam());
   GrowMap(bench, DriveSweeps(scene, 0.01));
   const MethodScan scan = bench.Reduce(CastTurn(scene, Lidar(0.01, 0.31), kTruth, 3).sweep);
-  const auto scores = bench.Match(scan, kTruth, GuessCov(0.02, 0.002)).beam_scores;
+  const auto scores = bench.Match(scan, kTruth, GuessCov(0.02, 0.002)).beam_pull.scores;
   ASSERT_EQ(scores.size(), BeamScores::kNumDirections);
   Vector6 by_elevation = Vector6::Zero();
   Vector6 by_octant = Vector6::Zero();

@@ -17,7 +17,7 @@ constexpr double kShare = 0.05;
 // Returns a match with a score of each beam direction.
 MatchResult Match(std::vector<Vector6> scores) {
   MatchResult match;
-  match.beam_scores = std::move(scores);
+  match.beam_pull.scores = std::move(scores);
   match.shift_per_score = 1e-3 * Matrix6::Identity();
   match.new_content_share = kShare;
   return match;
@@ -43,7 +43,8 @@ TEST(SensorFixedErrors, ScoresThatStayTheSameAddUpToADriftInProportionToTheNewCo
   std::mt19937_64 random(1);
   const MatchResult match = RandomMatch(random);
   Matrix6 of_one_match = Matrix6::Zero();
-  for (const Vector6& score : match.beam_scores) of_one_match += 1e-6 * score * score.transpose();
+  for (const Vector6& score : match.beam_pull.scores)
+    of_one_match += 1e-6 * score * score.transpose();
   SensorFixedErrors errors;
   Matrix6 sum = Matrix6::Zero();
   constexpr int kScans = 2000;
@@ -54,6 +55,18 @@ TEST(SensorFixedErrors, ScoresThatStayTheSameAddUpToADriftInProportionToTheNewCo
   constexpr double kReplacements = kScans * kShare;
   const Matrix6 expected = kReplacements * kReplacements * of_one_match;
   EXPECT_LT((sum - expected).norm(), 1e-3 * expected.norm());
+}
+
+TEST(SensorFixedErrors, WithBeamsThatAreCalibratedItIsTheMeanOfScoresAndOfWhatIsLeft) {
+  std::mt19937_64 random(1);
+  MatchResult match = RandomMatch(random);
+  SensorFixedErrors errors;
+  errors.Add(match);
+  const Matrix6 of_scores = errors.CovPerReplacement(match);
+  match.beam_pull.unknown_cov = 3.0 * Matrix6::Identity();
+  const Matrix6 of_both = errors.CovPerReplacement(match);
+  const Matrix6 of_left = 2.0 * kShare * 1e-6 * *match.beam_pull.unknown_cov;
+  EXPECT_LT((of_both - 0.5 * (of_scores + of_left)).norm(), 1e-9 * of_both.norm());
 }
 
 // The same errors shift a match more that has fewer points to hold it.
@@ -81,7 +94,7 @@ TEST(SensorFixedErrors, ScoresOfNoiseAreARandomWalk) {
   constexpr int kScans = 4000;
   for (int i = 0; i < kScans; ++i) {
     const MatchResult match = RandomMatch(random);
-    for (const Vector6& score : match.beam_scores)
+    for (const Vector6& score : match.beam_pull.scores)
       of_one_scan += 1e-6 * score.squaredNorm() / kScans;
     errors.Add(match);
     sum += errors.CovPerReplacement(match).trace() / kScans;
@@ -94,7 +107,7 @@ TEST(SensorFixedErrors, ScoresThatChangeSignCancel) {
   std::mt19937_64 random(3);
   const MatchResult match = RandomMatch(random);
   MatchResult opposite = match;
-  for (Vector6& score : opposite.beam_scores) score = -score;
+  for (Vector6& score : opposite.beam_pull.scores) score = -score;
   SensorFixedErrors errors;
   for (int i = 0; i < 100; ++i) errors.Add(match);
   const double before = errors.CovPerReplacement(match).trace();

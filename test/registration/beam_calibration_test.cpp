@@ -44,7 +44,7 @@ class CalibrationDrive {
 
   const BeamErrors& truth() const { return truth_; }
   const BeamErrors& found() const { return calibration_.errors(); }
-  const BeamCalibration& calibration() const { return calibration_; }
+  const std::optional<Matrix6>& last_score_cov() const { return last_score_cov_; }
 
  private:
   static Pose PoseAt(double x_m) { return {Quaternion::Identity(), Vector3(x_m, 0.0, 0.0)}; }
@@ -84,6 +84,7 @@ class CalibrationDrive {
                      .calibration = &calibration_,
                      .beam_points = scan.beams};
     const MatchResult match = matcher_.Match(input);
+    last_score_cov_ = match.beam_pull.unknown_cov;
     matcher_.Insert({.points_imu = scan.points_imu,
                      .T_imu_lidar = lidar_.T_imu_lidar,
                      .beam_points = scan.beams,
@@ -97,6 +98,7 @@ class CalibrationDrive {
   Lidar lidar_;
   BeamErrors truth_;
   BeamCalibration calibration_;
+  std::optional<Matrix6> last_score_cov_;
   NdtMatcher matcher_{NdtOptions{}};
 };
 
@@ -128,6 +130,20 @@ TEST(BeamCalibration, FindsTheErrorsOfBeamsAlongAStreet) {
   const auto [azimuth, azimuth_left] =
       TrueAndLeft(drive, [](const BeamErrors::OfRing& ring) { return ring.azimuth_rad; });
   EXPECT_LT(azimuth_left, 0.8 * azimuth);
+}
+
+TEST(BeamCalibration, TheErrorsThatAreLeftPullLessTheMoreIsKnown) {
+  CalibrationDrive drive;
+  drive.Go(-40.0, -30.0, 0.6);
+  ASSERT_TRUE(drive.last_score_cov());
+  const Matrix6 before = *drive.last_score_cov();
+  drive.Go(-30.0, 60.0, 0.6);
+  const Matrix6 after = *drive.last_score_cov();
+  EXPECT_EQ(Eigen::LDLT<Matrix6>(after).isPositive(), true);
+  EXPECT_GT(after.trace(), 0.0);
+  const double pull_before = before.diagonal().head<3>().sum();
+  const double pull_after = after.diagonal().head<3>().sum();
+  EXPECT_LT(pull_after, pull_before);
 }
 
 TEST(BeamCalibration, LearnsNothingFromScansThatBringNothingNew) {

@@ -182,7 +182,7 @@ TEST(FinishMatch, EnoughTermsGiveTheSummaryAndTheLastStep) {
   EXPECT_EQ(result.cov, expected.cov);
   EXPECT_GT(result.T_map_imu.translation.norm(), 0.0);
   EXPECT_EQ(result.T_map_imu.translation, expected.T_map_imu.translation);
-  EXPECT_FALSE(result.beam_scores.empty());
+  EXPECT_FALSE(result.beam_pull.scores.empty());
 }
 
 // Two walls along x, whose normals lean by 10 mrad either way: a metre along x moves the pose by as

@@ -89,7 +89,7 @@ class BeamCalibration {
   };
   OfScan scan_;
   std::vector<Term> terms_;                 // the row at hand has them
-  Eigen::LDLT<Eigen::MatrixXd> posterior_;  // of errors_, with the prior
+  Eigen::LDLT<Eigen::MatrixXd> posterior_;  // errors_ have it, with the prior
   BeamErrors errors_;
   double grazing_m_ = 0.0;
   int num_kept_ = 0;

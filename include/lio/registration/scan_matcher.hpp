@@ -97,6 +97,15 @@ struct Observability {
   }
 };
 
+// Errors of beams pull a match by these.
+struct BeamPull {
+  // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
+  std::vector<Vector6> scores;
+  // Covariance of the gradient by what is not known of the beams' errors (BeamCalibration); absent
+  // as long as none are known.
+  std::optional<Matrix6> unknown_cov;
+};
+
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
@@ -121,11 +130,7 @@ struct [[nodiscard]] MatchResult {
   // The turn rate that the scan was deskewed by errs by this; given where asked for and the method
   // can.
   std::optional<TurnRate> turn_rate_error;
-  // Gradients of the cost by beam direction (BeamScores); empty where there is no map that lasts.
-  std::vector<Vector6> beam_scores;
-  // Covariance of the gradient by what is not known of the beams' errors (BeamCalibration); absent
-  // as long as none are known.
-  std::optional<Matrix6> beam_error_score_cov;
+  BeamPull beam_pull;
   // A unit of gradient shifts the pose by this, right error: the robust cost's curvature inverted,
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
