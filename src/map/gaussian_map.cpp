@@ -194,14 +194,14 @@ void GaussianMap::AddPoints(const ViewOf& view_of, const SeenBeams& beams) {
     if (is_frozen) continue;
     const Eigen::Vector3f view = view_of(i);
     const SurfacePatch& patch = voxels_.Of<SurfacePatch>(cell);
-    if (sums.is_known && patch.kind == SurfacePatch::Kind::kPlane) {
+    const bool is_plane = sums.is_known && patch.kind == SurfacePatch::Kind::kPlane;
+    if (is_plane) {
       const bool is_seen_from_anywhere = patch.is_two_sided || view.isZero(0.f);
       const bool is_of_another =
           is_seen_from_anywhere ? !IsOn(patch, places_[i].local) : IsFromBehind(patch.normal, view);
       if (is_of_another) continue;
     }
     AddPoint(sums, places_[i].local.cast<double>(), view);
-    const bool is_plane = sums.is_known && patch.kind == SurfacePatch::Kind::kPlane;
     if (is_plane && i % SeenBeams::kSampling == 0 && !beams.beams.empty()) {
       voxels_.Of<CellBeams>(cell).Add(beams.beams[i / SeenBeams::kSampling], patch.normal,
                                       beams.path_m);

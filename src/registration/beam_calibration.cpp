@@ -17,14 +17,22 @@ constexpr int kCos = 0;
 constexpr int kSin = 1;
 constexpr int kGrazing = 2;
 constexpr int kFirstRing = 3;
+constexpr int kNumPerRing = 3;
 constexpr int RangeOf(int ring) {
-  return kFirstRing + 3 * ring;
+  return kFirstRing + kNumPerRing * ring;
 }
 constexpr int ElevationOf(int ring) {
   return RangeOf(ring) + 1;
 }
 constexpr int AzimuthOf(int ring) {
   return RangeOf(ring) + 2;
+}
+
+double PriorStdOf(int unknown) {
+  if (unknown == kCos || unknown == kSin) return Parameters::kEncoderStd_rad;
+  if (unknown == kGrazing) return Parameters::kGrazingStd_m;
+  const bool is_range = (unknown - RangeOf(0)) % kNumPerRing == 0;
+  return is_range ? Parameters::kRangeStd_m : Parameters::kAngleStd_rad;
 }
 
 }  // namespace
@@ -35,7 +43,7 @@ void BeamCalibration::BeginScan(float path_m, int stands_for) {
   scan_.num_rows = 0;
   const Eigen::Index size = score_.size();
   scan_.information.setZero(size, size);
-  scan_.mixed.setZero(12, size);
+  scan_.mixed.setZero(kNumNuisance, size);
   scan_.nuisance.setZero();
   scan_.score.setZero(size);
   scan_.nuisance_score.setZero();
@@ -51,7 +59,7 @@ void BeamCalibration::MakeRoomFor(int num_unknowns) {
   };
   grow(information_, num_unknowns);
   grow(scan_.information, num_unknowns);
-  grow(scan_.mixed, 12);
+  grow(scan_.mixed, kNumNuisance);
   for (Eigen::VectorXd* vector : {&score_, &scan_.score}) {
     vector->conservativeResize(num_unknowns);
     vector->tail(num_unknowns - before).setZero();
@@ -109,13 +117,12 @@ void BeamCalibration::Add(const BeamRow& row) {
 
 void BeamCalibration::Keep(double new_content_share) {
   if (scan_.num_rows < Parameters::kMinRows || !(new_content_share > 0.0)) return;
-  Eigen::Matrix<double, 12, 12> nuisance = scan_.nuisance.selfadjointView<Eigen::Lower>();
+  NuisanceSquare nuisance = scan_.nuisance.selfadjointView<Eigen::Lower>();
   // Keeps a direction that no surface shows from becoming singular.
   nuisance.diagonal().array() += 1e-9 * nuisance.diagonal().maxCoeff();
   nuisance.diagonal().segment<3>(6).array() += 1.0 / Parameters::kMaxDriftVar_m2;
   nuisance.diagonal().segment<3>(9).array() += 1.0 / Parameters::kMaxDriftVar_rad2;
-  const Eigen::LDLT<Eigen::Matrix<double, 12, 12>> solver(nuisance);
-  const Eigen::Matrix<double, 12, Eigen::Dynamic> shift = solver.solve(scan_.mixed);
+  const NuisanceColumns shift = nuisance.ldlt().solve(scan_.mixed);
   scan_.information.triangularView<Eigen::Lower>() -= scan_.mixed.transpose() * shift;
   const double weight = Parameters::kInformationPerShare * new_content_share * scan_.stands_for;
   information_.triangularView<Eigen::Lower>() += weight * scan_.information;
@@ -136,17 +143,13 @@ void BeamCalibration::Solve() {
   const Eigen::Index size = score_.size();
   Eigen::MatrixXd posterior = information_;
   for (Eigen::Index i = 0; i < size; ++i) {
-    const double prior_std = i < kGrazing                ? Parameters::kEncoderStd_rad
-                             : i == kGrazing             ? Parameters::kGrazingStd_m
-                             : (i - kFirstRing) % 3 == 0 ? Parameters::kRangeStd_m
-                                                         : Parameters::kAngleStd_rad;
+    const double prior_std = PriorStdOf(static_cast<int>(i));
     posterior(i, i) += 1.0 / (prior_std * prior_std);
   }
   posterior_.compute(posterior);  // reads the lower triangle
   const Eigen::VectorXf found = posterior_.solve(score_).cast<float>();
   errors_.encoder_rad = {found[kCos], found[kSin]};
-  grazing_m_ = found[kGrazing];
-  errors_.rings.resize(static_cast<std::size_t>((size - kFirstRing) / 3));
+  errors_.rings.resize(static_cast<std::size_t>((size - kFirstRing) / kNumPerRing));
   for (std::size_t ring = 0; ring < errors_.rings.size(); ++ring) {
     const int number = static_cast<int>(ring);
     errors_.rings[ring] = {found[RangeOf(number)], found[ElevationOf(number)],

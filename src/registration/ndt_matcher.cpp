@@ -27,6 +27,11 @@ const Pose& GridFromMap() {
   return kPose;
 }
 
+// Turns the lidar's axes into the voxel grid's.
+Eigen::Matrix3f GridFromLidar(const Pose& T_grid_imu, const Pose& T_imu_lidar) {
+  return (T_grid_imu.rotation * T_imu_lidar.rotation).toRotationMatrix().cast<float>();
+}
+
 bool HasMoved(const Pose& from, const Pose& to) {
   const Pose motion = from.Inverse() * to;
   return motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() >
@@ -77,8 +82,7 @@ std::vector<SeenBeam> NdtMatcher::BeamsOf(const ScanView& scan,
 }
 
 void NdtMatcher::Teach(const MatchInput& input, const Pose& T_grid_imu) const {
-  const Eigen::Matrix3f grid_from_lidar =
-      (T_grid_imu.rotation * input.T_imu_lidar.rotation).toRotationMatrix().cast<float>();
+  const Eigen::Matrix3f grid_from_lidar = GridFromLidar(T_grid_imu, input.T_imu_lidar);
   const std::size_t step = scores_.size() / BeamCalibrationParameters::kMaxRows + 1;
   input.calibration->BeginScan(path_m_, static_cast<int>(step));
   for (std::size_t i = 0; i < scores_.size(); i += step) {
@@ -105,9 +109,7 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   if (inserted_at_) path_m_ += static_cast<float>((T_map_imu.translation - *inserted_at_).norm());
   inserted_at_ = T_map_imu.translation;
-  const Eigen::Matrix3f grid_from_lidar =
-      (T_grid_imu.rotation * scan.T_imu_lidar.rotation).toRotationMatrix().cast<float>();
-  const std::vector<SeenBeam> beams = BeamsOf(scan, grid_from_lidar);
+  const std::vector<SeenBeam> beams = BeamsOf(scan, GridFromLidar(T_grid_imu, scan.T_imu_lidar));
   map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * sensor_imu_, workers_,
               LevelsInUse().finest, {beams, path_m_});
 }

@@ -29,6 +29,12 @@ MatchResult RandomMatch(std::mt19937_64& random) {
   return Match(scores);
 }
 
+SensorFixedErrors ErrorsAfter(const MatchResult& match) {
+  SensorFixedErrors errors;
+  errors.Add(match);
+  return errors;
+}
+
 TEST(SensorFixedErrors, NothingIsKnownBeforeTheFirstScores) {
   std::mt19937_64 random(1);
   SensorFixedErrors errors;
@@ -60,8 +66,7 @@ TEST(SensorFixedErrors, ScoresThatStayTheSameAddUpToADriftInProportionToTheNewCo
 TEST(SensorFixedErrors, WithBeamsThatAreCalibratedItIsTheMeanOfScoresAndOfWhatIsLeft) {
   std::mt19937_64 random(1);
   MatchResult match = RandomMatch(random);
-  SensorFixedErrors errors;
-  errors.Add(match);
+  const SensorFixedErrors errors = ErrorsAfter(match);
   const Matrix6 of_scores = errors.CovPerReplacement(match);
   match.beam_pull.unknown_cov = 3.0 * Matrix6::Identity();
   const Matrix6 of_both = errors.CovPerReplacement(match);
@@ -73,8 +78,7 @@ TEST(SensorFixedErrors, WithBeamsThatAreCalibratedItIsTheMeanOfScoresAndOfWhatIs
 TEST(SensorFixedErrors, ACovarianceIsThatOfTheMatchAtHand) {
   std::mt19937_64 random(4);
   MatchResult match = RandomMatch(random);
-  SensorFixedErrors errors;
-  errors.Add(match);
+  const SensorFixedErrors errors = ErrorsAfter(match);
   const Matrix6 cov = errors.CovPerReplacement(match);
   match.shift_per_score.row(0).setZero();
   match.shift_per_score(1, 1) *= 3.0;

@@ -13,17 +13,15 @@
 //
 // Cells have errors of their own, which all scans that see them share, so a scan counts with the
 // share of the map that is new in it; while the vehicle stands nothing is learned. The errors have
-// the prior of a data sheet. Sources: the beams' errors that the sum of least squares is over
-// follow Glennie, Lichti, "Static calibration and analysis of the Velodyne HDL-64E S2", Remote
-// Sensing 2(6), 2010; the difference to the map's own errors is ours
-// (docs/experiments/beam_errors.md).
+// the prior of a data sheet. The model of the beams' errors is that of Glennie, Lichti, "Static
+// calibration and analysis of the Velodyne HDL-64E S2", Remote Sensing 2(6), 2010; the difference
+// to the map's own errors is ours (docs/experiments/beam_errors.md).
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "lio/base/pose.hpp"
@@ -59,11 +57,12 @@ class BeamCalibration {
 
   // Measured minus true. Unknown as long as no scan was kept.
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
-  // How much longer ranges are at grazing incidence, m.
-  [[nodiscard]] double grazing_m() const { return grazing_m_; }
 
  private:
-  using Nuisance = Eigen::Matrix<double, 12, 1>;  // xi and zeta
+  static constexpr int kNumNuisance = 12;  // xi and zeta
+  using Nuisance = Eigen::Matrix<double, kNumNuisance, 1>;
+  using NuisanceSquare = Eigen::Matrix<double, kNumNuisance, kNumNuisance>;
+  using NuisanceColumns = Eigen::Matrix<double, kNumNuisance, Eigen::Dynamic>;
   struct Term {
     int unknown = 0;
     float value = 0.f;
@@ -79,8 +78,8 @@ class BeamCalibration {
   Eigen::VectorXd score_;
   struct OfScan {
     Eigen::MatrixXd information;  // its lower triangle
-    Eigen::Matrix<double, 12, Eigen::Dynamic> mixed;
-    Eigen::Matrix<double, 12, 12> nuisance;
+    NuisanceColumns mixed;
+    NuisanceSquare nuisance;
     Eigen::VectorXd score;
     Nuisance nuisance_score;
     float path_m = 0.f;
@@ -91,7 +90,6 @@ class BeamCalibration {
   std::vector<Term> terms_;                 // the row at hand has them
   Eigen::LDLT<Eigen::MatrixXd> posterior_;  // errors_ have it, with the prior
   BeamErrors errors_;
-  double grazing_m_ = 0.0;
   int num_kept_ = 0;
 };
 
