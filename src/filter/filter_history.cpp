@@ -6,13 +6,16 @@
 #include <cmath>
 
 #include "lio/filter/estimate_change.hpp"
+#include "lio/filter/map_bend.hpp"
 
 namespace lio {
 namespace {
 
+// The map begins here: its pose is right by definition, and it is level as the state is.
 void RebaseMapPose(Estimate& estimate) {
   estimate.cov.middleRows<6>(kMapPose).setZero();
   estimate.cov.middleCols<6>(kMapPose).setZero();
+  MarkMapStart(estimate);
 }
 
 // Returns the mean turn rate of a step, rad/s.

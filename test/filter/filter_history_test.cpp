@@ -9,6 +9,7 @@
 #include <random>
 
 #include "filter/tumbling_filter.hpp"
+#include "lio/filter/map_bend.hpp"
 #include "support/random_state.hpp"
 #include "support/state_error.hpp"
 
@@ -134,6 +135,24 @@ TEST(FilterHistory, RebaseMakesTheMapPoseErrorZero) {
   EXPECT_EQ(after.cov.middleCols<6>(kMapPose).cwiseAbs().maxCoeff(), 0.0);
   const double change = (after.cov - before.cov).topLeftCorner(15, 15).cwiseAbs().maxCoeff();
   EXPECT_LT(change, 1e-15);
+}
+
+// A new map has not bent yet, whatever the one before had, and its start is as unsure as the state.
+TEST(FilterHistory, RebaseMarksTheStartOfTheMap) {
+  Estimate bent = StartEstimate();
+  bent.state.T_world_imu.rotation =
+      (bent.state.T_world_imu.rotation * ExpSo3(Vector3(0.05, -0.03, 0.0))).normalized();
+  ASSERT_GT(MapBend(bent.state).norm(), 0.05);
+  FilterHistory history(TestOptions(), bent, SampleAt(0.0));
+  AddImuUpTo(history, 0.5);
+  EXPECT_EQ(history.AddRebase(StampAt(0.3)), EventOutcome::kApplied);
+  const Estimate after = history.At(StampAt(0.3));
+  EXPECT_LT(MapBend(after.state).norm(), 1e-12);
+  const Matrix3 R_world_imu = after.state.T_world_imu.rotation.toRotationMatrix();
+  const Matrix3 rotation_cov =
+      R_world_imu * after.cov.block<3, 3>(kRot, kRot) * R_world_imu.transpose();
+  EXPECT_LT((after.cov.block<3, 3>(kMapStart, kMapStart) - rotation_cov).cwiseAbs().maxCoeff(),
+            1e-15);
 }
 
 TEST(FilterHistory, StandstillBringsTheVelocityToZeroAsFarAsItIsSure) {
