@@ -53,11 +53,27 @@ void FindDoubled(const Counters& counters, std::vector<Cause>& causes) {
                     ""});
 }
 
+void FindNoise(const ImuNoiseRatios& noise, const ImuRig& imu, std::vector<Cause>& causes) {
+  const auto is_useless = [](double ratio, double rig_density, double max_density) {
+    return ratio >= kDataFindings.max_noise_ratio && ratio * rig_density >= max_density;
+  };
+  if (!is_useless(noise.gyro, imu.gyro_noise_density, kDataFindings.max_gyro_density) &&
+      !is_useless(noise.accel, imu.accel_noise_density, kDataFindings.max_accel_density)) {
+    return;
+  }
+  causes.push_back({CauseKind::kImuNoise, Trust::kDoubtful, 0.0,
+                    fmt::format("the gyro's noise is {:.0f} times, the accelerometer's {:.0f} "
+                                "times that of the rig, most of the time",
+                                noise.gyro, noise.accel),
+                    ""});
+}
+
 }  // namespace
 
-std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally, bool uses_imu) {
+std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
+                                  const ImuRig* imu) {
   std::vector<Cause> causes;
-  FindMissing(counters, tally, uses_imu, causes);
+  FindMissing(counters, tally, imu != nullptr, causes);
   FindDoubled(counters, causes);
   if (const double bad = Share(counters.num_chunks_bad, counters.num_chunks);
       bad > kDataFindings.max_bad_chunk_share) {
@@ -74,14 +90,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                                   100.0 * clipped),
                       ""});
   }
-  if (const ImuNoiseRatios noise = tally.MedianNoise();
-      std::max(noise.gyro, noise.accel) >= kDataFindings.max_noise_ratio) {
-    causes.push_back({CauseKind::kImuNoise, Trust::kDoubtful, 0.0,
-                      fmt::format("the gyro's noise is {:.0f} times, the accelerometer's {:.0f} "
-                                  "times that of the rig, most of the time",
-                                  noise.gyro, noise.accel),
-                      ""});
-  }
+  if (imu != nullptr) FindNoise(tally.MedianNoise(), *imu, causes);
   // Nobody knows what the body did while it had no poses.
   const bool is_watched = tally.Coverage() >= kRigExaminer.doubtful_coverage;
   const bool is_still = is_watched && tally.num_rows() > 0 &&

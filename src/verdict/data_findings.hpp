@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lio/base/counters.hpp"
+#include "lio/sensor/rig.hpp"
 #include "lio/verdict/run_tally.hpp"
 #include "lio/verdict/verdict.hpp"
 
@@ -24,11 +25,17 @@ struct DataFindingParameters {
   // The IMU's noise over the rig's. Measured: engines and roads in the simulator and KITTI give up
   // to 16 (docs/experiments/verdict.md); two powers of two above.
   double max_noise_ratio = 64.0;
+  // Roads shake a good IMU by more than that, and the filter takes what it shows. It is no use to
+  // the filter where its noise is above these, rad/s/sqrt(Hz) and m/s^2/sqrt(Hz). Physics: over a
+  // sweep of 0.1 s they let the attitude go by 0.2 deg and the velocity by 0.1 m/s.
+  double max_gyro_density = 0.01;
+  double max_accel_density = 0.3;
 };
 
 inline constexpr DataFindingParameters kDataFindings;
 
+// `imu`: as the rig has it; null where it is not used.
 [[nodiscard]] std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
-                                                bool uses_imu);
+                                                const ImuRig* imu);
 
 }  // namespace lio

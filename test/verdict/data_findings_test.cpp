@@ -10,6 +10,8 @@
 namespace lio {
 namespace {
 
+const ImuRig kImu;
+
 Counters CleanRun() {
   Counters counters;
   counters.num_imu = 1000;
@@ -37,7 +39,7 @@ RunTally MovingRun() {
 }
 
 TEST(DataFindings, CleanRunHasNone) {
-  EXPECT_TRUE(FindDataFaults(CleanRun(), MovingRun(), true).empty());
+  EXPECT_TRUE(FindDataFaults(CleanRun(), MovingRun(), &kImu).empty());
 }
 
 TEST(DataFindings, EachFaultIsNamed) {
@@ -58,7 +60,7 @@ TEST(DataFindings, EachFaultIsNamed) {
     SCOPED_TRACE(std::string(Name(spoiled.kind)));
     Counters counters = CleanRun();
     spoiled.spoil(counters);
-    const std::vector<Cause> causes = FindDataFaults(counters, MovingRun(), true);
+    const std::vector<Cause> causes = FindDataFaults(counters, MovingRun(), &kImu);
     ASSERT_EQ(causes.size(), 1U);
     EXPECT_EQ(causes[0].kind, spoiled.kind);
     EXPECT_NE(causes[0].leaves, Trust::kYes);
@@ -69,31 +71,43 @@ TEST(DataFindings, EachFaultIsNamed) {
 TEST(DataFindings, LidarAloneWantsNoImu) {
   Counters counters = CleanRun();
   counters.num_imu = 0;
-  EXPECT_TRUE(FindDataFaults(counters, MovingRun(), false).empty());
+  EXPECT_TRUE(FindDataFaults(counters, MovingRun(), nullptr).empty());
 }
 
 TEST(DataFindings, RestIsSaidButLeavesTrust) {
-  const std::vector<Cause> causes = FindDataFaults(CleanRun(), RunAt(0.0), true);
+  const std::vector<Cause> causes = FindDataFaults(CleanRun(), RunAt(0.0), &kImu);
   ASSERT_EQ(causes.size(), 1U);
   EXPECT_EQ(causes[0].kind, CauseKind::kNoMotion);
   EXPECT_EQ(causes[0].leaves, Trust::kYes);
 }
 
 TEST(DataFindings, RestIsNotSaidOfABodyThatHadNoPosesMostOfTheTime) {
-  EXPECT_TRUE(FindDataFaults(CleanRun(), RunAt(0.0, 20), true).empty());
+  EXPECT_TRUE(FindDataFaults(CleanRun(), RunAt(0.0, 20), &kImu).empty());
 }
 
-TEST(DataFindings, NoiseFarAboveTheRigIsNamed) {
+RunTally RunWithNoise(const ImuNoiseRatios& noise) {
   RunTally tally = MovingRun();
   for (int i = 100; i < 300; ++i) {
     PoseRow row;
     row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
-    row.imu_noise = {1.0, 200.0};
+    row.imu_noise = noise;
     tally.AddRow(row);
   }
-  const std::vector<Cause> causes = FindDataFaults(CleanRun(), tally, true);
-  ASSERT_EQ(causes.size(), 1U);
-  EXPECT_EQ(causes[0].kind, CauseKind::kImuNoise);
+  return tally;
+}
+
+TEST(DataFindings, NoiseFarAboveTheRigIsNamedWhereItIsTooMuchToBeOfUse) {
+  ImuRig tactical;
+  tactical.gyro_noise_density = 1e-5;
+  tactical.accel_noise_density = 1e-4;
+  const RunTally shaken = RunWithNoise({10.0, 200.0});  // as a road shakes
+  EXPECT_TRUE(FindDataFaults(CleanRun(), shaken, &tactical).empty());
+  const std::vector<Cause> accel = FindDataFaults(CleanRun(), shaken, &kImu);
+  ASSERT_EQ(accel.size(), 1U);
+  EXPECT_EQ(accel[0].kind, CauseKind::kImuNoise);
+  const std::vector<Cause> gyro = FindDataFaults(CleanRun(), RunWithNoise({2000.0, 1.0}), &tactical);
+  ASSERT_EQ(gyro.size(), 1U);
+  EXPECT_EQ(gyro[0].kind, CauseKind::kImuNoise);
 }
 
 }  // namespace
