@@ -113,7 +113,8 @@ void LiveRunner::Stop() {
   if (live_.writes_map && files_->writer() != nullptr) {
     files_->writer()->WriteMap(match_worker_.map_cloud().points_map());
   }
-  const RunStats stats = Stats();
+  RunStats stats = Stats();
+  stats.beams = match_worker_.FoundBeams();
   if (const std::string why = WhyOpen(stats.account, stats.input); !why.empty()) {
     spdlog::warn("{}; please report this", why);
   }

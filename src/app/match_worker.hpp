@@ -47,6 +47,10 @@ class MatchWorker {
   [[nodiscard]] std::size_t map_bytes() const { return map_bytes_; }
   // Returns the points of map.pcd; only after Finish.
   [[nodiscard]] const MapCloud& map_cloud() const { return map_cloud_; }
+  // Returns what was found of the lidar's beams; only after Finish.
+  [[nodiscard]] std::optional<LidarBeams> FoundBeams() const {
+    return worker_ ? worker_->FoundBeams() : std::nullopt;
+  }
 
  private:
   struct Forgetting {};

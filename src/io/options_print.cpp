@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "lio/io/options_yaml.hpp"
 #include "lio/pipeline/options_fields.hpp"
@@ -11,10 +13,14 @@
 namespace lio {
 namespace {
 
-// Returns the shortest text that reads back as the same double and that YAML takes for a number.
+// Returns the shortest text that reads back as the same double and that YAML takes for a number:
+// YAML 1.1, which PyYAML reads, wants a point in each.
 std::string Text(double value) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  const bool is_number = std::isfinite(value);
+  if (is_number && text.find('.') == std::string::npos) {
+    text.insert(std::min(text.find('e'), text.size()), ".0");
+  }
   return text;
 }
 std::string Text(int value) {
@@ -31,6 +37,11 @@ std::string Text(const Vector3& v) {
 }
 std::string Text(const Quaternion& q) {
   return fmt::format("[{}, {}, {}, {}]", Text(q.w()), Text(q.x()), Text(q.y()), Text(q.z()));
+}
+std::string Text(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + Text(value);
+  return "[" + text + "]";
 }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string Text(Enum value) {
@@ -79,6 +90,12 @@ class Printer {
     indent_ = outer;
   }
 
+  // What follows belongs to this group.
+  void Enter(const char* key) {
+    text_ += fmt::format("{}{}:\n", indent_, key);
+    indent_ += "  ";
+  }
+
   const std::string& text() const { return text_; }
 
  private:
@@ -97,6 +114,10 @@ class Printer {
   std::string indent_;
 };
 
+constexpr std::string_view kBeamsHeader =
+    "# The errors of the lidar's beams as this run found them. A run with the same lidar starts from\n"
+    "# them when this file follows its rig: --config rig.yaml --config beams.yaml\n";
+
 std::string Print(const Options& options, Printer printer) {
   VisitFields(printer, options);
   return "# Options of liod: value, meaning [unit]; valid range, ends included.\n" + printer.text();
@@ -106,6 +127,14 @@ std::string Print(const Options& options, Printer printer) {
 
 std::string PrintOptions(const Options& options) {
   return Print(options, Printer());
+}
+
+std::string PrintBeams(const LidarBeams& beams) {
+  Printer printer;
+  printer.Enter("rig");
+  printer.Enter("lidar");
+  printer("beams", beams, "measured minus true");
+  return std::string(kBeamsHeader) + printer.text();
 }
 
 std::string PrintResultOptions(const Options& options) {

@@ -76,6 +76,19 @@ std::string ParseValue(const YAML::Node& node, Vector3& value) {
   return ParseNumbers<3>(node, value);
 }
 
+std::string ParseValue(const YAML::Node& node, std::vector<double>& value) {
+  const std::string expected = "expects a list of numbers, not ";
+  if (!node.IsSequence()) return expected + Describe(node);
+  std::vector<double> parsed;
+  for (const YAML::Node& entry : node) {
+    if (!ParseNumber(entry, parsed.emplace_back())) {
+      return expected + "one with " + Describe(entry);
+    }
+  }
+  value = std::move(parsed);
+  return "";
+}
+
 std::string ParseValue(const YAML::Node& node, Quaternion& value) {
   Eigen::Vector4d wxyz;
   std::string problem = ParseNumbers<4>(node, wxyz);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "lio/pipeline/options_fields.hpp"
 
@@ -23,6 +24,7 @@ namespace lio {
 [[nodiscard]] std::string ParseValue(const YAML::Node& node, bool& value);
 [[nodiscard]] std::string ParseValue(const YAML::Node& node, std::string& value);
 [[nodiscard]] std::string ParseValue(const YAML::Node& node, Vector3& value);
+[[nodiscard]] std::string ParseValue(const YAML::Node& node, std::vector<double>& value);
 // The quaternion is normalised when its norm is off by no more than rounding to a few digits.
 [[nodiscard]] std::string ParseValue(const YAML::Node& node, Quaternion& value);
 

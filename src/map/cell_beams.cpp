@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "lio/map/cell_beams.hpp"
 
+#include <limits>
+
 namespace lio {
 namespace {
 
@@ -26,7 +28,7 @@ CellBeams::OfRing Merged(const CellBeams::OfRing& a, const CellBeams::OfRing& b)
 }  // namespace
 
 void CellBeams::Add(const SeenBeam& beam, const Eigen::Vector3f& normal, float scan_path_m) {
-  if (beam.ring >= kNumRings) return;
+  if (beam.ring >= kMaxCalibratedRings) return;
   const BeamShift shift = ShiftAlong(normal, beam.axes);
   const float share = 1.f / static_cast<float>(++num_points);
   const auto take = [&](float value, float& mean) { mean += share * (value - mean); };

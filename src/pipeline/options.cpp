@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "lio/pipeline/options_fields.hpp"
+#include "lio/sensor/beam_errors.hpp"
 
 namespace lio {
 namespace {
@@ -43,11 +44,15 @@ class FieldChecker {
   }
   void Check(int value, const Range& range) { Check(static_cast<double>(value), range); }
   void Check(bool, const Range&) {}
-  void Check(const Vector3& value, const Range& range) {
+  void Check(const Vector3& value, const Range& range) { CheckEach(value, range); }
+  void Check(const std::vector<double>& value, const Range& range) { CheckEach(value, range); }
+  template <class Values>
+  void CheckEach(const Values& values, const Range& range) {
+    const auto is_finite = [](double v) { return std::isfinite(v); };
     const auto is_inside = [&](double v) { return v >= range.min && v <= range.max; };
-    if (!value.allFinite()) {
+    if (!std::all_of(values.begin(), values.end(), is_finite)) {
       Fault("must be finite numbers");
-    } else if (!std::all_of(value.begin(), value.end(), is_inside)) {
+    } else if (!std::all_of(values.begin(), values.end(), is_inside)) {
       Fault("every entry must be " + RangeText(range));
     }
   }
@@ -92,6 +97,27 @@ void CheckBox(const OwnVehicleBox& box, std::vector<OptionFault>& faults) {
   }
 }
 
+void CheckBeams(const LidarBeams& beams, std::vector<OptionFault>& faults) {
+  const auto check = [&](const char* key, const std::vector<double>& list, std::size_t size) {
+    if (list.size() == size) return;
+    faults.push_back({fmt::format("rig.lidar.beams.{}", key),
+                      fmt::format("has {} entries, must have {}", list.size(), size)});
+  };
+  const std::size_t num_rings = beams.range_m.size();
+  if (num_rings == 0 || num_rings > kMaxCalibratedRings) {
+    faults.push_back({"rig.lidar.beams.range_m",
+                      fmt::format("has {} entries, must have one for each ring, 1 .. {}", num_rings,
+                                  kMaxCalibratedRings)});
+  }
+  check("range_std_m", beams.range_std_m, num_rings);
+  check("elevation_rad", beams.elevation_rad, num_rings);
+  check("elevation_std_rad", beams.elevation_std_rad, num_rings);
+  check("azimuth_rad", beams.azimuth_rad, num_rings);
+  check("azimuth_std_rad", beams.azimuth_std_rad, num_rings);
+  check("encoder_rad", beams.encoder_rad, 2);
+  check("encoder_std_rad", beams.encoder_std_rad, 2);
+}
+
 // Some fields make demands on others: this checks them.
 void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
   if (o.pipeline.use_imu && !o.rig.T_imu_lidar) {
@@ -103,6 +129,7 @@ void CheckAcross(const Options& o, std::vector<OptionFault>& faults) {
     faults.push_back({"pipeline.publish_features", "needs pipeline.method: loam"});
   }
   if (o.rig.lidar.own_vehicle_box) CheckBox(*o.rig.lidar.own_vehicle_box, faults);
+  if (o.rig.lidar.beams) CheckBeams(*o.rig.lidar.beams, faults);
   if (o.rig.lidar.min_range_m >= o.rig.lidar.max_range_m) {
     faults.push_back({"rig.lidar.min_range_m", "must be below rig.lidar.max_range_m"});
   }

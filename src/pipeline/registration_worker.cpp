@@ -7,6 +7,7 @@
 #include "lio/registration/match_budget.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
+#include "pipeline/lidar_beams.hpp"
 #include "pipeline/match_method.hpp"
 #include "pipeline/prior_error.hpp"
 
@@ -98,6 +99,7 @@ RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
                                        const std::vector<double>& beam_elevations_rad,
                                        const InitialMapPtr& initial_map)
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
+      calibration_(KnownBeams(options.rig.lidar)),
       clock_(clock),
       warms_up_densely_(options.pipeline.method == MatchMethod::kNdt),
       filter_(options.rig.lidar),
@@ -116,6 +118,10 @@ void RegistrationWorker::CorrectBeams(std::vector<ScanPoint>& points) const {
   for (ScanPoint& point : points) {
     point.position -= Displacement(errors, point.ring, AxesOf(point.position));
   }
+}
+
+std::optional<LidarBeams> RegistrationWorker::FoundBeams() const {
+  return AsLidarBeams(calibration_.Found());
 }
 
 void RegistrationWorker::ClearMap(const Vector3& up_map) {

@@ -116,6 +116,7 @@ void OdometryRun::WriteEnd() {
   stats.log_duration_s = first_ ? SecondsBetween(*first_, last_) : 0.0;
   stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   stats.verdict = Judge();
+  stats.beams = worker_.FoundBeams();
   writer_->Finish(stats);
 }
 

@@ -3,6 +3,7 @@
 #include "lio/registration/beam_calibration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lio/registration/registration_parameters.hpp"
@@ -28,14 +29,65 @@ constexpr int AzimuthOf(int ring) {
   return RangeOf(ring) + 2;
 }
 
-double PriorStdOf(int unknown) {
-  if (unknown == kCos || unknown == kSin) return Parameters::kEncoderStd_rad;
-  if (unknown == kGrazing) return Parameters::kGrazingStd_m;
+constexpr int NumUnknowns(std::size_t num_rings) {
+  return kFirstRing + kNumPerRing * static_cast<int>(num_rings);
+}
+
+// Gives the unknowns that are not of a ring in their order, then those of the rings.
+template <class Vector>
+BeamErrors AsBeamErrors(const Vector& unknowns) {
+  BeamErrors errors;
+  errors.encoder_rad = {static_cast<float>(unknowns[kCos]), static_cast<float>(unknowns[kSin])};
+  errors.rings.resize(static_cast<std::size_t>((unknowns.size() - kFirstRing) / kNumPerRing));
+  for (std::size_t ring = 0; ring < errors.rings.size(); ++ring) {
+    const int number = static_cast<int>(ring);
+    errors.rings[ring] = {static_cast<float>(unknowns[RangeOf(number)]),
+                          static_cast<float>(unknowns[ElevationOf(number)]),
+                          static_cast<float>(unknowns[AzimuthOf(number)])};
+  }
+  return errors;
+}
+
+// The inverse, except for the grazing effect, which BeamErrors do not have.
+double ValueOf(const BeamErrors& errors, int unknown) {
+  if (unknown < kGrazing) return errors.encoder_rad[unknown];
+  const BeamErrors::OfRing& ring =
+      errors.rings[static_cast<std::size_t>((unknown - kFirstRing) / kNumPerRing)];
+  const std::array<float, kNumPerRing> values = {ring.range_m, ring.elevation_rad,
+                                                 ring.azimuth_rad};
+  return values[static_cast<std::size_t>((unknown - kFirstRing) % kNumPerRing)];
+}
+
+// What data sheets allow, and what the time since an earlier drive changes.
+struct Allowance {
+  double data_sheet_std = 0.0;
+  double ageing_std = 0.0;
+};
+
+Allowance AllowanceOf(int unknown) {
+  if (unknown == kGrazing) return {Parameters::kGrazingStd_m, 0.0};
+  if (unknown < kGrazing) return {Parameters::kEncoderStd_rad, Parameters::kEncoderAgeing_rad};
   const bool is_range = (unknown - RangeOf(0)) % kNumPerRing == 0;
-  return is_range ? Parameters::kRangeStd_m : Parameters::kAngleStd_rad;
+  if (is_range) return {Parameters::kRangeStd_m, Parameters::kRangeAgeing_m};
+  return {Parameters::kAngleStd_rad, Parameters::kAngleAgeing_rad};
 }
 
 }  // namespace
+
+BeamCalibration::BeamCalibration(const BeamKnowledge& known) : known_(known) {
+  if (known_.std.rings.empty()) return;
+  MakeRoomFor(NumUnknowns(known_.std.rings.size()));
+  Solve();
+}
+
+BeamCalibration::Prior BeamCalibration::PriorOf(int unknown) const {
+  const Allowance allowance = AllowanceOf(unknown);
+  const bool is_known = unknown != kGrazing && !known_.std.rings.empty() &&
+                        unknown < NumUnknowns(known_.std.rings.size());
+  if (!is_known) return {0.0, allowance.data_sheet_std};
+  return {ValueOf(known_.errors, unknown),
+          std::hypot(ValueOf(known_.std, unknown), allowance.ageing_std)};
+}
 
 void BeamCalibration::BeginScan(float path_m, int stands_for) {
   scan_.path_m = path_m;
@@ -89,7 +141,7 @@ void BeamCalibration::AddTerms(int ring, const BeamShift& shift, float share) {
 }
 
 void BeamCalibration::Add(const BeamRow& row) {
-  if (row.ring >= CellBeams::kNumRings) return;
+  if (row.ring >= kMaxCalibratedRings) return;
   FindTerms(row);
   int num_unknowns = 0;
   for (const Term& term : terms_) num_unknowns = std::max(num_unknowns, term.unknown + 1);
@@ -140,21 +192,23 @@ std::optional<Matrix6> BeamCalibration::ScoreCov() const {
 }
 
 void BeamCalibration::Solve() {
-  const Eigen::Index size = score_.size();
   Eigen::MatrixXd posterior = information_;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const double prior_std = PriorStdOf(static_cast<int>(i));
-    posterior(i, i) += 1.0 / (prior_std * prior_std);
+  Eigen::VectorXd score = score_;
+  for (Eigen::Index i = 0; i < score.size(); ++i) {
+    const Prior prior = PriorOf(static_cast<int>(i));
+    const double information = 1.0 / (prior.std * prior.std);
+    posterior(i, i) += information;
+    score[i] += information * prior.mean;
   }
   posterior_.compute(posterior);  // reads the lower triangle
-  const Eigen::VectorXf found = posterior_.solve(score_).cast<float>();
-  errors_.encoder_rad = {found[kCos], found[kSin]};
-  errors_.rings.resize(static_cast<std::size_t>((size - kFirstRing) / kNumPerRing));
-  for (std::size_t ring = 0; ring < errors_.rings.size(); ++ring) {
-    const int number = static_cast<int>(ring);
-    errors_.rings[ring] = {found[RangeOf(number)], found[ElevationOf(number)],
-                           found[AzimuthOf(number)]};
-  }
+  errors_ = AsBeamErrors(posterior_.solve(score).eval());
+}
+
+BeamKnowledge BeamCalibration::Found() const {
+  const Eigen::Index size = posterior_.cols();
+  if (size == 0) return {};
+  const Eigen::MatrixXd cov = posterior_.solve(Eigen::MatrixXd::Identity(size, size));
+  return {errors_, AsBeamErrors(cov.diagonal().cwiseSqrt().eval())};
 }
 
 }  // namespace lio

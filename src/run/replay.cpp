@@ -124,6 +124,7 @@ void Replay::Finish(const LogInput& input, double wall_s) {
   stats.log_duration_s = input.duration_s();
   stats.wall_s = wall_s;
   stats.verdict = verdict_;
+  stats.beams = worker_.FoundBeams();
   try {
     writer_.Finish(stats);
   } catch (const WriteError&) {

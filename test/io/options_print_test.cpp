@@ -57,16 +57,16 @@ TEST(OptionsPrint, NamesSayWhichThereAre) {
   EXPECT_THAT(text, HasSubstr("; one of auto, present, removed\n"));
 }
 
-// The number is the shortest text that reads back as the same bits, and has a point for YAML.
+// The number is the shortest text that reads back as the same bits, and has a point for YAML 1.1.
 TEST(OptionsPrint, NumbersAreShortAndExact) {
   Options options;
   const std::vector<std::pair<double, std::string>> cases = {
       {2.0, "2.0"},
       {0.1, "0.1"},
       {0.1 + 0.2, "0.30000000000000004"},
-      {-1e-7, "-1e-07"},
+      {-1e-7, "-1.0e-07"},
       {123456789.0, "123456789.0"},
-      {1e-300, "1e-300"},
+      {1e-300, "1.0e-300"},
   };
   for (const auto& [value, text] : cases) {
     options.ndt.voxel_m = value;
@@ -113,6 +113,26 @@ TEST(OptionsPrint, EveryLineIsExplained) {
       EXPECT_EQ(hash, 39u) << line;
     }
   }
+}
+
+LidarBeams TwoBeams() {
+  return {.range_m = {0.012, -0.003},
+          .range_std_m = {0.004, 0.005},
+          .elevation_rad = {1e-8, -2e-4},
+          .elevation_std_rad = {1e-4, 2e-4},
+          .azimuth_rad = {0.0, 3e-4},
+          .azimuth_std_rad = {3e-4, 4e-4},
+          .encoder_rad = {1e-4, -5e-5},
+          .encoder_std_rad = {4e-5, 5e-5}};
+}
+
+TEST(OptionsPrint, BeamsStandAloneAsAFileThatFollowsTheRigs) {
+  const std::string text = PrintBeams(TwoBeams());
+  EXPECT_THAT(text, StartsWith("# "));
+  EXPECT_THAT(text, HasSubstr("\nrig:\n  lidar:\n    beams: "));
+  EXPECT_EQ(ValueOf(text, "range_m"), "[0.012, -0.003]");
+  EXPECT_EQ(ValueOf(text, "elevation_rad"), "[1.0e-08, -0.0002]");
+  EXPECT_EQ(ValueOf(text, "encoder_std_rad"), "[4.0e-05, 5.0e-05]");
 }
 
 }  // namespace

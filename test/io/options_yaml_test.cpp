@@ -347,5 +347,47 @@ TEST_F(OptionsYaml, AFaultyRotationIsToldOnceWithItsLine) {
               ::testing::Contains(HasSubstr("did you mean rig.T_imu_lidar.rotation_rpy_deg?")));
 }
 
+TEST_F(OptionsYaml, BeamsOfAnEarlierRunFollowTheRig) {
+  const LidarBeams beams{.range_m = {0.012, -0.003},
+                         .range_std_m = {0.004, 0.005},
+                         .elevation_rad = {1e-8, -2e-4},
+                         .elevation_std_rad = {1e-4, 2e-4},
+                         .azimuth_rad = {0.0, 3e-4},
+                         .azimuth_std_rad = {3e-4, 4e-4},
+                         .encoder_rad = {1e-4, -5e-5},
+                         .encoder_std_rad = {4e-5, 5e-5}};
+  const LoadResult result = LoadOptions(
+      {dir_.Write("rig.yaml", kRig), dir_.Write("beams.yaml", PrintBeams(beams))}, {});
+  EXPECT_THAT(result.faults, IsEmpty());
+  ASSERT_TRUE(result.options.rig.lidar.beams);
+  EXPECT_EQ(result.options.rig.lidar.beams->range_m, beams.range_m);
+  EXPECT_EQ(result.options.rig.lidar.beams->elevation_rad, beams.elevation_rad);
+  EXPECT_EQ(result.options.rig.lidar.beams->encoder_std_rad, beams.encoder_std_rad);
+}
+
+TEST_F(OptionsYaml, ListsOfBeamsThatDoNotGoTogetherAreAllNamed) {
+  const LoadResult result = Load(std::string(kRig) +
+                                 "  lidar:\n"
+                                 "    beams:\n"
+                                 "      range_m: [0.01, 0.02]\n"
+                                 "      range_std_m: [0.01]\n"
+                                 "      elevation_rad: [0, one]\n"
+                                 "      elevation_std_rad: [1e-4, 0]\n"
+                                 "      azimuth_rad: [0, 0]\n"
+                                 "      azimuth_std_rad: 1e-4\n"
+                                 "      encoder_rad: [0, 0]\n");
+  EXPECT_THAT(result.faults,
+              testing::UnorderedElementsAre(
+                  At(9) + "rig.lidar.beams.elevation_rad: expects a list of numbers, not one with "
+                          "'one'",
+                  At(12) + "rig.lidar.beams.azimuth_std_rad: expects a list of numbers, not "
+                           "'1e-4'",
+                  At(6) + "rig.lidar.beams.encoder_std_rad: is missing; the keys of its group go "
+                          "together",
+                  At(8) + "rig.lidar.beams.range_std_m: has 1 entries, must have 2",
+                  At(10) + "rig.lidar.beams.elevation_std_rad: every entry must be within 1e-06 "
+                           ".. 1"));
+}
+
 }  // namespace
 }  // namespace lio

@@ -225,7 +225,9 @@ TEST_F(RunWriterTest, EveryCountOfTheEstimatorIsInTheStats) {
     values[i] = 1'000'000 + static_cast<int>(i);
     counters.*kCounterFields[i].count = values[i];
   }
-  writer.Finish({.counters = counters, .input = {}, .account = {}, .extra = {}});
+  RunStats stats;
+  stats.counters = counters;
+  writer.Finish(stats);
   const std::string text = test::ReadText(out_ / "stats.json");
   for (const std::int64_t value : values) EXPECT_THAT(text, HasSubstr(std::to_string(value)));
 }
@@ -368,6 +370,17 @@ TEST_F(RunWriterTest, AFullDiskIsAFailureThatFinishThrows) {
   EXPECT_EQ(LinesOfFile(out_ / "states.csv").size(),
             LinesOfFile(out_ / "trajectory_world.tum").size() + 1);
   EXPECT_TRUE(test::ReadText(out_ / "covariance.csv").ends_with('\n'));
+}
+
+TEST_F(RunWriterTest, BeamsAreWrittenUnlessNothingIsTrusted) {
+  RunStats stats;
+  stats.verdict.trust = Trust::kYes;
+  stats.beams = LidarBeams{{0.01}, {0.004}, {0}, {1e-4}, {0}, {1e-4}, {0, 0}, {1e-5, 1e-5}};
+  RunWriter(out_, Options{}).Finish(stats);
+  EXPECT_THAT(test::ReadText(out_ / "beams.yaml"), HasSubstr("range_m: [0.01]"));
+  stats.verdict.trust = Trust::kNo;
+  RunWriter(out_, Options{}).Finish(stats);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "beams.yaml"));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST(CellBeams, CountsThatAreFullKeepTheirProportion) {
 
 TEST(CellBeams, ARingBeyondTheLastOneIsLeftOut) {
   CellBeams cell;
-  cell.Add(BeamAt(CellBeams::kNumRings, {10.f, 0.f, -1.f}), kUpwards, 0.f);
+  cell.Add(BeamAt(kMaxCalibratedRings, {10.f, 0.f, -1.f}), kUpwards, 0.f);
   EXPECT_EQ(cell.num_points, 0u);
 }
 

@@ -91,5 +91,19 @@ TEST(Options, ContradictionsBetweenFieldsAreFound) {
                            FaultOf("ndt.min_cell_points"), FaultOf("rig.lidar.own_vehicle_box")));
 }
 
+TEST(Options, ListsOfBeamsAreAsLongAsThereAreRings) {
+  Options options = Usable();
+  options.rig.lidar.beams.emplace();
+  EXPECT_THAT(Validate(options), testing::Contains(FaultOf("rig.lidar.beams.range_m")));
+  const std::vector<double> zeros(129, 0.0);
+  const std::vector<double> ones(129, 1.0);
+  options.rig.lidar.beams = LidarBeams{zeros, ones, zeros, ones, zeros, ones, {0, 0}, {1, 1}};
+  EXPECT_THAT(Validate(options), UnorderedElementsAre(FaultOf("rig.lidar.beams.range_m")));
+  options.rig.lidar.beams = LidarBeams{{0, 0}, {1}, {0, 0}, {1, 1}, {0}, {1, 1}, {0}, {1, 1}};
+  EXPECT_THAT(Validate(options), UnorderedElementsAre(FaultOf("rig.lidar.beams.range_std_m"),
+                                                      FaultOf("rig.lidar.beams.azimuth_rad"),
+                                                      FaultOf("rig.lidar.beams.encoder_rad")));
+}
+
 }  // namespace
 }  // namespace lio

@@ -25,7 +25,8 @@ struct BeamScan {
 // Drives along a street with a lidar whose beams err, matches and inserts.
 class CalibrationDrive {
  public:
-  CalibrationDrive() : scene_(test::Street()), lidar_(test::TestLidar()) {
+  explicit CalibrationDrive(const BeamKnowledge& known = {})
+      : scene_(test::Street()), lidar_(test::TestLidar()), calibration_(known) {
     lidar_.num_azimuths = 200;
     std::normal_distribution<float> normal;
     for (std::size_t i = 0; i < lidar_.elevations_rad.size(); ++i) {
@@ -44,6 +45,7 @@ class CalibrationDrive {
 
   const BeamErrors& truth() const { return truth_; }
   const BeamErrors& found() const { return calibration_.errors(); }
+  BeamKnowledge Found() const { return calibration_.Found(); }
   const std::optional<Matrix6>& last_score_cov() const { return last_score_cov_; }
 
  private:
@@ -212,6 +214,60 @@ TEST(BeamCalibration, FewRowsAreNoMatch) {
                    .jacobian = Vector6f::Ones()});
   calibration.Keep(1.0);
   EXPECT_TRUE(calibration.errors().rings.empty());
+}
+
+BeamKnowledge TwoKnownBeams() {
+  BeamKnowledge known;
+  known.errors.rings = {{0.012f, 1e-4f, -2e-4f}, {-0.02f, 0.f, 3e-4f}};
+  known.errors.encoder_rad = {1e-4f, -5e-5f};
+  known.std.rings = {{0.003f, 1e-4f, 2e-4f}, {0.004f, 2e-4f, 3e-4f}};
+  known.std.encoder_rad = {3e-5f, 4e-5f};
+  return known;
+}
+
+TEST(BeamCalibration, StartsFromWhatIsKnownAndTheTimeSinceMakesItLessSure) {
+  const BeamKnowledge known = TwoKnownBeams();
+  const BeamCalibration calibration(known);
+  ASSERT_EQ(calibration.errors().rings.size(), 2u);
+  EXPECT_NEAR(calibration.errors().rings[0].range_m, 0.012f, 1e-7f);
+  EXPECT_NEAR(calibration.errors().rings[1].azimuth_rad, 3e-4f, 1e-9f);
+  EXPECT_NEAR(calibration.errors().encoder_rad.y(), -5e-5f, 1e-9f);
+  const BeamKnowledge found = calibration.Found();
+  EXPECT_NEAR(found.std.rings[0].range_m, std::hypot(0.003, 0.002), 1e-6);
+  EXPECT_GT(found.std.rings[1].elevation_rad, known.std.rings[1].elevation_rad);
+  EXPECT_GT(found.std.encoder_rad.x(), known.std.encoder_rad.x());
+}
+
+TEST(BeamCalibration, WithoutScansNothingIsFound) {
+  EXPECT_TRUE(BeamCalibration().Found().std.rings.empty());
+}
+
+// Errors that were right from the start leave less to be found than zeros do.
+TEST(BeamCalibration, WhatADriveFoundHelpsTheNext) {
+  CalibrationDrive first;
+  first.Go(-40.0, 60.0, 0.6);
+  CalibrationDrive next(first.Found());
+  next.Go(-40.0, -30.0, 0.6);
+  CalibrationDrive anew;
+  anew.Go(-40.0, -30.0, 0.6);
+  const auto range = [](const BeamErrors::OfRing& ring) { return ring.range_m; };
+  EXPECT_LT(TrueAndLeft(next, range).second, 0.7 * TrueAndLeft(anew, range).second);
+}
+
+// A wrong file is unlearnt: its standard deviations are taken at their word, but what is seen counts
+// more in the end.
+TEST(BeamCalibration, ErrorsOfAnotherLidarAreUnlearnt) {
+  BeamKnowledge wrong;
+  for (int ring = 0; ring < 16; ++ring) {
+    wrong.errors.rings.push_back({ring % 2 == 0 ? 0.02f : -0.02f, 0.f, 0.f});
+    wrong.std.rings.push_back({0.005f, 3e-4f, 3e-4f});
+  }
+  wrong.std.encoder_rad = {5e-5f, 5e-5f};
+  CalibrationDrive drive(wrong);
+  const auto range = [](const BeamErrors::OfRing& ring) { return ring.range_m; };
+  const double before = TrueAndLeft(drive, range).second;
+  drive.Go(-40.0, 140.0, 0.6);
+  EXPECT_LT(TrueAndLeft(drive, range).second, 0.6 * before);
 }
 
 }  // namespace

@@ -32,7 +32,10 @@ struct LoadResult {
 // the last bit. Optional groups that are absent are shown in comments.
 [[nodiscard]] std::string PrintOptions(const Options& options);
 
-// Prints the same without the number of threads, which changes no result.
+// Prints the beams alone, as rig.lidar.beams, for a file that follows the rig's.
+[[nodiscard]] std::string PrintBeams(const LidarBeams& beams);
+
+// Prints all options without the number of threads, which changes no result.
 [[nodiscard]] std::string PrintResultOptions(const Options& options);
 
 }  // namespace lio

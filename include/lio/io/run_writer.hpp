@@ -19,6 +19,8 @@
 //     the size of cell (matched_level_i: LevelCounts in match_status.hpp), stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
+//   beams.yaml: what was found of the lidar's beams, to start the next run from; not where the
+//   verdict trusts nothing
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
@@ -60,6 +62,7 @@ struct RunStats {
   double log_duration_s = 0.0;                              // from the first message to the last
   double wall_s = 0.0;
   Verdict verdict = {};
+  std::optional<LidarBeams> beams;  // as found
 };
 
 enum class MapFormat { kPcd, kPly };

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "lio/sensor/beam_errors.hpp"
@@ -53,7 +52,6 @@ struct BeamShift {
 
 struct CellBeams {
   static constexpr std::size_t kMaxRings = 6;
-  static constexpr std::uint16_t kNumRings = std::numeric_limits<std::uint8_t>::max();
 
   // Points of a ring, or of neighbouring ones, where there are more than kMaxRings.
   struct OfRing {

@@ -51,7 +51,7 @@ template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>
 inline constexpr bool kIsGroup =
-    kIsOneOf<T, Options, Rig, LidarRig, ImuRig, OwnVehicleBox, Pose, Extrinsic, PipelineOptions,
+    kIsOneOf<T, Options, Rig, LidarRig, LidarBeams, ImuRig, OwnVehicleBox, Pose, Extrinsic, PipelineOptions,
              StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions, GicpOptions,
              FilterOptions>;
 
@@ -92,6 +92,22 @@ void VisitFields(Visitor& visit, MaybeConst<OwnVehicleBox> auto& o) {
 }
 
 template <class Visitor>
+void VisitFields(Visitor& visit, MaybeConst<LidarBeams> auto& o) {
+  const Range error{-1, 1};
+  const Range error_std{1e-6, 1};
+  visit("range_m", o.range_m, "measured minus true, by ring, lowest first [m]", error);
+  visit("range_std_m", o.range_std_m, "how well it is known, 1 sigma [m]", error_std);
+  visit("elevation_rad", o.elevation_rad, "measured minus true, by ring [rad]", error);
+  visit("elevation_std_rad", o.elevation_std_rad, "1 sigma [rad]", error_std);
+  visit("azimuth_rad", o.azimuth_rad, "measured minus true, by ring, counter-clockwise [rad]",
+        error);
+  visit("azimuth_std_rad", o.azimuth_std_rad, "1 sigma [rad]", error_std);
+  visit("encoder_rad", o.encoder_rad, "in all azimuths, times cosine and sine of the azimuth [rad]",
+        error);
+  visit("encoder_std_rad", o.encoder_std_rad, "1 sigma [rad]", error_std);
+}
+
+template <class Visitor>
 void VisitFields(Visitor& visit, MaybeConst<LidarRig> auto& o) {
   visit("model", o.model, "beam table in config/lidars: hdl32e, vlp16, hdl64e, os1_64; or generic");
   visit("min_range_m", o.min_range_m, "nearer returns are dropped [m]", Range{0, 100});
@@ -100,6 +116,8 @@ void VisitFields(Visitor& visit, MaybeConst<LidarRig> auto& o) {
         "added to the lidar's stamps to have the IMU's clock; lio-log calibrate finds it [s]",
         Range{-10, 10});
   visit("own_vehicle_box", o.own_vehicle_box, "returns inside are the vehicle itself; optional");
+  visit("beams", o.beams,
+        "errors of the beams from beams.yaml of an earlier run; optional, since they are found on the way");
 }
 
 template <class Visitor>

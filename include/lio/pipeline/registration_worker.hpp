@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lio/pipeline/initial_map_entry.hpp"
@@ -31,6 +32,8 @@ class RegistrationWorker {
   void Insert(const InsertTask& task);
 
   const ScanMatcher& matcher() const { return *matcher_; }
+  // The errors of the lidar's beams as they are known now; absent where nothing is. Takes a moment.
+  [[nodiscard]] std::optional<LidarBeams> FoundBeams() const;
   // Scans that are inserted now go into the map that the run is about: the initial one, if there
   // is one.
   [[nodiscard]] bool is_in_map() const { return !initial_ || initial_->is_inside(); }

@@ -43,6 +43,9 @@ struct BeamRow {
 
 class BeamCalibration {
  public:
+  // Starts from what is known of this lidar, if anything is.
+  explicit BeamCalibration(const BeamKnowledge& known = {});
+
   // Forgets the rows of the scan before, if they were not kept. `path_m`: the vehicle's way up to
   // here. `stands_for`: each row is one of so many of the match.
   void BeginScan(float path_m, int stands_for);
@@ -55,8 +58,10 @@ class BeamCalibration {
   // to the cost of the scan at hand. Absent as long as nothing is known.
   [[nodiscard]] std::optional<Matrix6> ScoreCov() const;
 
-  // Measured minus true. Unknown as long as no scan was kept.
+  // Measured minus true. Unknown as long as no scan was kept, unless something was known before.
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
+  // The errors with their standard deviations, which take a moment.
+  [[nodiscard]] BeamKnowledge Found() const;
 
  private:
   static constexpr int kNumNuisance = 12;  // xi and zeta
@@ -67,12 +72,18 @@ class BeamCalibration {
     int unknown = 0;
     float value = 0.f;
   };
+  struct Prior {
+    double mean = 0.0;
+    double std = 0.0;
+  };
 
+  Prior PriorOf(int unknown) const;
   void FindTerms(const BeamRow& row);
   void AddTerms(int ring, const BeamShift& shift, float share);
   void MakeRoomFor(int num_unknowns);
   void Solve();
 
+  BeamKnowledge known_;  // before the first scan
   // The normal equations of all scans, poses eliminated, and of the scan at hand.
   Eigen::MatrixXd information_;
   Eigen::VectorXd score_;

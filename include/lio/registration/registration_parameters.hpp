@@ -234,6 +234,11 @@ struct BeamCalibrationParameters {
   static constexpr double kEncoderStd_rad = 1.2e-4;
   // Chosen: ranges at grazing incidence are a few millimetres times the term too long.
   static constexpr double kGrazingStd_m = 0.01;
+  // Errors that an earlier drive found have changed by so much since, with age and temperature.
+  // Chosen: a fifth of what data sheets allow; no data sheet states it.
+  static constexpr double kRangeAgeing_m = 2e-3;
+  static constexpr double kAngleAgeing_rad = 1e-4;
+  static constexpr double kEncoderAgeing_rad = 2e-5;
   // A cell remembers the beams of this share of its points at least: those before its plane was
   // known are not. Chosen: half.
   static constexpr float kMinRemembered = 0.15f;

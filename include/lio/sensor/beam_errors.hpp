@@ -15,6 +15,10 @@
 
 namespace lio {
 
+// Rings beyond are not calibrated: no lidar on the market has more beams, and a false ring number
+// cannot make the calibration dearer than this.
+inline constexpr std::uint16_t kMaxCalibratedRings = 128;
+
 struct BeamErrors {
   struct OfRing {
     float range_m = 0.f;
@@ -23,6 +27,12 @@ struct BeamErrors {
   };
   std::vector<OfRing> rings;                              // 0 is the lowest; others have no error
   Eigen::Vector2f encoder_rad = Eigen::Vector2f::Zero();  // times (cos, sin) of the azimuth
+};
+
+// The errors of one lidar's beams and their standard deviations, as found on a drive.
+struct BeamKnowledge {
+  BeamErrors errors;
+  BeamErrors std;  // of as many rings; rings beyond are not known
 };
 
 // Tells by how much a point moves (m) for a unit of each error.

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
@@ -18,6 +19,20 @@ struct OwnVehicleBox {
   Vector3 max_m = Vector3::Zero();
 };
 
+// The errors of the lidar's beams as an earlier drive found them (sensor/beam_errors.hpp), measured
+// minus true, and their standard deviations: lists by ring, lowest first, and the encoder's sine as
+// cosine and sine of the azimuth. beams.yaml of a run has them in this form.
+struct LidarBeams {
+  std::vector<double> range_m;
+  std::vector<double> range_std_m;
+  std::vector<double> elevation_rad;
+  std::vector<double> elevation_std_rad;
+  std::vector<double> azimuth_rad;
+  std::vector<double> azimuth_std_rad;
+  std::vector<double> encoder_rad;  // 2
+  std::vector<double> encoder_std_rad;
+};
+
 struct LidarRig {
   std::string model = "generic";  // a beam table in config/lidars/, or generic for none
   // Nearer returns are dropped: the sensor's housing, the roof. Chosen for cars; in an office 0.6 m
@@ -27,6 +42,7 @@ struct LidarRig {
   double max_range_m = 120.0;
   double clock_offset_s = 0.0;  // imu clock = lidar clock + this; chosen: clocks that agree
   std::optional<OwnVehicleBox> own_vehicle_box;
+  std::optional<LidarBeams> beams;  // absent: as the beam table says, to within the data sheet
 };
 
 // Units of the inertial messages' specific force and rates. `automatic` detects units and axes
