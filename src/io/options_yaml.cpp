@@ -139,7 +139,7 @@ class Loader {
   std::string source_;                        // the file, or "--set"
   bool is_set_ = false;
   bool is_file_unusable_ = false;
-  std::set<std::string> refused_;  // keys whose last given value could not be read
+  std::set<std::string> refused_;  // keys that are missing, or whose last value could not be read
 };
 
 void Loader::ApplyFile(const std::filesystem::path& file) {
@@ -254,6 +254,7 @@ void Loader::SettleOptionalGroups() {
       continue;
     }
     for (const std::string& field : missing) {
+      refused_.insert(field);
       const bool has_forms = field.ends_with(std::string(".") + kRotationKey);
       Fault(given_[group.path],
             field + (has_forms ? " (or rotation_rpy_deg, rotation_matrix, matrix)" : "") +

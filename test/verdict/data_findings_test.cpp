@@ -100,7 +100,7 @@ TEST(DataFindings, NoiseFarAboveTheRigIsNamedWhereItIsTooMuchToBeOfUse) {
   ImuRig tactical;
   tactical.gyro_noise_density = 1e-5;
   tactical.accel_noise_density = 1e-4;
-  const RunTally shaken = RunWithNoise({10.0, 200.0});  // as a road shakes
+  const RunTally shaken = RunWithNoise({10.0, 400.0});
   EXPECT_TRUE(FindDataFaults(CleanRun(), shaken, &tactical).empty());
   const std::vector<Cause> accel = FindDataFaults(CleanRun(), shaken, &kImu);
   ASSERT_EQ(accel.size(), 1U);
