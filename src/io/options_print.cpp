@@ -90,7 +90,7 @@ class Printer {
     indent_ = outer;
   }
 
-  // What follows belongs to this group.
+  // The fields that follow belong to this group.
   void Enter(const char* key) {
     text_ += fmt::format("{}{}:\n", indent_, key);
     indent_ += "  ";
@@ -115,7 +115,8 @@ class Printer {
 };
 
 constexpr std::string_view kBeamsHeader =
-    "# The errors of the lidar's beams as this run found them. A run with the same lidar starts from\n"
+    "# The errors of the lidar's beams as this run found them. A run with the same lidar starts "
+    "from\n"
     "# them when this file follows its rig: --config rig.yaml --config beams.yaml\n";
 
 std::string Print(const Options& options, Printer printer) {

@@ -68,7 +68,8 @@ RunWriter::RunWriter(const fs::path& folder, const Options& options, StartIn sta
       whole_(folder, has_base_, turns_map_),
       notices_(folder_ / "notices.tsv") {
   std::error_code error;
-  for (const char* stale : {"stats.json", "verdict.json", "beams.yaml", "map.pcd", "map.ply", "report.html"}) {
+  for (const char* stale :
+       {"stats.json", "verdict.json", "beams.yaml", "map.pcd", "map.ply", "report.html"}) {
     fs::remove(folder / stale, error);
   }
   for (int segment = 2; fs::exists(FolderOf(segment) / "registration.csv"); ++segment) {

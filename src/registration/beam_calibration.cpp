@@ -58,7 +58,7 @@ double ValueOf(const BeamErrors& errors, int unknown) {
   return values[static_cast<std::size_t>((unknown - kFirstRing) % kNumPerRing)];
 }
 
-// What data sheets allow, and what the time since an earlier drive changes.
+// Standard deviations of an error: as data sheets allow it, and by the time since an earlier drive.
 struct Allowance {
   double data_sheet_std = 0.0;
   double ageing_std = 0.0;

@@ -356,8 +356,8 @@ TEST_F(OptionsYaml, BeamsOfAnEarlierRunFollowTheRig) {
                          .azimuth_std_rad = {3e-4, 4e-4},
                          .encoder_rad = {1e-4, -5e-5},
                          .encoder_std_rad = {4e-5, 5e-5}};
-  const LoadResult result = LoadOptions(
-      {dir_.Write("rig.yaml", kRig), dir_.Write("beams.yaml", PrintBeams(beams))}, {});
+  const LoadResult result =
+      LoadOptions({dir_.Write("rig.yaml", kRig), dir_.Write("beams.yaml", PrintBeams(beams))}, {});
   EXPECT_THAT(result.faults, IsEmpty());
   ASSERT_TRUE(result.options.rig.lidar.beams);
   EXPECT_EQ(result.options.rig.lidar.beams->range_m, beams.range_m);

@@ -254,8 +254,8 @@ TEST(BeamCalibration, WhatADriveFoundHelpsTheNext) {
   EXPECT_LT(TrueAndLeft(next, range).second, 0.7 * TrueAndLeft(anew, range).second);
 }
 
-// A wrong file is unlearnt: its standard deviations are taken at their word, but what is seen counts
-// more in the end.
+// A wrong file is unlearnt: its standard deviations are taken at their word, but what is seen
+// counts more in the end.
 TEST(BeamCalibration, ErrorsOfAnotherLidarAreUnlearnt) {
   BeamKnowledge wrong;
   for (int ring = 0; ring < 16; ++ring) {

@@ -105,7 +105,8 @@ TEST(DataFindings, NoiseFarAboveTheRigIsNamedWhereItIsTooMuchToBeOfUse) {
   const std::vector<Cause> accel = FindDataFaults(CleanRun(), shaken, &kImu);
   ASSERT_EQ(accel.size(), 1U);
   EXPECT_EQ(accel[0].kind, CauseKind::kImuNoise);
-  const std::vector<Cause> gyro = FindDataFaults(CleanRun(), RunWithNoise({2000.0, 1.0}), &tactical);
+  const std::vector<Cause> gyro =
+      FindDataFaults(CleanRun(), RunWithNoise({2000.0, 1.0}), &tactical);
   ASSERT_EQ(gyro.size(), 1U);
   EXPECT_EQ(gyro[0].kind, CauseKind::kImuNoise);
 }

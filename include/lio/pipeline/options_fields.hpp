@@ -51,9 +51,9 @@ template <class T, class... Ts>
 inline constexpr bool kIsOneOf = (std::same_as<T, Ts> || ...);
 template <class T>
 inline constexpr bool kIsGroup =
-    kIsOneOf<T, Options, Rig, LidarRig, LidarBeams, ImuRig, OwnVehicleBox, Pose, Extrinsic, PipelineOptions,
-             StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions, LoamOptions, GicpOptions,
-             FilterOptions>;
+    kIsOneOf<T, Options, Rig, LidarRig, LidarBeams, ImuRig, OwnVehicleBox, Pose, Extrinsic,
+             PipelineOptions, StartOptions, ReduceOptions, NdtOptions, LoamFeatureOptions,
+             LoamOptions, GicpOptions, FilterOptions>;
 
 template <class T, class Struct>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Struct>;
@@ -117,7 +117,8 @@ void VisitFields(Visitor& visit, MaybeConst<LidarRig> auto& o) {
         Range{-10, 10});
   visit("own_vehicle_box", o.own_vehicle_box, "returns inside are the vehicle itself; optional");
   visit("beams", o.beams,
-        "errors of the beams from beams.yaml of an earlier run; optional, since they are found on the way");
+        "errors of the beams from beams.yaml of an earlier run; optional, since they are found on "
+        "the way");
 }
 
 template <class Visitor>

@@ -32,7 +32,7 @@ struct BeamErrors {
 // The errors of one lidar's beams and their standard deviations, as found on a drive.
 struct BeamKnowledge {
   BeamErrors errors;
-  BeamErrors std;  // of as many rings; rings beyond are not known
+  BeamErrors std;  // as many rings as in errors; rings beyond are not known
 };
 
 // Tells by how much a point moves (m) for a unit of each error.
