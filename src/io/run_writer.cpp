@@ -41,6 +41,24 @@ Json Summary(const QuantileSketch& values) {
           {"max", rounded(values.max())}};
 }
 
+double RootMeanSquare(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  const double mean = sum / static_cast<double>(values.size());
+  return std::round(std::sqrt(mean) * 1e7) * 1e-7;
+}
+
+// How large the errors of the beams are over all rings, and how well they are known.
+Json BeamStats(const std::optional<LidarBeams>& beams) {
+  if (!beams) return nullptr;
+  const auto of = [](const std::vector<double>& errors, const std::vector<double>& stds) -> Json {
+    return {{"rms", RootMeanSquare(errors)}, {"std", RootMeanSquare(stds)}};
+  };
+  return {{"range_m", of(beams->range_m, beams->range_std_m)},
+          {"elevation_rad", of(beams->elevation_rad, beams->elevation_std_rad)},
+          {"azimuth_rad", of(beams->azimuth_rad, beams->azimuth_std_rad)}};
+}
+
 Json CounterStats(const Counters& counters) {
   Json json;
   for (const CounterField& field : kCounterFields) {
@@ -199,6 +217,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
   json["rss_peak_mb"] = PeakMemoryMb();
   json["imu_noise_per_rig"] = {{"gyro", Summary(gyro_noise_ratio_)},
                                {"accel", Summary(accel_noise_ratio_)}};
+  json["beam_errors"] = BeamStats(stats.beams);
   for (std::size_t i = 0; i < kNumStages; ++i) {
     json["stage_ms"][kStageNames[i]] = Summary(stage_ms_[i]);
   }

@@ -48,14 +48,27 @@ BeamErrors AsBeamErrors(const Vector& unknowns) {
   return errors;
 }
 
-// The inverse, except for the grazing effect, which BeamErrors do not have.
-double ValueOf(const BeamErrors& errors, int unknown) {
-  if (unknown < kGrazing) return errors.encoder_rad[unknown];
-  const BeamErrors::OfRing& ring =
-      errors.rings[static_cast<std::size_t>((unknown - kFirstRing) / kNumPerRing)];
-  const std::array<float, kNumPerRing> values = {ring.range_m, ring.elevation_rad,
-                                                 ring.azimuth_rad};
-  return values[static_cast<std::size_t>((unknown - kFirstRing) % kNumPerRing)];
+// Gives one kind of error of all rings: 0 range, 1 elevation, 2 azimuth.
+Eigen::VectorXd OfKind(const BeamErrors& errors, int kind) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(errors.rings.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const BeamErrors::OfRing& ring = errors.rings[static_cast<std::size_t>(i)];
+    const std::array<float, kNumPerRing> of_ring = {ring.range_m, ring.elevation_rad,
+                                                    ring.azimuth_rad};
+    values[i] = of_ring[static_cast<std::size_t>(kind)];
+  }
+  return values;
+}
+
+// The covariance of one kind of error of all rings after some time. Age and temperature change each
+// ring by itself, all of them together, and the upper ones against the lower ones.
+Eigen::MatrixXd Aged(const Eigen::VectorXd& std, double ageing_std) {
+  const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(std.size(), -1.0, 1.0);
+  const double ageing_var = ageing_std * ageing_std;
+  Eigen::MatrixXd cov = ageing_var * (line * line.transpose());
+  cov.array() += ageing_var;
+  cov.diagonal().array() += std.array().square() + ageing_var;
+  return cov;
 }
 
 // Standard deviations of an error: as data sheets allow it, and by the time since an earlier drive.
@@ -74,19 +87,31 @@ Allowance AllowanceOf(int unknown) {
 
 }  // namespace
 
-BeamCalibration::BeamCalibration(const BeamKnowledge& known) : known_(known) {
-  if (known_.std.rings.empty()) return;
-  MakeRoomFor(NumUnknowns(known_.std.rings.size()));
+BeamCalibration::BeamCalibration(const BeamKnowledge& known) {
+  if (known.std.rings.empty()) return;
+  MakeRoomFor(NumUnknowns(known.std.rings.size()));
+  SetPrior(known);
   Solve();
 }
 
-BeamCalibration::Prior BeamCalibration::PriorOf(int unknown) const {
-  const Allowance allowance = AllowanceOf(unknown);
-  const bool is_known = unknown != kGrazing && !known_.std.rings.empty() &&
-                        unknown < NumUnknowns(known_.std.rings.size());
-  if (!is_known) return {0.0, allowance.data_sheet_std};
-  return {ValueOf(known_.errors, unknown),
-          std::hypot(ValueOf(known_.std, unknown), allowance.ageing_std)};
+void BeamCalibration::SetPrior(const BeamKnowledge& known) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(score_.size());
+  for (const int unknown : {kCos, kSin}) {
+    const double std = std::hypot(known.std.encoder_rad[unknown], AllowanceOf(unknown).ageing_std);
+    prior_information_(unknown, unknown) = 1.0 / (std * std);
+    mean[unknown] = known.errors.encoder_rad[unknown];
+  }
+  const auto num_rings = static_cast<Eigen::Index>(known.std.rings.size());
+  for (int kind = 0; kind < kNumPerRing; ++kind) {
+    const auto of_kind = Eigen::seqN(kFirstRing + kind, num_rings, kNumPerRing);
+    const Eigen::MatrixXd cov =
+        Aged(OfKind(known.std, kind), AllowanceOf(kFirstRing + kind).ageing_std);
+    const Eigen::MatrixXd information =
+        cov.ldlt().solve(Eigen::MatrixXd::Identity(num_rings, num_rings));
+    prior_information_(of_kind, of_kind) = information;
+    mean(of_kind) = OfKind(known.errors, kind);
+  }
+  prior_score_ = prior_information_ * mean;
 }
 
 void BeamCalibration::BeginScan(float path_m, int stands_for) {
@@ -110,9 +135,14 @@ void BeamCalibration::MakeRoomFor(int num_unknowns) {
     if (rows == num_unknowns) matrix.bottomRows(num_unknowns - before).setZero();
   };
   grow(information_, num_unknowns);
+  grow(prior_information_, num_unknowns);
+  for (Eigen::Index i = before; i < num_unknowns; ++i) {
+    const double std = AllowanceOf(static_cast<int>(i)).data_sheet_std;
+    prior_information_(i, i) = 1.0 / (std * std);
+  }
   grow(scan_.information, num_unknowns);
   grow(scan_.mixed, kNumNuisance);
-  for (Eigen::VectorXd* vector : {&score_, &scan_.score}) {
+  for (Eigen::VectorXd* vector : {&score_, &prior_score_, &scan_.score}) {
     vector->conservativeResize(num_unknowns);
     vector->tail(num_unknowns - before).setZero();
   }
@@ -192,16 +222,8 @@ std::optional<Matrix6> BeamCalibration::ScoreCov() const {
 }
 
 void BeamCalibration::Solve() {
-  Eigen::MatrixXd posterior = information_;
-  Eigen::VectorXd score = score_;
-  for (Eigen::Index i = 0; i < score.size(); ++i) {
-    const Prior prior = PriorOf(static_cast<int>(i));
-    const double information = 1.0 / (prior.std * prior.std);
-    posterior(i, i) += information;
-    score[i] += information * prior.mean;
-  }
-  posterior_.compute(posterior);  // reads the lower triangle
-  errors_ = AsBeamErrors(posterior_.solve(score).eval());
+  posterior_.compute(information_ + prior_information_);  // reads the lower triangle
+  errors_ = AsBeamErrors(posterior_.solve(score_ + prior_score_).eval());
 }
 
 BeamKnowledge BeamCalibration::Found() const {

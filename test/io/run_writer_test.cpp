@@ -378,6 +378,8 @@ TEST_F(RunWriterTest, BeamsAreWrittenUnlessNothingIsTrusted) {
   stats.beams = LidarBeams{{0.01}, {0.004}, {0}, {1e-4}, {0}, {1e-4}, {0, 0}, {1e-5, 1e-5}};
   RunWriter(out_, Options{}).Finish(stats);
   EXPECT_THAT(test::ReadText(out_ / "beams.yaml"), HasSubstr("range_m: [0.01]"));
+  EXPECT_EQ(Stats()["beam_errors"]["range_m"]["rms"], 0.01);
+  EXPECT_EQ(Stats()["beam_errors"]["elevation_rad"]["std"], 1e-4);
   stats.verdict.trust = Trust::kNo;
   RunWriter(out_, Options{}).Finish(stats);
   EXPECT_FALSE(std::filesystem::exists(out_ / "beams.yaml"));

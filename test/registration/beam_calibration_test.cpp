@@ -233,7 +233,8 @@ TEST(BeamCalibration, StartsFromWhatIsKnownAndTheTimeSinceMakesItLessSure) {
   EXPECT_NEAR(calibration.errors().rings[1].azimuth_rad, 3e-4f, 1e-9f);
   EXPECT_NEAR(calibration.errors().encoder_rad.y(), -5e-5f, 1e-9f);
   const BeamKnowledge found = calibration.Found();
-  EXPECT_NEAR(found.std.rings[0].range_m, std::hypot(0.003, 0.002), 1e-6);
+  // Each ring by itself, all together, and the upper ones against the lower ones.
+  EXPECT_NEAR(found.std.rings[0].range_m, std::sqrt(0.003 * 0.003 + 3 * 0.002 * 0.002), 1e-6);
   EXPECT_GT(found.std.rings[1].elevation_rad, known.std.rings[1].elevation_rad);
   EXPECT_GT(found.std.encoder_rad.x(), known.std.encoder_rad.x());
 }

@@ -72,18 +72,16 @@ class BeamCalibration {
     int unknown = 0;
     float value = 0.f;
   };
-  struct Prior {
-    double mean = 0.0;
-    double std = 0.0;
-  };
 
-  Prior PriorOf(int unknown) const;
+  void SetPrior(const BeamKnowledge& known);
   void FindTerms(const BeamRow& row);
   void AddTerms(int ring, const BeamShift& shift, float share);
   void MakeRoomFor(int num_unknowns);
   void Solve();
 
-  BeamKnowledge known_;  // before the first scan
+  // The knowledge before the first scan, as normal equations.
+  Eigen::MatrixXd prior_information_;
+  Eigen::VectorXd prior_score_;
   // The normal equations of all scans, poses eliminated, and of the scan at hand.
   Eigen::MatrixXd information_;
   Eigen::VectorXd score_;

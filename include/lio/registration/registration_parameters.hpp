@@ -234,7 +234,8 @@ struct BeamCalibrationParameters {
   static constexpr double kEncoderStd_rad = 1.2e-4;
   // Chosen: ranges at grazing incidence are a few millimetres times the term too long.
   static constexpr double kGrazingStd_m = 0.01;
-  // Errors that an earlier drive found have changed by so much since, with age and temperature.
+  // Errors that an earlier drive found have changed by so much since, with age and temperature:
+  // each by itself, all of a kind together, and upper rings against lower ones.
   // Chosen: a fifth of what data sheets allow; no data sheet states it.
   static constexpr double kRangeAgeing_m = 2e-3;
   static constexpr double kAngleAgeing_rad = 1e-4;

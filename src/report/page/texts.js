@@ -62,6 +62,17 @@ function figureRows(run) {
     rows.push(["time per sweep, median, p99", `${number(total.median, 1)}, ${number(total.p99, 1)} ms`]);
     rows.push(["speed", `${number(stats.realtime_factor, 1)} × real time`]);
     rows.push(["memory at its peak", `${number(stats.rss_peak_mb, 0)} MB`]);
+    const noise = stats.imu_noise_per_rig, beams = stats.beam_errors;
+    if (noise && noise.gyro.median != null) {
+      rows.push(["noise over the rig's, gyro, accelerometer",
+        `${number(noise.gyro.median, 1)}, ${number(noise.accel.median, 1)} times`]);
+    }
+    if (beams) {
+      const shown = ({rms, std}) => `${number(1e3 * rms, 2)} ± ${number(1e3 * std, 2)}`;
+      rows.push(["errors found of the lasers' ranges", `${shown(beams.range_m)} mm`],
+        ["errors found of elevations, azimuths",
+          `${shown(beams.elevation_rad)}, ${shown(beams.azimuth_rad)} mrad`]);
+    }
   }
   return rows;
 }
