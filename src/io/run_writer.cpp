@@ -45,7 +45,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;
   const double mean = sum / static_cast<double>(values.size());
-  return std::round(std::sqrt(mean) * 1e7) * 1e-7;
+  return std::round(std::sqrt(mean) * 1e7) / 1e7;
 }
 
 // How large the errors of the beams are over all rings, and how well they are known.
