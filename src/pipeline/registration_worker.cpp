@@ -101,7 +101,7 @@ RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
     : T_imu_lidar_(options.rig.T_imu_lidar.value_or(Pose::Identity())),
       calibration_(KnownBeams(options.rig.lidar)),
       clock_(clock),
-      warms_up_densely_(options.pipeline.method == MatchMethod::kNdt),
+      has_cells_(options.pipeline.method == MatchMethod::kNdt),
       filter_(options.rig.lidar),
       reducer_(MakeReducer(options, beam_elevations_rad)),
       matcher_(MakeMatcher(options)) {
@@ -121,6 +121,7 @@ void RegistrationWorker::CorrectBeams(std::vector<ScanPoint>& points) const {
 }
 
 std::optional<LidarBeams> RegistrationWorker::FoundBeams() const {
+  if (!has_cells_) return std::nullopt;
   return AsLidarBeams(calibration_.Found());
 }
 
@@ -276,7 +277,7 @@ void RegistrationWorker::FinishMatch(const Track& task, ScanInWork& scan) {
     relocalizer_.SetLocated(job.sweep->middle(), std::move(scan.to_match), outcome.match);
   }
   const bool warms_up = job.map_action == MapAction::kWarmUp || job.map_action == MapAction::kClear;
-  if (warms_up && warms_up_densely_) TakeDensePoints(scan);
+  if (warms_up && has_cells_) TakeDensePoints(scan);
 }
 
 void RegistrationWorker::SeekPlace(ScanInWork& scan) {

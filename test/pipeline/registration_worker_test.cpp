@@ -71,6 +71,18 @@ TEST(RegistrationWorker, TaskWithoutAPoseIsNotInserted) {
   EXPECT_EQ(side.matcher().map_size().num_cells, 0u);
 }
 
+TEST(RegistrationWorker, BeamsAreThoseOfTheRigUntilNdtFindsMore) {
+  Options options;
+  EXPECT_FALSE(RegistrationWorker(options).FoundBeams());
+  options.rig.lidar.beams =
+      LidarBeams{{0.01}, {0.004}, {0}, {1e-4}, {0}, {1e-4}, {0, 0}, {1e-5, 1e-5}};
+  const std::optional<LidarBeams> known = RegistrationWorker(options).FoundBeams();
+  ASSERT_TRUE(known);
+  EXPECT_NEAR(known->range_m[0], 0.01, 1e-6);
+  options.pipeline.method = MatchMethod::kLoam;
+  EXPECT_FALSE(RegistrationWorker(options).FoundBeams()) << "LOAM finds none";
+}
+
 TEST(RegistrationWorker, ScanOfAMovingVehicleIsFoundAtItsMiddle) {
   RegistrationWorker side(test::DriveRig());
   FillMap(side);

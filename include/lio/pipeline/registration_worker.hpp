@@ -32,7 +32,8 @@ class RegistrationWorker {
   void Insert(const InsertTask& task);
 
   const ScanMatcher& matcher() const { return *matcher_; }
-  // The errors of the lidar's beams as they are known now; absent where nothing is. Takes a moment.
+  // The errors of the lidar's beams as they are known now; absent where nothing is, and with
+  // methods that find none. Takes a moment.
   [[nodiscard]] std::optional<LidarBeams> FoundBeams() const;
   // Scans that are inserted now go into the map that the run is about: the initial one, if there
   // is one.
@@ -65,7 +66,7 @@ class RegistrationWorker {
   BeamCalibration calibration_;
   double new_content_share_ = 0.0;  // the last match has brought it
   ClockNs clock_;
-  bool warms_up_densely_;  // a new map gets all points of a sweep: only NDT's cells want them
+  bool has_cells_;  // NDT's: they want all points of a new map's sweeps, and tell of the beams
   PointFilter filter_;
   std::unique_ptr<SweepReducer> reducer_;
   std::unique_ptr<ScanMatcher> matcher_;
