@@ -259,7 +259,8 @@ TEST(BeamCalibration, WhatADriveFoundHelpsTheNext) {
 // counts more in the end.
 TEST(BeamCalibration, ErrorsOfAnotherLidarAreUnlearnt) {
   BeamKnowledge wrong;
-  for (int ring = 0; ring < 16; ++ring) {
+  const std::size_t num_rings = CalibrationDrive().truth().rings.size();
+  for (std::size_t ring = 0; ring < num_rings; ++ring) {
     wrong.errors.rings.push_back({ring % 2 == 0 ? 0.02f : -0.02f, 0.f, 0.f});
     wrong.std.rings.push_back({0.005f, 3e-4f, 3e-4f});
   }
