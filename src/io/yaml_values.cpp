@@ -26,18 +26,25 @@ bool ParseNumber(const YAML::Node& node, Number& value) {
   return true;
 }
 
+// Parses a list into as many values.
+template <class Values>
+std::string ParseEntries(const YAML::Node& list, const std::string& expected, Values& values) {
+  auto value = values.begin();
+  for (const YAML::Node& entry : list) {
+    if (!ParseNumber(entry, *value++)) return expected + "one with " + Describe(entry);
+  }
+  return "";
+}
+
 template <int kSize>
 std::string ParseNumbers(const YAML::Node& node, Eigen::Matrix<double, kSize, 1>& values) {
   const std::string expected = "expects a list of " + std::to_string(kSize) + " numbers, not ";
   if (!node.IsSequence()) return expected + Describe(node);
   if (node.size() != kSize) return expected + "one of " + std::to_string(node.size());
   Eigen::Matrix<double, kSize, 1> parsed;
-  for (int i = 0; i < kSize; ++i) {
-    const YAML::Node entry = node[i];
-    if (!ParseNumber(entry, parsed(i))) return expected + "one with " + Describe(entry);
-  }
-  values = parsed;
-  return "";
+  std::string problem = ParseEntries(node, expected, parsed);
+  if (problem.empty()) values = parsed;
+  return problem;
 }
 
 }  // namespace
@@ -79,14 +86,10 @@ std::string ParseValue(const YAML::Node& node, Vector3& value) {
 std::string ParseValue(const YAML::Node& node, std::vector<double>& value) {
   const std::string expected = "expects a list of numbers, not ";
   if (!node.IsSequence()) return expected + Describe(node);
-  std::vector<double> parsed;
-  for (const YAML::Node& entry : node) {
-    if (!ParseNumber(entry, parsed.emplace_back())) {
-      return expected + "one with " + Describe(entry);
-    }
-  }
-  value = std::move(parsed);
-  return "";
+  std::vector<double> parsed(node.size());
+  std::string problem = ParseEntries(node, expected, parsed);
+  if (problem.empty()) value = std::move(parsed);
+  return problem;
 }
 
 std::string ParseValue(const YAML::Node& node, Quaternion& value) {

@@ -3,7 +3,6 @@
 #include "lio/registration/beam_calibration.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lio/registration/registration_parameters.hpp"
@@ -33,11 +32,9 @@ constexpr int NumUnknowns(std::size_t num_rings) {
   return kFirstRing + kNumPerRing * static_cast<int>(num_rings);
 }
 
-// Gives the unknowns that are not of a ring in their order, then those of the rings.
-template <class Vector>
-BeamErrors AsBeamErrors(const Vector& unknowns) {
+BeamErrors AsBeamErrors(const Eigen::VectorXd& unknowns) {
   BeamErrors errors;
-  errors.encoder_rad = {static_cast<float>(unknowns[kCos]), static_cast<float>(unknowns[kSin])};
+  errors.encoder_rad = unknowns.head<2>().cast<float>();
   errors.rings.resize(static_cast<std::size_t>((unknowns.size() - kFirstRing) / kNumPerRing));
   for (std::size_t ring = 0; ring < errors.rings.size(); ++ring) {
     const int number = static_cast<int>(ring);
@@ -48,16 +45,17 @@ BeamErrors AsBeamErrors(const Vector& unknowns) {
   return errors;
 }
 
-// Gives one kind of error of all rings: 0 range, 1 elevation, 2 azimuth.
-Eigen::VectorXd OfKind(const BeamErrors& errors, int kind) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(errors.rings.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const BeamErrors::OfRing& ring = errors.rings[static_cast<std::size_t>(i)];
-    const std::array<float, kNumPerRing> of_ring = {ring.range_m, ring.elevation_rad,
-                                                    ring.azimuth_rad};
-    values[i] = of_ring[static_cast<std::size_t>(kind)];
+// The inverse, with 0 for the grazing effect, which BeamErrors do not have.
+Eigen::VectorXd AsUnknowns(const BeamErrors& errors) {
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(NumUnknowns(errors.rings.size()));
+  unknowns.head<2>() = errors.encoder_rad.cast<double>();
+  for (std::size_t ring = 0; ring < errors.rings.size(); ++ring) {
+    const int number = static_cast<int>(ring);
+    unknowns[RangeOf(number)] = errors.rings[ring].range_m;
+    unknowns[ElevationOf(number)] = errors.rings[ring].elevation_rad;
+    unknowns[AzimuthOf(number)] = errors.rings[ring].azimuth_rad;
   }
-  return values;
+  return unknowns;
 }
 
 // The covariance of one kind of error of all rings after some time. Age and temperature change each
@@ -95,23 +93,20 @@ BeamCalibration::BeamCalibration(const BeamKnowledge& known) {
 }
 
 void BeamCalibration::SetPrior(const BeamKnowledge& known) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(score_.size());
+  const Eigen::VectorXd std = AsUnknowns(known.std);
   for (const int unknown : {kCos, kSin}) {
-    const double std = std::hypot(known.std.encoder_rad[unknown], AllowanceOf(unknown).ageing_std);
-    prior_information_(unknown, unknown) = 1.0 / (std * std);
-    mean[unknown] = known.errors.encoder_rad[unknown];
+    const double aged_std = std::hypot(std[unknown], AllowanceOf(unknown).ageing_std);
+    prior_information_(unknown, unknown) = 1.0 / (aged_std * aged_std);
   }
   const auto num_rings = static_cast<Eigen::Index>(known.std.rings.size());
   for (int kind = 0; kind < kNumPerRing; ++kind) {
     const auto of_kind = Eigen::seqN(kFirstRing + kind, num_rings, kNumPerRing);
-    const Eigen::MatrixXd cov =
-        Aged(OfKind(known.std, kind), AllowanceOf(kFirstRing + kind).ageing_std);
+    const Eigen::MatrixXd cov = Aged(std(of_kind), AllowanceOf(kFirstRing + kind).ageing_std);
     const Eigen::MatrixXd information =
         cov.ldlt().solve(Eigen::MatrixXd::Identity(num_rings, num_rings));
     prior_information_(of_kind, of_kind) = information;
-    mean(of_kind) = OfKind(known.errors, kind);
   }
-  prior_score_ = prior_information_ * mean;
+  prior_score_ = prior_information_ * AsUnknowns(known.errors);
 }
 
 void BeamCalibration::BeginScan(float path_m, int stands_for) {
@@ -223,14 +218,14 @@ std::optional<Matrix6> BeamCalibration::ScoreCov() const {
 
 void BeamCalibration::Solve() {
   posterior_.compute(information_ + prior_information_);  // reads the lower triangle
-  errors_ = AsBeamErrors(posterior_.solve(score_ + prior_score_).eval());
+  errors_ = AsBeamErrors(posterior_.solve(score_ + prior_score_));
 }
 
 BeamKnowledge BeamCalibration::Found() const {
   const Eigen::Index size = posterior_.cols();
   if (size == 0) return {};
   const Eigen::MatrixXd cov = posterior_.solve(Eigen::MatrixXd::Identity(size, size));
-  return {errors_, AsBeamErrors(cov.diagonal().cwiseSqrt().eval())};
+  return {errors_, AsBeamErrors(cov.diagonal().cwiseSqrt())};
 }
 
 }  // namespace lio

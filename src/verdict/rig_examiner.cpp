@@ -101,8 +101,8 @@ Verdict RigExaminer::Judge(const Counters& counters, std::vector<Cause> suspecte
     return std::ranges::count(verdict.causes, cause.kind, &Cause::kind) > 0;
   });
   append(std::move(suspected));
-  if (contradictions_.empty())
-    append(FindDataFaults(counters, tally_, uses_imu_ ? &rig_.imu : nullptr));
+  const ImuRig* imu = uses_imu_ ? &rig_.imu : nullptr;
+  if (contradictions_.empty()) append(FindDataFaults(counters, tally_, imu));
   // Equal ones stay in their order: rigs are more often wrong than data.
   std::ranges::stable_sort(verdict.causes, std::greater<>{}, &Cause::leaves);
   verdict.trust = LeastOf(verdict.causes, TrustIn(verdict.coverage, verdict.claimed));

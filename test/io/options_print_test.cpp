@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "lio/io/options_yaml.hpp"
+#include "support/beams.hpp"
 
 namespace lio {
 namespace {
@@ -115,19 +116,8 @@ TEST(OptionsPrint, EveryLineIsExplained) {
   }
 }
 
-LidarBeams TwoBeams() {
-  return {.range_m = {0.012, -0.003},
-          .range_std_m = {0.004, 0.005},
-          .elevation_rad = {1e-8, -2e-4},
-          .elevation_std_rad = {1e-4, 2e-4},
-          .azimuth_rad = {0.0, 3e-4},
-          .azimuth_std_rad = {3e-4, 4e-4},
-          .encoder_rad = {1e-4, -5e-5},
-          .encoder_std_rad = {4e-5, 5e-5}};
-}
-
 TEST(OptionsPrint, BeamsStandAloneAsAFileThatFollowsTheRigs) {
-  const std::string text = PrintBeams(TwoBeams());
+  const std::string text = PrintBeams(test::TwoLidarBeams());
   EXPECT_THAT(text, StartsWith("# "));
   EXPECT_THAT(text, HasSubstr("\nrig:\n  lidar:\n    beams: "));
   EXPECT_EQ(ValueOf(text, "range_m"), "[0.012, -0.003]");

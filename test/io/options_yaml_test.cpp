@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "support/beams.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -348,14 +349,7 @@ TEST_F(OptionsYaml, AFaultyRotationIsToldOnceWithItsLine) {
 }
 
 TEST_F(OptionsYaml, BeamsOfAnEarlierRunFollowTheRig) {
-  const LidarBeams beams{.range_m = {0.012, -0.003},
-                         .range_std_m = {0.004, 0.005},
-                         .elevation_rad = {1e-8, -2e-4},
-                         .elevation_std_rad = {1e-4, 2e-4},
-                         .azimuth_rad = {0.0, 3e-4},
-                         .azimuth_std_rad = {3e-4, 4e-4},
-                         .encoder_rad = {1e-4, -5e-5},
-                         .encoder_std_rad = {4e-5, 5e-5}};
+  const LidarBeams beams = test::TwoLidarBeams();
   const LoadResult result =
       LoadOptions({dir_.Write("rig.yaml", kRig), dir_.Write("beams.yaml", PrintBeams(beams))}, {});
   EXPECT_THAT(result.faults, IsEmpty());

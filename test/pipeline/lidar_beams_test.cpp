@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/beams.hpp"
+
 namespace lio {
 namespace {
 
@@ -13,11 +15,8 @@ TEST(LidarBeams, ARigWithoutBeamsKnowsNone) {
 }
 
 TEST(LidarBeams, GoThereAndBack) {
-  BeamKnowledge known;
-  known.errors.rings = {{0.0123456f, 1e-4f, -2e-4f}, {-0.02f, 0.f, 3e-4f}};
-  known.errors.encoder_rad = {1e-4f, -5e-5f};
-  known.std.rings = {{0.003f, 1e-4f, 2e-4f}, {0.004f, 2e-4f, 3e-4f}};
-  known.std.encoder_rad = {3e-5f, 4e-5f};
+  BeamKnowledge known = test::TwoKnownBeams();
+  known.errors.rings[0].range_m = 0.0123456f;
   LidarRig rig;
   rig.beams = AsLidarBeams(known);
   ASSERT_TRUE(rig.beams);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lio/registration/ndt_matcher.hpp"
+#include "support/beams.hpp"
 #include "support/scene.hpp"
 
 namespace lio {
@@ -216,17 +217,8 @@ TEST(BeamCalibration, FewRowsAreNoMatch) {
   EXPECT_TRUE(calibration.errors().rings.empty());
 }
 
-BeamKnowledge TwoKnownBeams() {
-  BeamKnowledge known;
-  known.errors.rings = {{0.012f, 1e-4f, -2e-4f}, {-0.02f, 0.f, 3e-4f}};
-  known.errors.encoder_rad = {1e-4f, -5e-5f};
-  known.std.rings = {{0.003f, 1e-4f, 2e-4f}, {0.004f, 2e-4f, 3e-4f}};
-  known.std.encoder_rad = {3e-5f, 4e-5f};
-  return known;
-}
-
 TEST(BeamCalibration, StartsFromWhatIsKnownAndTheTimeSinceMakesItLessSure) {
-  const BeamKnowledge known = TwoKnownBeams();
+  const BeamKnowledge known = test::TwoKnownBeams();
   const BeamCalibration calibration(known);
   ASSERT_EQ(calibration.errors().rings.size(), 2u);
   EXPECT_NEAR(calibration.errors().rings[0].range_m, 0.012f, 1e-7f);

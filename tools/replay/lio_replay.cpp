@@ -43,8 +43,10 @@ constexpr const char* kDescription =
     "LIO_ODOM_LOCAL: the pose of imu in map, which never turns), trajectory_world.tum (as on\n"
     "LIO_ODOM: always level), the covariance*.csv of each; then trajectory_imu_rate.tum,\n"
     "registration.csv, states.csv, notices.tsv, stats.json, verdict.json (may the result be\n"
-    "trusted, and if not, why), options.yaml, map.pcd with --map, report.html with --report, and\n"
-    "trajectory_base.tum when the rig has T_base_imu. If the clock goes back, segment_2/ and\n"
+    "trusted, and if not, why), options.yaml, beams.yaml (the errors of the lidar's beams, which\n"
+    "the next run takes as --config after the rig), map.pcd with --map, report.html with "
+    "--report,\n"
+    "and trajectory_base.tum when the rig has T_base_imu. If the clock goes back, segment_2/ and\n"
     "so on have every row from there on, besides. A summary of the verdict goes to stdout.\n"
     "The same log and options give the same files byte for byte, except for computing times.";
 

@@ -21,7 +21,7 @@
 //   the errors of the lidar's beams are (root mean square over the rings)
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
 //   beams.yaml: what was found of the lidar's beams, to start the next run from; not where the
-//   verdict trusts nothing
+//   verdict trusts nothing, nor in a folder that liod completes while it goes on
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
