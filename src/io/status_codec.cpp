@@ -140,7 +140,7 @@ std::optional<StatusCounts> DecodeStatusCounts(ByteView bytes) {
     const std::int64_t count = ReadInt64(bytes, at);
     at += kCountBytes;
     is_sound = is_sound && count >= least && count <= kMaxCount;
-    return count;
+    return is_sound ? count : 0;  // a hostile count would overflow a sum
   };
   for (const CounterField& field : kCounterFields) counts.counters.*field.count = next();
   for (int i = 1; i < kNumDecodeStatuses && is_sound; ++i) counts.num_refused += next();
