@@ -3,6 +3,7 @@
 // Reads a ROS 1 bag from front to back. The index at its end serves only two purposes: to know all
 // topics early, and to find how much of a truncated bag is missing.
 #include <algorithm>
+#include <limits>
 #include <fstream>
 #include <map>
 
@@ -248,7 +249,10 @@ void Rosbag1Reader::CountMissing() {
   const std::uint64_t index = bag_header_.index_position.value_or(0);
   const std::uint64_t missing = std::max(chunk_.missing, index > size_ ? index - size_ : 0);
   if (missing > 0) damage_.cut_short = true;
-  damage_.lost_bytes += static_cast<std::int64_t>(missing);
+  // A damaged header may state any position.
+  const std::int64_t most = std::numeric_limits<std::int64_t>::max() - damage_.lost_bytes;
+  damage_.lost_bytes +=
+      static_cast<std::int64_t>(std::min(missing, static_cast<std::uint64_t>(most)));
   const bool complete =
       num_chunks_ >= bag_header_.num_chunks && num_chunk_infos_ >= bag_header_.num_chunks;
   if (index > 0 && !complete) {

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -23,6 +25,7 @@ using Words = std::vector<std::string>;
 constexpr std::uint64_t kMaxPoints = 1'000'000'000;
 constexpr std::uint64_t kMaxStepBytes = 4096;  // size of one point
 constexpr std::uint64_t kMaxRatio = 100;       // LZF packs 264 bytes into 3 at best
+constexpr int kMaxWord = 16;                   // characters; no key is as long
 
 std::optional<std::uint64_t> Number(const std::string& word) {
   if (word.empty() || word.size() > 10 ||
@@ -99,6 +102,18 @@ std::optional<Header> ReadHeader(std::istream& file) {
   return std::nullopt;
 }
 
+// PCL looks for lines of the header behind the line DATA, too, and breaks down where the points
+// look like one. It leaves out comments and empty lines, and takes any word that begins with a key.
+bool BeginsLikeHeader(std::istream& file) {
+  std::string word;
+  while (file >> std::setw(kMaxWord) >> word) {
+    if (word.front() != '#') break;
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  const auto is_begin = [&](std::string_view key) { return word.starts_with(key); };
+  return std::ranges::any_of(kKeys, is_begin) || is_begin("COLUMNS");
+}
+
 // Checks the sizes that stand before compressed points against those of the header and of the file.
 bool IsSoundCompressed(std::istream& file, std::uint64_t num_rest, std::uint64_t num_points_bytes) {
   std::array<std::uint8_t, 8> bytes{};
@@ -124,6 +139,10 @@ bool IsSoundPcd(const std::filesystem::path& path) {
   if (!step || !num_points) return false;
   const std::uint64_t num_rest =
       std::filesystem::file_size(path) - static_cast<std::uint64_t>(file.tellg());
+  const std::streampos begin = file.tellg();
+  if (BeginsLikeHeader(file)) return false;
+  file.clear();
+  file.seekg(begin);
   const std::uint64_t num_bytes = *num_points * *step;
   const std::string& kind = header->Of(kData)[0];
   if (kind == "binary") return num_bytes <= num_rest;

@@ -66,6 +66,15 @@ TEST(PcdCheck, LinesMustBeThoseOfTheFormatInItsOrder) {
   EXPECT_FALSE(IsSoundPcdText("SIZE 4\nFIELDS x\nTYPE F\n" + end));
 }
 
+// PCL would take such points for lines of the header.
+TEST(PcdCheck, PointsMustNotLookLikeAHeader) {
+  const std::string begin = With("WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary\n");
+  for (const std::string points : {"COLUMNS x y z", "\n SIZES4444444", "#\n\nDATA binary"}) {
+    EXPECT_FALSE(IsSoundPcdText(begin + points)) << points;
+  }
+  EXPECT_TRUE(IsSoundPcdText(begin + "#umns\n columns"));
+}
+
 TEST(PcdCheck, TextThatIsNoHeaderIsNot) {
   EXPECT_FALSE(IsSoundPcdText(""));
   EXPECT_FALSE(IsSoundPcdText(kPcdBegin));

@@ -13,7 +13,9 @@ namespace {
 // The number of members of an aggregate: the most values its braces take.
 struct AnyValue {
   template <class T>
-  operator T() const;
+  operator T() const {
+    return {};
+  }
 };
 
 template <class T, class... Values>
