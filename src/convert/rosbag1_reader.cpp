@@ -3,8 +3,8 @@
 // Reads a ROS 1 bag from front to back. The index at its end serves only two purposes: to know all
 // topics early, and to find how much of a truncated bag is missing.
 #include <algorithm>
-#include <limits>
 #include <fstream>
+#include <limits>
 #include <map>
 
 #include "bag_limits.hpp"

@@ -40,8 +40,7 @@ Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vect
 
 }  // namespace
 
-ClockOffset::ClockOffset()
-    : cov_(Vector2(kClockOffset.max_std_s, kClockOffset.rate_std).cwiseAbs2().asDiagonal()) {}
+ClockOffset::ClockOffset(const ClockBelief& belief) : state_(belief.mean), cov_(belief.cov) {}
 
 double ClockOffset::std_s() const {
   return std::sqrt(cov_(kOffset, kOffset));
@@ -73,6 +72,7 @@ void ClockOffset::Predict(Timestamp now) {
   const double span_s = as_of_ ? SecondsBetween(*as_of_, now) : 0.0;
   as_of_ = now;
   if (span_s <= 0.0 || span_s > kClockOffset.max_span_s) return;
+  age_s_ += span_s;
   Matrix2 transition = Matrix2::Identity();
   transition(kOffset, kRate) = span_s;
   state_ = transition * state_;
@@ -137,6 +137,16 @@ void ClockOffset::LearnUnclaimed(const Turn& turn) {
   unclaimed_var_ += (std::min(var, limit) - turn.claimed_var - unclaimed_var_) /
                     kClockOffset.num_turns_remembered;
   unclaimed_var_ = std::max(unclaimed_var_, 0.0);
+}
+
+// The rate is constant, and the offset has walked since.
+ClockBelief ClockOffset::AtBegin() const {
+  Matrix2 back = Matrix2::Identity();
+  back(kOffset, kRate) = -age_s_;
+  ClockBelief belief{back * state_, back * cov_ * back.transpose()};
+  belief.cov(kOffset, kOffset) +=
+      kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * age_s_;
+  return belief;
 }
 
 void ClockOffset::Follow() {

@@ -93,6 +93,18 @@ void AddSpanArguments(CLI::App& app, double& start_s, double& duration_s) {
       ->check(NumberAboveZero());
 }
 
+void AddPassesArgument(CLI::App& app, int& num_passes) {
+  app.add_option("--passes", num_passes,
+                 "Replay once, as liod would, or twice: the second pass begins with what the first "
+                 "has\n"
+                 "found of the sensors (the errors of the beams, clocks, mounting, units), so that "
+                 "the\n"
+                 "path is right from its begin on. Files are those of the last pass")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+}
+
 std::optional<int> ParseCommandLine(CLI::App& app, int argc, const char* const* argv,
                                     const std::string& version) {
   app.set_version_flag("--version", app.get_name() + " " + version, "Print the version and exit");

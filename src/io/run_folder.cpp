@@ -53,12 +53,14 @@ fs::path FreeFolder(const fs::path& folder) {
 
 fs::path MakeFreeFolder(const fs::path& folder) {
   const fs::path candidate = FreeFolder(folder);
-  std::error_code error;
-  fs::create_directories(candidate, error);
-  if (error) {
-    throw std::runtime_error("cannot create " + candidate.string() + ": " + error.message());
-  }
+  MakeFolder(candidate);
   return candidate;
+}
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw UsageError("--out: cannot create " + folder.string() + ": " + error.message());
 }
 
 std::string WhyNotWritable(const fs::path& folder) {

@@ -212,6 +212,7 @@ void RunWriter::WriteStats(const RunStats& stats) {
   for (const auto& [name, count] : stats.extra) json[name] = count;
   json["account"] = Json::parse(AccountJson(stats.account, stats.input));
   json["log_duration_s"] = stats.log_duration_s;
+  json["num_passes"] = stats.num_passes;
   json["wall_s"] = stats.wall_s;
   json["realtime_factor"] = stats.wall_s > 0 ? stats.log_duration_s / stats.wall_s : 0.0;
   json["rss_peak_mb"] = PeakMemoryMb();

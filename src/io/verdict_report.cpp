@@ -22,6 +22,18 @@ Json Rounded(std::optional<double> value, double steps) {
   return std::round(*value * steps) / steps;
 }
 
+Json CausesJson(const std::vector<Cause>& causes) {
+  Json json = Json::array();
+  for (const Cause& cause : causes) {
+    json.push_back({{"kind", Name(cause.kind)},
+                    {"leaves", Name(cause.leaves)},
+                    {"sigma", Rounded(cause.sigma, 10.0)},
+                    {"evidence", cause.evidence},
+                    {"fix", cause.fix}});
+  }
+  return json;
+}
+
 std::string Indented(const std::string& text) {
   std::istringstream stream(text);
   std::string indented;
@@ -38,14 +50,8 @@ std::string VerdictJson(const Verdict& verdict) {
   json["claimed"] = {
       {"position_std_m_per_100m", Rounded(verdict.claimed.position_std_m_per_100m, 1e4)},
       {"tilt_std_deg", Rounded(verdict.claimed.tilt_std_deg, 1e4)}};
-  json["causes"] = Json::array();
-  for (const Cause& cause : verdict.causes) {
-    json["causes"].push_back({{"kind", Name(cause.kind)},
-                              {"leaves", Name(cause.leaves)},
-                              {"sigma", Rounded(cause.sigma, 10.0)},
-                              {"evidence", cause.evidence},
-                              {"fix", cause.fix}});
-  }
+  json["causes"] = CausesJson(verdict.causes);
+  if (!verdict.mended.empty()) json["mended"] = CausesJson(verdict.mended);
   return json.dump(2) + "\n";
 }
 
@@ -67,6 +73,13 @@ std::string VerdictSummary(const Verdict& verdict) {
   for (const Cause& cause : verdict.causes) {
     text += fmt::format("  {}: {}\n", Name(cause.kind), cause.evidence);
     if (!cause.fix.empty()) text += "    put into the configuration:\n" + Indented(cause.fix);
+  }
+  std::string told_fix;  // several causes may have the same
+  for (const Cause& cause : verdict.mended) {
+    text += fmt::format("  mended by the first pass: {}: {}\n", Name(cause.kind), cause.evidence);
+    if (cause.fix.empty() || cause.fix == told_fix) continue;
+    told_fix = cause.fix;
+    text += "    for liod and other drives put into the configuration:\n" + Indented(told_fix);
   }
   return text;
 }

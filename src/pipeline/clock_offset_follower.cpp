@@ -8,13 +8,24 @@
 
 namespace lio {
 
-ClockOffsetFollower::ClockOffsetFollower(const Options& options) : options_(&options) {
-  if (options.pipeline.use_imu) Restart();
+ClockOffsetFollower::ClockOffsetFollower(const Options& options, const ClockBelief& belief)
+    : options_(&options) {
+  if (options.pipeline.use_imu && options.filter.estimate_clock_offset) offset_.emplace(belief);
 }
 
 void ClockOffsetFollower::Restart() {
   if (options_->filter.estimate_clock_offset) offset_.emplace();
   is_announced_ = false;
+}
+
+void ClockOffsetFollower::Stop() {
+  if (offset_ && !at_begin_) at_begin_ = offset_->AtBegin();
+  offset_.reset();
+}
+
+ClockBelief ClockOffsetFollower::AtBegin() const {
+  if (at_begin_) return *at_begin_;
+  return offset_ ? offset_->AtBegin() : ClockBelief{};
 }
 
 void ClockOffsetFollower::Interrupt() {

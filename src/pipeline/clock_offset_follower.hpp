@@ -17,13 +17,13 @@ namespace lio {
 
 class ClockOffsetFollower {
  public:
-  // Does nothing where the options switch it off.
-  explicit ClockOffsetFollower(const Options& options);
+  // Does nothing where the options switch it off. `belief` is about the first scan.
+  explicit ClockOffsetFollower(const Options& options, const ClockBelief& belief = {});
 
   // Begins anew, knowing nothing.
   void Restart();
   // There is no IMU any more.
-  void Stop() { offset_.reset(); }
+  void Stop();
   // A scan was lost: the next turn is not measured.
   void Interrupt();
 
@@ -40,10 +40,14 @@ class ClockOffsetFollower {
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
   double total_s() const;
   double std_s() const { return offset_ ? offset_->std_s() : 0.0; }
+  // Returns what the drive tells of its first scan, beyond rig.lidar.clock_offset_s: as of when the
+  // IMU fell silent first, if it did, since its clock may be another one after that.
+  ClockBelief AtBegin() const;
 
  private:
   const Options* options_;
   std::optional<ClockOffset> offset_;
+  std::optional<ClockBelief> at_begin_;  // as of the first Stop
   bool is_announced_ = false;
 };
 

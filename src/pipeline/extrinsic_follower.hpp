@@ -18,6 +18,10 @@ class ExtrinsicFollower {
   explicit ExtrinsicFollower(const Options& options);
 
   const Pose& T_imu_lidar() const { return T_imu_lidar_; }
+  // Nothing while the rig's is in use.
+  std::optional<Pose> corrected() const {
+    return is_corrected_ ? std::optional(T_imu_lidar_) : std::nullopt;
+  }
   // Takes what a look has found. Returns T_old_new, the pose of the imu by the corrected extrinsic
   // in the imu so far, when it corrects the extrinsic.
   [[nodiscard]] std::optional<Pose> Take(const RigFindings& findings);

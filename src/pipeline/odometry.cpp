@@ -23,10 +23,22 @@ const Options& Validated(const Options& options) {
   throw std::invalid_argument(text);
 }
 
-StreamOptions MakeStreamOptions(const Options& options) {
+// Returns what is known of the clocks beyond the offset that WithFound puts into the rig.
+ClockBelief BeyondRig(ClockBelief clock) {
+  clock.mean[0] = 0.0;
+  return clock;
+}
+
+bool IsLeverFound(const Rig& rig, const FoundSensors& found) {
+  const Vector3 given = rig.T_imu_lidar ? rig.T_imu_lidar->translation : Vector3::Zero();
+  return found.T_imu_lidar && found.T_imu_lidar->translation != given;
+}
+
+StreamOptions MakeStreamOptions(const Options& options, const FoundSensors& found) {
   StreamOptions stream;
   stream.use_imu = options.pipeline.use_imu;
   stream.units = options.rig.imu.units;
+  stream.convention = found.convention;
   stream.lidar_clock_offset_s = options.rig.lidar.clock_offset_s;
   // Live, sweeps that wait for matching are dropped before so many do.
   if (options.filter.estimate_clock_offset && options.pipeline.use_imu) {
@@ -41,21 +53,23 @@ StreamOptions MakeStreamOptions(const Options& options) {
 // Holds the parts of the estimator. All but the mode outlive every mode.
 struct Odometry::Impl {
   Impl(const Options& given, ClockNs given_clock, StartIn given_start_in,
-       const Handover& handover = {})
-      : options(Validated(given)),
+       const FoundSensors& found = {}, const Handover& handover = {})
+      : options(WithFound(Validated(given), found)),
         clock(given_clock),
         start_in(given_start_in),
-        stream(MakeStreamOptions(options), counters),
+        stream(MakeStreamOptions(options, found), counters),
         queue(static_cast<std::size_t>(options.pipeline.max_queued_scans)),
         convention(options.rig, stream.imu()),
-        examiner(options.rig, options.pipeline.use_imu),
-        clocks(options),
+        examiner(options.rig, options.pipeline.use_imu, IsLeverFound(given.rig, found)),
+        clocks(options, BeyondRig(found.clock)),
         extrinsic(options),
         place(start_in == StartIn::kInitialMap, options.pipeline.map_locked),
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
               outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise,
               sensor_errors, blind_axis, examiner, place},
-             place, handover) {}
+             place, handover) {
+    if (found.convention) examiner.SetConvention(*found.convention);
+  }
 
   std::int64_t NowNs() const { return clock == nullptr ? 0 : clock(); }
 
@@ -92,8 +106,9 @@ struct Odometry::Impl {
   std::int64_t filter_ns = 0;  // CPU time of the filter since the last job
 };
 
-Odometry::Odometry(const Options& options, ClockNs clock, StartIn start_in)
-    : impl_(std::make_unique<Impl>(options, clock, start_in)) {}
+Odometry::Odometry(const Options& options, ClockNs clock, StartIn start_in,
+                   const FoundSensors& found)
+    : impl_(std::make_unique<Impl>(options, clock, start_in, found)) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
@@ -122,7 +137,8 @@ void Odometry::Reset(const std::optional<GivenPose>& at, Timestamp stamp) {
                          .pose_cov = at->cov};
     handover.pose_cov = at->cov;
   }
-  auto next = std::make_unique<Impl>(impl_->options, impl_->clock, impl_->start_in, handover);
+  auto next = std::make_unique<Impl>(impl_->options, impl_->clock, impl_->start_in, FoundSensors{},
+                                     handover);
   next->counters = impl_->counters;
   Ledgers& kept = next->counters.ledgers;
   kept = ledgers();
@@ -192,6 +208,10 @@ Verdict Odometry::Judge() const {
 
 Trust Odometry::trust() const {
   return impl_->examiner.trust();
+}
+
+FoundSensors Odometry::found_sensors() const {
+  return {impl_->stream.imu().convention(), impl_->extrinsic.corrected(), impl_->clocks.AtBegin()};
 }
 
 const Counters& Odometry::counters() const {

@@ -120,8 +120,15 @@ void RegistrationWorker::CorrectBeams(std::vector<ScanPoint>& points) const {
   }
 }
 
+// These scans have been learned from.
+void RegistrationWorker::TakeCalibration(const BeamCalibration& found) {
+  calibration_ = found;
+  calibration_.ForgetScan();
+  calibration_.Freeze();
+}
+
 std::optional<LidarBeams> RegistrationWorker::FoundBeams() const {
-  if (!has_cells_) return std::nullopt;
+  if (!has_cells_ || !calibration_.IsOfUseElsewhere()) return std::nullopt;
   return AsLidarBeams(calibration_.Found());
 }
 
@@ -314,6 +321,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
 
   std::visit([&](const auto& task) { Do(task, scan); }, job.task);
   new_content_share_ = outcome.match.new_content_share;
+  is_blind_ = outcome.match.degenerate_mask != 0;
   outcome.points_lidar = std::move(scan.reduced.points);
   outcome.tags = std::move(scan.reduced.tags);
   outcome.features = std::move(scan.reduced.features);
@@ -336,7 +344,7 @@ void RegistrationWorker::Insert(const InsertTask& task) {
                     .beam_points = task.points_lidar,
                     .corrected = &calibration_.errors()},
                    *task.T_map_imu);
-  calibration_.Keep(new_content_share_);
+  calibration_.Keep(new_content_share_, is_blind_);
   last_insert_ns_ = Now() - begin;
 }
 

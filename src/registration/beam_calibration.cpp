@@ -192,8 +192,8 @@ void BeamCalibration::Add(const BeamRow& row) {
   ++scan_.num_rows;
 }
 
-void BeamCalibration::Keep(double new_content_share) {
-  if (scan_.num_rows < Parameters::kMinRows || !(new_content_share > 0.0)) return;
+void BeamCalibration::Keep(double new_content_share, bool is_blind) {
+  if (is_frozen_ || scan_.num_rows < Parameters::kMinRows || !(new_content_share > 0.0)) return;
   NuisanceSquare nuisance = scan_.nuisance.selfadjointView<Eigen::Lower>();
   // Keeps a direction that no surface shows from becoming singular.
   nuisance.diagonal().array() += 1e-9 * nuisance.diagonal().maxCoeff();
@@ -205,6 +205,7 @@ void BeamCalibration::Keep(double new_content_share) {
   information_.triangularView<Eigen::Lower>() += weight * scan_.information;
   score_ += weight * (scan_.score - shift.transpose() * scan_.nuisance_score);
   scan_.num_rows = 0;
+  num_blind_ += is_blind ? 1 : 0;
   if (num_kept_++ % Parameters::kSolvePeriod_scans == 0) Solve();
 }
 

@@ -38,9 +38,10 @@ Score ScoreRun(const fs::path& folder, const fs::path& truth) {
 std::optional<fs::path> WriteCorrectedRig(const fs::path& folder,
                                           const std::vector<fs::path>& files,
                                           const Verdict& verdict) {
-  const auto cause = std::find_if(verdict.causes.begin(), verdict.causes.end(),
-                                  [](const Cause& c) { return !c.fix.empty(); });
-  if (cause == verdict.causes.end()) return std::nullopt;
+  std::vector<Cause> causes = verdict.causes;
+  causes.insert(causes.end(), verdict.mended.begin(), verdict.mended.end());
+  const auto cause = std::ranges::find_if(causes, [](const Cause& c) { return !c.fix.empty(); });
+  if (cause == causes.end()) return std::nullopt;
   const fs::path corrected = folder / "rig_corrected.yaml";
   WriteText(corrected, cause->fix);
   std::vector<fs::path> with_fix = files;

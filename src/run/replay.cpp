@@ -14,13 +14,19 @@
 
 namespace lio {
 
-Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer)
+Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer,
+               const SensorKnowledge* known)
     : settings_(settings),
       writer_(writer),
       odometry_(options, ThreadCpuNs,
-                settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap),
+                settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap,
+                known == nullptr ? FoundSensors{} : known->sensors),
       worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model), settings.initial_map),
       lidar_check_(options) {
+  if (known != nullptr) {
+    if (known->beams) worker_.TakeCalibration(*known->beams);
+    num_passes_ = 2;
+  }
   if (settings_.writes_map && settings_.initial_map) {
     map_.Add(settings_.initial_map->points, Pose::Identity());
   }
@@ -42,6 +48,12 @@ void Replay::Run(LogInput& input) {
   Match();
   Judge();
   Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+SensorKnowledge Replay::Knowledge() const {
+  SensorKnowledge knowledge{odometry_.found_sensors(), std::nullopt};
+  if (worker_.calibration().IsOfUseElsewhere()) knowledge.beams = worker_.calibration();
+  return knowledge;
 }
 
 void Replay::Add(InputItem item) {
@@ -125,6 +137,7 @@ void Replay::Finish(const LogInput& input, double wall_s) {
   stats.wall_s = wall_s;
   stats.verdict = verdict_;
   stats.beams = worker_.FoundBeams();
+  stats.num_passes = num_passes_;
   try {
     writer_.Finish(stats);
   } catch (const WriteError&) {

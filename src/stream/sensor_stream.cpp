@@ -27,7 +27,7 @@ SensorStream::SensorStream(const StreamOptions& options, Counters& counters)
       counters_(&counters),
       has_imu_(options.use_imu),
       preprocessor_(counters, MaxRateSent(options.units)),
-      imu_(ConventionOf(options.units), counters),
+      imu_(options.convention.value_or(ConventionOf(options.units)), counters),
       assembler_(counters),
       gate_(counters),
       corrections_(options.max_unmatched.value_or(1)) {}

@@ -34,8 +34,11 @@ Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention) 
 
 }  // namespace
 
-RigExaminer::RigExaminer(const Rig& rig, bool uses_imu)
-    : rig_(rig), uses_imu_(uses_imu), convention_(ConventionOf(rig.imu.units)) {}
+RigExaminer::RigExaminer(const Rig& rig, bool uses_imu, bool is_lever_found)
+    : rig_(rig),
+      uses_imu_(uses_imu),
+      is_lever_found_(is_lever_found),
+      convention_(ConventionOf(rig.imu.units)) {}
 
 void RigExaminer::SetConvention(const ImuConvention& convention) {
   convention_ = convention;
@@ -48,7 +51,7 @@ std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
   if (!first_stamp_) first_stamp_ = stamp;
   if (SecondsBetween(*first_stamp_, stamp) < next_look_s_) return std::nullopt;
   next_look_s_ *= kRigExaminer.next_look_factor;
-  RigFindings findings = FindRigErrors(record_, rig_, convention_);
+  RigFindings findings = FindRigErrors(record_, rig_, convention_, is_lever_found_);
   trust_ = LeastOf(findings.causes, LeastOf(corrected_, Trust::kYes));
   bounds_ = findings.bounds;
   return findings;
@@ -64,6 +67,7 @@ std::optional<std::string> RigExaminer::News(const RigFindings& findings) {
 void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_lidar,
                                const Pose& T_old_new) {
   if (!rig_.T_imu_lidar) rig_.T_imu_lidar.emplace();
+  is_lever_found_ |= T_imu_lidar.translation != rig_.T_imu_lidar->translation;
   static_cast<Pose&>(*rig_.T_imu_lidar) = T_imu_lidar;  // known as well as before
   bounds_.reset();
   told_.reset();
@@ -93,7 +97,7 @@ Verdict RigExaminer::Judge(const Counters& counters, std::vector<Cause> suspecte
                           std::make_move_iterator(causes.end()));
   };
   append(corrected_);
-  append(FindRigErrors(record_, rig_, convention_).causes);
+  append(FindRigErrors(record_, rig_, convention_, is_lever_found_).causes);
   if (told_ && !std::ranges::count(verdict.causes, told_->kind, &Cause::kind)) {
     verdict.causes.push_back(*told_);
   }

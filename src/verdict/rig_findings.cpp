@@ -36,10 +36,11 @@ std::optional<Cause> JudgeUnits(const RigFit::TurnAlignment& turns) {
 class Naming {
  public:
   Naming(const RigSelection& selection, const Rig& rig, const ImuConvention& convention,
-         double clock_correction_s)
+         bool is_lever_found, double clock_correction_s)
       : selection_(selection),
         rig_(rig),
         R_imu_sent_(Quaternion(convention.R_imu_sent)),
+        is_lever_found_(is_lever_found),
         clock_correction_s_(clock_correction_s) {}
 
   RigFindings Name() const {
@@ -71,9 +72,11 @@ class Naming {
   // The extrinsic that the fit asks for, in the axes of the messages. The translation is that of
   // the rig, but for a lever arm that was found.
   Pose Corrected() const {
-    if (selection_.IsSelected(CauseKind::kLeverArm))
+    if (selection_.IsSelected(CauseKind::kLeverArm)) {
       return InAxes(R_rig_sent(), solution_.errors.lever_m);
-    return {InAxes(R_rig_sent(), {}).rotation, T_configured().translation};
+    }
+    if (is_lever_found_) return InAxes(R_rig_sent(), Vector3::Zero());
+    return {InAxes(R_rig_sent(), Vector3::Zero()).rotation, T_configured().translation};
   }
 
   // In the axes that the samples are read in. The translation is the rig's, as above, and so is
@@ -84,7 +87,7 @@ class Naming {
     if (!rotation && !lever) return std::nullopt;
     const Quaternion R_rig_read = rotation ? fit.errors.rotation : Quaternion::Identity();
     if (lever) return InAxes(R_rig_read, fit.errors.lever_m);
-    return Pose{InAxes(R_rig_read, {}).rotation, T_configured().translation};
+    return Pose{InAxes(R_rig_read, Vector3::Zero()).rotation, T_configured().translation};
   }
 
   std::optional<Pose> Bettered() const {
@@ -218,13 +221,14 @@ class Naming {
   const RigFitResult& solution_ = selection_.solution();
   const Rig& rig_;
   Quaternion R_imu_sent_;
+  bool is_lever_found_;
   double clock_correction_s_;
 };
 
 }  // namespace
 
 RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
-                          const ImuConvention& convention) {
+                          const ImuConvention& convention, bool is_lever_found) {
   RigFit fit(record, rig.imu.accel_bias_std_mps2);
   if (!fit.HasEnough()) return {};
   const RigFit::TurnAlignment turns = fit.AlignTurns();
@@ -236,7 +240,8 @@ RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
     return findings;
   }
   const RigSelection selection(fit, turns);
-  return Naming(selection, rig, convention, record.clock_correction().Seconds()).Name();
+  return Naming(selection, rig, convention, is_lever_found, record.clock_correction().Seconds())
+      .Name();
 }
 
 std::string ExtrinsicYaml(const Pose& T) {

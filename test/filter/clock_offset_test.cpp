@@ -60,6 +60,34 @@ TEST(ClockOffset, AWalkShowsItToAMillisecond) {
   }
 }
 
+// Four parts in a hundred thousand are 2.4 ms in a minute.
+TEST(ClockOffset, TheBeginOfADriveIsKnownAtItsEnd) {
+  ClockOffset first;
+  Drive drive{test::WalkMotion()};
+  drive.rate = 4e-5;
+  drive.Run(first, 0, 600);
+  const ClockBelief begin = first.AtBegin();
+  const double std_s = std::sqrt(begin.cov(0, 0));
+  EXPECT_LT(std::abs(begin.mean[0] - drive.offset_s), 4.0 * std_s);
+  EXPECT_LT(std_s, 1e-3);
+  EXPECT_GT(std_s, first.std_s()) << "a minute ago the clocks were another minute apart";
+
+  ClockOffset second(begin);
+  Drive again{test::WalkMotion()};
+  again.rate = 4e-5;
+  EXPECT_EQ(second.offset_s(), begin.mean[0]);
+  EXPECT_DOUBLE_EQ(second.std_s(), std_s);
+  again.Run(second, 0, 20);
+  EXPECT_NEAR(second.offset_s(), drive.offset_s, 1e-3);
+  EXPECT_NEAR(second.move_by_s(), drive.offset_s, 1e-3);
+}
+
+TEST(ClockOffset, NothingIsKnownOfABeginWithoutScans) {
+  const ClockBelief begin = ClockOffset().AtBegin();
+  EXPECT_EQ(begin.mean, ClockBelief().mean);
+  EXPECT_EQ(begin.cov, ClockBelief().cov);
+}
+
 TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {
   test::SmoothMotion straight;
   straight.x.speed = 28.0;

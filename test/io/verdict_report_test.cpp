@@ -40,6 +40,23 @@ TEST(VerdictReport, SummaryHasTheLinesForTheConfiguration) {
             "      rig:\n        lidar:\n          clock_offset_s: 0.0250\n");
 }
 
+TEST(VerdictReport, MendedCausesFollowAndAFixOfSeveralStandsOnce) {
+  Verdict verdict;
+  verdict.trust = Trust::kYes;
+  verdict.coverage = 1.0;
+  verdict.mended = {{CauseKind::kLeverArm, Trust::kNo, 9.0, "it is elsewhere", "rig: {}\n"},
+                    {CauseKind::kImuAxes, Trust::kNo, 9.0, "it is turned", "rig: {}\n"}};
+  EXPECT_EQ(VerdictSummary(verdict),
+            "trust: yes; poses for 100 % of the time\n"
+            "  mended by the first pass: lever_arm: it is elsewhere\n"
+            "    for liod and other drives put into the configuration:\n"
+            "      rig: {}\n"
+            "  mended by the first pass: imu_axes: it is turned\n");
+  const auto json = nlohmann::json::parse(VerdictJson(verdict));
+  ASSERT_EQ(json["mended"].size(), 2U);
+  EXPECT_EQ(json["mended"][1]["kind"], "imu_axes");
+}
+
 TEST(VerdictReport, TrustedRunHasOneLine) {
   Verdict verdict;
   verdict.trust = Trust::kYes;

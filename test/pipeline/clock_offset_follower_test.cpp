@@ -214,6 +214,28 @@ TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
   EXPECT_EQ(follower.std_s(), 0.0);
 }
 
+// An IMU that fell silent may come back with another clock.
+TEST(ClockOffsetFollower, TheBeginIsThatBeforeTheFirstSilence) {
+  const Options options = OptionsOfClock(true, 0.1);
+  ClockOffsetFollower follower(options);
+  EXPECT_EQ(follower.AtBegin().mean[0], 0.0);
+  Walk().NumAnnounced(follower, kEnoughOfWalk);
+  EXPECT_NEAR(follower.AtBegin().mean[0], kOffset_s, 2e-3);
+  follower.Stop();
+  follower.Restart();
+  Walk(-kOffset_s).NumAnnounced(follower, kEnoughOfWalk);
+  EXPECT_NEAR(follower.total_s(), 0.1 - kOffset_s, 2e-3);
+  EXPECT_NEAR(follower.AtBegin().mean[0], kOffset_s, 2e-3);
+}
+
+TEST(ClockOffsetFollower, ABeliefIsWhereItBegins) {
+  ClockBelief belief;
+  belief.mean[0] = 0.01;
+  const Options options = OptionsOfClock(true);
+  EXPECT_EQ(ClockOffsetFollower(options, belief).total_s(), 0.01);
+  EXPECT_EQ(ClockOffsetFollower(OptionsOfClock(false), belief).total_s(), 0.0);
+}
+
 TEST(ClockOffsetFollower, AfterARestartTheOffsetIsAnnouncedAgain) {
   const Options options = OptionsOfClock(true);
   ClockOffsetFollower follower(options);

@@ -35,10 +35,13 @@ TEST(ExtrinsicFollower, TheRigsIsUsedUntilItIsSurelyWrong) {
   EXPECT_FALSE(follower.Take({}));
   EXPECT_FALSE(follower.Take(Bettered(1.01)));
   EXPECT_EQ(follower.T_imu_lidar().translation.x(), 1.0);
+  EXPECT_FALSE(follower.corrected());
   const auto T_old_new = follower.Take(Wrong(0.4));
   ASSERT_TRUE(T_old_new);
   EXPECT_NEAR(T_old_new->translation.x(), 0.6, 1e-12);  // the lidar is 0.4 m from the new imu
   EXPECT_EQ(follower.T_imu_lidar().translation.x(), 0.4);
+  ASSERT_TRUE(follower.corrected());
+  EXPECT_EQ(follower.corrected()->translation.x(), 0.4);
 }
 
 TEST(ExtrinsicFollower, WhatWasCorrectedIsBettered) {

@@ -111,6 +111,16 @@ TEST(OdometryImuConvention, RatesAndAxesAreFoundAfterAStartAtRest) {
 }
 
 // On a straight road the force alone shows that axes are turned, which is too little to be sure.
+TEST(OdometryImuConvention, AnotherPassReadsTheMessagesRightFromItsFirstRow) {
+  const Messages messages = SentAs(test::StaticStartDrive(), kInTurnedAxes);
+  const RunResult first = RunOdometry(messages, test::DriveRig());
+  ASSERT_TRUE(IsAnyCalled(first));
+  ASSERT_EQ(first.found.convention, kInTurnedAxes);
+  const RunResult second = RunOdometry(messages, test::DriveRig(), 0, first.found);
+  EXPECT_FALSE(IsAnyCalled(second));
+  EXPECT_LT(ErrorAgainst(test::RestThenDrive(), second.scans).max_m, 0.06);
+}
+
 TEST(OdometryImuConvention, ADoubtThatNoTurnSettlesIsNamedByTheVerdict) {
   test::DriveOptions drive;
   drive.motion = [start = test::Driving()(0.0)](double t_s) {

@@ -47,6 +47,9 @@ class CalibrationDrive {
   const BeamErrors& truth() const { return truth_; }
   const BeamErrors& found() const { return calibration_.errors(); }
   BeamKnowledge Found() const { return calibration_.Found(); }
+  void Freeze() { calibration_.Freeze(); }
+  void SetBlind(bool is_blind) { is_blind_ = is_blind; }
+  bool IsOfUseElsewhere() const { return calibration_.IsOfUseElsewhere(); }
   const std::optional<Matrix6>& last_score_cov() const { return last_score_cov_; }
 
  private:
@@ -93,7 +96,7 @@ class CalibrationDrive {
                      .beam_points = scan.beams,
                      .corrected = &found()},
                     match.IsUsable() ? match.T_map_imu : T_world_imu);
-    calibration_.Keep(new_content_share);
+    calibration_.Keep(new_content_share, is_blind_);
   }
 
   std::mt19937_64 random_{7};
@@ -101,6 +104,7 @@ class CalibrationDrive {
   Lidar lidar_;
   BeamErrors truth_;
   BeamCalibration calibration_;
+  bool is_blind_ = false;
   std::optional<Matrix6> last_score_cov_;
   NdtMatcher matcher_{NdtOptions{}};
 };
@@ -155,6 +159,32 @@ TEST(BeamCalibration, LearnsNothingFromScansThatBringNothingNew) {
   EXPECT_TRUE(drive.found().rings.empty());
 }
 
+TEST(BeamCalibration, ErrorsFoundWhereMostScansAreBlindAreOfNoUseElsewhere) {
+  CalibrationDrive drive;
+  EXPECT_TRUE(drive.IsOfUseElsewhere());
+  drive.SetBlind(true);
+  drive.Go(0.0, 5.0, 0.5);
+  EXPECT_FALSE(drive.IsOfUseElsewhere());
+  drive.SetBlind(false);
+  drive.Go(5.5, 12.0, 0.5);
+  EXPECT_TRUE(drive.IsOfUseElsewhere());
+}
+
+TEST(BeamCalibration, FrozenItKeepsWhatIsKnownAndHowWell) {
+  CalibrationDrive drive;
+  drive.Go(0.0, 20.0, 0.5);
+  const BeamKnowledge before = drive.Found();
+  drive.Freeze();
+  drive.Go(20.5, 40.0, 0.5);
+  const BeamKnowledge after = drive.Found();
+  ASSERT_FALSE(before.std.rings.empty());
+  for (std::size_t ring = 0; ring < before.std.rings.size(); ++ring) {
+    EXPECT_EQ(after.errors.rings[ring].range_m, before.errors.rings[ring].range_m);
+    EXPECT_EQ(after.std.rings[ring].range_m, before.std.rings[ring].range_m);
+  }
+  EXPECT_TRUE(drive.last_score_cov()) << "what is left of the errors pulls matches all the same";
+}
+
 // An error that all sightings of a cell have in common does not show: the prior holds.
 TEST(BeamCalibration, WhileStandingNoErrorIsFoundThatIsNotThere) {
   CalibrationDrive drive;
@@ -191,7 +221,7 @@ TEST(BeamCalibration, APoseThatIsOffIsNoErrorOfABeam) {
                        .weight = 1e3f,
                        .jacobian = jacobian});
     }
-    calibration.Keep(0.1);
+    calibration.Keep(0.1, false);
   }
   ASSERT_EQ(calibration.errors().rings.size(), 8u);
   for (const BeamErrors::OfRing& ring : calibration.errors().rings) {
@@ -213,7 +243,7 @@ TEST(BeamCalibration, FewRowsAreNoMatch) {
                    .residual_m = 0.1f,
                    .weight = 1e3f,
                    .jacobian = Vector6f::Ones()});
-  calibration.Keep(1.0);
+  calibration.Keep(1.0, false);
   EXPECT_TRUE(calibration.errors().rings.empty());
 }
 

@@ -182,8 +182,9 @@ Options DriveRig() {
   return options;
 }
 
-RunResult RunOdometry(const Messages& messages, const Options& options, int lag) {
-  Odometry odometry(options);
+RunResult RunOdometry(const Messages& messages, const Options& options, int lag,
+                      const FoundSensors& known) {
+  Odometry odometry(options, nullptr, StartIn::kNewMap, known);
   SlowMatching matching(options, lag);
   RunResult result;
   for (const Message& message : messages) {
@@ -201,6 +202,7 @@ RunResult RunOdometry(const Messages& messages, const Options& options, int lag)
   result.counters = odometry.counters();
   result.status = odometry.status();
   result.verdict = odometry.Judge();
+  result.found = odometry.found_sensors();
   return result;
 }
 

@@ -53,11 +53,13 @@ struct RunResult {
   Counters counters;
   TrackingStatus status = TrackingStatus::kInit;
   Verdict verdict;
+  FoundSensors found;
 };
 
 // `lag` is the number of messages between a job's start and its end, as with a slow matching
 // thread.
-RunResult RunOdometry(const Messages& messages, const Options& options, int lag = 0);
+RunResult RunOdometry(const Messages& messages, const Options& options, int lag = 0,
+                      const FoundSensors& known = {});
 
 // Returns everything in the scans' outputs except computing times, bit by bit.
 std::string Bytes(const std::vector<ScanOutput>& scans);

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "lio/verdict/rig_findings.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "verdict/rig_drive.hpp"
 
 namespace lio::test {
 namespace {
+
+using ::testing::HasSubstr;
 
 RigFindings FindingsOf(const RigDrive& drive, const Motion& motion = Tumble()) {
   Rig rig;
@@ -124,6 +126,24 @@ TEST(RigFindings, ARoughExtrinsicThatIsCorrectedLeavesDoubtAlone) {
   for (const Cause& cause : FindingsWhereKnownTo(1.0, 5.0).causes) {
     EXPECT_EQ(cause.leaves, Trust::kDoubtful);
   }
+}
+
+// x of the messages is read as the rig's y, and the rig's translation is (1, 2, 3) in its own axes.
+std::string FixOfTurnedMessages(bool is_lever_found) {
+  RigDrive drive = RightDrive();
+  drive.T_configured.translation = drive.T_imu_lidar.translation = Vector3(1.0, 2.0, 3.0);
+  Rig rig;
+  rig.T_imu_lidar = drive.T_configured;
+  ImuConvention convention;
+  convention.R_imu_sent << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const RigFindings findings = FindRigErrors(RecordDrive(drive), rig, convention, is_lever_found);
+  EXPECT_FALSE(findings.causes.empty());
+  return findings.causes.empty() ? "" : findings.causes[0].fix;
+}
+
+TEST(RigFindings, AFoundLeverIsTurnedIntoTheAxesOfTheMessages) {
+  EXPECT_THAT(FixOfTurnedMessages(false), HasSubstr("translation_m: [1.000, 2.000, 3.000]"));
+  EXPECT_THAT(FixOfTurnedMessages(true), HasSubstr("translation_m: [2.000, -1.000, 3.000]"));
 }
 
 TEST(RigFindings, ClockOffsetThatIsFollowedLeavesDoubtAlone) {

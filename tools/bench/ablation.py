@@ -47,7 +47,7 @@ def fleet_of(places, seeds, effects):
                "sim": "--scenario {} --lidar {} --duration 60 ".format(*place.split("-")) + words}
               for place in places for name, words, scans in drives_of(place, effects)]
     return {"drives": drives, "configurations": [
-        {"name": "liod", "drives": [f"{place}-*" for place in places]}]}
+        {"name": "liod", "words": "--passes 1", "drives": [f"{place}-*" for place in places]}]}
 
 
 def cell(work, name, seeds):

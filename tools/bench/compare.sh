@@ -65,7 +65,7 @@ DRIVE
   - name: $method$([[ $use_imu == true ]] || echo -lidar)
     config: [$(printf '"%s", ' "${configs[@]:1}" "$PWD/config/methods/$method.yaml")]
     set: pipeline.use_imu=$use_imu
-    words: $cut
+    words: --passes 1 $cut
 CONFIGURATION
     done
   done

@@ -53,7 +53,7 @@ def drives_of(place, seeds):
 
 def fleet_of(places, seeds):
     configurations = [
-        {"name": name, "drives": f"*-{kind}-*",
+        {"name": name, "drives": f"*-{kind}-*", "words": "--passes 1",
          "set": [f"rig.imu.{sensor}_noise_density={value}" for sensor, value in claimed.items()]}
         for name, (_, kind, claimed) in ROWS.items()]
     return {"drives": [drive for place in places for drive in drives_of(place, seeds)],

@@ -64,6 +64,7 @@ drives:
     seeds: $first..$((first + runs - 1))
 configurations:
   - name: liod
+    words: --passes 1   # as liod would
     set: >-
       ${settings[*]@Q}
 FLEET

@@ -7,15 +7,15 @@
 
 #include "lio/io/command_line.hpp"
 #include "lio/io/cpu_clock.hpp"
+#include "lio/io/event_log.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/initial_map_file.hpp"
-#include "lio/io/input_error.hpp"
 #include "lio/io/input_guard.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/report/run_report.hpp"
-#include "lio/run/replay.hpp"
+#include "lio/run/passes.hpp"
 
 namespace lio {
 namespace {
@@ -34,6 +34,7 @@ struct ReplayArguments {
   double start_s = 0.0;
   double duration_s = std::numeric_limits<double>::infinity();
   int match_lag = 0;
+  int num_passes = 1;
 };
 
 constexpr const char* kDescription =
@@ -86,6 +87,7 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
       ->check(CLI::IsMember({"pcd", "ply"}))
       ->capture_default_str();
   AddInitialMapArguments(app, arguments.initial_map);
+  AddPassesArgument(app, arguments.num_passes);
   AddSpanArguments(app, arguments.start_s, arguments.duration_s);
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->type_name("NAME")
@@ -111,20 +113,19 @@ void TellReport(const ReplayArguments& arguments) {
 }
 
 // Tells how the run went; the exit code.
-ExitCode End(const LogInput& input, const Replay& replay, const RunWriter& writer,
-             const ReplayArguments& arguments, const LogInputOptions& input_options) {
-  if (!replay.refusal().empty()) {
-    WriteVerdict(arguments.out, replay.verdict());
-    fmt::print(stderr, "lio-replay: {}\n", replay.refusal());
+ExitCode End(const PassesResult& result, const ReplayArguments& arguments) {
+  if (!result.refusal.empty()) {
+    WriteVerdict(arguments.out, result.verdict);
+    fmt::print(stderr, "lio-replay: {}\n", result.refusal);
     return kExitConfiguration;
   }
-  if (arguments.writes_report && !writer.failure()) TellReport(arguments);
-  fmt::print("{}", VerdictSummary(replay.verdict()));
-  if (writer.failure()) return kExitWriteFailed;
-  const std::string complaint =
-      LogComplaint(arguments.log, input, replay.counters(), input_options);
-  if (complaint.empty()) return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
-  fmt::print(stderr, "lio-replay: {}\n", complaint);
+  if (arguments.writes_report && result.has_all_files) TellReport(arguments);
+  fmt::print("{}", VerdictSummary(result.verdict));
+  if (!result.has_all_files) return kExitWriteFailed;
+  if (result.complaint.empty()) {
+    return result.verdict.trust == Trust::kNo ? kExitNoTrust : kExitDone;
+  }
+  fmt::print(stderr, "lio-replay: {}\n", result.complaint);
   return kExitUnusableInput;
 }
 
@@ -160,24 +161,16 @@ int Main(int argc, char** argv) {
           LoadInitialMap("lio-replay", arguments.initial_map, options, settings.initial_map)) {
     return *code;
   }
-  LogInput input(arguments.log, input_options);
+  (void)EventLogReader(arguments.log);  // a log that is missing is told before all else
   RefuseEarlierRun(arguments.out, arguments.overwrites);
-  std::optional<RunWriter> writer;
-  try {
-    writer.emplace(arguments.out, options,
-                   settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap);
-  } catch (const WriteError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw UsageError(fmt::format("--out: {}", error.what()));
-  }
+  MakeFolder(arguments.out);
   settings.program = "lio-replay";
   settings.writes_map = arguments.writes_map;
   settings.map_format = arguments.map_format == "ply" ? MapFormat::kPly : MapFormat::kPcd;
   settings.match_lag = arguments.match_lag;
-  Replay replay(options, settings, *writer);
-  replay.Run(input);
-  return End(input, replay, *writer, arguments, input_options);
+  return End(RunPasses({arguments.log, input_options, options, settings, arguments.out,
+                        arguments.num_passes}),
+             arguments);
 }
 
 }  // namespace

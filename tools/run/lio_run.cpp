@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/file_kind.hpp"
@@ -13,10 +14,11 @@
 #include "lio/io/output_file.hpp"
 #include "lio/io/program.hpp"
 #include "lio/io/progress_bar.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/verdict_report.hpp"
 #include "lio/run/finish_run.hpp"
+#include "lio/run/passes.hpp"
 #include "lio/run/recording.hpp"
-#include "lio/run/replay.hpp"
 #include "page_commands.hpp"
 #include "run_arguments.hpp"
 
@@ -90,8 +92,7 @@ void PrepareFolder(const RunArguments& arguments) {
     RemoveStaleFiles(out, {arguments.truth, arguments.rig});
     return;
   }
-  fs::create_directories(out, error);
-  if (error) throw UsageError("--out: cannot create " + out.string() + ": " + error.message());
+  MakeFolder(out);
 }
 
 PreparedRecording Prepare(const RunArguments& arguments) {
@@ -177,8 +178,13 @@ void TellResult(const RunArguments& arguments, const PreparedRecording& recordin
   }
   fmt::print("{}", VerdictSummary(verdict));
   if (!IsDrafted(recording)) return;
-  if (const auto corrected = WriteCorrectedRig(out, recording.rig_files, verdict)) {
+  const auto corrected = WriteCorrectedRig(out, recording.rig_files, verdict);
+  if (!corrected) return;
+  const auto has_fix = [](const Cause& cause) { return !cause.fix.empty(); };
+  if (std::ranges::any_of(verdict.causes, has_fix)) {
     fmt::print("next        {}\n", NextCommand(arguments, *corrected));
+  } else {
+    fmt::print("rig         {}: as mended, for liod and other drives\n", corrected->string());
   }
 }
 
@@ -189,32 +195,29 @@ ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, 
   input_options.duration_s = arguments.duration_s;
   input_options.clock = ThreadCpuNs;
   input_options.reads_ahead = options.pipeline.num_threads > 1;
-  LogInput input(recording.log, input_options);
-  RunWriter writer(arguments.out, options);
   ReplaySettings settings;
   settings.program = kProgram;
   settings.writes_map = true;
-  Replay replay(options, settings, writer);
-  replay.Run(input);
-  if (writer.failure()) {
-    fmt::print("{}", VerdictSummary(replay.verdict()));
+  const PassesResult result =
+      RunPasses({recording.log, input_options, options, settings, arguments.out,
+                 arguments.num_passes, IsDrafted(recording)});
+  if (!result.has_all_files) {
+    fmt::print("{}", VerdictSummary(result.verdict));
     return kExitWriteFailed;
   }
-  if (!replay.refusal().empty()) {
-    WriteVerdict(arguments.out, replay.verdict());
-    fmt::print(stderr, "{}: {}\n", kProgram, replay.refusal());
+  if (!result.refusal.empty()) {
+    WriteVerdict(arguments.out, result.verdict);
+    fmt::print(stderr, "{}: {}\n", kProgram, result.refusal);
     return kExitConfiguration;
   }
-  const std::string complaint =
-      LogComplaint(recording.log.string(), input, replay.counters(), input_options);
-  TellResult(arguments, recording, replay.verdict());
-  if (!complaint.empty()) fmt::print(stderr, "{}: {}\n", kProgram, complaint);
+  TellResult(arguments, recording, result.verdict);
+  if (!result.complaint.empty()) fmt::print(stderr, "{}: {}\n", kProgram, result.complaint);
   if (recording.is_damaged) {
     fmt::print(stderr, "{}: {} is damaged: its sound parts were run, see {}\n", kProgram,
                arguments.input(), (fs::path(arguments.out) / "conversion.txt").string());
   }
-  if (!complaint.empty() || recording.is_damaged) return kExitUnusableInput;
-  return replay.verdict().trust == Trust::kNo ? kExitNoTrust : kExitDone;
+  if (!result.complaint.empty() || recording.is_damaged) return kExitUnusableInput;
+  return result.verdict.trust == Trust::kNo ? kExitNoTrust : kExitDone;
 }
 
 int Main(int argc, char** argv) {

@@ -65,6 +65,7 @@ void AddArguments(CLI::App& app, RunArguments& arguments) {
   app.add_option("--threads", arguments.num_threads, "Instead of pipeline.num_threads")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
+  AddPassesArgument(app, arguments.num_passes);
   AddSpanArguments(app, arguments.start_s, arguments.duration_s);
   AddOptionsArguments(app, arguments.options);
 }

@@ -28,6 +28,7 @@ struct RunArguments {
   std::string lidar_topic, imu_topic, truth_topic, imu_file;
   OptionsArguments options;
   std::optional<int> num_threads;
+  int num_passes = 2;
   double start_s = 0.0;
   double duration_s = std::numeric_limits<double>::infinity();
   bool overwrites = false;

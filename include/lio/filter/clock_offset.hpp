@@ -31,9 +31,19 @@
 
 namespace lio {
 
+// Holds what is known of d and its rate at one time: (s, s/s).
+struct ClockBelief {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  // Nothing but what clocks are like.
+  Eigen::Matrix2d cov = Eigen::Vector2d(kFilterParameters.clock_offset.max_std_s,
+                                        kFilterParameters.clock_offset.rate_std)
+                            .cwiseAbs2()
+                            .asDiagonal();
+};
+
 class ClockOffset {
  public:
-  ClockOffset();
+  explicit ClockOffset(const ClockBelief& belief = {});
 
   static constexpr double kMax_s = kFilterParameters.clock_offset.max_offset_s;
 
@@ -58,6 +68,8 @@ class ClockOffset {
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
   // scan, from when the standard deviation is below 2 ms or the offset is three of them.
   double move_by_s() const { return move_by_s_; }
+  // Returns what the scans so far tell of the first of them.
+  ClockBelief AtBegin() const;
 
  private:
   enum StateIndex { kOffset, kRate };
@@ -78,9 +90,10 @@ class ClockOffset {
   void LearnUnclaimed(const Turn& turn);
   void Follow();
 
-  Vector2 state_ = Vector2::Zero();  // s, s/s
+  Vector2 state_;  // s, s/s
   Matrix2 cov_;
   std::optional<Timestamp> as_of_;  // state_ and cov_ hold at this time
+  double age_s_ = 0.0;              // from the first scan to then
   double move_by_s_ = 0.0;
   int num_turns_ = 0;      // turns fused so far
   bool is_found_ = false;  // stamps are moved

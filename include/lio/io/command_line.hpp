@@ -48,6 +48,9 @@ using TextCheck = std::function<std::string(const std::string&)>;
 // Adds --start S and --duration S. The values must outlive the app.
 void AddSpanArguments(CLI::App& app, double& start_s, double& duration_s);
 
+// Adds --passes N.
+void AddPassesArgument(CLI::App& app, int& num_passes);
+
 struct OptionsArguments {
   std::vector<std::filesystem::path> files;  // --config, in order
   std::vector<std::string> sets;             // --set, in order

@@ -16,7 +16,10 @@ void RefuseEarlierRun(const std::filesystem::path& folder, bool overwrites);
 // does not. Makes nothing.
 [[nodiscard]] std::filesystem::path FreeFolder(const std::filesystem::path& folder);
 
-// Makes FreeFolder(folder) and returns it. Throws std::runtime_error when it cannot be made.
+// Throws UsageError when it cannot be made.
+void MakeFolder(const std::filesystem::path& folder);
+
+// Makes FreeFolder(folder) and returns it. Throws as MakeFolder does.
 [[nodiscard]] std::filesystem::path MakeFreeFolder(const std::filesystem::path& folder);
 
 // Why no files can be written into `folder`, in one line; empty when they can, or when the folder

@@ -21,7 +21,8 @@
 //   the errors of the lidar's beams are (root mean square over the rings)
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)
 //   beams.yaml: what was found of the lidar's beams, to start the next run from; not where the
-//   verdict trusts nothing, nor in a folder that liod completes while it goes on
+//   verdict trusts nothing, where most scans were blind in a direction, or where liod completes the
+//   folder while it goes on
 //   options.yaml: the effective options without the number of threads
 //   map.pcd or map.ply: the points of the map in the frame of trajectory_level.tum, when asked for
 //
@@ -64,6 +65,7 @@ struct RunStats {
   double wall_s = 0.0;
   Verdict verdict = {};
   std::optional<LidarBeams> beams;  // as found
+  int num_passes = 1;               // over the log; the files are those of the last
 };
 
 enum class MapFormat { kPcd, kPly };

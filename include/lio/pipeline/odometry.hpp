@@ -23,6 +23,7 @@
 
 #include "lio/base/notice.hpp"
 #include "lio/base/pose.hpp"
+#include "lio/pipeline/found_sensors.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/sensor/imu_sample.hpp"
@@ -60,9 +61,9 @@ struct GivenPose {
 
 class Odometry {
  public:
-  // Throws std::invalid_argument naming every fault of the options.
+  // Throws std::invalid_argument naming every fault of the options. `found`: by a pass before.
   explicit Odometry(const Options& options, ClockNs clock = nullptr,
-                    StartIn start_in = StartIn::kNewMap);
+                    StartIn start_in = StartIn::kNewMap, const FoundSensors& found = {});
   ~Odometry();
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;
@@ -99,6 +100,8 @@ class Odometry {
   // The trust that the last of the looks at the rig left, which come ever more seldom; costs
   // nothing.
   [[nodiscard]] Trust trust() const;
+  // Returns what the messages so far tell of the sensors, for another pass over them.
+  [[nodiscard]] FoundSensors found_sensors() const;
 
  private:
   struct Impl;

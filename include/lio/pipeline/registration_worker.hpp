@@ -32,8 +32,12 @@ class RegistrationWorker {
   void Insert(const InsertTask& task);
 
   const ScanMatcher& matcher() const { return *matcher_; }
-  // The errors of the lidar's beams as they are known now; absent where nothing is, and with
-  // methods that find none. Takes a moment.
+  // Returns what was found of the lidar's beams, for another pass over the same scans; that one
+  // takes it before the first of them.
+  const BeamCalibration& calibration() const { return calibration_; }
+  void TakeCalibration(const BeamCalibration& found);
+  // The errors of the lidar's beams as they are known now; absent where nothing is that would be of
+  // use elsewhere, and with methods that find none. Takes a moment.
   [[nodiscard]] std::optional<LidarBeams> FoundBeams() const;
   // Scans that are inserted now go into the map that the run is about: the initial one, if there
   // is one.
@@ -65,6 +69,7 @@ class RegistrationWorker {
   Pose T_imu_lidar_;  // the last job's
   BeamCalibration calibration_;
   double new_content_share_ = 0.0;  // the last match has brought it
+  bool is_blind_ = false;           // ... in a direction
   ClockNs clock_;
   bool has_cells_;  // NDT's: they want all points of a new map's sweeps, and tell of the beams
   PointFilter filter_;

@@ -51,8 +51,11 @@ class BeamCalibration {
   void BeginScan(float path_m, int stands_for);
   void Add(const BeamRow& row);
   void ForgetScan() { scan_.num_rows = 0; }
-  // The scan at hand was inserted, and has brought this share of the map.
-  void Keep(double new_content_share);
+  // Learns no more: for scans that it has learned from already, which would count twice.
+  void Freeze() { is_frozen_ = true; }
+  // The scan at hand was inserted, and has brought this share of the map. `is_blind`: it does not
+  // see all directions.
+  void Keep(double new_content_share, bool is_blind);
 
   // The errors that are left pull the pose: the covariance of the gradient (score) that they give
   // to the cost of the scan at hand. Absent as long as nothing is known.
@@ -62,6 +65,10 @@ class BeamCalibration {
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
   // The errors with their standard deviations, which take a moment.
   [[nodiscard]] BeamKnowledge Found() const;
+  // Is what was found of use elsewhere, or from the begin on? Not where most scans were blind: in a
+  // plain tunnel a map that bends and elevations that err look alike, and more is claimed to be
+  // known of them than is (docs/experiments/beam_errors.md).
+  [[nodiscard]] bool IsOfUseElsewhere() const { return 2 * num_blind_ <= num_kept_; }
 
  private:
   static constexpr int kNumNuisance = 12;  // xi and zeta
@@ -100,6 +107,8 @@ class BeamCalibration {
   Eigen::LDLT<Eigen::MatrixXd> posterior_;  // errors_ have it, with the prior
   BeamErrors errors_;
   int num_kept_ = 0;
+  int num_blind_ = 0;  // kept scans that were blind
+  bool is_frozen_ = false;
 };
 
 }  // namespace lio

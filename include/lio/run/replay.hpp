@@ -24,10 +24,18 @@ struct ReplaySettings {
   int match_lag = 0;  // messages by which each match's result is taken late; the files are the same
 };
 
+// Holds what a replay has found of the sensors, for another one of the same log.
+struct SensorKnowledge {
+  FoundSensors sensors;
+  std::optional<BeamCalibration> beams;  // absent: of no use, as in a tunnel
+};
+
 // Feeds the estimator and carries its outputs to the files. Notices go to stderr as well.
 class Replay {
  public:
-  Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer);
+  // `known`: by a replay of the same log; null where this is the first.
+  Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer,
+         const SensorKnowledge* known = nullptr);
 
   // Replays all of `input`, or up to the notice that the options contradict it, and completes the
   // files. If one cannot be written, stderr tells at once; the estimate goes on without rows.
@@ -36,6 +44,7 @@ class Replay {
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
   // Call it after Run only.
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }
+  [[nodiscard]] SensorKnowledge Knowledge() const;
   // Says why the configuration contradicts the log; empty when it does not.
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
@@ -61,6 +70,7 @@ class Replay {
   bool has_told_failure_ = false;
   std::string refusal_;
   Verdict verdict_;
+  int num_passes_ = 1;  // over this log, this one included
 };
 
 // Says in one line what was wrong with the log, e.g. that it has no scans; empty when nothing was.

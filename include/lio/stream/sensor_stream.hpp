@@ -37,9 +37,10 @@
 namespace lio {
 
 struct StreamOptions {
-  bool use_imu = true;                    // as PipelineOptions
-  ImuUnits units = ImuUnits::kAutomatic;  // as ImuRig
-  double lidar_clock_offset_s = 0.0;      // added to the lidar's stamps; as LidarRig
+  bool use_imu = true;                      // as PipelineOptions
+  ImuUnits units = ImuUnits::kAutomatic;    // as ImuRig
+  std::optional<ImuConvention> convention;  // at first; absent: as the units say
+  double lidar_clock_offset_s = 0.0;        // added to the lidar's stamps; as LidarRig
   // Sweeps are moved by the clock offset that matched ones show. The next sweep waits while so many
   // have not been matched; absent: no sweep is moved.
   std::optional<std::size_t> max_unmatched;

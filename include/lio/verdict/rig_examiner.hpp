@@ -38,7 +38,8 @@ inline constexpr RigExaminerParameters kRigExaminer;
 
 class RigExaminer {
  public:
-  RigExaminer(const Rig& rig, bool uses_imu);
+  // `is_lever_found`: as in FindRigErrors.
+  RigExaminer(const Rig& rig, bool uses_imu, bool is_lever_found = false);
 
   MotionRecord& record() { return record_; }
   RunTally& tally() { return tally_; }
@@ -65,6 +66,7 @@ class RigExaminer {
  private:
   Rig rig_;  // as it is in use
   bool uses_imu_;
+  bool is_lever_found_;
   ImuConvention convention_;
   MotionRecord record_;
   RunTally tally_;

@@ -77,9 +77,12 @@ struct RigFindings {
   std::optional<Pose> T_imu_lidar_bettered;
 };
 
-// `convention`: how the messages are read now, found or stated.
+// `convention`: how the messages are read now, found or stated. `is_lever_found`: the motion has
+// shown the translation of rig.T_imu_lidar, which is then in the axes that messages are read in;
+// one that was measured is taken to be in the axes of the messages.
 [[nodiscard]] RigFindings FindRigErrors(const MotionRecord& record, const Rig& rig,
-                                        const ImuConvention& convention);
+                                        const ImuConvention& convention,
+                                        bool is_lever_found = false);
 
 // YAML for the configuration.
 [[nodiscard]] std::string ExtrinsicYaml(const Pose& T_imu_lidar);

@@ -72,8 +72,9 @@ struct Verdict {
   Trust trust = Trust::kNo;
   double coverage = 0.0;  // share of the input's time that has poses
   ClaimedAccuracy claimed;
-  std::vector<Cause> causes;  // likeliest first
-  double path_m = 0.0;        // length of the path
+  std::vector<Cause> causes;       // likeliest first
+  std::vector<Cause> mended = {};  // found by the pass before, and no longer there
+  double path_m = 0.0;             // length of the path
 };
 
 }  // namespace lio

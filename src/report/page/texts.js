@@ -34,14 +34,19 @@ function showHeader() {
   byId("verdict").append(badge(data), verdictText(data.verdict));
 }
 
+function showCause(run, cause, note) {
+  const box = element("div", undefined, cause.leaves === "no" && !note ? "cause no-trust" : "cause");
+  if (isMany) box.append(swatch(run), `${run.input}: `);
+  box.append(element("strong", cause.kind.replaceAll("_", " ") + note), element("div", cause.evidence));
+  if (cause.fix) box.append(element("pre", cause.fix.trimEnd()));
+  byId("causes").append(box);
+}
+
 function showCauses(run) {
-  for (const cause of (run.verdict && run.verdict.causes) || []) {
-    const box = element("div", undefined, cause.leaves === "no" ? "cause no-trust" : "cause");
-    if (isMany) box.append(swatch(run), `${run.input}: `);
-    box.append(element("strong", cause.kind.replaceAll("_", " ")), element("div", cause.evidence));
-    if (cause.fix) box.append(element("pre", cause.fix.trimEnd()));
-    byId("causes").append(box);
-  }
+  if (!run.verdict) return;
+  for (const cause of run.verdict.causes) showCause(run, cause, "");
+  const note = ": found by the first pass, and no longer there in this one";
+  for (const cause of run.verdict.mended || []) showCause(run, cause, note);
 }
 
 function figureRows(run) {

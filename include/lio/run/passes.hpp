@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Replays a log once, or twice: a second pass begins with what the first has found of the sensors
+// (SensorKnowledge), where the first one had to find it on the way.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "lio/io/log_input.hpp"
+#include "lio/pipeline/options.hpp"
+#include "lio/run/replay.hpp"
+#include "lio/verdict/verdict.hpp"
+
+namespace lio {
+
+struct PassesRequest {
+  std::filesystem::path log;
+  LogInputOptions input;
+  Options options;
+  ReplaySettings settings;
+  std::filesystem::path out;    // must be there or possible to make
+  int num_passes = 1;           // 1 or 2
+  bool is_rig_drafted = false;  // then the second pass has the axes of the messages
+};
+
+struct PassesResult {
+  Verdict verdict;
+  std::string refusal;         // Replay::refusal
+  std::string complaint;       // LogComplaint
+  bool has_all_files = false;  // else stderr has told what could not be written
+};
+
+// Why the files of the first pass are kept in place of the second's; empty where they are not.
+[[nodiscard]] std::string WhyFirstIsKept(const PassesResult& first, const PassesResult& second);
+
+// Leaves the files of the last pass in the folder, or those of the first where the second one is
+// trusted less or could not be written; stderr tells so. Throws as LogInput and RunWriter do.
+[[nodiscard]] PassesResult RunPasses(const PassesRequest& request);
+
+}  // namespace lio

@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The liod authors
+# SPDX-License-Identifier: MIT
+"""Tests that a second pass over a log begins with what the first has found of the sensors: a lidar
+that stamps its sweeps 60 ms too late, a mounting that is off by 5 deg, and beams that err."""
+import json
+import unittest
+
+import support
+
+FAULTS = {"clock_offset": "clock_offset:offset=0.06", "extrinsic_rotation":
+          "wrong_extrinsic:yaw_deg=5"}
+
+
+def read(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+class Passes(unittest.TestCase):
+    def passes(self, kind, program="lio-replay"):
+        """The folders of a replay of one pass and one of two over a drive with the fault."""
+        drive = support.simulated("campus", "--duration", "40", "--lidar", "vlp16", "--fault",
+                                  FAULTS[kind])
+        folders = []
+        for num in (1, 2):
+            folders.append(support.WORK / f"passes-{kind}-{program}-{num}")
+            rig = "--config" if program == "lio-replay" else "--rig"
+            support.run_well(program, rig, drive / "config.yaml", drive / "log.lcm", "--out",
+                             folders[-1], "--overwrite", "--passes", num)
+            self.assertEqual(read(folders[-1] / "stats.json")["num_passes"], num)
+            self.assertFalse((folders[-1] / ".pass_2").exists())
+        return drive, folders
+
+    def error_m(self, drive, folder, path):
+        file = folder / "eval_of_passes.json"
+        support.run_well("lio-eval", drive / "truth.tum", folder / path, "--json", file)
+        return read(file)["ape"]["position_m"]["rmse"]
+
+    def check_mended(self, kind, program):
+        drive, (one, two) = self.passes(kind, program)
+        before, after = read(one / "verdict.json"), read(two / "verdict.json")
+        self.assertEqual(before["trust"], "doubtful")
+        self.assertEqual(before["causes"][0]["kind"], kind)
+        self.assertNotIn("mended", before)
+        self.assertEqual(after["trust"], "yes")
+        self.assertEqual(after["mended"][0], before["causes"][0])
+        errors = [self.error_m(drive, folder, "") for folder in (one, two)]
+        published = [self.error_m(drive, folder, "trajectory.tum") for folder in (one, two)]
+        print(f"{kind}: APE {errors[0]:.4f} m with one pass, {errors[1]:.4f} m with two; as "
+              f"published {published[0]:.4f}, {published[1]:.4f}")
+        self.assertLess(errors[1], 0.8 * errors[0])
+        self.assertLess(published[1], 0.5 * published[0])
+        return one, two
+
+    def test_a_clock_offset_is_known_from_the_first_row_on(self):
+        one, two = self.check_mended("clock_offset", "lio-replay")
+        beams = [(folder / "beams.yaml").read_text(encoding="utf-8") for folder in (one, two)]
+        self.assertEqual(*beams, "the second pass learns nothing twice")
+
+    def test_a_wrong_mounting_is_known_from_the_first_row_on(self):
+        _, two = self.check_mended("extrinsic_rotation", "lio-run")
+        self.assertTrue((two / "report.html").exists() and (two / "map.pcd").exists())
+
+
+if __name__ == "__main__":
+    support.main()
