@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lio/base/chi_square.hpp"
+#include "lio/pipeline/found_sensors.hpp"
 #include "pipeline/convention_causes.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/mode_driver.hpp"
@@ -107,8 +108,9 @@ struct Odometry::Impl {
 };
 
 Odometry::Odometry(const Options& options, ClockNs clock, StartIn start_in,
-                   const FoundSensors& found)
-    : impl_(std::make_unique<Impl>(options, clock, start_in, found)) {}
+                   const FoundSensors* found)
+    : impl_(std::make_unique<Impl>(options, clock, start_in,
+                                   found == nullptr ? FoundSensors{} : *found)) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;

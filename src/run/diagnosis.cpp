@@ -11,7 +11,7 @@
 #include "lio/io/cpu_clock.hpp"
 #include "lio/io/options_yaml.hpp"
 #include "lio/io/output_file.hpp"
-#include "lio/run/replay.hpp"
+#include "lio/run/passes.hpp"
 
 namespace lio {
 namespace {
@@ -28,7 +28,7 @@ class Diagnoser {
     recording.needs_truth = false;
     result_.recording = PrepareRecording(recording);
     if (!LoadGiven()) return std::move(result_);
-    Pass first = Look(result_.options, true);
+    PassesResult first = Look(result_.options, true);
     result_.verdict = result_.with_fixes = std::move(first.verdict);
     result_.refusal = std::move(first.refusal);
     Treat();
@@ -36,11 +36,6 @@ class Diagnoser {
   }
 
  private:
-  struct Pass {
-    Verdict verdict;
-    std::string refusal;
-  };
-
   // Loads the given options, and writes them as the one file over which fixes are laid: a fix also
   // overrides what was given by `sets`. Returns false where they have faults.
   bool LoadGiven() {
@@ -55,7 +50,7 @@ class Diagnoser {
   }
 
   // Replays with these options.
-  Pass Look(Options options, bool is_first) {
+  PassesResult Look(Options options, bool is_first) {
     ++num_passes_;
     if (request_.num_threads) options.pipeline.num_threads = *request_.num_threads;
     LogInputOptions input_options;
@@ -63,21 +58,16 @@ class Diagnoser {
     if (request_.duration_s > 0.0) input_options.duration_s = request_.duration_s;
     input_options.clock = ThreadCpuNs;
     input_options.reads_ahead = options.pipeline.num_threads > 1;
-    LogInput input(result_.recording.log, input_options);
-    const fs::path folder = request_.recording.out / "pass";
-    RunWriter writer(folder, options);
     ReplaySettings settings;
     settings.program = fmt::format("{}: pass {}", request_.program, num_passes_);
-    Replay replay(options, settings, writer);
-    replay.Run(input);
-    if (writer.failure()) throw WriteError(*writer.failure());
-    if (is_first && replay.refusal().empty()) {
-      result_.complaint =
-          LogComplaint(result_.recording.log.string(), input, replay.counters(), input_options);
-    }
+    const fs::path folder = request_.recording.out / "pass";
+    PassesResult pass =
+        RunPasses({result_.recording.log, input_options, options, settings, folder});
+    if (!pass.failure.empty()) throw WriteError(pass.failure);
+    if (is_first && pass.refusal.empty()) result_.complaint = pass.complaint;
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    return {replay.verdict(), replay.refusal()};
+    return pass;
   }
 
   // Lays fixes over the rig while passes are left and the fixes help.
@@ -99,7 +89,7 @@ class Diagnoser {
       }
       result_.is_checked = has_pass;
       if (has_pass) {
-        Pass pass = Look(loaded.options, false);
+        PassesResult pass = Look(loaded.options, false);
         if (!pass.refusal.empty() || pass.verdict.trust > result_.with_fixes.trust) {
           files_.pop_back();
           continue;

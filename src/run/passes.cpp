@@ -39,7 +39,7 @@ Pass RunPass(const PassesRequest& request, const fs::path& folder, const SensorK
   replay.Run(input);
   return {{replay.verdict(), replay.refusal(),
            LogComplaint(request.log.string(), input, replay.counters(), request.input),
-           !writer.failure()},
+           writer.failure().value_or("")},
           replay.Knowledge()};
 }
 
@@ -75,7 +75,7 @@ void Replace(const fs::path& folder, const fs::path& by) {
 }  // namespace
 
 std::string WhyFirstIsKept(const PassesResult& first, const PassesResult& second) {
-  if (!second.has_all_files) return "the second pass could not be written";
+  if (!second.failure.empty()) return "the second pass could not be written";
   if (!second.refusal.empty() || second.verdict.trust > first.verdict.trust) {
     return "the second pass is trusted less";
   }
@@ -89,7 +89,7 @@ PassesResult RunPasses(const PassesRequest& request) {
   const fs::path second_folder = request.out / kSecondFolder;
   fs::remove_all(second_folder);  // a run that was killed left it
   Pass first = RunPass(request, request.out, nullptr);
-  if (request.num_passes < 2 || !first.result.refusal.empty() || !first.result.has_all_files)
+  if (request.num_passes < 2 || !first.result.refusal.empty() || !first.result.failure.empty())
     return std::move(first.result);
   if (request.is_rig_drafted) {
     FoundSensors& sensors = first.knowledge.sensors;
@@ -107,7 +107,7 @@ PassesResult RunPasses(const PassesRequest& request) {
   }
   fs::remove_all(second_folder);
   if (why_first.empty()) return std::move(second.result);
-  first.result.has_all_files = second.result.has_all_files;
+  first.result.failure = second.result.failure;
   return std::move(first.result);
 }
 

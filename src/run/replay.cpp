@@ -20,7 +20,7 @@ Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter
       writer_(writer),
       odometry_(options, ThreadCpuNs,
                 settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap,
-                known == nullptr ? FoundSensors{} : known->sensors),
+                known == nullptr ? nullptr : &known->sensors),
       worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model), settings.initial_map),
       lidar_check_(options) {
   if (known != nullptr) {

@@ -15,7 +15,6 @@ PassesResult Whole(Trust trust, double coverage = 1.0) {
   PassesResult result;
   result.verdict.trust = trust;
   result.verdict.coverage = coverage;
-  result.has_all_files = true;
   return result;
 }
 
@@ -32,7 +31,7 @@ TEST(Passes, TheFirstIsKeptWhereTheSecondIsWorse) {
   refused.refusal = "the units are others";
   EXPECT_THAT(WhyFirstIsKept(Whole(Trust::kNo), refused), HasSubstr("less"));
   PassesResult torn = Whole(Trust::kYes);
-  torn.has_all_files = false;
+  torn.failure = "the disk is full";
   EXPECT_THAT(WhyFirstIsKept(Whole(Trust::kYes), torn), HasSubstr("written"));
 }
 

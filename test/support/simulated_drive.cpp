@@ -184,7 +184,7 @@ Options DriveRig() {
 
 RunResult RunOdometry(const Messages& messages, const Options& options, int lag,
                       const FoundSensors& known) {
-  Odometry odometry(options, nullptr, StartIn::kNewMap, known);
+  Odometry odometry(options, nullptr, StartIn::kNewMap, &known);
   SlowMatching matching(options, lag);
   RunResult result;
   for (const Message& message : messages) {

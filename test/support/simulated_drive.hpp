@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lio/pipeline/found_sensors.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "support/motion.hpp"
 #include "support/scene.hpp"

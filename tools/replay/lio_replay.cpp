@@ -119,9 +119,9 @@ ExitCode End(const PassesResult& result, const ReplayArguments& arguments) {
     fmt::print(stderr, "lio-replay: {}\n", result.refusal);
     return kExitConfiguration;
   }
-  if (arguments.writes_report && result.has_all_files) TellReport(arguments);
+  if (arguments.writes_report && result.failure.empty()) TellReport(arguments);
   fmt::print("{}", VerdictSummary(result.verdict));
-  if (!result.has_all_files) return kExitWriteFailed;
+  if (!result.failure.empty()) return kExitWriteFailed;
   if (result.complaint.empty()) {
     return result.verdict.trust == Trust::kNo ? kExitNoTrust : kExitDone;
   }

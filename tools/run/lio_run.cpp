@@ -201,7 +201,7 @@ ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, 
   const PassesResult result =
       RunPasses({recording.log, input_options, options, settings, arguments.out,
                  arguments.num_passes, IsDrafted(recording)});
-  if (!result.has_all_files) {
+  if (!result.failure.empty()) {
     fmt::print("{}", VerdictSummary(result.verdict));
     return kExitWriteFailed;
   }

@@ -23,7 +23,6 @@
 
 #include "lio/base/notice.hpp"
 #include "lio/base/pose.hpp"
-#include "lio/pipeline/found_sensors.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/pipeline/outputs.hpp"
 #include "lio/sensor/imu_sample.hpp"
@@ -38,6 +37,7 @@ using ClockNs = std::int64_t (*)();
 struct MatchJob;      // registration_worker.hpp
 struct MatchOutcome;  // registration_worker.hpp
 struct InsertTask;    // registration_worker.hpp
+struct FoundSensors;  // found_sensors.hpp
 
 // Reports one accepted scan: rows of the trajectories, covariances and registration.csv. `filter`
 // is absent before the start.
@@ -61,9 +61,10 @@ struct GivenPose {
 
 class Odometry {
  public:
-  // Throws std::invalid_argument naming every fault of the options. `found`: by a pass before.
+  // Throws std::invalid_argument naming every fault of the options. `found`: by a pass before over
+  // the same messages; null where this is the first.
   explicit Odometry(const Options& options, ClockNs clock = nullptr,
-                    StartIn start_in = StartIn::kNewMap, const FoundSensors& found = {});
+                    StartIn start_in = StartIn::kNewMap, const FoundSensors* found = nullptr);
   ~Odometry();
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;

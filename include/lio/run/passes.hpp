@@ -26,9 +26,9 @@ struct PassesRequest {
 
 struct PassesResult {
   Verdict verdict;
-  std::string refusal;         // Replay::refusal
-  std::string complaint;       // LogComplaint
-  bool has_all_files = false;  // else stderr has told what could not be written
+  std::string refusal;    // Replay::refusal
+  std::string complaint;  // LogComplaint
+  std::string failure;    // a file that could not be written, and why; stderr has told it
 };
 
 // Why the files of the first pass are kept in place of the second's; empty where they are not.

@@ -10,6 +10,7 @@
 #include "lio/io/log_input.hpp"
 #include "lio/io/map_cloud.hpp"
 #include "lio/io/run_writer.hpp"
+#include "lio/pipeline/found_sensors.hpp"
 #include "lio/pipeline/initial_map.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/registration_worker.hpp"
