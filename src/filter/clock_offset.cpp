@@ -139,20 +139,26 @@ void ClockOffset::LearnUnclaimed(const Turn& turn) {
   unclaimed_var_ = std::max(unclaimed_var_, 0.0);
 }
 
+bool ClockOffset::IsSure(double offset_s, double std_s, double beyond_s) {
+  return std_s <= kClockOffset.known_std_s ||
+         std::abs(offset_s - beyond_s) > kClockOffset.sure_sigmas * std_s;
+}
+
 // The rate is constant, and the offset has walked since.
-ClockBelief ClockOffset::AtBegin() const {
+ClockBelief ClockOffset::AtFirstScan() const {
   Matrix2 back = Matrix2::Identity();
   back(kOffset, kRate) = -age_s_;
   ClockBelief belief{back * state_, back * cov_ * back.transpose()};
-  belief.cov(kOffset, kOffset) +=
-      kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * age_s_;
-  return belief;
+  double& var = belief.cov(kOffset, kOffset);
+  var += kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * age_s_;
+  const double offset_s = belief.mean[kOffset];
+  const bool is_possible = std::abs(offset_s) <= kMax_s && std::sqrt(var) <= kClockOffset.max_std_s;
+  const bool is_known = is_found_ && is_possible && IsSure(offset_s, std::sqrt(var), 0.0);
+  return is_known ? belief : ClockBelief{};
 }
 
 void ClockOffset::Follow() {
-  const bool is_known = std_s() <= kClockOffset.known_std_s;
-  const bool is_off = std::abs(offset_s() - move_by_s_) > kClockOffset.sure_sigmas * std_s();
-  is_found_ |= num_turns_ >= kClockOffset.min_turns && (is_known || is_off);
+  is_found_ |= num_turns_ >= kClockOffset.min_turns && IsSure(offset_s(), std_s(), move_by_s_);
   if (!is_found_) return;
   move_by_s_ +=
       std::clamp(offset_s() - move_by_s_, -kClockOffset.max_step_s, kClockOffset.max_step_s);

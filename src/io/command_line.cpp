@@ -99,7 +99,7 @@ void AddPassesArgument(CLI::App& app, int& num_passes) {
                  "has\n"
                  "found of the sensors (the errors of the beams, clocks, mounting, units), so that "
                  "the\n"
-                 "path is right from its begin on. Files are those of the last pass")
+                 "path is right from its start on. Files are those of the last pass")
       ->type_name("N")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();

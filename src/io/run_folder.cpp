@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "lio/io/input_error.hpp"
+#include "lio/io/input_guard.hpp"
 
 namespace lio {
 namespace fs = std::filesystem;
@@ -61,6 +63,30 @@ void MakeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw UsageError("--out: cannot create " + folder.string() + ": " + error.message());
+}
+
+void ReplaceRun(const fs::path& folder, const fs::path& by) {
+  Paths old = FilesOfRun(folder);
+  old.push_back(folder / "beams.yaml");
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(by)) {
+    const fs::path target = folder / fs::relative(entry.path(), by);
+    if (entry.is_directory()) {
+      fs::create_directories(target);
+    } else {
+      files.push_back(entry.path());
+      std::erase(old, target);
+    }
+  }
+  for (const fs::path& file : files) fs::rename(file, folder / fs::relative(file, by));
+  for (const fs::path& file : old) {
+    if (!fs::is_directory(file)) fs::remove(file);
+  }
+  for (int segment = 2;; ++segment) {
+    const std::string name = fmt::format("segment_{}", segment);
+    if (!fs::is_directory(folder / name)) break;
+    if (!fs::is_directory(by / name)) fs::remove_all(folder / name);
+  }
 }
 
 std::string WhyNotWritable(const fs::path& folder) {

@@ -14,18 +14,23 @@ ClockOffsetFollower::ClockOffsetFollower(const Options& options, const ClockBeli
 }
 
 void ClockOffsetFollower::Restart() {
+  at_first_scan_ = {};
+  Resume();
+}
+
+void ClockOffsetFollower::Stop() {
+  at_first_scan_ = AtFirstScan();
+  offset_.reset();
+}
+
+void ClockOffsetFollower::Resume() {
   if (options_->filter.estimate_clock_offset) offset_.emplace();
   is_announced_ = false;
 }
 
-void ClockOffsetFollower::Stop() {
-  if (offset_ && !at_begin_) at_begin_ = offset_->AtBegin();
-  offset_.reset();
-}
-
-ClockBelief ClockOffsetFollower::AtBegin() const {
-  if (at_begin_) return *at_begin_;
-  return offset_ ? offset_->AtBegin() : ClockBelief{};
+ClockBelief ClockOffsetFollower::AtFirstScan() const {
+  const bool was_found = at_first_scan_.mean != ClockBelief{}.mean;
+  return was_found || !offset_ ? at_first_scan_ : offset_->AtFirstScan();
 }
 
 void ClockOffsetFollower::Interrupt() {

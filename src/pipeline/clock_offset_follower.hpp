@@ -20,10 +20,12 @@ class ClockOffsetFollower {
   // Does nothing where the options switch it off. `belief` is about the first scan.
   explicit ClockOffsetFollower(const Options& options, const ClockBelief& belief = {});
 
-  // Begins anew, knowing nothing.
+  // Begins anew, knowing nothing: what was found was wrong.
   void Restart();
   // There is no IMU any more.
   void Stop();
+  // There is one again, whose clock may be another.
+  void Resume();
   // A scan was lost: the next turn is not measured.
   void Interrupt();
 
@@ -40,14 +42,14 @@ class ClockOffsetFollower {
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
   double total_s() const;
   double std_s() const { return offset_ ? offset_->std_s() : 0.0; }
-  // Returns what the drive tells of its first scan, beyond rig.lidar.clock_offset_s: as of when the
-  // IMU fell silent first, if it did, since its clock may be another one after that.
-  ClockBelief AtBegin() const;
+  // Returns what the drive tells of its first scan, beyond rig.lidar.clock_offset_s, where it tells
+  // anything. If the IMU fell silent, what was found before comes first.
+  ClockBelief AtFirstScan() const;
 
  private:
   const Options* options_;
   std::optional<ClockOffset> offset_;
-  std::optional<ClockBelief> at_begin_;  // as of the first Stop
+  ClockBelief at_first_scan_;  // as found before the last Stop
   bool is_announced_ = false;
 };
 

@@ -127,7 +127,7 @@ ModeDriver::Next ModeDriver::Take(const ImuAbsent& event) {
 
 ModeDriver::Next ModeDriver::Take(const ImuAppeared& event) {
   context_.ForgetSweeps(context_.sweeps.size());
-  context_.clocks.Restart();
+  context_.clocks.Resume();
   if (auto* lidar_only = As<LidarOnly>()) return lidar_only->TakeImu(event);
   auto* initializing = As<Initializing>();
   return initializing ? initializing->TakeImu(event) : std::nullopt;

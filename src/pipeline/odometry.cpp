@@ -213,7 +213,8 @@ Trust Odometry::trust() const {
 }
 
 FoundSensors Odometry::found_sensors() const {
-  return {impl_->stream.imu().convention(), impl_->extrinsic.corrected(), impl_->clocks.AtBegin()};
+  return {impl_->stream.imu().convention(), impl_->extrinsic.corrected(),
+          impl_->clocks.AtFirstScan()};
 }
 
 const Counters& Odometry::counters() const {

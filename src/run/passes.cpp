@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "lio/io/input_guard.hpp"
+#include "lio/io/input_error.hpp"
+#include "lio/io/run_folder.hpp"
 #include "lio/io/run_writer.hpp"
 #include "lio/io/verdict_report.hpp"
 
@@ -24,61 +25,83 @@ constexpr double kMaxLessCoverage = 0.01;
 
 struct Pass {
   PassesResult result;
-  SensorKnowledge knowledge;
+  FoundByReplay found;
 };
 
-Pass RunPass(const PassesRequest& request, const fs::path& folder, const SensorKnowledge* known) {
+Pass RunPass(const PassesRequest& request, const fs::path& folder, const FoundByReplay* found) {
   const Options options =
-      known == nullptr ? request.options : WithFound(request.options, known->sensors);
+      found == nullptr ? request.options : WithFound(request.options, found->sensors);
   LogInput input(request.log, request.input);
   RunWriter writer(folder, options,
                    request.settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap);
   ReplaySettings settings = request.settings;
-  if (request.num_passes > 1) settings.program += known == nullptr ? ": pass 1" : ": pass 2";
-  Replay replay(request.options, settings, writer, known);
+  if (request.num_passes > 1) settings.program += found == nullptr ? ": pass 1" : ": pass 2";
+  Replay replay(request.options, settings, writer, found);
   replay.Run(input);
-  return {{replay.verdict(), replay.refusal(),
-           LogComplaint(request.log.string(), input, replay.counters(), request.input),
-           writer.failure().value_or("")},
-          replay.Knowledge()};
+  Pass pass;
+  pass.result.verdict = replay.verdict();
+  pass.result.refusal = replay.refusal();
+  pass.result.complaint =
+      LogComplaint(request.log.string(), input, replay.counters(), request.input);
+  pass.result.failure = writer.failure().value_or("");
+  pass.found = replay.found();
+  return pass;
 }
 
-bool IsOfRig(const Cause& cause) {
-  return IsOfExtrinsic(cause) || cause.kind == CauseKind::kClockOffset ||
-         cause.kind == CauseKind::kImuAxes || cause.kind == CauseKind::kImuUnits;
+// Did the second pass begin with something that mends the cause?
+bool IsMendedBy(const FoundSensors& found, const Cause& cause) {
+  if (IsOfExtrinsic(cause)) return found.T_imu_lidar.has_value();
+  if (cause.kind == CauseKind::kClockOffset) return found.clock.mean[0] != 0.0;
+  return cause.kind == CauseKind::kImuAxes || cause.kind == CauseKind::kImuUnits;
 }
 
-// Faults of the rig that the first pass has found and the second one has no more, one of a kind.
-std::vector<Cause> Mended(const Verdict& first, const Verdict& second) {
+// Faults of the rig that the first pass has found and the second one no longer has, one of a kind.
+std::vector<Cause> Mended(const Pass& first, const Verdict& second) {
   const auto has = [](const std::vector<Cause>& causes, CauseKind kind) {
     return std::ranges::count(causes, kind, &Cause::kind) > 0;
   };
   std::vector<Cause> mended;
-  for (const Cause& cause : first.causes) {
+  for (const Cause& cause : first.result.verdict.causes) {
     const bool is_told = has(second.causes, cause.kind) || has(mended, cause.kind);
-    if (IsOfRig(cause) && !is_told) mended.push_back(cause);
+    if (!is_told && IsMendedBy(first.found.sensors, cause)) mended.push_back(cause);
   }
   return mended;
 }
 
-// Puts the files of a whole run into the place of another one.
-void Replace(const fs::path& folder, const fs::path& by) {
-  for (const fs::path& file : FilesOfRun(folder)) fs::remove(file);
-  fs::remove(folder / "beams.yaml");
-  for (const fs::directory_entry& entry : fs::directory_iterator(by)) {
-    const fs::path target = folder / entry.path().filename();
-    if (entry.is_directory()) fs::remove_all(target);  // it is a segment's
-    fs::rename(entry.path(), target);
+// Is there anything that a second pass could begin with?
+bool IsWorthASecond(const PassesResult& first) {
+  return first.refusal.empty() && first.failure.empty() && first.verdict.coverage > 0.0;
+}
+
+// A fault of the second pass leaves the first one whole.
+PassesResult RunSecond(const PassesRequest& request, const Pass& first) {
+  const fs::path folder = request.out / kSecondFolder;
+  PassesResult second;
+  try {
+    second = RunPass(request, folder, &first.found).result;
+    second.verdict.mended = Mended(first, second.verdict);
+    WriteVerdict(folder, second.verdict);
+  } catch (const std::runtime_error& error) {
+    second.failure = error.what();
+  }
+  return second;
+}
+
+void TakeSecond(const fs::path& out) {
+  try {
+    ReplaceRun(out, out / kSecondFolder);
+  } catch (const fs::filesystem_error& error) {
+    throw WriteError(fmt::format("{}; the rest of the second pass is in {}", error.what(),
+                                 (out / kSecondFolder).string()));
   }
 }
 
 }  // namespace
 
 std::string WhyFirstIsKept(const PassesResult& first, const PassesResult& second) {
-  if (!second.failure.empty()) return "the second pass could not be written";
-  if (!second.refusal.empty() || second.verdict.trust > first.verdict.trust) {
-    return "the second pass is trusted less";
-  }
+  if (!second.failure.empty()) return "the second pass could not be written: " + second.failure;
+  if (!second.refusal.empty()) return "the second pass was refused: " + second.refusal;
+  if (second.verdict.trust > first.verdict.trust) return "the second pass is trusted less";
   if (second.verdict.coverage < first.verdict.coverage - kMaxLessCoverage) {
     return "the second pass has fewer poses";
   }
@@ -86,28 +109,22 @@ std::string WhyFirstIsKept(const PassesResult& first, const PassesResult& second
 }
 
 PassesResult RunPasses(const PassesRequest& request) {
-  const fs::path second_folder = request.out / kSecondFolder;
-  fs::remove_all(second_folder);  // a run that was killed left it
+  std::error_code ignored;
+  fs::remove_all(request.out / kSecondFolder, ignored);  // a run that was killed left it
   Pass first = RunPass(request, request.out, nullptr);
-  if (request.num_passes < 2 || !first.result.refusal.empty() || !first.result.failure.empty())
-    return std::move(first.result);
-  if (request.is_rig_drafted) {
-    FoundSensors& sensors = first.knowledge.sensors;
+  if (request.num_passes < 2 || !IsWorthASecond(first.result)) return std::move(first.result);
+  if (request.is_mounting_assumed) {
+    FoundSensors& sensors = first.found.sensors;
     sensors = InAxesOfMessages(sensors, request.options.rig);
   }
-  Pass second = RunPass(request, second_folder, &first.knowledge);
-  const std::string why_first = WhyFirstIsKept(first.result, second.result);
-  if (why_first.empty()) {
-    Replace(request.out, second_folder);
-    second.result.verdict.mended = Mended(first.result.verdict, second.result.verdict);
-    WriteVerdict(request.out, second.result.verdict);
-  } else {
-    fmt::print(stderr, "{}: {}, so the files are those of the first\n", request.settings.program,
-               why_first);
-  }
-  fs::remove_all(second_folder);
-  if (why_first.empty()) return std::move(second.result);
-  first.result.failure = second.result.failure;
+  PassesResult second = RunSecond(request, first);
+  const std::string why_first = WhyFirstIsKept(first.result, second);
+  if (why_first.empty()) TakeSecond(request.out);
+  fs::remove_all(request.out / kSecondFolder, ignored);
+  if (why_first.empty()) return second;
+  fmt::print(stderr, "{}: {}; the files are those of the first pass, and whole\n",
+             request.settings.program, why_first);
+  first.result.failure_of_second = second.failure;
   return std::move(first.result);
 }
 

@@ -80,6 +80,7 @@ class Preparation {
     }
     if (request_.needs_rig && prepared_.rig_files.empty()) {
       WriteRigDraft(request_, known_, prepared_);
+      prepared_.is_mounting_assumed = !known_.rig && !known_.T_imu_lidar;
     }
     return std::move(prepared_);
   }

@@ -15,16 +15,16 @@
 namespace lio {
 
 Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer,
-               const SensorKnowledge* known)
+               const FoundByReplay* found)
     : settings_(settings),
       writer_(writer),
       odometry_(options, ThreadCpuNs,
                 settings.initial_map ? StartIn::kInitialMap : StartIn::kNewMap,
-                known == nullptr ? nullptr : &known->sensors),
+                found == nullptr ? nullptr : &found->sensors),
       worker_(options, ThreadCpuNs, BeamElevations(options.rig.lidar.model), settings.initial_map),
       lidar_check_(options) {
-  if (known != nullptr) {
-    if (known->beams) worker_.TakeCalibration(*known->beams);
+  if (found != nullptr) {
+    if (found->beams) worker_.TakeCalibration(*found->beams);
     num_passes_ = 2;
   }
   if (settings_.writes_map && settings_.initial_map) {
@@ -50,10 +50,10 @@ void Replay::Run(LogInput& input) {
   Finish(input, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 
-SensorKnowledge Replay::Knowledge() const {
-  SensorKnowledge knowledge{odometry_.found_sensors(), std::nullopt};
-  if (worker_.calibration().IsOfUseElsewhere()) knowledge.beams = worker_.calibration();
-  return knowledge;
+FoundByReplay Replay::found() const {
+  FoundByReplay found{odometry_.found_sensors(), std::nullopt};
+  if (worker_.calibration().IsOfUseElsewhere()) found.beams = worker_.calibration();
+  return found;
 }
 
 void Replay::Add(InputItem item) {

@@ -66,7 +66,7 @@ TEST(ClockOffset, TheBeginOfADriveIsKnownAtItsEnd) {
   Drive drive{test::WalkMotion()};
   drive.rate = 4e-5;
   drive.Run(first, 0, 600);
-  const ClockBelief begin = first.AtBegin();
+  const ClockBelief begin = first.AtFirstScan();
   const double std_s = std::sqrt(begin.cov(0, 0));
   EXPECT_LT(std::abs(begin.mean[0] - drive.offset_s), 4.0 * std_s);
   EXPECT_LT(std_s, 1e-3);
@@ -82,10 +82,13 @@ TEST(ClockOffset, TheBeginOfADriveIsKnownAtItsEnd) {
   EXPECT_NEAR(second.move_by_s(), drive.offset_s, 1e-3);
 }
 
-TEST(ClockOffset, NothingIsKnownOfABeginWithoutScans) {
-  const ClockBelief begin = ClockOffset().AtBegin();
-  EXPECT_EQ(begin.mean, ClockBelief().mean);
-  EXPECT_EQ(begin.cov, ClockBelief().cov);
+TEST(ClockOffset, AFewTurnsTellNothingOfTheFirstScan) {
+  for (const int num_scans : {0, 4}) {
+    ClockOffset clock;
+    Drive{test::WalkMotion()}.Run(clock, 0, num_scans);
+    EXPECT_EQ(clock.AtFirstScan().mean, ClockBelief().mean) << num_scans;
+    EXPECT_EQ(clock.AtFirstScan().cov, ClockBelief().cov) << num_scans;
+  }
 }
 
 TEST(ClockOffset, AStraightRoadLeavesItWhereItIs) {

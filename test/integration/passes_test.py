@@ -2,8 +2,10 @@
 # SPDX-FileCopyrightText: 2026 The liod authors
 # SPDX-License-Identifier: MIT
 """Tests that a second pass over a log begins with what the first has found of the sensors: a lidar
-that stamps its sweeps 60 ms too late, a mounting that is off by 5 deg, and beams that err."""
+that stamps its sweeps 60 ms too late, a mounting that is off by 5 deg or that nobody has told, and
+beams that err."""
 import json
+import shutil
 import unittest
 
 import support
@@ -60,6 +62,25 @@ class Passes(unittest.TestCase):
     def test_a_wrong_mounting_is_known_from_the_first_row_on(self):
         _, two = self.check_mended("extrinsic_rotation", "lio-run")
         self.assertTrue((two / "report.html").exists() and (two / "map.pcd").exists())
+
+    # The axes of its messages are turned by quarters, and the lidar sits 12 cm above it, 6 deg off.
+    def test_a_log_without_any_rig_is_trusted_after_one_command(self):
+        drive = support.simulated("campus", "--duration", "40", "--lidar", "vlp16", "--imu-variant",
+                                  "turned")
+        bare, out = support.WORK / "passes-bare", support.WORK / "passes-without-rig"
+        shutil.rmtree(bare, ignore_errors=True)
+        bare.mkdir()
+        (bare / "log.lcm").symlink_to(drive / "log.lcm")
+        shutil.rmtree(out / ".pass_2", ignore_errors=True)
+        (out / ".pass_2").mkdir(parents=True)  # as a run leaves it that was killed
+        text = support.run_well("lio-run", bare / "log.lcm", "--truth", drive / "truth.tum", "--out",
+                                out, "--overwrite")
+        verdict = read(out / "verdict.json")
+        self.assertEqual(verdict["trust"], "yes", text)
+        self.assertIn("extrinsic_rotation", [cause["kind"] for cause in verdict["mended"]])
+        self.assertIn("rig_corrected.yaml", text)
+        self.assertLess(read(out / "eval.json")["ape"]["position_m"]["rmse"], 0.02)
+        self.assertFalse((out / ".pass_2").exists())
 
 
 if __name__ == "__main__":

@@ -25,6 +25,26 @@ TEST(RunFolder, AnEarlierRunIsRefusedUnlessItMayBeOverwritten) {
   }
 }
 
+TEST(RunFolder, AnotherRunTakesThePlaceOfAll) {
+  const test::TempDir folder;
+  for (const char* name : {"run/trajectory.tum", "run/beams.yaml", "run/log.lcm",
+                           "run/segment_2/states.csv", "run/segment_3/states.csv"}) {
+    folder.Write(name, "old");
+  }
+  for (const char* name : {"new/trajectory.tum", "new/map.pcd", "new/segment_2/covariance.csv"}) {
+    folder.Write(name, "new");
+  }
+  const fs::path run = folder.path() / "run";
+  ReplaceRun(run, folder.path() / "new");
+  for (const char* name : {"trajectory.tum", "map.pcd", "segment_2/covariance.csv"}) {
+    EXPECT_EQ(test::ReadText(run / name), "new") << name;
+  }
+  EXPECT_EQ(test::ReadText(run / "log.lcm"), "old") << "it is no file of a run";
+  for (const char* name : {"beams.yaml", "segment_2/states.csv", "segment_3"}) {
+    EXPECT_FALSE(fs::exists(run / name)) << name;
+  }
+}
+
 TEST(RunFolder, TheNextFreeNumberIsTakenBesideAUsedFolder) {
   const test::TempDir folder;
   const fs::path run = folder.path() / "run";

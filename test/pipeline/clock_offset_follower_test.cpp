@@ -218,14 +218,25 @@ TEST(ClockOffsetFollower, StoppedItLeavesSweepsAlone) {
 TEST(ClockOffsetFollower, TheBeginIsThatBeforeTheFirstSilence) {
   const Options options = OptionsOfClock(true, 0.1);
   ClockOffsetFollower follower(options);
-  EXPECT_EQ(follower.AtBegin().mean[0], 0.0);
+  EXPECT_EQ(follower.AtFirstScan().mean[0], 0.0);
   Walk().NumAnnounced(follower, kEnoughOfWalk);
-  EXPECT_NEAR(follower.AtBegin().mean[0], kOffset_s, 2e-3);
+  EXPECT_NEAR(follower.AtFirstScan().mean[0], kOffset_s, 2e-3);
   follower.Stop();
-  follower.Restart();
+  follower.Resume();
   Walk(-kOffset_s).NumAnnounced(follower, kEnoughOfWalk);
   EXPECT_NEAR(follower.total_s(), 0.1 - kOffset_s, 2e-3);
-  EXPECT_NEAR(follower.AtBegin().mean[0], kOffset_s, 2e-3);
+  EXPECT_NEAR(follower.AtFirstScan().mean[0], kOffset_s, 2e-3);
+}
+
+TEST(ClockOffsetFollower, AnImuThatComesLateShowsTheFirstScanToo) {
+  const Options options = OptionsOfClock(true);
+  ClockOffsetFollower follower(options);
+  follower.Stop();
+  follower.Resume();
+  Walk().NumAnnounced(follower, kEnoughOfWalk);
+  EXPECT_NEAR(follower.AtFirstScan().mean[0], kOffset_s, 2e-3);
+  follower.Restart();
+  EXPECT_EQ(follower.AtFirstScan().mean[0], 0.0) << "it was found with wrong rates";
 }
 
 TEST(ClockOffsetFollower, ABeliefIsWhereItBegins) {

@@ -110,7 +110,6 @@ TEST(OdometryImuConvention, RatesAndAxesAreFoundAfterAStartAtRest) {
   }
 }
 
-// On a straight road the force alone shows that axes are turned, which is too little to be sure.
 TEST(OdometryImuConvention, AnotherPassReadsTheMessagesRightFromItsFirstRow) {
   const Messages messages = SentAs(test::StaticStartDrive(), kInTurnedAxes);
   const RunResult first = RunOdometry(messages, test::DriveRig());
@@ -121,6 +120,7 @@ TEST(OdometryImuConvention, AnotherPassReadsTheMessagesRightFromItsFirstRow) {
   EXPECT_LT(ErrorAgainst(test::RestThenDrive(), second.scans).max_m, 0.06);
 }
 
+// On a straight road the force alone shows that axes are turned, which is too little to be sure.
 TEST(OdometryImuConvention, ADoubtThatNoTurnSettlesIsNamedByTheVerdict) {
   test::DriveOptions drive;
   drive.motion = [start = test::Driving()(0.0)](double t_s) {

@@ -121,7 +121,7 @@ ExitCode End(const PassesResult& result, const ReplayArguments& arguments) {
   }
   if (arguments.writes_report && result.failure.empty()) TellReport(arguments);
   fmt::print("{}", VerdictSummary(result.verdict));
-  if (!result.failure.empty()) return kExitWriteFailed;
+  if (!result.failure.empty() || !result.failure_of_second.empty()) return kExitWriteFailed;
   if (result.complaint.empty()) {
     return result.verdict.trust == Trust::kNo ? kExitNoTrust : kExitDone;
   }

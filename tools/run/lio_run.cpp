@@ -143,6 +143,13 @@ void TellInput(const RunArguments& arguments, const PreparedRecording& recording
   std::fflush(stdout);
 }
 
+// Nobody has told where the lidar sits, neither the recording nor the configuration.
+bool IsMountingAssumed(const PreparedRecording& recording, const Rig& rig) {
+  const bool is_identity = !rig.T_imu_lidar || (rig.T_imu_lidar->translation.isZero(0.0) &&
+                                                rig.T_imu_lidar->rotation.vec().isZero(0.0));
+  return recording.is_mounting_assumed && is_identity && !rig.T_base_imu;
+}
+
 std::string NextCommand(const RunArguments& arguments, const fs::path& rig) {
   std::string command = fmt::format("{} {} --rig {} --out {} --overwrite", kProgram,
                                     arguments.input(), rig.string(), arguments.out);
@@ -184,7 +191,7 @@ void TellResult(const RunArguments& arguments, const PreparedRecording& recordin
   if (std::ranges::any_of(verdict.causes, has_fix)) {
     fmt::print("next        {}\n", NextCommand(arguments, *corrected));
   } else {
-    fmt::print("rig         {}: as mended, for liod and other drives\n", corrected->string());
+    fmt::print("rig         {}: corrected, for liod and other drives\n", corrected->string());
   }
 }
 
@@ -200,7 +207,7 @@ ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, 
   settings.writes_map = true;
   const PassesResult result =
       RunPasses({recording.log, input_options, options, settings, arguments.out,
-                 arguments.num_passes, IsDrafted(recording)});
+                 arguments.num_passes, IsMountingAssumed(recording, options.rig)});
   if (!result.failure.empty()) {
     fmt::print("{}", VerdictSummary(result.verdict));
     return kExitWriteFailed;
@@ -216,6 +223,7 @@ ExitCode Run(const RunArguments& arguments, const PreparedRecording& recording, 
     fmt::print(stderr, "{}: {} is damaged: its sound parts were run, see {}\n", kProgram,
                arguments.input(), (fs::path(arguments.out) / "conversion.txt").string());
   }
+  if (!result.failure_of_second.empty()) return kExitWriteFailed;
   if (!result.complaint.empty() || recording.is_damaged) return kExitUnusableInput;
   return result.verdict.trust == Trust::kNo ? kExitNoTrust : kExitDone;
 }

@@ -68,8 +68,9 @@ class ClockOffset {
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
   // scan, from when the standard deviation is below 2 ms or the offset is three of them.
   double move_by_s() const { return move_by_s_; }
-  // Returns what the scans so far tell of the first of them.
-  ClockBelief AtBegin() const;
+  // Returns what the scans so far tell of the first of them; nothing new where no stamps would be
+  // moved by it.
+  ClockBelief AtFirstScan() const;
 
  private:
   enum StateIndex { kOffset, kRate };
@@ -88,6 +89,8 @@ class ClockOffset {
   void Update(const Scan& scan);
   void Fuse(const Turn& turn);
   void LearnUnclaimed(const Turn& turn);
+  // Has the offset surely been found, if it is known like this? `beyond_s`: and not this.
+  static bool IsSure(double offset_s, double std_s, double beyond_s);
   void Follow();
 
   Vector2 state_;  // s, s/s

@@ -22,6 +22,11 @@ void MakeFolder(const std::filesystem::path& folder);
 // Makes FreeFolder(folder) and returns it. Throws as MakeFolder does.
 [[nodiscard]] std::filesystem::path MakeFreeFolder(const std::filesystem::path& folder);
 
+// Puts the files of a whole run in the folder `by` into the place of those of another: each new
+// file over its old one, then away with the old ones that have no new one. `by` is in the same file
+// system. Throws std::filesystem::filesystem_error where that fails; no file is lost then.
+void ReplaceRun(const std::filesystem::path& folder, const std::filesystem::path& by);
+
 // Why no files can be written into `folder`, in one line; empty when they can, or when the folder
 // is missing and can be made. Makes nothing.
 [[nodiscard]] std::string WhyNotWritable(const std::filesystem::path& folder);

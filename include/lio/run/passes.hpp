@@ -19,9 +19,10 @@ struct PassesRequest {
   LogInputOptions input;
   Options options;
   ReplaySettings settings;
-  std::filesystem::path out;    // must be there or possible to make
-  int num_passes = 1;           // 1 or 2
-  bool is_rig_drafted = false;  // then the second pass has the axes of the messages
+  std::filesystem::path out;  // must be there or possible to make
+  int num_passes = 1;         // 1 or 2
+  // Nobody has told where the lidar sits: the second pass then has the axes of the messages.
+  bool is_mounting_assumed = false;
 };
 
 struct PassesResult {
@@ -29,13 +30,15 @@ struct PassesResult {
   std::string refusal;    // Replay::refusal
   std::string complaint;  // LogComplaint
   std::string failure;    // a file that could not be written, and why; stderr has told it
+  std::string
+      failure_of_second;  // the same of a second pass; the files are those of the first then
 };
 
 // Why the files of the first pass are kept in place of the second's; empty where they are not.
 [[nodiscard]] std::string WhyFirstIsKept(const PassesResult& first, const PassesResult& second);
 
-// Leaves the files of the last pass in the folder, or those of the first where the second one is
-// trusted less or could not be written; stderr tells so. Throws as LogInput and RunWriter do.
+// Leaves the files of the last pass in the folder, or those of the first where WhyFirstIsKept says
+// so; stderr tells it. Throws as LogInput and RunWriter do, but not for the second pass.
 [[nodiscard]] PassesResult RunPasses(const PassesRequest& request);
 
 }  // namespace lio

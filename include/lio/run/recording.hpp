@@ -29,6 +29,7 @@ struct PreparedRecording {
   std::filesystem::path log;
   std::optional<std::filesystem::path> truth;
   std::vector<std::filesystem::path> rig_files;  // the drafted one, or that beside the log
+  bool is_mounting_assumed = false;              // by the draft: no turn and no shift
   std::string kind;                              // for users: "ROS bag"
   std::string report;                            // the converter's summary; empty for logs
   bool is_damaged = false;                       // some of the recording was lost

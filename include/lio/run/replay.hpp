@@ -26,7 +26,7 @@ struct ReplaySettings {
 };
 
 // Holds what a replay has found of the sensors, for another one of the same log.
-struct SensorKnowledge {
+struct FoundByReplay {
   FoundSensors sensors;
   std::optional<BeamCalibration> beams;  // absent: of no use, as in a tunnel
 };
@@ -34,9 +34,9 @@ struct SensorKnowledge {
 // Feeds the estimator and carries its outputs to the files. Notices go to stderr as well.
 class Replay {
  public:
-  // `known`: by a replay of the same log; null where this is the first.
+  // `found`: by a replay of the same log; null where this is the first.
   Replay(const Options& options, const ReplaySettings& settings, RunWriter& writer,
-         const SensorKnowledge* known = nullptr);
+         const FoundByReplay* found = nullptr);
 
   // Replays all of `input`, or up to the notice that the options contradict it, and completes the
   // files. If one cannot be written, stderr tells at once; the estimate goes on without rows.
@@ -45,7 +45,7 @@ class Replay {
   [[nodiscard]] const Counters& counters() const { return odometry_.counters(); }
   // Call it after Run only.
   [[nodiscard]] const Verdict& verdict() const { return verdict_; }
-  [[nodiscard]] SensorKnowledge Knowledge() const;
+  [[nodiscard]] FoundByReplay found() const;
   // Says why the configuration contradicts the log; empty when it does not.
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
