@@ -6,12 +6,23 @@ that stamps its sweeps 60 ms too late, a mounting that is off by 5 deg or that n
 beams that err."""
 import json
 import shutil
+import subprocess
 import unittest
 
 import support
 
 FAULTS = {"clock_offset": "clock_offset:offset=0.06", "extrinsic_rotation":
           "wrong_extrinsic:yaw_deg=5"}
+
+# A disk of so many bytes, a replay into it, and a copy of what it left.
+SMALL_DISK = """
+mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 77
+"$REPLAY" --config "$DRIVE/config.yaml" "$DRIVE/log.lcm" --out "$DISK/run" --passes 2
+code=$?
+cp -r "$DISK/run" "$OUT"
+exit $code
+"""
+EXIT_WRITE_FAILED, NO_DISK = 74, 77
 
 
 def read(path):
@@ -62,6 +73,26 @@ class Passes(unittest.TestCase):
     def test_a_wrong_mounting_is_known_from_the_first_row_on(self):
         _, two = self.check_mended("extrinsic_rotation", "lio-run")
         self.assertTrue((two / "report.html").exists() and (two / "map.pcd").exists())
+
+    def test_a_disk_that_holds_one_pass_alone_keeps_it_whole(self):
+        drive, (one, _) = self.passes("clock_offset")
+        num_bytes = sum(file.stat().st_size for file in one.iterdir())
+        disk, out = support.WORK / "passes-disk", support.WORK / "passes-from-disk"
+        shutil.rmtree(out, ignore_errors=True)
+        disk.mkdir(exist_ok=True)
+        words = [f"{name}={value}" for name, value in
+                 {"SIZE": int(1.5 * num_bytes), "DISK": disk, "DRIVE": drive, "OUT": out,
+                  "REPLAY": support.BUILD / "bin/lio-replay"}.items()]
+        done = subprocess.run(["unshare", "-rm", "env", *words, "bash", "-c", SMALL_DISK],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=support.TIMEOUT_S, check=False)
+        if done.returncode == NO_DISK:
+            self.skipTest(f"a file system of its own is not permitted here: {done.stderr}")
+        self.assertEqual(done.returncode, EXIT_WRITE_FAILED, done.stderr)
+        self.assertIn("the second pass could not be written", done.stderr)
+        self.assertFalse((out / ".pass_2").exists())
+        for name in ("trajectory.tum", "covariance.csv", "states.csv", "verdict.json"):
+            self.assertEqual((out / name).read_bytes(), (one / name).read_bytes(), name)
 
     # The axes of its messages are turned by quarters, and the lidar sits 12 cm above it, 6 deg off.
     def test_a_log_without_any_rig_is_trusted_after_one_command(self):
