@@ -61,6 +61,11 @@ ImuSample FromSi(const ImuConvention& convention, ImuSample sample) {
   return sample;
 }
 
+Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention) {
+  const Quaternion R_sent_imu = Quaternion(convention.R_imu_sent).conjugate();
+  return {R_sent_imu * T_imu_lidar.rotation, R_sent_imu * T_imu_lidar.translation};
+}
+
 ImuConvention ConventionOf(ImuUnits units) {
   ImuConvention convention;
   convention.is_in_g = units == ImuUnits::kG || units == ImuUnits::kGAndDeg;

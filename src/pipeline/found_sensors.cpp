@@ -7,8 +7,7 @@ namespace lio {
 FoundSensors InAxesOfMessages(FoundSensors found, const Rig& rig) {
   if (!found.convention || found.convention->R_imu_sent == Matrix3::Identity()) return found;
   const Pose T_imu_lidar = found.T_imu_lidar.value_or(rig.T_imu_lidar.value_or(Extrinsic{}));
-  const Quaternion R_sent_imu = Quaternion(found.convention->R_imu_sent).conjugate();
-  found.T_imu_lidar = Pose{R_sent_imu * T_imu_lidar.rotation, R_sent_imu * T_imu_lidar.translation};
+  found.T_imu_lidar = InAxesOfMessages(T_imu_lidar, *found.convention);
   found.convention->R_imu_sent = Matrix3::Identity();
   return found;
 }

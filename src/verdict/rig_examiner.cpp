@@ -27,11 +27,6 @@ Trust TrustIn(double coverage, const ClaimedAccuracy& claimed) {
   return is_vague || coverage < kRigExaminer.doubtful_coverage ? Trust::kDoubtful : Trust::kYes;
 }
 
-Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention) {
-  const Quaternion R_sent_imu = Quaternion(convention.R_imu_sent).conjugate();
-  return {R_sent_imu * T_imu_lidar.rotation, R_sent_imu * T_imu_lidar.translation};
-}
-
 }  // namespace
 
 RigExaminer::RigExaminer(const Rig& rig, bool uses_imu, bool is_lever_found)

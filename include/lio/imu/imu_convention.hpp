@@ -35,6 +35,10 @@ std::array<Matrix3, kNumQuarterTurns> QuarterTurns();
 ImuSample ToSi(const ImuConvention& convention, ImuSample sent);
 ImuSample FromSi(const ImuConvention& convention, ImuSample sample);
 
+// Returns the extrinsic for an imu whose axes are those of the messages, from one in the axes that
+// they are read in.
+Pose InAxesOfMessages(const Pose& T_imu_lidar, const ImuConvention& convention);
+
 // Returns the convention that a configuration states; SI under kAutomatic.
 ImuConvention ConventionOf(ImuUnits units);
 ImuUnits UnitsOf(const ImuConvention& convention);  // never kAutomatic; ignores the axes

@@ -65,7 +65,7 @@ class BeamCalibration {
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
   // The errors with their standard deviations, which take a moment.
   [[nodiscard]] BeamKnowledge Found() const;
-  // Is what was found of use elsewhere, or from the begin on? Not where most scans were blind: in a
+  // Is what was found of use elsewhere, or from the start on? Not where most scans were blind: in a
   // plain tunnel a map that bends and elevations that err look alike, and more is claimed to be
   // known of them than is (docs/experiments/beam_errors.md).
   [[nodiscard]] bool IsOfUseElsewhere() const { return 2 * num_blind_ <= num_kept_; }

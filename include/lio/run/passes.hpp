@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Replays a log once, or twice: a second pass begins with what the first has found of the sensors
-// (SensorKnowledge), where the first one had to find it on the way.
+// (FoundByReplay), where the first one had to find it on the way.
 #pragma once
 
 #include <filesystem>
@@ -30,8 +30,8 @@ struct PassesResult {
   std::string refusal;    // Replay::refusal
   std::string complaint;  // LogComplaint
   std::string failure;    // a file that could not be written, and why; stderr has told it
-  std::string
-      failure_of_second;  // the same of a second pass; the files are those of the first then
+  // The same of a second pass: the files are those of the first then.
+  std::string failure_of_second;
 };
 
 // Why the files of the first pass are kept in place of the second's; empty where they are not.
