@@ -34,6 +34,7 @@ FilterHistory::FilterHistory(const HistoryOptions& options, const Estimate& star
   node.sample = sample;
   node.sample.stamp = start.stamp;
   node.noise = options.noise.shown;
+  node.rate_error = options.rate_error;
   node.posterior = start;
   nodes_.push_back(std::move(node));
 }

@@ -10,13 +10,14 @@ namespace {
 
 constexpr RateErrorParameters kRateError;
 constexpr double kPriorTurnSq = kRateError.prior_turn_rad * kRateError.prior_turn_rad;
-constexpr double kPriorWeight = kPriorTurnSq * kPriorTurnSq;
 constexpr double kMaxVar = kRateError.max_std_ratio * kRateError.max_std_ratio;
+constexpr double kPriorVar = kRateError.prior_std_ratio * kRateError.prior_std_ratio;
+constexpr double kPriorWeight = kPriorTurnSq * kPriorTurnSq;
+constexpr double kMatchVar = kRateError.match_std_rad * kRateError.match_std_rad;
 
 }  // namespace
 
 double RateError::std_ratio() const {
-  constexpr double kPriorVar = kRateError.prior_std_ratio * kRateError.prior_std_ratio;
   const double var = (kPriorWeight * kPriorVar + product_sum_) / (kPriorWeight + weight_sum_);
   return std::sqrt(std::clamp(var, 0.0, kMaxVar));
 }
@@ -34,10 +35,16 @@ void RateError::Turn(double rate_radps, double dt_s) {
 
 void RateError::AddPose(const Vector3& residual_rad, const Matrix3& cov) {
   const double turn_sq = turn_rad_ * turn_rad_;
+  if (!(turn_sq > 0.0)) return;
   const double without = cov.trace() / 3.0 - variance_rad2_;
   const double error_sq = std::min(residual_rad.squaredNorm() / 3.0 - without, kMaxVar * turn_sq);
-  weight_sum_ += turn_sq * turn_sq;
-  product_sum_ += turn_sq * error_sq;
+  usual_var_rad2_ =
+      std::max(kMatchVar, std::min(without, kRateError.usual_growth * usual_var_rad2_));
+  const double times_usual = std::max(1.0, without / usual_var_rad2_);
+  const double weight = std::min(turn_sq * turn_sq, kRateError.max_turns_a_pose * kPriorWeight) /
+                        (times_usual * times_usual);
+  weight_sum_ += weight;
+  product_sum_ += weight * error_sq / turn_sq;
   const double excess = weight_sum_ / (kRateError.num_turns_remembered * kPriorWeight);
   if (excess > 1.0) {
     weight_sum_ /= excess;

@@ -76,8 +76,10 @@ void Tracking::NotifyFound(Timestamp end) {
 
 void Tracking::BeginHistoryAt(const Estimate& estimate) {
   const auto& samples = context_.stream.imu().samples();
-  history_ =
-      FilterHistory(HistoryOptionsAt(estimate.stamp), estimate, SampleAt(samples, estimate.stamp));
+  HistoryOptions options = HistoryOptionsAt(estimate.stamp);
+  options.rate_error = history_.rate_error();
+  history_ = FilterHistory(options, estimate, SampleAt(samples, estimate.stamp));
+  history_.KeepFrom(estimate.stamp);
   AddSamplesAfter(estimate.stamp);
 }
 

@@ -76,6 +76,30 @@ TEST(RateError, AWrongMatchCountsForNoMoreThanTheWorstUnit) {
   EXPECT_LE(error.std_ratio(), RateErrorParameters{}.max_std_ratio);
 }
 
+// A pose after a gap is unsure by half a turn, whatever its residual is.
+TEST(RateError, APoseThatIsUnsureTeachesNothing) {
+  RateError error;
+  RunTurns(error, 4.0, 5e-3, 400);
+  const double before = error.std_ratio();
+  for (int i = 0; i < 20; ++i) {
+    error.Turn(4.0, kInterval_s);
+    error.AddPose(Vector3::Zero(), 0.05 * 0.05 * Matrix3::Identity());
+    error.BeginTurn();
+  }
+  EXPECT_NEAR(error.std_ratio(), before, 0.02 * before);
+}
+
+TEST(RateError, AnotherHistoryBeginsWithWhatWasLearnedAndNoTurn) {
+  RateError error;
+  RunTurns(error, 4.0, 5e-3, 400);
+  RateError anew = error;
+  anew.Turn(10.0, 1.0);
+  anew = anew.Anew();
+  EXPECT_DOUBLE_EQ(anew.std_ratio(), error.std_ratio());
+  anew.AddPose(Vector3(0.1, 0, 0), 1e-8 * Matrix3::Identity());  // without a turn
+  EXPECT_DOUBLE_EQ(anew.std_ratio(), error.std_ratio());
+}
+
 TEST(RateError, AnotherErrorIsFollowed) {
   RateError error;
   RunTurns(error, 4.0, 2e-2, 200);

@@ -46,6 +46,7 @@ struct HistoryOptions {
   CovarianceInflation max_inflation{kFilterParameters.inflation.max_factor,
                                     kFilterParameters.inflation.max_factor};
   ImuOutageParameters imu_outage = kFilterParameters.imu_outage;
+  RateError rate_error = {};  // as an earlier history of the same gyro found it
 };
 
 class FilterHistory {
@@ -88,6 +89,8 @@ class FilterHistory {
   // Returns the standard deviation per axis of the gyro's error in proportion to its rate at
   // `stamp`, rad/s.
   double RateErrorStd(Timestamp stamp) const;
+  // What the drive has shown of it so far, for another history.
+  [[nodiscard]] RateError rate_error() const { return nodes_.back().rate_error.Anew(); }
   // Returns the measured samples with stamps after `from` up to `to`.
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;
 

@@ -5,8 +5,11 @@
 // are 2.6 mrad a scan, ten times what a match knows. Its size is learned from the poses: a turn by
 // `turn_rad` since the last one leaves a residual r with |r|^2 = tr(S) + 3 s^2 turn^2, S the
 // innovation's covariance without it and s the standard deviation of the ratio per axis. s^2 is the
-// least-squares estimate over the turns, which large ones decide.
+// least-squares estimate over the turns, which large ones decide. A pose that is less sure than
+// usual, as after a gap, weighs less by the square of its variance, which that of |r|^2 goes with.
 #pragma once
+
+#include <limits>
 
 #include "lio/base/rotation.hpp"
 
@@ -19,6 +22,13 @@ struct RateErrorParameters {
   // The prior weighs as one scan with this turn [rad]. Chosen: a scan at 170 deg/s and 10 Hz;
   // slower turns hardly show the error, nor suffer from it.
   double prior_turn_rad = 0.3;
+  // One pose weighs as so many of them at most. Chosen: half of what is remembered.
+  double max_turns_a_pose = 10.0;
+  // The usual variance of a residual is the least one lately, which may grow by this factor from
+  // pose to pose, and that of a match [rad] at least. Chosen: a tenth of a second of doubt is
+  // unusual, half a minute of it is not.
+  double usual_growth = 1.02;
+  double match_std_rad = 1e-3;
   // So many turns of that size are remembered. Chosen: two seconds of them at 10 Hz.
   double num_turns_remembered = 20.0;
   // Upper bound of the ratio: uncalibrated consumer units have 3 % (InvenSense MPU-9250). A wrong
@@ -35,6 +45,12 @@ class RateError {
   // A pose came. `residual_rad` is the rotation part of its residual; `cov` that of the
   // innovation's rotation, with what Turn() added to it.
   void AddPose(const Vector3& residual_rad, const Matrix3& cov);
+  // Returns the same for a body whose turn so far no pose will tell of.
+  [[nodiscard]] RateError Anew() const {
+    RateError anew = *this;
+    anew.turn_rad_ = anew.turn_time_s_ = anew.variance_rad2_ = 0.0;
+    return anew;
+  }
   // The pose was fused: what the body turns from here on shows at the next one.
   void BeginTurn();
 
@@ -48,9 +64,10 @@ class RateError {
   double turn_rad_ = 0.0;       // since the last fused pose
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
-  double interval_s_ = RateErrorParameters{}.first_interval_s;  // between fused poses
-  double weight_sum_ = 0.0;                                     // sum of turn^4
-  double product_sum_ = 0.0;  // sum of turn^2 times the error's square
+  double interval_s_ = RateErrorParameters{}.first_interval_s;       // between fused poses
+  double usual_var_rad2_ = std::numeric_limits<double>::infinity();  // of a residual, per axis
+  double weight_sum_ = 0.0;   // turn^4 where it is as sure as usual
+  double product_sum_ = 0.0;  // sum of the weights times the ratio's square
 };
 
 }  // namespace lio
