@@ -14,6 +14,18 @@
 #include "pipeline/scan_fusion.hpp"
 
 namespace lio {
+namespace {
+
+// Adds what a body may have done that nothing has followed since the pose of this covariance: it
+// turned, and its way is unsure by `shift_std_m`, axis by axis.
+void AddUnseen(double since_s, const Vector3& shift_std_m, Matrix6& pose_cov) {
+  const double turn_std_rad =
+      std::min(kOutage.turn_rate_std_radps * std::max(since_s, 0.0), kOutage.max_yaw_std_rad);
+  pose_cov.diagonal().head<3>() += shift_std_m.cwiseAbs2();
+  pose_cov.diagonal().tail<3>().array() += turn_std_rad * turn_std_rad;
+}
+
+}  // namespace
 
 LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
                      std::optional<StartState> inertial)
@@ -55,8 +67,8 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   options.seed = seed_;
   options.follows_turns = true;
   const Timestamp start = TrackStart(sweep, seed_);
-  const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
-  if (is_lost || std::exchange(handover_.is_placed, false)) StartAtLastFix(start, options);
+  if (handover_.origin != Handover::Origin::kNone) StartAtLastFix(start, options);
+  handover_.is_placed = false;
   tracker_.emplace(start, options);
   handover_.origin = Handover::Origin::kLidar;
   handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());
@@ -80,7 +92,8 @@ void LidarOnly::GoOn() {
   up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
-// The new map begins where the motion before and after the scans that were not located leads.
+// What was published goes on: the new map begins where the motion before and after the scans that
+// were not located leads.
 void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
   const LastFix& fix = handover_.last_fix;
   const double since_s = CoastedSince_s(fix, start);
@@ -96,8 +109,13 @@ void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
   Vector6 least;
   least << Vector3::Constant(kPlacedStd_m * kPlacedStd_m),
       Vector3::Constant(kPlacedStd_rad * kPlacedStd_rad);
-  options.start_cov = handover_.pose_cov;
+  const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
+  options.start_cov = is_lost ? handover_.pose_cov : fix.pose_cov;
   options.start_cov.diagonal() += least;
+  if (!is_lost && !handover_.is_placed) {
+    AddUnseen(SecondsBetween(fix.stamp, start), 0.5 * since_s * (v_world_mps - fix.v_world_imu),
+              options.start_cov);
+  }
 }
 
 bool LidarOnly::IsPlaceSure(const MatchOutcome& outcome) const {
@@ -114,6 +132,7 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const Pose T_map_imu_predicted = tracker_->history().At(middle).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
   trend_.Forget();
+  if (starts_map) context_.sensor_errors.BeginMap();
   if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }
@@ -160,6 +179,7 @@ ScanReport LidarOnly::Fuse(const MatchOutcome& outcome, bool is_keyframe) {
   if (!outcome.match.IsUsable()) return report;
   FusionSettings settings;
   settings.grows_map = is_keyframe;
+  settings.is_inertial = false;
   FuseScan(outcome, settings, context_, tracker_->history(), health_, report);
   return report;
 }

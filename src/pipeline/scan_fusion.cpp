@@ -7,20 +7,20 @@
 namespace lio {
 namespace {
 
-// Did the inertial samples miss a part of the motion since the last scan that was fused?
-bool IsMotionHiddenSince(std::optional<Timestamp> last_fused, Timestamp until,
-                         const ModeContext& context) {
-  return last_fused && IsMotionHidden(context.stream.imu().Between(*last_fused, until));
+// Is the motion between these instants a guess, since the prediction follows no inertial samples or
+// they have missed a part of it?
+bool IsMotionGuessed(Timestamp from, Timestamp until, const FusionSettings& settings,
+                     const ModeContext& context) {
+  return !settings.is_inertial || IsMotionHidden(context.stream.imu().Between(from, until));
 }
 
-// An error that the rig made in the motion is left in the estimate, above all in its velocity, for
-// as long as a missed motion is: for the filter's window.
 UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, bool is_blind,
                              const FusionSettings& settings, const ModeContext& context,
                              const FilterHistory& history) {
   if (outcome.is_relocalized || outcome.is_clock_set || settings.replaces_motion) return {};
+  if (!settings.is_inertial) return {};
   const Timestamp until = outcome.sweep->end;
-  const Duration window = Duration::FromSeconds(context.options.filter.history_s);
+  const Duration window = Duration::FromSeconds(kUnseenMotion.lasts_s);
   const std::vector<ImuSample> samples = context.stream.imu().Between(until - window, until);
   if (IsMotionHidden(samples)) return {};
   const std::optional<RigBounds>& bounds = context.examiner.bounds();
@@ -39,10 +39,11 @@ void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeCo
   if (outcome.is_relocalized) context.blind_axis.Reset();
   const BlindAxis::Answer answer = context.blind_axis.Judge(outcome.match);
   settings.match_cov = answer.cov;
-  if (settings.grows_map) context.sensor_errors.Add(outcome.match);
   settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
+  const std::optional<Timestamp> last_fused = health.last_fused();
   const bool is_contradicted_by_guess =
-      !answer.is_blind && IsMotionHiddenSince(health.last_fused(), outcome.sweep->end, context);
+      !answer.is_blind && last_fused &&
+      IsMotionGuessed(*last_fused, outcome.sweep->end, settings, context);
   // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
   const bool is_insisted_on =
       health.MustForce(filter.max_gated_in_a_row) && !settings.is_map_unproved;
@@ -52,6 +53,7 @@ void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeCo
   const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
   health.AddFusion(fused);
   report.fused = fused == EventOutcome::kApplied;
+  if (report.fused && settings.grows_map) context.sensor_errors.Add(outcome.match);
 }
 
 }  // namespace lio

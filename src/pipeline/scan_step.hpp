@@ -46,6 +46,7 @@ struct FusionSettings {
   bool force = false;            // fuse even beyond the gate
   bool is_map_unproved = false;  // it began anew, and no scan has been fused with it yet
   bool replaces_motion = false;  // nothing is known of the motion since the last fused scan
+  bool is_inertial = true;       // the prediction follows the inertial samples
 };
 
 // Fuses a usable match at the sweep's middle. The measurement's covariance is that of the match and

@@ -12,9 +12,15 @@ void SensorFixedErrors::Add(const MatchResult& match) {
   if (scores.empty() || !(share > 0.0)) return;
   mean_scores_.resize(scores.size(), Vector6::Zero());
   num_replacements_ += share;
+  sum_of_shares_ += share;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    mean_scores_[i] += share / num_replacements_ * (scores[i] - mean_scores_[i]);
+    mean_scores_[i] += share / sum_of_shares_ * (scores[i] - mean_scores_[i]);
   }
+}
+
+void SensorFixedErrors::SetImu(const Pose& T_old_new) {
+  const Matrix6 to_new = AdjointSe3(T_old_new).transpose();
+  for (Vector6& mean : mean_scores_) mean = to_new * mean;
 }
 
 Matrix6 SensorFixedErrors::CovPerReplacement(const MatchResult& match) const {

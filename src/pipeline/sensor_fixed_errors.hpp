@@ -28,11 +28,16 @@ class SensorFixedErrors {
   // Such errors alone let the covariance of the map's pose grow by this per share of new content;
   // right error [m; rad].
   [[nodiscard]] Matrix6 CovPerReplacement(const MatchResult& match) const;
-  void Reset() { *this = {}; }
+  // A map begins: nothing of it has been replaced yet. The errors are those of the sensor.
+  void BeginMap() { num_replacements_ = 0.0; }
+  // The extrinsic has been corrected: poses and scores are of another body from here on.
+  // `T_old_new`: the new imu in the old one's axes.
+  void SetImu(const Pose& T_old_new);
 
  private:
   std::vector<Vector6> mean_scores_;  // weighted by the shares of new content
-  double num_replacements_ = 0.0;     // the sum of these shares
+  double sum_of_shares_ = 0.0;
+  double num_replacements_ = 0.0;  // the same sum, of the map at hand
 };
 
 }  // namespace lio

@@ -232,6 +232,7 @@ void Tracking::GrowMap(const MatchedScan& scan, const ScanReport& report, bool r
                        InsertTask& insert) {
   const Timestamp middle = scan.middle();
   const bool begins_map = scan.starts_map() || rebases_map;
+  if (begins_map) context_.sensor_errors.BeginMap();
   if (begins_map && history_.AddRebase(middle) != EventOutcome::kApplied) {
     ++context_.counters.num_scans_late;
   }

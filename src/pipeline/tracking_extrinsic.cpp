@@ -47,7 +47,7 @@ void Tracking::CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end) {
   CorrectExtrinsic(T_old_new, sample.w_imu_radps - estimate.state.gyro_bias,
                    {rig.gyro_bias_std_radps, rig.accel_bias_std_mps2}, estimate);
   BeginHistoryAt(estimate);
-  context_.sensor_errors.Reset();  // they are of the other body
+  context_.sensor_errors.SetImu(T_old_new);
   ForgetPoses(end);
 }
 

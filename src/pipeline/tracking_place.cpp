@@ -23,6 +23,7 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
   handover_.last_fix = MakeFix(estimate.stamp, estimate, g_world_);
   ForgetPoses(sweep.end);
   context_.examiner.record().BeginMap();
+  context_.sensor_errors.BeginMap();
   const Vector3& at = estimate.state.T_map_imu.translation;
   context_.outputs.Notify(
       sweep.end, Notice::Severity::kInfo,

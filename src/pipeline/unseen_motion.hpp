@@ -12,6 +12,14 @@
 
 namespace lio {
 
+struct UnseenMotionParameters {
+  // s. A missed motion, or an error that the rig made in one, is left in the estimate for so long,
+  // above all in its velocity. Measured against 1 s: docs/experiments/refused_matches.md.
+  double lasts_s = 3.0;
+};
+
+inline constexpr UnseenMotionParameters kUnseenMotion;
+
 // Is one of the samples missing or saturated, so that nothing is known of the motion?
 [[nodiscard]] bool IsMotionHidden(const std::vector<ImuSample>& samples);
 

@@ -8,6 +8,7 @@
 
 #include "pipeline/gravity_check.hpp"
 #include "pipeline/mode_bench.hpp"
+#include "pipeline/outage.hpp"
 
 namespace lio {
 namespace {
@@ -232,6 +233,36 @@ TEST(LidarOnly, PlaceAfterALossIsAsUnsureAsBeforeAndSomeMore) {
   const Matrix6 cov = b.bench.Take<ScanOutput>().back().filter->nav.pose_cov;
   EXPECT_GE(cov(0, 0), 0.04 + kPlacedStd_m * kPlacedStd_m);
   EXPECT_GE(cov(5, 5), 0.04 + kPlacedStd_rad * kPlacedStd_rad);
+}
+
+// An inertial unit came for a moment, or tracking was lost as it fell silent: what was published
+// goes on, as unsure as the last pose and all that may have happened since.
+TEST(LidarOnly, BeginsWhereTheLastPoseLeadsWhoeverPublishedIt) {
+  for (const Origin origin : {Origin::kInertial, Origin::kLidar}) {
+    Handover handover = LostASecondAgo();
+    handover.origin = origin;
+    handover.w_imu_radps.setZero();
+    handover.pose_cov.setZero();
+    handover.last_fix.pose_cov = 0.09 * Matrix6::Identity();
+    LidarOnlyBench b(kSpeed_mps, handover);
+    const MatchJob job = b.NextJob();
+    EXPECT_NEAR(job.T_any_imu.front().pose.translation.x(), 10.0 + kSpeed_mps, 1e-6);
+    ASSERT_FALSE(b.Finish(b.bench.Matched(job, b.motion)));
+    const Matrix6 cov = b.bench.Take<ScanOutput>().back().filter->nav.pose_cov;
+    EXPECT_GE(cov(0, 0), 0.09);
+    EXPECT_GE(cov(5, 5), 0.09 + std::pow(kOutage.turn_rate_std_radps * 1.0, 2));
+  }
+}
+
+TEST(LidarOnly, PlaceThatWasGivenIsAsSureAsItWasGiven) {
+  Handover handover = LostASecondAgo();
+  handover.origin = Origin::kInertial;
+  handover.is_placed = true;
+  handover.last_fix.stamp = StampAt(0.0);
+  handover.last_fix.pose_cov = 1e-4 * Matrix6::Identity();
+  LidarOnlyBench b(kSpeed_mps, handover);
+  ASSERT_FALSE(b.Match());
+  EXPECT_LT(b.bench.Take<ScanOutput>().back().filter->nav.pose_cov(5, 5), 0.01);
 }
 
 TEST(LidarOnly, WithoutALossItBeginsAtTheOrigin) {

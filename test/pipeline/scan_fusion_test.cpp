@@ -131,6 +131,37 @@ TEST_F(ScanFusionTest, AMatchThatSeesAllIsFusedAtOnceWhereTheMotionSinceTheLastI
   EXPECT_NEAR(history_->At(StampAt(0.5)).state.T_map_imu.translation.x(), 0.9, 0.2);
 }
 
+// Samples that the prediction does not follow say nothing of it: lidar-only waits for its return.
+TEST_F(ScanFusionTest, AMatchThatSeesAllIsFusedAtOnceWhereThePredictionFollowsNoSamples) {
+  FeedImu(-4.0, 2.0);
+  KnowTheRig();
+  FusionSettings settings;
+  settings.is_inertial = false;
+  const MatchOutcome first = MatchedAt(1e-3);
+  ASSERT_TRUE(Fuse(first, settings).fused);
+  (void)health_.AddScan(first.sweep->end, first.match, 2500, true);
+  EXPECT_TRUE(Fuse(MatchedAt(0.9), settings).fused);
+  EXPECT_NEAR(history_->At(StampAt(0.5)).state.T_map_imu.translation.x(), 0.9, 0.2);
+}
+
+TEST_F(ScanFusionTest, AMatchThatIsRefusedTellsNothingOfTheSensorsErrors) {
+  FeedImu(-4.0, 2.0);
+  FusionSettings settings;
+  settings.grows_map = true;
+  const auto with_scores = [&](double x_m) {
+    MatchOutcome outcome = MatchedAt(x_m);
+    outcome.match.beam_pull.scores = {Vector6::Ones()};
+    outcome.match.shift_per_score = Matrix6::Identity();
+    outcome.match.new_content_share = 0.1;
+    return outcome;
+  };
+  const MatchOutcome refused = with_scores(5.0);
+  ASSERT_FALSE(Fuse(refused, settings).fused);
+  EXPECT_TRUE(bench_.context().sensor_errors.CovPerReplacement(refused.match).isZero(0.0));
+  ASSERT_TRUE(Fuse(with_scores(1e-3), settings).fused);
+  EXPECT_FALSE(bench_.context().sensor_errors.CovPerReplacement(refused.match).isZero(0.0));
+}
+
 TEST_F(ScanFusionTest, AMatchFarOffIsRefusedForGoodWhereTheSamplesShowTheMotion) {
   FeedImu(-4.0, 2.0);
   KnowTheRig();

@@ -128,13 +128,33 @@ TEST(SensorFixedErrors, AScanThatBringsNothingNewCountsForNothing) {
   EXPECT_TRUE(errors.CovPerReplacement(match).isZero(0.0));
 }
 
-TEST(SensorFixedErrors, ResetForgetsAll) {
-  std::mt19937_64 random(6);
+// P of a new map is zero, and what the sensor's errors are is known: the drift begins anew.
+TEST(SensorFixedErrors, InANewMapTheDriftBeginsAnewWithWhatIsKnownOfTheErrors) {
+  std::mt19937_64 random(7);
   const MatchResult match = RandomMatch(random);
   SensorFixedErrors errors;
-  errors.Add(match);
-  errors.Reset();
+  for (int i = 0; i < 100; ++i) errors.Add(match);
+  const Matrix6 after_100 = errors.CovPerReplacement(match);
+  errors.BeginMap();
   EXPECT_TRUE(errors.CovPerReplacement(match).isZero(0.0));
+  errors.Add(RandomMatch(random));
+  const Matrix6 after_one = errors.CovPerReplacement(match);
+  EXPECT_NEAR(after_one.trace(), 0.01 * after_100.trace(), 0.001 * after_100.trace());
+}
+
+// A score is the gradient of the cost by the pose of the imu: a turn of the new imu moves the old.
+TEST(SensorFixedErrors, AnotherExtrinsicKeepsTheErrorsAsThoseOfTheNewImu) {
+  std::mt19937_64 random(8);
+  const Pose T_old_new = ExpSe3(test::RandomVector<6>(random));
+  const MatchResult of_old = RandomMatch(random);
+  MatchResult of_new = of_old;
+  for (Vector6& score : of_new.beam_pull.scores) {
+    score = AdjointSe3(T_old_new).transpose() * score;
+  }
+  SensorFixedErrors errors = ErrorsAfter(of_old);
+  errors.SetImu(T_old_new);
+  const Matrix6 expected = ErrorsAfter(of_new).CovPerReplacement(of_new);
+  EXPECT_LT((errors.CovPerReplacement(of_new) - expected).norm(), 1e-9 * expected.norm());
 }
 
 }  // namespace
