@@ -35,6 +35,10 @@ struct InitializingParameters {
   // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
   // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
+  // s. What the gyro has measured before a new start tells how far the body has turned, back to
+  // this. Chosen: a way is lost for half of it before a start begins anew. The buffer holds more
+  // even while sweeps wait, so that latency does not show.
+  double max_turn_back_s = 6.0;
   std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move
   int min_samples_at_rest = 3;        // chosen: fewer have no spread
   // The motion may be known after the first number of scans; lidar-only odometry begins anyway

@@ -136,13 +136,15 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   return Retry();
 }
 
-// Turns the earlier fix by the rotation since then, integrated from the samples that are still in
-// the buffer, and adds to `doubt` how far it may be off.
+// Turns the earlier fix by the rotation since then, integrated from the samples of the last
+// seconds, and adds to `doubt` how far it may be off.
 void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const {
-  const std::vector<ImuSample> samples = context_.stream.imu().Between(earlier.stamp, now.stamp);
+  const Timestamp oldest = now.stamp - Duration::FromSeconds(kInitializing.max_turn_back_s);
+  const std::vector<ImuSample> samples =
+      context_.stream.imu().Between(std::max(earlier.stamp, oldest), now.stamp);
   const Timestamp first = samples.empty() ? now.stamp : samples.front().stamp;
-  const double unseen_s =
-      first - earlier.stamp >= kImuGap.sparse ? SecondsBetween(earlier.stamp, first) : 0.0;
+  const bool is_unseen_before = first - earlier.stamp >= kImuGap.sparse;
+  const double unseen_s = is_unseen_before ? SecondsBetween(earlier.stamp, first) : 0.0;
   const double turn_std_rad = std::min(
       kFilterParameters.imu_outage.gap_gyro_std_radps * unseen_s + UnmeasuredTurnStd_rad(samples),
       kOutage.max_yaw_std_rad);
@@ -150,7 +152,7 @@ void Initializing::TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& d
   if (samples.empty()) return;
   const Biases biases{now.state.gyro_bias, now.state.accel_bias};
   const Preintegration turn =
-      Preintegrate(samples, samples.front().stamp, samples.back().stamp, biases, {});
+      Preintegrate(samples, is_unseen_before ? first : earlier.stamp, now.stamp, biases, {});
   earlier.T_world_imu.rotation = earlier.T_world_imu.rotation * turn.rotation;
   earlier.T_map_imu.rotation = earlier.T_map_imu.rotation * turn.rotation;
 }

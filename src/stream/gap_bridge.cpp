@@ -13,12 +13,12 @@
 namespace lio {
 namespace {
 
-std::vector<ImuSample> Measured(const std::deque<ImuSample>& sent,
-                                const ImuConvention& convention) {
+std::vector<ImuSample> MeasuredSince(Timestamp from, const std::deque<ImuSample>& sent,
+                                     const ImuConvention& convention) {
   std::vector<ImuSample> measured;
-  for (const ImuSample& sample : sent) {
-    const bool is_readable = ToSi(convention, sample).w_imu_radps.norm() <= kMaxGyroRate_radps;
-    if (is_readable && !sample.is_made_up()) measured.push_back(sample);
+  for (auto at = FirstNotBefore(sent, from); at != sent.end(); ++at) {
+    const bool is_readable = ToSi(convention, *at).w_imu_radps.norm() <= kMaxGyroRate_radps;
+    if (is_readable && !at->is_made_up()) measured.push_back(*at);
   }
   return measured;
 }
@@ -61,7 +61,8 @@ GapBridge::GapBridge(const std::deque<ImuSample>& sent, const ImuConvention& con
       Summarise(std::vector<ImuSample>(FirstNotBefore(sent, from), sent.cend()));
   mean_.w_imu_radps = before.mean_w_radps;
   mean_.f_imu_mps2 = before.mean_f_mps2;
-  const std::vector<ImuSample> measured = Measured(sent, convention);
+  const std::vector<ImuSample> measured = MeasuredSince(
+      last_.stamp - Duration::FromSeconds(kStream.spread_before_gap_s), sent, convention);
   mean_.made_up_w_std_radps = StdAround(mean_.w_imu_radps, measured, &ImuSample::w_imu_radps);
   mean_.made_up_f_std_mps2 = StdAround(mean_.f_imu_mps2, measured, &ImuSample::f_imu_mps2);
   correlation_time_s_ = CorrelationTime_s(mean_.w_imu_radps, measured);

@@ -18,8 +18,8 @@ std::optional<Timestamp> ImuBuffer::newest() const {
 
 std::vector<ImuSample> ImuBuffer::Between(Timestamp from, Timestamp to) const {
   std::vector<ImuSample> between;
-  for (const ImuSample& sample : samples_) {
-    if (sample.stamp >= from && sample.stamp <= to) between.push_back(sample);
+  for (auto at = FirstNotBefore(samples_, from); at != samples_.end() && at->stamp <= to; ++at) {
+    between.push_back(*at);
   }
   return between;
 }

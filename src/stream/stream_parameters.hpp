@@ -14,6 +14,9 @@ struct StreamParameters {
   // s. The mean of the time before stands in for a gap (kImuGap.bridged). Measured: both steps of a
   // walker, at 1.8 a second; over one alone the body turns (docs/experiments/imu_gaps.md).
   double mean_before_gap_s = 1.1;
+  // s. How far the motion strays from that mean is that of so long before. Chosen: several turns of
+  // a walker.
+  double spread_before_gap_s = 6.0;
   // Made-up samples stand this far from the measured ones at both edges of a gap. Chosen: less than
   // the period of any unit, so that the line between them takes no time.
   Duration gap_edge{1'000'000};
@@ -26,9 +29,10 @@ struct StreamParameters {
   // rad/s and m/s^2. A made-up sample states this deviation at least, weighed as that of one
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;
-  // s. Raw samples are kept for so long, for an initialization that looks back, twice. Chosen: 3.5
-  // s of sweeps (InitializingParameters::max_window_s), and margin for those that wait.
-  double imu_buffer_s = 6.0;
+  // s. Raw samples are kept for so long, for an initialization that looks back. Chosen: 3.5 s of
+  // sweeps (InitializingParameters::max_window_s) and 6 s before them (max_turn_back_s), and margin
+  // for those that wait.
+  double imu_buffer_s = 12.0;
   // s. Sweeps alone for this long mean that the log has no IMU. Chosen: IMUs start within a second.
   double no_imu_after_s = 2.0;
   // An IMU that comes up after the lidar is used once its samples span this much. Chosen: a stray

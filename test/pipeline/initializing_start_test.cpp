@@ -160,6 +160,41 @@ TEST(InitializingStart, AnUnsureYawOfTheLastFixStandsBesideTheFilter) {
   }
 }
 
+// The last pose is 8 s old, since when the body has turned. Live, samples come on while scans wait.
+TEST(InitializingStart, TurnSinceAnOldFixDoesNotDependOnHowManySamplesHaveComeSince) {
+  const Motion turn_then_stand = [](double t_s) {
+    return Pose{ExpSo3(Vector3(0, 0, 0.1 * std::min(t_s, 0.0))), Vector3::Zero()};
+  };
+  const auto start_with_samples_to = [&](double to_s) {
+    Handover handover;
+    handover.origin = Handover::Origin::kInertial;
+    handover.last_fix.stamp = StampAt(-8.0);
+    InitializingBench b({}, handover);
+    b.bench.FeedImu(turn_then_stand, -9.0, to_s);
+    for (int i = 0; i < 20; ++i) {
+      b.bench.AddSweep(test::kSweepSpan_s * i);
+      if (auto transition = b.MatchWaiting(turn_then_stand)) return transition;
+    }
+    return std::optional<Transition>();
+  };
+  const auto prompt = start_with_samples_to(2.0);
+  const auto late = start_with_samples_to(4.5);
+  ASSERT_TRUE(prompt && late && prompt->start && late->start);
+  const auto yaw_of = [](const Transition& transition) {
+    return LogSo3(transition.start->estimate.state.T_world_imu.rotation).z();
+  };
+  EXPECT_EQ(yaw_of(*prompt), yaw_of(*late));
+  // The first second or so of the turn is not known any more.
+  EXPECT_NEAR(yaw_of(*prompt), 0.1 * (kInitializing.max_turn_back_s - 0.9), 0.02);
+  const auto doubt_of = [](const Transition& transition) {
+    WorldEstimate published;
+    transition.handover.yaw_doubt.AddTo(published);
+    return published.cov(kRot + 2, kRot + 2);
+  };
+  EXPECT_EQ(doubt_of(*prompt), doubt_of(*late));
+  EXPECT_GT(doubt_of(*prompt), 1.0);
+}
+
 // Each second a tenth of a second of samples is missing, which no alignment in motion accepts.
 TEST(InitializingStart, DriveThatCannotBeAlignedIsTriedAgainWithoutTheGyro) {
   const Motion drive = test::WindingDrive(0.0);
