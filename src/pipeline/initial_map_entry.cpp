@@ -20,10 +20,13 @@ InitialMapEntry::InitialMapEntry(const InitialMap& map, std::unique_ptr<ScanMatc
 
 std::optional<FoundPlace> InitialMapEntry::Seek(const LocatedScan& scan,
                                                 std::span<const Eigen::Vector3f> all_points_imu,
-                                                MatchBudget& budget) {
+                                                const Pose& T_imu_lidar, MatchBudget& budget) {
   const auto match = [&](std::span<const Eigen::Vector3f> points, const Pose& guess,
                          const Matrix6& cov) {
-    return waiting_->Match({.points_imu = points, .T_map_imu_guess = guess, .guess_cov = cov});
+    return waiting_->Match({.points_imu = points,
+                            .T_map_imu_guess = guess,
+                            .guess_cov = cov,
+                            .T_imu_lidar = T_imu_lidar});
   };
   const PlaceMatching matching{
       [&](std::span<const Eigen::Vector3f> points, const Pose& guess, const Matrix6& cov) {

@@ -106,7 +106,7 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   if (is_matched && context_.stream.has_imu()) {
     context_.convention.AddPose({middle, outcome.match.T_map_imu});
   }
-  handover_.last_located = middle;
+  if (is_fused) handover_.last_located = middle;
   if (!since_) since_ = outcome.sweep->start;
 }
 

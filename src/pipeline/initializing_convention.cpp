@@ -83,7 +83,8 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
     return Reject(stamp, fmt::format("{}, rig.imu.units says {}: {}", what, EnumName(rig.imu.units),
                                      ConventionFix(found, rig)));
   }
-  if (handover_.origin == Handover::Origin::kInertial) TurnHandover(found);
+  const bool was_started = handover_.origin == Handover::Origin::kInertial && !handover_.is_placed;
+  if (was_started) TurnHandover(found);
   context_.stream.SetConvention(found);
   context_.examiner.SetConvention(found);
   context_.extrinsic.Restart();

@@ -289,7 +289,8 @@ void RegistrationWorker::FinishMatch(const Track& task, ScanInWork& scan) {
 
 void RegistrationWorker::SeekPlace(ScanInWork& scan) {
   MatchOutcome& outcome = scan.outcome;
-  outcome.place = initial_->Seek({scan.to_match, outcome.match}, outcome.points_imu, scan.budget);
+  outcome.place =
+      initial_->Seek({scan.to_match, outcome.match}, outcome.points_imu, T_imu_lidar_, scan.budget);
 }
 
 MatchOutcome RegistrationWorker::Run(const MatchJob& job) {

@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/zero_velocity_updater.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 namespace lio {
+namespace {
 
-// The errors of measurements in a row are correlated for a time t. Measurements at intervals d tell
-// as much as independent ones whose variance is 2 t / d times as large.
+// The errors of measurements in a row are correlated by exp(-d / t) at an interval d: in the long
+// run they tell as much as independent ones of so many times their variance (of the mean of a
+// first-order autoregressive process).
+double NumAlike(double since_s) {
+  const double correlation = std::exp(-since_s / kZeroVelocity.correlation_s);
+  return (1.0 + correlation) / (1.0 - correlation);
+}
+
+}  // namespace
+
 bool ZeroVelocityUpdater::AddFusedScan(const MatchOutcome& outcome, const Vector3& g_world,
                                        FilterHistory& history) {
   if (outcome.match.degenerate_mask != 0) {
@@ -22,11 +31,8 @@ bool ZeroVelocityUpdater::AddFusedScan(const MatchOutcome& outcome, const Vector
     last_.reset();
     return false;
   }
-  const double since_s =
-      std::min(last_ ? SecondsBetween(*last_, middle) : kZeroVelocity.correlation_s,
-               kZeroVelocity.correlation_s);
-  const double num_alike = std::max(1.0, 2.0 * kZeroVelocity.correlation_s / since_s);
-  const double variance = num_alike * kZeroVelocity.std_mps * kZeroVelocity.std_mps;
+  const double since_s = last_ ? SecondsBetween(*last_, middle) : kZeroVelocity.correlation_s;
+  const double variance = NumAlike(since_s) * kZeroVelocity.std_mps * kZeroVelocity.std_mps;
   if (history.AddZeroVelocity(middle, variance) != EventOutcome::kApplied) return false;
   last_ = middle;
   return true;

@@ -104,14 +104,13 @@ void NdtMatcher::Teach(const MatchInput& input, const Pose& T_grid_imu) const {
 }
 
 void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
-  sensor_imu_ = scan.T_imu_lidar.translation;
   if (width_.is_unknown()) width_.Add(scan.points_imu, options_.voxel_m);
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   if (inserted_at_) path_m_ += static_cast<float>((T_map_imu.translation - *inserted_at_).norm());
   inserted_at_ = T_map_imu.translation;
   const std::vector<SeenBeam> beams = BeamsOf(scan, GridFromLidar(T_grid_imu, scan.T_imu_lidar));
-  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * sensor_imu_, workers_,
-              LevelsInUse().finest, {beams, path_m_});
+  map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.T_imu_lidar.translation,
+              workers_, LevelsInUse().finest, {beams, path_m_});
 }
 
 bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
@@ -128,7 +127,7 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
   const MultiResolutionMap::Levels levels = LevelsFor(input, radius_m);
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
-  const Vector3 sensor_grid = T_grid_imu * sensor_imu_;
+  const Vector3 sensor_grid = T_grid_imu * input.T_imu_lidar.translation;
   const Matrix3 rotation = T_grid_imu.rotation.toRotationMatrix();
   workers_.ForEachBlock(points.size(), [&](const Block& block) {
     std::array<Vector3, Workers::kBlockSize> points_grid;

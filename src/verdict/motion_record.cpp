@@ -36,8 +36,9 @@ bool AreSparse(std::span<const ImuSample> samples) {
   return std::ranges::adjacent_find(samples, is_gap) != samples.end();
 }
 
-bool HasSaturated(std::span<const ImuSample> samples) {
-  return std::ranges::any_of(samples, &ImuSample::is_saturated);
+// None is saturated, nor made up in a gap.
+bool ShowMotion(std::span<const ImuSample> samples) {
+  return std::ranges::all_of(samples, &ImuSample::IsMeasured);
 }
 
 // Samples about both ends tell how rate and force change with the offset between the clocks.
@@ -81,7 +82,7 @@ void MotionRecord::Add(const StampedPose& T_map_imu, Duration clock_correction,
   if (last) last->stamp = last->stamp + change;
   const bool is_step = last && samples.size() >= 3 && T_map_imu.stamp > last->stamp &&
                        SecondsBetween(last->stamp, T_map_imu.stamp) <= kMotionRecord.max_step_s &&
-                       !HasSaturated(samples);
+                       ShowMotion(samples);
   if (!is_step) {
     ++track_;
     return;

@@ -62,7 +62,7 @@ std::optional<FoundPlace> Seek(InitialMapEntry& entry, double x_m, int* num_scan
     match.num_matched = static_cast<int>(0.98 * static_cast<double>(points.size()));
     match.num_in_map = static_cast<int>(points.size());
     MatchBudget budget(kRelocalization.max_matches_per_scan);
-    if (const auto found = entry.Seek({points, match}, points, budget)) return found;
+    if (const auto found = entry.Seek({points, match}, points, Pose{}, budget)) return found;
     EXPECT_LE(budget.num_taken(), 2);
   }
   return std::nullopt;

@@ -108,5 +108,24 @@ TEST(InitializingConvention, OtherConventionGivesTheLastFixTheShapeOfThePathInTh
   EXPECT_NEAR((fix.T_map_imu.translation - Vector3(10, 0, 0)).norm(), 0.0, 1e-9);
 }
 
+// Somebody said where the body is, and nothing has been published since with wrong axes.
+TEST(InitializingConvention, OtherConventionLeavesAGivenPoseAsItIs) {
+  Handover handover;
+  handover.origin = Handover::Origin::kInertial;
+  handover.is_placed = true;
+  handover.last_fix.T_world_imu = {ExpSo3(Vector3(0, 0, 1)), Vector3(100, -20, 3)};
+  handover.last_fix.T_map_imu = handover.last_fix.T_world_imu;
+  InitializingBench b({}, handover);
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kRetry);
+  const LastFix& fix = transition->handover.last_fix;
+  const Pose& given = handover.last_fix.T_world_imu;
+  EXPECT_NEAR((fix.T_world_imu.translation - given.translation).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(LogSo3(fix.T_world_imu.rotation).z(), 1.0, 1e-9);
+  EXPECT_NEAR((fix.T_map_imu.translation - given.translation).norm(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace lio

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/motion.hpp"
 
 namespace lio {
@@ -79,30 +81,38 @@ TEST(ZeroVelocityUpdater, OtherwiseRestIsFusedOnceTheWindowIsFull) {
   EXPECT_LT(rest.SpeedVarianceAt(1.65), 1e-3);
 }
 
-// A body sways to and fro within 0.3 s: a measurement on its own counts as twice that.
-TEST(ZeroVelocityUpdater, TheFirstMeasurementHasTwiceTheVarianceOfTheSway) {
+// A body sways to and fro within 0.3 s: measurements so far apart are correlated by exp(-d / 0.3
+// s).
+double NumAlike(double since_s) {
+  return 1.0 / std::tanh(0.5 * since_s / 0.3);
+}
+
+TEST(ZeroVelocityUpdater, TheFirstMeasurementCountsAsOneAfterTheSway) {
   ZeroVelocityUpdater updater({}, true);
   RestingFilter rest;
   rest.AddScan(updater, 0.1);
-  EXPECT_NEAR(rest.SpeedVarianceAt(0.1), 2.0 * kSwayVariance, 1e-3 * kSwayVariance);
+  const double expected = NumAlike(0.3) * kSwayVariance;
+  EXPECT_NEAR(rest.SpeedVarianceAt(0.1), expected, 1e-3 * expected);
 }
 
-// 0.1 s apart they have six times the variance of the sway, for 2 * 0.3 s / 0.1 s = 6.
 TEST(ZeroVelocityUpdater, MeasurementsThatFollowSoonerHaveLargerVariances) {
   ZeroVelocityUpdater updater({}, true);
   RestingFilter rest;
   rest.AddScan(updater, 0.1);
   rest.AddScan(updater, 0.2);
-  const double expected = 1.0 / (1.0 / 2.0 + 1.0 / 6.0) * kSwayVariance;
+  EXPECT_NEAR(NumAlike(0.1), 6.05, 0.01);
+  const double expected = kSwayVariance / (1.0 / NumAlike(0.3) + 1.0 / NumAlike(0.1));
   EXPECT_NEAR(rest.SpeedVarianceAt(0.2), expected, 1e-3 * expected);
 }
 
-TEST(ZeroVelocityUpdater, MeasurementsFartherApartThanTheSwayLastsAreIndependent) {
+TEST(ZeroVelocityUpdater, MeasurementsFartherApartThanTheSwayLastsAreNearlyIndependent) {
   ZeroVelocityUpdater updater({}, true);
   RestingFilter rest;
   rest.AddScan(updater, 0.1);
-  rest.AddScan(updater, 0.5);
-  EXPECT_NEAR(rest.SpeedVarianceAt(0.5), kSwayVariance, 1e-3 * kSwayVariance);
+  rest.AddScan(updater, 0.55);
+  EXPECT_NEAR(NumAlike(0.45), 1.6, 0.05);
+  const double expected = kSwayVariance / (1.0 / NumAlike(0.3) + 1.0 / NumAlike(0.45));
+  EXPECT_NEAR(rest.SpeedVarianceAt(0.55), expected, 1e-3 * expected);
 }
 
 TEST(ZeroVelocityUpdater, MatchesAtRestAreLessSure) {

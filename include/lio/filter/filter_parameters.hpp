@@ -28,9 +28,9 @@ struct InflationParameters {
 
 // How a pose beyond the gate is fused when it must be (docs/filter.md, Pose update).
 struct ForcedUpdateParameters {
-  // m, rad. Smaller residuals are registration errors: the pose's covariance is scaled until it
-  // fits. Larger ones are motion that no sample showed, or a wrong match. Chosen on drives of the
-  // simulator, where a map of parked scans pulls by centimetres.
+  // m, rad. Smaller residuals are registration errors: the pose's covariance is multiplied by the
+  // residual's NIS over the gate's limit. Larger ones are motion that no sample showed, or a wrong
+  // match. Chosen on drives of the simulator, where a map of parked scans pulls by centimetres.
   double max_registration_error_m = 0.15;
   double max_registration_error_rad = 0.03;
   // s. Unseen motion is taken to have lasted this long, which gives its velocity. Chosen: one or

@@ -25,7 +25,7 @@ class InitialMapEntry {
   // Seeks the place of the new map by a scan that it has located.
   [[nodiscard]] std::optional<FoundPlace> Seek(const LocatedScan& scan,
                                                std::span<const Eigen::Vector3f> all_points_imu,
-                                               MatchBudget& budget);
+                                               const Pose& T_imu_lidar, MatchBudget& budget);
   // `matcher`, that of the new map, becomes that of the initial one.
   void Enter(std::unique_ptr<ScanMatcher>& matcher);
   // A new map begins: `matcher` becomes that of the new map, if it was that of the initial one.

@@ -117,15 +117,14 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MultiResolutionMap map_;
   Vector3 up_grid_ = Vector3::Zero();  // not known yet: everything stands
   PlaceWidth width_;
-  Vector3 sensor_imu_ = Vector3::Zero();  // the lidar's place, as of the last scan inserted
-  std::optional<Vector3> inserted_at_;    // the last scan's place in the map
-  float path_m_ = 0.f;                    // the way over all scans that were inserted
-  std::vector<Pair> pairs_;               // in the current iteration, one a point
-  Pose paired_at_;                        // T_grid_imu of the pairs
-  std::optional<Pose> counted_at_;        // T_grid_imu of the counts by cell
-  std::vector<PointScore> scores_;        // in the last match, one a point
-  MatchScores gradients_;                 // by cell and by beam
-  std::array<PoseScores, 2> per_metre_;   // by vertical structure, a metre along either direction
+  std::optional<Vector3> inserted_at_;   // the last scan's place in the map
+  float path_m_ = 0.f;                   // the way over all scans that were inserted
+  std::vector<Pair> pairs_;              // in the current iteration, one a point
+  Pose paired_at_;                       // T_grid_imu of the pairs
+  std::optional<Pose> counted_at_;       // T_grid_imu of the counts by cell
+  std::vector<PointScore> scores_;       // in the last match, one a point
+  MatchScores gradients_;                // by cell and by beam
+  std::array<PoseScores, 2> per_metre_;  // by vertical structure, a metre along either direction
   IntraSweepRateEstimator turn_;
   std::vector<CellCount> cell_counts_;
   std::int32_t count_number_ = 0;  // number of the last count; older counts are void

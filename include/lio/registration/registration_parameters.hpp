@@ -240,8 +240,9 @@ struct BeamCalibrationParameters {
   static constexpr double kRangeAgeing_m = 2e-3;
   static constexpr double kAngleAgeing_rad = 1e-4;
   static constexpr double kEncoderAgeing_rad = 2e-5;
-  // A cell remembers the beams of this share of its points at least: those before its plane was
-  // known are not. Chosen: half.
+  // A cell counts if the beams of this share of its points are remembered: those of the points
+  // before its plane was known are not. Chosen: a plane is known after tens of points, and a cell
+  // of a hundred has then beams of most.
   static constexpr float kMinRemembered = 0.15f;
   // A map that bends has these deviations over a way of so many metres. Chosen: more than any that
   // was seen; they only keep directions that nothing holds.

@@ -56,7 +56,7 @@ struct MatchInput {
   // instant that the points are deskewed to. Empty: the scan is rigid. Only the method ndt bends
   // it.
   std::span<const float> shares_of_correction = {};
-  Pose T_imu_lidar = {};  // tells the points' beams apart
+  Pose T_imu_lidar = {};  // tells the points' beams apart, and where surfaces are seen from
   // Learns from the match, where given, and each of points_imu as its beam saw it. Only the method
   // ndt teaches it.
   BeamCalibration* calibration = nullptr;
