@@ -35,8 +35,8 @@ struct InitializingParameters {
   // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
   // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
-  // s. What the gyro has measured before a new start tells how far the body has turned, back to
-  // this. Chosen: a way is lost for half of it before a start begins anew. The buffer holds more
+  // s. The gyro tells how far the body has turned since the last pose, back to this before a new
+  // start. Chosen: a way is lost for half of it before a start begins anew. The buffer holds more
   // even while sweeps wait, so that latency does not show.
   double max_turn_back_s = 6.0;
   std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move

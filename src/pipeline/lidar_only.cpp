@@ -92,7 +92,7 @@ void LidarOnly::GoOn() {
   up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
-// What was published goes on: the new map begins where the motion before and after the scans that
+// The published path goes on: the new map begins where the motion before and after the scans that
 // were not located leads.
 void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
   const LastFix& fix = handover_.last_fix;

@@ -89,7 +89,7 @@ class FilterHistory {
   // Returns the standard deviation per axis of the gyro's error in proportion to its rate at
   // `stamp`, rad/s.
   double RateErrorStd(Timestamp stamp) const;
-  // What the drive has shown of it so far, for another history.
+  // Returns it as the drive has shown it so far, for another history.
   [[nodiscard]] RateError rate_error() const { return nodes_.back().rate_error.Anew(); }
   // Returns the measured samples with stamps after `from` up to `to`.
   std::vector<ImuSample> SamplesBetween(Timestamp from, Timestamp to) const;

@@ -65,7 +65,7 @@ class RateError {
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
   double interval_s_ = RateErrorParameters{}.first_interval_s;       // between fused poses
-  double usual_var_rad2_ = std::numeric_limits<double>::infinity();  // of a residual, per axis
+  double usual_var_rad2_ = std::numeric_limits<double>::infinity();  // a residual's, per axis
   double weight_sum_ = 0.0;   // turn^4 where it is as sure as usual
   double product_sum_ = 0.0;  // sum of the weights times the ratio's square
 };
