@@ -16,12 +16,14 @@
 namespace lio {
 namespace {
 
-// Adds what a body may have done that nothing has followed since the pose of this covariance: it
-// turned, and its way is unsure by `shift_std_m`, axis by axis.
-void AddUnseen(double since_s, const Vector3& shift_std_m, Matrix6& pose_cov) {
+// Adds what a body may have done that nothing has followed for so long: it turned, which leads its
+// way of `v_mps` aside, and its velocity changed by `dv_mps`.
+void AddUnseen(double since_s, const Vector3& v_mps, const Vector3& dv_mps, Matrix6& pose_cov) {
   const double turn_std_rad =
-      std::min(kOutage.turn_rate_std_radps * std::max(since_s, 0.0), kOutage.max_yaw_std_rad);
-  pose_cov.diagonal().head<3>() += shift_std_m.cwiseAbs2();
+      std::min(kOutage.turn_rate_std_radps * since_s, kOutage.max_yaw_std_rad);
+  const double aside_std_m = std::min(turn_std_rad, 1.0) * since_s * v_mps.norm();
+  const double along_std_m = since_s * dv_mps.norm();
+  pose_cov.diagonal().head<3>().array() += aside_std_m * aside_std_m + along_std_m * along_std_m;
   pose_cov.diagonal().tail<3>().array() += turn_std_rad * turn_std_rad;
 }
 
@@ -97,7 +99,9 @@ void LidarOnly::GoOn() {
 void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
   const LastFix& fix = handover_.last_fix;
   const double since_s = CoastedSince_s(fix, start);
-  const Vector3 turn = std::min(since_s, kLidarOnly.turn_unseen_for_s) * handover_.w_imu_radps;
+  const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
+  const double turned_s = is_lost ? std::min(since_s, kLidarOnly.turn_unseen_for_s) : 0.0;
+  const Vector3 turn = turned_s * handover_.w_imu_radps;
   const Quaternion rotation = fix.T_world_imu.rotation * ExpSo3(turn);
   Vector3 v_world_mps = fix.v_world_imu;
   if (seed_.motion) {
@@ -109,12 +113,10 @@ void LidarOnly::StartAtLastFix(Timestamp start, TrackerOptions& options) const {
   Vector6 least;
   least << Vector3::Constant(kPlacedStd_m * kPlacedStd_m),
       Vector3::Constant(kPlacedStd_rad * kPlacedStd_rad);
-  const bool is_lost = handover_.origin == Handover::Origin::kLostLidar;
   options.start_cov = is_lost ? handover_.pose_cov : fix.pose_cov;
   options.start_cov.diagonal() += least;
-  if (!is_lost && !handover_.is_placed) {
-    AddUnseen(SecondsBetween(fix.stamp, start), 0.5 * since_s * (v_world_mps - fix.v_world_imu),
-              options.start_cov);
+  if (!is_lost) {
+    AddUnseen(since_s, v_world_mps, v_world_mps - fix.v_world_imu, options.start_cov);
   }
 }
 

@@ -29,7 +29,8 @@ inline constexpr LidarOnlyParameters kLidarOnly;
 
 class LidarOnly {
  public:
-  // Begins with the first sweep, along the seed's motion; after a loss at the handover's last fix.
+  // Begins with the first sweep, along the seed's motion; at the handover's last fix, if anything
+  // was published or given before.
   // `inertial` is what the inertial filter knew, where this mode goes on in its world and its map.
   LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
             std::optional<StartState> inertial = std::nullopt);

@@ -48,6 +48,12 @@ HistoryOptions Tracking::HistoryOptionsAt(Timestamp stamp) const {
   return history;
 }
 
+HistoryOptions Tracking::LearnedOptionsAt(Timestamp stamp) const {
+  HistoryOptions options = HistoryOptionsAt(stamp);
+  options.rate_error = history_.rate_error();
+  return options;
+}
+
 void Tracking::AddImu(const ImuReady& event) {
   if (history_.AddImu(event.sample) == EventOutcome::kTooOld) {
     ++context_.counters.num_imu_late;

@@ -69,6 +69,8 @@ class Tracking {
   // Matching from the prediction finds the scan, if it is there.
   bool IsPriorSure(Timestamp middle) const;
   HistoryOptions HistoryOptionsAt(Timestamp stamp) const;
+  // The same for a history that takes the place of this one.
+  HistoryOptions LearnedOptionsAt(Timestamp stamp) const;
   void CarryOver(const Estimate& before, const SegmentJump& jump, const ImuSample& sample);
   void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,

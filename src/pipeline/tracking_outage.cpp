@@ -15,7 +15,7 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
                                const std::string& why) {
   const Timestamp first = segment.first.stamp;
   handover_.clock_step.Begin({before.stamp, first}, before.state.T_map_imu);
-  history_ = FilterHistory(HistoryOptionsAt(first), AcrossOutage(before, first), segment.first);
+  history_ = FilterHistory(LearnedOptionsAt(first), AcrossOutage(before, first), segment.first);
   outage_.Begin(before, before.state.T_map_imu);
   (void)health_.AddGap(first);
   context_.clocks.Interrupt();
@@ -27,8 +27,8 @@ void Tracking::SeekAfterOutage(const Estimate& before, const SegmentStarts& segm
 }
 
 void Tracking::BeginNewMap() {
-  const Timestamp now = history_.head().stamp;
-  outage_.BeginNewMap(history_.head());
+  const Timestamp now = history_.start_stamp();  // not the newest sample: live more have come
+  outage_.BeginNewMap(history_.At(now));
   (void)health_.AddGap(now);
   context_.clocks.Interrupt();
   LeaveMap(now);
@@ -76,9 +76,8 @@ void Tracking::NotifyFound(Timestamp end) {
 
 void Tracking::BeginHistoryAt(const Estimate& estimate) {
   const auto& samples = context_.stream.imu().samples();
-  HistoryOptions options = HistoryOptionsAt(estimate.stamp);
-  options.rate_error = history_.rate_error();
-  history_ = FilterHistory(options, estimate, SampleAt(samples, estimate.stamp));
+  history_ =
+      FilterHistory(LearnedOptionsAt(estimate.stamp), estimate, SampleAt(samples, estimate.stamp));
   history_.KeepFrom(estimate.stamp);
   AddSamplesAfter(estimate.stamp);
 }

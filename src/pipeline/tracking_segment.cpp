@@ -37,7 +37,7 @@ void Tracking::CarryOver(const Estimate& before, const SegmentJump& jump, const 
       fmt::format("the IMU's stamps jumped by {:.3f} s: the state is carried over; look for lost "
                   "messages or a clock that was set",
                   jump.jump_s));
-  const HistoryOptions options = HistoryOptionsAt(first);
+  const HistoryOptions options = LearnedOptionsAt(first);
   if (jump.kind == SegmentJump::Kind::kGap) {
     handover_.clock_step.Begin({before.stamp, first}, before.state.T_map_imu);
     if (health_.AddGap(first)) NotifyLost(first, context_.outputs);

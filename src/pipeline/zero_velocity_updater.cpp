@@ -31,7 +31,9 @@ bool ZeroVelocityUpdater::AddFusedScan(const MatchOutcome& outcome, const Vector
     last_.reset();
     return false;
   }
-  const double since_s = last_ ? SecondsBetween(*last_, middle) : kZeroVelocity.correlation_s;
+  const bool is_after_last = last_ && *last_ < middle;
+  const double since_s =
+      is_after_last ? SecondsBetween(*last_, middle) : kZeroVelocity.correlation_s;
   const double variance = NumAlike(since_s) * kZeroVelocity.std_mps * kZeroVelocity.std_mps;
   if (history.AddZeroVelocity(middle, variance) != EventOutcome::kApplied) return false;
   last_ = middle;

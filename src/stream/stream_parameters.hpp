@@ -30,9 +30,9 @@ struct StreamParameters {
   // sample. Chosen: far below any unit's noise.
   double min_made_up_std = 1e-3;
   // s. Raw samples are kept for so long, for an initialization that looks back. Chosen: 3.5 s of
-  // sweeps (InitializingParameters::max_window_s) and 6 s before them (max_turn_back_s), and margin
-  // for those that wait.
-  double imu_buffer_s = 12.0;
+  // sweeps (InitializingParameters::max_window_s) and 6 s before them (max_turn_back_s), and 10 s
+  // for those that wait, as many as the queue holds at 10 Hz.
+  double imu_buffer_s = 20.0;
   // s. Sweeps alone for this long mean that the log has no IMU. Chosen: IMUs start within a second.
   double no_imu_after_s = 2.0;
   // An IMU that comes up after the lidar is used once its samples span this much. Chosen: a stray
@@ -59,7 +59,7 @@ struct StreamParameters {
   std::size_t max_waiting_messages = 65536;
   // Their points are so many at most: 160 MB, ten seconds of a fast lidar; chosen.
   std::size_t max_waiting_points = 8 << 20;
-  // So many raw samples are kept at most, where stamps do not advance. Chosen: those of 20 kHz.
+  // So many raw samples are kept at most, where stamps do not advance. Chosen: those of 6 kHz.
   std::size_t max_imu_samples = 1 << 17;
 };
 

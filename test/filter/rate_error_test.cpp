@@ -89,6 +89,13 @@ TEST(RateError, APoseThatIsUnsureTeachesNothing) {
   EXPECT_NEAR(error.std_ratio(), before, 0.02 * before);
 }
 
+TEST(RateError, AFirstPoseThatIsUnsureTeachesNothing) {
+  RateError error;
+  error.Turn(0.2, kInterval_s);
+  error.AddPose(Vector3::Zero(), 0.25 * Matrix3::Identity());
+  EXPECT_NEAR(error.std_ratio(), RateErrorParameters{}.prior_std_ratio, 1e-6);
+}
+
 TEST(RateError, AnotherHistoryBeginsWithWhatWasLearnedAndNoTurn) {
   RateError error;
   RunTurns(error, 4.0, 5e-3, 400);

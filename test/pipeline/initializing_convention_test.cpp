@@ -115,6 +115,7 @@ TEST(InitializingConvention, OtherConventionLeavesAGivenPoseAsItIs) {
   handover.is_placed = true;
   handover.last_fix.T_world_imu = {ExpSo3(Vector3(0, 0, 1)), Vector3(100, -20, 3)};
   handover.last_fix.T_map_imu = handover.last_fix.T_world_imu;
+  handover.T_world_start.translation = Vector3(0, 0, 1);  // nothing is to be led back to it
   InitializingBench b({}, handover);
   b.bench.force_scale = 1.0 / kStandardGravity_mps2;
   const auto transition = b.Drive(Leaning(), 0.0, 2.0);

@@ -9,8 +9,6 @@
 // usual, as after a gap, weighs less by the square of its variance, which that of |r|^2 goes with.
 #pragma once
 
-#include <limits>
-
 #include "lio/base/rotation.hpp"
 
 namespace lio {
@@ -64,8 +62,10 @@ class RateError {
   double turn_rad_ = 0.0;       // since the last fused pose
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
-  double interval_s_ = RateErrorParameters{}.first_interval_s;       // between fused poses
-  double usual_var_rad2_ = std::numeric_limits<double>::infinity();  // a residual's, per axis
+  double interval_s_ = RateErrorParameters{}.first_interval_s;  // between fused poses
+  // A residual's, per axis.
+  double usual_var_rad2_ =
+      RateErrorParameters{}.match_std_rad * RateErrorParameters{}.match_std_rad;
   double weight_sum_ = 0.0;   // turn^4 where it is as sure as usual
   double product_sum_ = 0.0;  // sum of the weights times the ratio's square
 };
