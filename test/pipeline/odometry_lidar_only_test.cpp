@@ -81,6 +81,15 @@ TEST(OdometryLidarOnly, AnInertialUnitThatComesLaterIsUsed) {
   }
 }
 
+TEST(OdometryLidarOnly, AnInertialUnitThatComesForAMomentLeavesThePathWhereItWas) {
+  const Messages without_first = test::WithoutImu(StaticStartDrive(), -1.0, 4.0);
+  const RunResult run =
+      RunOdometry(test::WithoutImu(without_first, 4.7, kEnd_s + 1.0), test::DriveRig());
+  ASSERT_TRUE(HasNotice(run, "inertial samples have come"));
+  ASSERT_TRUE(HasNotice(run, "no inertial samples come any more"));
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).end_m, 1.0);
+}
+
 // On a body that is pitched by 6 degrees, which the lidar alone cannot know.
 TEST(OdometryLidarOnly, AnInertialUnitThatComesLaterLevelsTheWorldAndLeavesTheMap) {
   const Pose pitched{ExpSo3(Vector3(0, 0.1, 0)), Vector3::Zero()};
