@@ -19,8 +19,7 @@ namespace {
 // Adds what a body may have done that nothing has followed for so long: it turned, which leads its
 // way of `v_mps` aside, and its velocity changed by `dv_mps`.
 void AddUnseen(double since_s, const Vector3& v_mps, const Vector3& dv_mps, Matrix6& pose_cov) {
-  const double turn_std_rad =
-      std::min(kOutage.turn_rate_std_radps * since_s, kOutage.max_yaw_std_rad);
+  const double turn_std_rad = UnseenTurnStd_rad(since_s);
   const double aside_std_m = std::min(turn_std_rad, 1.0) * since_s * v_mps.norm();
   const double along_std_m = since_s * dv_mps.norm();
   pose_cov.diagonal().head<3>().array() += aside_std_m * aside_std_m + along_std_m * along_std_m;
@@ -61,13 +60,18 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   return job;
 }
 
-void LidarOnly::BeginTrack(const Sweep& sweep) {
-  handover_.last_located.reset();
+TrackerOptions LidarOnly::OptionsOfTrack() const {
   TrackerOptions options;
   options.span_s = context_.options.filter.history_s;
   options.nis_limit = context_.nis_limit;
   options.seed = seed_;
   options.follows_turns = true;
+  return options;
+}
+
+void LidarOnly::BeginTrack(const Sweep& sweep) {
+  handover_.last_located.reset();
+  TrackerOptions options = OptionsOfTrack();
   const Timestamp start = TrackStart(sweep, seed_);
   if (handover_.origin != Handover::Origin::kNone) StartAtLastFix(start, options);
   handover_.is_placed = false;
@@ -81,11 +85,7 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
 
 // The world and the map are the inertial filter's.
 void LidarOnly::GoOn() {
-  TrackerOptions options;
-  options.span_s = context_.options.filter.history_s;
-  options.nis_limit = context_.nis_limit;
-  options.seed = seed_;
-  options.follows_turns = true;
+  TrackerOptions options = OptionsOfTrack();
   options.goes_on_from = inertial_->estimate;
   tracker_.emplace(inertial_->estimate.stamp, options);
   handover_.origin = Handover::Origin::kLidar;

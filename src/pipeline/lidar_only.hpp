@@ -47,6 +47,7 @@ class LidarOnly {
   TrackingStatus status() const { return health_.status(); }
 
  private:
+  TrackerOptions OptionsOfTrack() const;
   void BeginTrack(const Sweep& sweep);
   void GoOn();
   void StartAtLastFix(Timestamp start, TrackerOptions& options) const;

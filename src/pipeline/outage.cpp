@@ -19,13 +19,16 @@ Matrix3 LevelCov(double horizontal_std, double vertical_std) {
 
 }  // namespace
 
+double UnseenTurnStd_rad(double unseen_s) {
+  return std::min(kOutage.turn_rate_std_radps * unseen_s, kOutage.max_yaw_std_rad);
+}
+
 Estimate AcrossOutage(Estimate before, Timestamp now) {
   const double unseen_s = SecondsBetween(before.stamp, now);
   const double coasted_s = std::min(unseen_s, kInitializationParameters.at_rest.max_coast_s);
   const double speed_mps = std::max(before.state.v_world_imu.norm(), kOutage.min_speed_mps);
   const double std_m = std::min(speed_mps * unseen_s, kOutage.max_std_m);
-  const double yaw_std_rad =
-      std::min(kOutage.turn_rate_std_radps * unseen_s, kOutage.max_yaw_std_rad);
+  const double yaw_std_rad = UnseenTurnStd_rad(unseen_s);
   const double velocity_std_mps = std::max(speed_mps, kOutage.velocity_std_mps);
 
   const Matrix3 R_imu_world = before.state.T_world_imu.rotation.conjugate().toRotationMatrix();

@@ -61,6 +61,9 @@ struct OutageParameters {
 
 inline constexpr OutageParameters kOutage;
 
+// Returns how far a body may have turned in a time that nothing shows, 1 sigma per axis.
+[[nodiscard]] double UnseenTurnStd_rad(double unseen_s);
+
 // Returns the state at `now`, driven on as before, with a covariance that holds a body that
 // stopped, that drove on or turned, and clocks that were set.
 [[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);

@@ -7,7 +7,7 @@
 namespace lio {
 
 bool IsMotionHidden(const std::vector<ImuSample>& samples) {
-  return samples.empty() || !std::ranges::all_of(samples, &ImuSample::IsMeasured);
+  return samples.empty() || !AreMeasured(samples);
 }
 
 UnseenMotion MotionByRigErrors(const RigBounds& bounds, const std::vector<ImuSample>& samples,

@@ -36,11 +36,6 @@ bool AreSparse(std::span<const ImuSample> samples) {
   return std::ranges::adjacent_find(samples, is_gap) != samples.end();
 }
 
-// None is saturated, nor made up in a gap.
-bool ShowMotion(std::span<const ImuSample> samples) {
-  return std::ranges::all_of(samples, &ImuSample::IsMeasured);
-}
-
 // Samples about both ends tell how rate and force change with the offset between the clocks.
 void AddGains(Timestamp from, Timestamp to, std::span<const ImuSample> samples,
               const Preintegration& motion, MotionStep& step) {
@@ -82,7 +77,7 @@ void MotionRecord::Add(const StampedPose& T_map_imu, Duration clock_correction,
   if (last) last->stamp = last->stamp + change;
   const bool is_step = last && samples.size() >= 3 && T_map_imu.stamp > last->stamp &&
                        SecondsBetween(last->stamp, T_map_imu.stamp) <= kMotionRecord.max_step_s &&
-                       ShowMotion(samples);
+                       AreMeasured(samples);
   if (!is_step) {
     ++track_;
     return;

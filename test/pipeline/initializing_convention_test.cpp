@@ -92,18 +92,22 @@ TEST(InitializingConvention, ForceOfNoUnitIsWaitedOut) {
   EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kInfo));
 }
 
+// Returns the last fix after forces in g have been told as such at rest.
+LastFix FixAfterForcesInG(const Handover& handover) {
+  InitializingBench b({}, handover);
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
+  EXPECT_TRUE(transition && transition->trigger == Trigger::kRetry);
+  return transition ? transition->handover.last_fix : LastFix{};
+}
+
 TEST(InitializingConvention, OtherConventionGivesTheLastFixTheShapeOfThePathInTheMap) {
   Handover handover;
   handover.origin = Handover::Origin::kInertial;
   handover.last_fix.T_world_imu.translation = Vector3(9, 0, 3);  // bent by a wrong gravity
   handover.last_fix.T_map_imu.translation = Vector3(10, 0, 0);
   handover.T_world_start.translation = Vector3(0, 0, 1);
-  InitializingBench b({}, handover);
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  ASSERT_EQ(transition->trigger, Trigger::kRetry);
-  const LastFix& fix = transition->handover.last_fix;
+  const LastFix fix = FixAfterForcesInG(handover);
   EXPECT_NEAR((fix.T_world_imu.translation - Vector3(10, 0, 1)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((fix.T_map_imu.translation - Vector3(10, 0, 0)).norm(), 0.0, 1e-9);
 }
@@ -116,12 +120,7 @@ TEST(InitializingConvention, OtherConventionLeavesAGivenPoseAsItIs) {
   handover.last_fix.T_world_imu = {ExpSo3(Vector3(0, 0, 1)), Vector3(100, -20, 3)};
   handover.last_fix.T_map_imu = handover.last_fix.T_world_imu;
   handover.T_world_start.translation = Vector3(0, 0, 1);  // nothing is to be led back to it
-  InitializingBench b({}, handover);
-  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
-  const auto transition = b.Drive(Leaning(), 0.0, 2.0);
-  ASSERT_TRUE(transition);
-  ASSERT_EQ(transition->trigger, Trigger::kRetry);
-  const LastFix& fix = transition->handover.last_fix;
+  const LastFix fix = FixAfterForcesInG(handover);
   const Pose& given = handover.last_fix.T_world_imu;
   EXPECT_NEAR((fix.T_world_imu.translation - given.translation).norm(), 0.0, 1e-9);
   EXPECT_NEAR(LogSo3(fix.T_world_imu.rotation).z(), 1.0, 1e-9);

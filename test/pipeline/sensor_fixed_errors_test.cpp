@@ -149,7 +149,12 @@ TEST(SensorFixedErrors, AnotherExtrinsicKeepsTheErrorsAsThoseOfTheNewImu) {
   const MatchResult of_old = RandomMatch(random);
   MatchResult of_new = of_old;
   for (Vector6& score : of_new.beam_pull.scores) {
-    score = AdjointSe3(T_old_new).transpose() * score;
+    const Vector6 of_old_imu = score;
+    for (int axis = 0; axis < 6; ++axis) {
+      constexpr double kStep = 1e-3;
+      const Pose moved_old = T_old_new * ExpSe3(kStep * Vector6::Unit(axis)) * T_old_new.Inverse();
+      score[axis] = of_old_imu.dot(LogSe3(moved_old)) / kStep;
+    }
   }
   SensorFixedErrors errors = ErrorsAfter(of_old);
   errors.SetImu(T_old_new);

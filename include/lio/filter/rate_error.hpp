@@ -20,6 +20,8 @@ struct RateErrorParameters {
   // The prior weighs as one scan with this turn [rad]. Chosen: a scan at 170 deg/s and 10 Hz;
   // slower turns hardly show the error, nor suffer from it.
   double prior_turn_rad = 0.3;
+  // So many turns of that size are remembered. Chosen: two seconds of them at 10 Hz.
+  double num_turns_remembered = 20.0;
   // One pose weighs as so many of them at most. Chosen: half of what is remembered.
   double max_turns_a_pose = 10.0;
   // The usual variance of a residual is the least one lately, which may grow by this factor from
@@ -27,8 +29,6 @@ struct RateErrorParameters {
   // unusual, half a minute of it is not.
   double usual_growth = 1.02;
   double match_std_rad = 1e-3;
-  // So many turns of that size are remembered. Chosen: two seconds of them at 10 Hz.
-  double num_turns_remembered = 20.0;
   // Upper bound of the ratio: uncalibrated consumer units have 3 % (InvenSense MPU-9250). A wrong
   // match counts for no more than it.
   double max_std_ratio = 0.05;
@@ -63,7 +63,7 @@ class RateError {
   double turn_time_s_ = 0.0;    // ... and how long it took
   double variance_rad2_ = 0.0;  // per axis, that the noise of Psd() has added since then
   double interval_s_ = RateErrorParameters{}.first_interval_s;  // between fused poses
-  // A residual's, per axis.
+  // The usual variance of a residual, per axis.
   double usual_var_rad2_ =
       RateErrorParameters{}.match_std_rad * RateErrorParameters{}.match_std_rad;
   double weight_sum_ = 0.0;   // turn^4 where it is as sure as usual

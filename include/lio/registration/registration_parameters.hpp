@@ -241,8 +241,8 @@ struct BeamCalibrationParameters {
   static constexpr double kAngleAgeing_rad = 1e-4;
   static constexpr double kEncoderAgeing_rad = 2e-5;
   // A cell counts if the beams of this share of its points are remembered: those of the points
-  // before its plane was known are not. Chosen: a plane is known after tens of points, and a cell
-  // of a hundred has then beams of most.
+  // before its plane was known are not. Chosen: fewer tell too little of the
+  // beams that made its mean.
   static constexpr float kMinRemembered = 0.15f;
   // A map that bends has these deviations over a way of so many metres. Chosen: more than any that
   // was seen; they only keep directions that nothing holds.

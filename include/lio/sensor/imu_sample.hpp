@@ -3,7 +3,9 @@
 // Holds one inertial sample: angular rate and specific force in the imu frame, SI units.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "lio/base/rotation.hpp"
 #include "lio/base/time.hpp"
@@ -26,5 +28,9 @@ struct ImuSample {
   bool IsMeasured() const { return !is_made_up() && !is_saturated(); }
   std::int32_t seq = 0;  // the sender's number: one more for each sample, where it counts
 };
+
+[[nodiscard]] inline bool AreMeasured(std::span<const ImuSample> samples) {
+  return std::ranges::all_of(samples, &ImuSample::IsMeasured);
+}
 
 }  // namespace lio
