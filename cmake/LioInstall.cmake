@@ -10,6 +10,7 @@ set(LIO_PUBLIC_HEADERS
   lio/base/pose.hpp
   lio/base/rotation.hpp
   lio/base/time.hpp
+  lio/filter/clock_estimate.hpp
   lio/filter/filter_options.hpp
   lio/map/ndt_options.hpp
   lio/pcl_conversions.hpp

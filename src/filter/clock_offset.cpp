@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lio/base/chi_square.hpp"
@@ -40,14 +41,14 @@ Vector3 MeanRate(std::span<const ImuSample> samples, Timestamp stamp, const Vect
 
 }  // namespace
 
-ClockOffset::ClockOffset(const ClockBelief& belief) : state_(belief.mean), cov_(belief.cov) {}
+ClockOffset::ClockOffset(const ClockBelief& belief) : belief_(belief) {}
 
 double ClockOffset::std_s() const {
-  return std::sqrt(cov_(kOffset, kOffset));
+  return std::sqrt(belief_.cov(kOffset, kOffset));
 }
 
 double ClockOffset::rate_std() const {
-  return std::sqrt(cov_(kRate, kRate));
+  return std::sqrt(belief_.cov(kRate, kRate));
 }
 
 void ClockOffset::Interrupt() {
@@ -67,23 +68,16 @@ void ClockOffset::Add(const Scan& scan, std::span<const ImuSample> samples) {
   while (!samples_.empty() && samples_.front().stamp < begin) samples_.pop_front();
 }
 
-// Stamps that go back, or on by too much, are those of clocks that were set: no time has passed.
 void ClockOffset::Predict(Timestamp now) {
-  const double span_s = as_of_ ? SecondsBetween(*as_of_, now) : 0.0;
-  as_of_ = now;
-  if (span_s <= 0.0 || span_s > kClockOffset.max_span_s) return;
-  age_s_ += span_s;
-  Matrix2 transition = Matrix2::Identity();
-  transition(kOffset, kRate) = span_s;
-  state_ = transition * state_;
-  state_(kOffset) = std::clamp(state_(kOffset), -kMax_s, kMax_s);
-  cov_ = transition * cov_ * transition.transpose();
-  cov_(kOffset, kOffset) +=
-      kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * span_s;
+  const Timestamp before = std::exchange(as_of_, now).value_or(now);
+  age_s_ += PassedTime_s(before, now);
+  const ClockEstimate predicted = Predicted({belief_.mean, belief_.cov, before}, now);
+  belief_ = {predicted.mean, predicted.cov};
+  belief_.mean(kOffset) = std::clamp(offset_s(), -kMax_s, kMax_s);
   const double excess = std_s() / kClockOffset.max_std_s;
   if (excess <= 1.0) return;
-  cov_.row(kOffset) /= excess;
-  cov_.col(kOffset) /= excess;
+  belief_.cov.row(kOffset) /= excess;
+  belief_.cov.col(kOffset) /= excess;
 }
 
 void ClockOffset::Update(const Scan& scan) {
@@ -111,7 +105,8 @@ void ClockOffset::Update(const Scan& scan) {
 void ClockOffset::Fuse(const Turn& turn) {
   const Vector3& h = turn.rate_change_radps;
   const double turn_var = turn.claimed_var + unclaimed_var_;
-  const Matrix3 S = cov_(kOffset, kOffset) * h * h.transpose() + turn_var * Matrix3::Identity();
+  const double offset_var = belief_.cov(kOffset, kOffset);
+  const Matrix3 S = offset_var * h * h.transpose() + turn_var * Matrix3::Identity();
   LearnUnclaimed(turn);
   if (turn.innovation_rad.dot(S.inverse() * turn.innovation_rad) > kChiSquare3At999) return;
   if (h.norm() < std::max(kClockOffset.min_rate_change_radps,
@@ -119,11 +114,11 @@ void ClockOffset::Fuse(const Turn& turn) {
     return;
   }
   // h' S^-1 = h' / innovation_var, since S is the identity but for its part along h.
-  const double innovation_var = turn_var + cov_(kOffset, kOffset) * h.squaredNorm();
-  const Vector2 gain = cov_.col(kOffset) / innovation_var;
-  state_ += gain * h.dot(turn.innovation_rad);
-  state_(kOffset) = std::clamp(state_(kOffset), -kMax_s, kMax_s);
-  cov_ -= h.squaredNorm() * gain * cov_.row(kOffset).eval();
+  const double innovation_var = turn_var + offset_var * h.squaredNorm();
+  const Eigen::Vector2d gain = belief_.cov.col(kOffset) / innovation_var;
+  belief_.mean += gain * h.dot(turn.innovation_rad);
+  belief_.mean(kOffset) = std::clamp(offset_s(), -kMax_s, kMax_s);
+  belief_.cov -= h.squaredNorm() * gain * belief_.cov.row(kOffset).eval();
   ++num_turns_;
 }
 
@@ -146,15 +141,19 @@ bool ClockOffset::IsSure(double offset_s, double std_s, double beyond_s) {
 
 // The rate is constant, and the offset has walked since.
 ClockBelief ClockOffset::AtFirstScan() const {
-  Matrix2 back = Matrix2::Identity();
-  back(kOffset, kRate) = -age_s_;
-  ClockBelief belief{back * state_, back * cov_ * back.transpose()};
+  const Eigen::Matrix2d back = ClockTransition(-age_s_);
+  ClockBelief belief{back * belief_.mean, back * belief_.cov * back.transpose()};
   double& var = belief.cov(kOffset, kOffset);
   var += kClockOffset.walk_s_per_sqrt_s * kClockOffset.walk_s_per_sqrt_s * age_s_;
   const double offset_s = belief.mean[kOffset];
   const bool is_possible = std::abs(offset_s) <= kMax_s && std::sqrt(var) <= kClockOffset.max_std_s;
   const bool is_known = is_found_ && is_possible && IsSure(offset_s, std::sqrt(var), 0.0);
   return is_known ? belief : ClockBelief{};
+}
+
+std::optional<ClockEstimate> ClockOffset::Found() const {
+  if (!is_found_ || !as_of_) return std::nullopt;
+  return ClockEstimate{belief_.mean, belief_.cov, *as_of_};
 }
 
 void ClockOffset::Follow() {

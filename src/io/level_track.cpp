@@ -3,9 +3,13 @@
 #include "lio/io/level_track.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <ranges>
 #include <stdexcept>
+#include <vector>
 
 #include "covariance_rows.hpp"
+#include "lio/filter/clock_smoother.hpp"
 #include "lio/io/output_file.hpp"
 #include "lio/io/trajectory_file.hpp"
 
@@ -15,6 +19,8 @@ namespace {
 
 constexpr const char* kPoses = "trajectory_level.tum";
 constexpr const char* kCovariances = "covariance_level.csv";
+// So many rows are read at once where they are read backwards.
+constexpr std::int64_t kRowsAtOnce = 1024;
 
 // Returns the mean square error of `pose` as an estimate of what `T_world_imu` estimates: its
 // covariance and the square of the known step between the two.
@@ -48,12 +54,45 @@ Pose LevelTrack::Get(const double (&from)[7]) {
 void LevelTrack::Add(const FilterReport& filter, Duration clock_correction) {
   last_.stamp_ns = filter.nav.stamp.ns;
   last_.clock_correction_ns = clock_correction.ns;
+  last_.has_clock = filter.found_clock.has_value();
+  if (filter.found_clock) {
+    last_.clock_as_of_ns = filter.found_clock->as_of.ns;
+    Eigen::Map<Eigen::Vector2d>(last_.clock_mean) = filter.found_clock->mean;
+    Eigen::Map<Eigen::Matrix2d>(last_.clock_cov) = filter.found_clock->cov;
+  }
   Put(filter.nav.T_map_imu, last_.T_map_imu);
   Put(filter.nav.T_world_imu, last_.T_world_imu);
   Put(filter.T_imu_lidar, last_.T_imu_lidar);
   Eigen::Map<Matrix6>(last_.pose_cov) = filter.nav.pose_cov;
   is_level_known_ = !filter.g_world_mps2.isZero();
   rows_.write(reinterpret_cast<const char*>(&last_), sizeof last_);
+  ++num_rows_;
+}
+
+std::optional<ClockEstimate> LevelTrack::ClockOf(const Row& row) {
+  if (!row.has_clock) return std::nullopt;
+  return ClockEstimate{Eigen::Map<const Eigen::Vector2d>(row.clock_mean),
+                       Eigen::Map<const Eigen::Matrix2d>(row.clock_cov),
+                       {row.clock_as_of_ns}};
+}
+
+void LevelTrack::SmoothClock() {
+  ClockSmoother smoother;
+  std::vector<Row> rows;
+  for (std::int64_t end = num_rows_; end > 0; end -= static_cast<std::int64_t>(rows.size())) {
+    rows.resize(static_cast<std::size_t>(std::min(end, kRowsAtOnce)));
+    const auto size = static_cast<std::streamsize>(rows.size() * sizeof(Row));
+    const std::streamoff begin = end * static_cast<std::streamoff>(sizeof(Row)) - size;
+    rows_.seekg(begin);
+    if (!rows_.read(reinterpret_cast<char*>(rows.data()), size)) return;
+    for (Row& row : std::views::reverse(rows)) {
+      const std::optional<double> offset_s = smoother.Back({row.stamp_ns}, ClockOf(row));
+      if (!offset_s) continue;
+      row.stamp_ns += Duration::FromSeconds(*offset_s).ns - row.clock_correction_ns;
+    }
+    rows_.seekp(begin);
+    rows_.write(reinterpret_cast<const char*>(rows.data()), size);
+  }
 }
 
 Quaternion LevelTrack::R_level_map() const {
@@ -80,8 +119,10 @@ void LevelTrack::WriteFiles() {
   OutputFile covariances(folder_ / kCovariances);
   covariances.Write(CovarianceHeader());
   Row row;
+  Timestamp stamp{std::numeric_limits<std::int64_t>::min()};
   while (rows_.read(reinterpret_cast<char*>(&row), sizeof row)) {
-    const Timestamp stamp{row.stamp_ns + last_.clock_correction_ns - row.clock_correction_ns};
+    // A clock that was found anew may move a row before the one ahead of it.
+    stamp = Timestamp{std::max(row.stamp_ns, stamp.ns + 1)};
     const Pose pose = T_level_map * LastImuPose(row);
     poses.Write(TumRow({stamp, pose}) + "\n");
     const Matrix6 world_cov = Eigen::Map<const Matrix6>(row.pose_cov);
@@ -93,6 +134,7 @@ void LevelTrack::WriteFiles() {
 
 void LevelTrack::Finish() {
   Flush();
+  if (is_level_known_) SmoothClock();
   rows_.seekg(0);
   if (is_level_known_) WriteFiles();
   const bool is_whole = rows_.eof() || !is_level_known_;

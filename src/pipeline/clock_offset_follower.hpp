@@ -42,6 +42,8 @@ class ClockOffsetFollower {
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
   double total_s() const;
   double std_s() const { return offset_ ? offset_->std_s() : 0.0; }
+  // Returns what is known beyond rig.lidar.clock_offset_s, once stamps are moved by it.
+  std::optional<ClockEstimate> Found() const { return offset_ ? offset_->Found() : std::nullopt; }
   // Returns what the drive tells of its first scan, beyond rig.lidar.clock_offset_s, where it tells
   // anything. If the IMU fell silent, what was found before comes first.
   ClockBelief AtFirstScan() const;

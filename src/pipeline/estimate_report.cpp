@@ -76,6 +76,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.g_world_mps2 = context.g_world;
   filter.clock_offset_s = context.clocks.total_s();
   filter.clock_offset_std_s = context.clocks.std_s();
+  filter.found_clock = context.clocks.Found();
   filter.T_imu_lidar = context.extrinsic.T_imu_lidar();
   filter.nis = report.nis;
   filter.nis_dof = report.fused ? 6 : 0;

@@ -62,18 +62,48 @@ TEST_F(LevelTrackTest, TheLastEstimateTellsWhatIsLevel) {
   EXPECT_LT((track.R_level_map() * kMapTilt * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 1e-9);
 }
 
+// A report after which this is known of the clocks.
+FilterReport WithClock(double x_m, double offset_s, double rate) {
+  FilterReport report = ReportAt(x_m);
+  ClockEstimate clock{{offset_s, rate}, Eigen::Matrix2d::Zero(), report.nav.stamp};
+  clock.cov.diagonal() = Eigen::Vector2d(1e-4, 1e-7).cwiseAbs2();
+  report.found_clock = clock;
+  return report;
+}
+
 // The clock offset is found on the way: the stamps of before are corrected afterwards.
-TEST_F(LevelTrackTest, StampsAreCorrectedByTheLastClockOffset) {
+TEST_F(LevelTrackTest, StampsAreCorrectedByTheClockOffsetThatIsFound) {
   LevelTrack track(folder_.path());
   track.Add(ReportAt(1.0), {});
   track.Add(ReportAt(2.0), Duration{-4'000'000});
-  track.Add(ReportAt(3.0), Duration{-25'000'000});
+  track.Add(WithClock(3.0, -0.025, 0.0), Duration{-25'000'000});
   track.Finish();
   const StampedPoses poses = ReadTrajectory(File("trajectory_level.tum")).poses;
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_EQ(poses[0].stamp, ReportAt(1.0).nav.stamp - Duration{25'000'000});
   EXPECT_EQ(poses[1].stamp, ReportAt(2.0).nav.stamp - Duration{21'000'000});
   EXPECT_EQ(poses[2].stamp, ReportAt(3.0).nav.stamp);
+}
+
+// Clocks drift apart, so the offset of the end is not that of the begin. More rows than are read at
+// once.
+TEST_F(LevelTrackTest, StampsHaveTheOffsetOfTheirOwnTime) {
+  constexpr double kRate = 50e-6;
+  constexpr int kNumRows = 3000;
+  LevelTrack track(folder_.path());
+  for (int i = 0; i < kNumRows; ++i) {
+    const double t_s = 0.1 * i;
+    track.Add(t_s < 10.0 ? ReportAt(t_s) : WithClock(t_s, kRate * t_s, kRate),
+              t_s < 10.0 ? Duration{} : Duration::FromSeconds(kRate * t_s));
+  }
+  track.Finish();
+  const StampedPoses poses = ReadTrajectory(File("trajectory_level.tum")).poses;
+  ASSERT_EQ(poses.size(), static_cast<std::size_t>(kNumRows));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double t_s = 0.1 * static_cast<double>(i);
+    const double expected_s = t_s < 10.0 ? kRate * t_s : 0.0;
+    EXPECT_NEAR(SecondsBetween(ReportAt(t_s).nav.stamp, poses[i].stamp), expected_s, 2e-6) << t_s;
+  }
 }
 
 // The extrinsic is corrected on the way: the body of before was another one on the same lidar.

@@ -26,6 +26,7 @@
 #include <optional>
 #include <span>
 
+#include "lio/filter/clock_estimate.hpp"
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/sensor/imu_sample.hpp"
 
@@ -60,10 +61,10 @@ class ClockOffset {
   // Call when a scan was not matched: the turn to the next scan is then not used.
   void Interrupt();
 
-  double offset_s() const { return state_(kOffset); }  // the estimate of d
-  double std_s() const;                                // its standard deviation
+  double offset_s() const { return belief_.mean(kOffset); }  // the estimate of d
+  double std_s() const;                                      // its standard deviation
   // How fast d grows, s per second, and the standard deviation.
-  double rate() const { return state_(kRate); }
+  double rate() const { return belief_.mean(kRate); }
   double rate_std() const;
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a
   // scan, from when the standard deviation is below 2 ms or the offset is three of them.
@@ -71,12 +72,11 @@ class ClockOffset {
   // Returns what the scans so far tell of the first of them; nothing new where no stamps would be
   // moved by it.
   ClockBelief AtFirstScan() const;
+  // Returns what is known after the last scan, once stamps are moved by it.
+  std::optional<ClockEstimate> Found() const;
 
  private:
   enum StateIndex { kOffset, kRate };
-  using Vector2 = Eigen::Vector2d;
-  using Matrix2 = Eigen::Matrix2d;
-
   // A turn between neighbouring scans gives this measurement.
   struct Turn {
     Vector3 rate_change_radps = Vector3::Zero();
@@ -93,9 +93,8 @@ class ClockOffset {
   static bool IsSure(double offset_s, double std_s, double beyond_s);
   void Follow();
 
-  Vector2 state_;  // s, s/s
-  Matrix2 cov_;
-  std::optional<Timestamp> as_of_;  // state_ and cov_ hold at this time
+  ClockBelief belief_;
+  std::optional<Timestamp> as_of_;  // belief_ holds at this time
   double age_s_ = 0.0;              // from the first scan to then
   double move_by_s_ = 0.0;
   int num_turns_ = 0;      // turns fused so far

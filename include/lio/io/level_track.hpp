@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT
 // Writes the path of a run as it looks when the run is over: the steady path in map, turned once,
 // rigidly and about its origin, so that it is level by the last estimate. It keeps its shape, and
-// its height does not drift by the tilt that the start did not know. Its stamps and its body are
-// those of the last estimates of clock offset and extrinsic, before these were found too. It is
-// written at the end as trajectory_level.tum and covariance_level.csv; until then rows wait in a
-// file beside them, trajectory_level.rows.
+// its height does not drift by the tilt that the start did not know. Its body is that of the last
+// extrinsic, and its stamps have the clock offset that the whole run tells of each scan
+// (filter/clock_smoother.hpp), before these were found too. It is written at the end as
+// trajectory_level.tum and covariance_level.csv; until then rows wait in a file beside them,
+// trajectory_level.rows.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "lio/pipeline/outputs.hpp"
 
@@ -37,6 +39,10 @@ class LevelTrack {
   struct Row {
     std::int64_t stamp_ns = 0;
     std::int64_t clock_correction_ns = 0;
+    bool has_clock = false;  // the next three are known
+    std::int64_t clock_as_of_ns = 0;
+    double clock_mean[2] = {};
+    double clock_cov[4] = {};
     double T_map_imu[7] = {};    // translation, then rotation x y z w
     double T_world_imu[7] = {};  // likewise
     double T_imu_lidar[7] = {};  // in use
@@ -45,6 +51,9 @@ class LevelTrack {
 
   static void Put(const Pose& pose, double (&to)[7]);
   [[nodiscard]] static Pose Get(const double (&from)[7]);
+  [[nodiscard]] static std::optional<ClockEstimate> ClockOf(const Row& row);
+  // Goes through the waiting rows from last to first.
+  void SmoothClock();
   void WriteFiles();
   [[nodiscard]] Pose LastImuPose(const Row& row) const;
 
@@ -52,6 +61,7 @@ class LevelTrack {
   std::filesystem::path rows_path_;
   std::fstream rows_;
   Row last_;
+  std::int64_t num_rows_ = 0;
   bool turns_map_;
   bool is_level_known_ = false;
 };

@@ -12,6 +12,7 @@
 #include "lio/base/counters.hpp"
 #include "lio/base/pose.hpp"
 #include "lio/base/time.hpp"
+#include "lio/filter/clock_estimate.hpp"
 #include "lio/registration/match_status.hpp"
 #include "lio/sensor/imu_noise.hpp"
 
@@ -70,6 +71,8 @@ struct FilterReport {
   // zero unless it is estimated.
   double clock_offset_s = 0.0;
   double clock_offset_std_s = 0.0;
+  // Holds what is known beyond rig.lidar.clock_offset_s, once stamps are moved by it.
+  std::optional<ClockEstimate> found_clock;
   Pose T_imu_lidar;          // in use: the rig's, or as corrected on the way
   ImuNoiseRatios imu_noise;  // zero where it is not known
   double nis = 0.0;          // normalised innovation squared of the last update
