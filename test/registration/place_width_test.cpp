@@ -27,11 +27,11 @@ TEST(PlaceWidth, FirstScanDecides) {
   PlaceWidth width;
   EXPECT_TRUE(width.is_unknown());
   EXPECT_FALSE(width.is_narrow());
-  width.Add(PointsIn(59), 1.0);
+  width.Add(PointsIn(149), 1.0);
   EXPECT_FALSE(width.is_unknown());
   EXPECT_TRUE(width.is_narrow());
   PlaceWidth wide;
-  wide.Add(PointsIn(61), 1.0);
+  wide.Add(PointsIn(151), 1.0);
   EXPECT_FALSE(wide.is_narrow());
 }
 
@@ -44,17 +44,17 @@ TEST(PlaceWidth, CellsAreCountedInEdges) {
 TEST(PlaceWidth, ItTurnsWideOnlyWhereTheMeanIsClearlyWide) {
   PlaceWidth width;
   width.Add(PointsIn(30), 1.0);
-  for (int i = 0; i < 100; ++i) width.Add(PointsIn(80), 1.0);
+  for (int i = 0; i < 100; ++i) width.Add(PointsIn(200), 1.0);
   EXPECT_TRUE(width.is_narrow());
-  for (int i = 0; i < 100; ++i) width.Add(PointsIn(100), 1.0);
+  for (int i = 0; i < 100; ++i) width.Add(PointsIn(240), 1.0);
   EXPECT_FALSE(width.is_narrow());
-  for (int i = 0; i < 100; ++i) width.Add(PointsIn(80), 1.0);
+  for (int i = 0; i < 100; ++i) width.Add(PointsIn(200), 1.0);
   EXPECT_FALSE(width.is_narrow());
 }
 
 TEST(PlaceWidth, AGlanceAtAWallMakesNoPlaceNarrow) {
   PlaceWidth width;
-  width.Add(PointsIn(200), 1.0);
+  width.Add(PointsIn(300), 1.0);
   for (int i = 0; i < 3; ++i) width.Add(PointsIn(5), 1.0);
   EXPECT_FALSE(width.is_narrow());
   for (int i = 0; i < 20; ++i) width.Add(PointsIn(5), 1.0);
@@ -62,7 +62,7 @@ TEST(PlaceWidth, AGlanceAtAWallMakesNoPlaceNarrow) {
 }
 
 TEST(PlaceWidth, PointsThatAreNoNumbersOrBeyondAllPlacesDoNotCount) {
-  std::vector<Eigen::Vector3f> points = PointsIn(59);
+  std::vector<Eigen::Vector3f> points = PointsIn(149);
   for (int i = 0; i < 10; ++i) {
     points.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.f, static_cast<float>(i));
     points.emplace_back(1e30f, 0.f, static_cast<float>(i));

@@ -87,7 +87,7 @@ struct PlaceWidthParameters {
   static constexpr double kRate = 0.1;
   // More cells than this count as so many, and scans of fewer points tell nothing. Chosen: it is
   // far above both limits, and counting costs little in a wide place.
-  static constexpr std::size_t kMaxCounted = 300;
+  static constexpr std::size_t kMaxCounted = 500;
 };
 
 struct NdtParameters {
