@@ -330,6 +330,24 @@ TEST(NdtMatcher, AFewScansOfANarrowPlaceDoNotFreezeTheMap) {
   EXPECT_LT(result.new_content_share, 0.2) << "eight scans are in the map";
 }
 
+// The lidar is two metres from the body's origin, which lies behind the wall that the lidar sees.
+TEST(NdtMatcher, SurfacesAreSeenFromTheLidarsPlace) {
+  const Pose T_map_imu{Quaternion::Identity(), Vector3(1.0, 0.0, 0.0)};
+  const Pose T_imu_lidar{Quaternion::Identity(), Vector3(-2.0, 0.0, 0.0)};
+  Points wall_imu;
+  for (int i = -30; i < 30; ++i) {
+    for (int k = -30; k < 30; ++k) {
+      wall_imu.emplace_back(-0.9f, 0.1f * static_cast<float>(i), 0.1f * static_cast<float>(k));
+    }
+  }
+  NdtMatcher matcher{NdtOptions{}};
+  matcher.Insert({.points_imu = wall_imu, .T_imu_lidar = T_imu_lidar}, T_map_imu);
+  MatchInput input{wall_imu, T_map_imu, 1e-4 * Matrix6::Identity()};
+  EXPECT_EQ(matcher.Match(input).num_matched, 0) << "from behind";
+  input.T_imu_lidar = T_imu_lidar;
+  EXPECT_GT(matcher.Match(input).num_matched, static_cast<int>(wall_imu.size() / 2));
+}
+
 // A floor on a voxel face is split between two cells by its noise; the turned grid has no such
 // face for horizontal floors and vertical walls.
 TEST(NdtMatcher, GroundOnAVoxelFaceIsMatchedAsWell) {

@@ -70,6 +70,12 @@ TEST(MotionRecord, SaturatedSamplesAreNoStep) {
   EXPECT_TRUE(TwoPoses(0.1, samples).steps().empty());
 }
 
+TEST(MotionRecord, SamplesThatStandInAGapAreNoStep) {
+  std::vector<ImuSample> samples = Samples();
+  samples[30].made_up_w_std_radps = 0.1f;
+  EXPECT_TRUE(TwoPoses(0.1, samples).steps().empty());
+}
+
 // Adds poses each 0.1 s of the lidar's clock, to whose stamps these corrections were added.
 MotionRecord CorrectedBy(const std::vector<double>& corrections_s) {
   MotionRecord record;
