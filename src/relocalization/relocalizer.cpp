@@ -112,7 +112,6 @@ void Relocalizer::SearchPlaces(const SearchRequest& request, const DeskewedScan&
                                const MotionPrior& prior, const CandidateMatcher& matcher,
                                Found& found) {
   const MatchResult& last = last_->match;
-  if (request.region == SearchRegion::kAlternative) return;
   const bool is_prior_sure = IsWithinConvergenceBasin(prior.cov);
   if (request.region == SearchRegion::kObservable && last.degenerate_mask != 0) {
     if (!is_prior_sure) RefuseUnlessVerified(last, found.match);

@@ -112,7 +112,7 @@ TEST(RegistrationWorkerPlace, WhereNoTimeHasPassedTheScanIsFoundThere) {
     MatchJob job = GuessedJob(0.93, was_set ? way : Vector6(Vector6::Zero()));
     const Pose alternative =
         Driving()(0.98) * ExpSe3(was_set ? Vector6(Vector6::Zero()) : Vector6(-way));
-    job.task = Relocalize{{}, {SearchRegion::kAlternative, alternative}};
+    job.task = Relocalize{{}, {SearchRegion::kObservable, alternative}};
     const MatchOutcome outcome = side.Run(job);
     EXPECT_EQ(outcome.is_clock_set, was_set);
     ASSERT_TRUE(outcome.match.IsUsable());

@@ -187,9 +187,9 @@ TEST_F(RelocalizerTest, AfterADegenerateScanInertialPredictionIsBelieved) {
 
 TEST_F(RelocalizerTest, TheAlternativeIsTakenWhereTheScanIsThere) {
   const MotionPrior sure = PriorAt(At(20, 5, 0.9), 0.1, 0.01);
-  EXPECT_TRUE(Search({SearchRegion::kAlternative, truth_}, sure).is_clock_set);
-  EXPECT_FALSE(Search({SearchRegion::kAlternative, At(0, 0, 0)}, sure).is_clock_set);
-  EXPECT_FALSE(Search({SearchRegion::kAlternative, {}}, sure).is_clock_set);
+  EXPECT_TRUE(Search({SearchRegion::kObservable, truth_}, sure).is_clock_set);
+  EXPECT_FALSE(Search({SearchRegion::kObservable, At(0, 0, 0)}, sure).is_clock_set);
+  EXPECT_FALSE(Search({SearchRegion::kObservable, {}}, sure).is_clock_set);
 }
 
 TEST_F(RelocalizerTest, WithoutALocatedScanNothingIsSearched) {

@@ -11,7 +11,6 @@
 namespace lio {
 
 enum class SearchRegion : std::int8_t {
-  kAlternative,  // nowhere but at the alternative prior
   // Anywhere, unless the last located scan had degenerate directions: there inertial prediction is
   // better than a search.
   kObservable,
