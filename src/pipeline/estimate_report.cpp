@@ -7,6 +7,7 @@
 #include "lio/filter/published_estimate.hpp"
 #include "lio/filter/sample_lookup.hpp"
 #include "pipeline/base_motion.hpp"
+#include "pipeline/extrinsic_doubt.hpp"
 #include "pipeline/imu_noise_watch.hpp"
 
 namespace lio {
@@ -19,6 +20,7 @@ WorldEstimate InPublishedWorld(const Estimate& estimate, const Vector3& g_world)
 
 WorldEstimate WithDoubt(WorldEstimate estimate, const ReportContext& context) {
   context.yaw_doubt.AddTo(estimate);
+  if (const auto& std = context.extrinsic.std()) AddExtrinsicDoubt(*std, estimate);
   return estimate;
 }
 
@@ -57,6 +59,9 @@ NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
   }
   nav.T_map_imu = estimate.state.T_map_imu;
   nav.map_pose_cov = estimate.cov.block<6, 6>(kMapPose, kMapPose);
+  if (const auto& std = context.extrinsic.std()) {
+    nav.map_pose_cov += ExtrinsicDoubtInMap(*std, nav.T_map_imu);
+  }
   if (const auto& T_base_imu = context.options.rig.T_base_imu) {
     nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp, context), *T_base_imu);
   }
@@ -82,6 +87,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   filter.nis_dof = report.fused ? 6 : 0;
   filter.cov = estimate.cov.topLeftCorner<kMapStart, kMapStart>();
   filter.cov.topLeftCorner<kAccelBias, kAccelBias>() = Published(estimate, context).cov;
+  filter.cov.block<6, 6>(kMapPose, kMapPose) = filter.nav.map_pose_cov;
   return filter;
 }
 

@@ -15,13 +15,16 @@ namespace lio {
 class ExtrinsicFollower {
  public:
   // Keeps the rig's where filter.estimate_extrinsic is off, or no IMU is used.
-  explicit ExtrinsicFollower(const Options& options);
+  // `found_std`: an earlier pass has found it.
+  explicit ExtrinsicFollower(const Options& options, std::optional<ExtrinsicStd> found_std = {});
 
   const Pose& T_imu_lidar() const { return T_imu_lidar_; }
   // Nothing while the rig's is in use.
   std::optional<Pose> corrected() const {
     return is_corrected_ ? std::optional(T_imu_lidar_) : std::nullopt;
   }
+  // How well it was found; nothing while the rig's is in use.
+  const std::optional<ExtrinsicStd>& std() const { return std_; }
   // Takes what a look has found. Returns T_old_new, the pose of the imu by the corrected extrinsic
   // in the imu so far, when it corrects the extrinsic.
   [[nodiscard]] std::optional<Pose> Take(const RigFindings& findings);
@@ -33,6 +36,8 @@ class ExtrinsicFollower {
   Pose T_configured_;
   Pose T_imu_lidar_;
   bool is_corrected_ = false;
+  std::optional<ExtrinsicStd> found_std_;  // by an earlier pass
+  std::optional<ExtrinsicStd> std_;
 };
 
 }  // namespace lio

@@ -8,6 +8,11 @@ FoundSensors InAxesOfMessages(FoundSensors found, const Rig& rig) {
   if (!found.convention || found.convention->R_imu_sent == Matrix3::Identity()) return found;
   const Pose T_imu_lidar = found.T_imu_lidar.value_or(rig.T_imu_lidar.value_or(Extrinsic{}));
   found.T_imu_lidar = InAxesOfMessages(T_imu_lidar, *found.convention);
+  if (found.extrinsic_std) {
+    const Matrix3 to_sent = found.convention->R_imu_sent.transpose().cwiseAbs();
+    ExtrinsicStd& std = *found.extrinsic_std;
+    std = {to_sent * std.rotation_rad, to_sent * std.lever_m};
+  }
   found.convention->R_imu_sent = Matrix3::Identity();
   return found;
 }

@@ -63,7 +63,7 @@ struct Odometry::Impl {
         convention(options.rig, stream.imu()),
         examiner(options.rig, options.pipeline.use_imu, IsLeverFound(given.rig, found)),
         clocks(options, BeyondRig(found.clock)),
-        extrinsic(options),
+        extrinsic(options, found.extrinsic_std),
         place(start_in == StartIn::kInitialMap, options.pipeline.map_locked),
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
               outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise,
@@ -213,8 +213,9 @@ Trust Odometry::trust() const {
 }
 
 FoundSensors Odometry::found_sensors() const {
-  return {impl_->stream.imu().convention(), impl_->extrinsic.corrected(),
-          impl_->clocks.AtFirstScan()};
+  const ExtrinsicFollower& extrinsic = impl_->extrinsic;
+  return {impl_->stream.imu().convention(), extrinsic.corrected(),
+          extrinsic.corrected() ? extrinsic.std() : std::nullopt, impl_->clocks.AtFirstScan()};
 }
 
 const Counters& Odometry::counters() const {

@@ -47,6 +47,8 @@ class Naming {
     RigFindings findings;
     findings.is_checked = true;
     findings.bounds = Bounds();
+    const RigVector std = all_.cov.diagonal().cwiseSqrt();
+    findings.extrinsic_std = {std.segment<3>(kRigRotation), std.segment<3>(kRigLever)};
     NameInverted(findings.causes);
     for (const CauseKind kind : selection_.selected()) findings.causes.push_back(MakeCause(kind));
     NameAxes(findings.causes);

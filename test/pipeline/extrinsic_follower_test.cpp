@@ -52,6 +52,32 @@ TEST(ExtrinsicFollower, WhatWasCorrectedIsBettered) {
   EXPECT_FALSE(follower.Take({}));
 }
 
+TEST(ExtrinsicFollower, WhatWasFoundIsKnownAsTheLastLookKnowsIt) {
+  ExtrinsicFollower follower(OptionsOfExtrinsic(true));
+  RigFindings findings;
+  findings.extrinsic_std = ExtrinsicStd{Vector3::Constant(0.01), Vector3::Constant(0.1)};
+  (void)follower.Take(findings);
+  EXPECT_FALSE(follower.std()) << "the rig's is in use";
+  RigFindings wrong = Wrong(0.4);
+  wrong.extrinsic_std = findings.extrinsic_std;
+  ASSERT_TRUE(follower.Take(wrong));
+  EXPECT_EQ(follower.std()->lever_m, Vector3::Constant(0.1));
+  findings.extrinsic_std->lever_m = Vector3::Constant(0.05);
+  EXPECT_FALSE(follower.Take(findings));
+  EXPECT_EQ(follower.std()->lever_m, Vector3::Constant(0.05));
+  follower.Restart();
+  EXPECT_FALSE(follower.std());
+}
+
+TEST(ExtrinsicFollower, AnEarlierPassTellsHowWellItFoundIt) {
+  const ExtrinsicStd found{Vector3::Constant(0.001), Vector3::Constant(0.01)};
+  ExtrinsicFollower follower(OptionsOfExtrinsic(true), found);
+  ASSERT_TRUE(follower.std());
+  EXPECT_EQ(follower.std()->lever_m, found.lever_m);
+  follower.Restart();
+  EXPECT_TRUE(follower.std());
+}
+
 TEST(ExtrinsicFollower, NothingIsCorrectedWhereThatIsOffOrThereIsNoImu) {
   Options without_imu = OptionsOfExtrinsic(true);
   without_imu.pipeline.use_imu = false;

@@ -23,6 +23,7 @@ using test::StateOf;
 using test::Straight;
 using test::TrackingBench;
 using test::TrueStart;
+using test::XOf;
 
 // The body goes eight metres a second on a winding road.
 Motion Winding() {

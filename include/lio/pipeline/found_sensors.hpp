@@ -10,12 +10,14 @@
 #include "lio/filter/clock_offset.hpp"
 #include "lio/imu/imu_convention.hpp"
 #include "lio/pipeline/options.hpp"
+#include "lio/verdict/rig_findings.hpp"
 
 namespace lio {
 
 struct FoundSensors {
-  std::optional<ImuConvention> convention;  // the inertial messages are read by it
-  std::optional<Pose> T_imu_lidar;          // absent: nothing contradicts the rig's
+  std::optional<ImuConvention> convention;    // the inertial messages are read by it
+  std::optional<Pose> T_imu_lidar;            // absent: nothing contradicts the rig's
+  std::optional<ExtrinsicStd> extrinsic_std;  // T_imu_lidar is known as well
   ClockBelief clock;  // at the first scan; to be added to rig.lidar.clock_offset_s
 };
 

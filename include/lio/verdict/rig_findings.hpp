@@ -64,10 +64,18 @@ struct RigBounds {
   double offset_s = 0.0;
 };
 
+// How surely rig.T_imu_lidar is known where the motion has shown it: standard deviations, axis by
+// axis of imu.
+struct ExtrinsicStd {
+  Vector3 rotation_rad = Vector3::Zero();
+  Vector3 lever_m = Vector3::Zero();
+};
+
 struct RigFindings {
   bool is_checked = false;          // the motion was enough to tell
   std::optional<RigBounds> bounds;  // by the motion, where it was enough to tell
-  std::vector<Cause> causes;        // likeliest first
+  std::optional<ExtrinsicStd> extrinsic_std;
+  std::vector<Cause> causes;  // likeliest first
   // rig.T_imu_lidar as the motion shows it, in the axes that the samples are read in: present where
   // it is surely wrong. Entries that are not surely wrong, or that the rig says to be exact, are
   // the rig's.
