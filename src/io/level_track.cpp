@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <stdexcept>
 #include <vector>
 
@@ -85,11 +84,11 @@ void LevelTrack::SmoothClock() {
     const std::streamoff begin = end * static_cast<std::streamoff>(sizeof(Row)) - size;
     rows_.seekg(begin);
     if (!rows_.read(reinterpret_cast<char*>(rows.data()), size)) return;
-    for (Row& row : std::views::reverse(rows)) {
+    std::for_each(rows.rbegin(), rows.rend(), [&](Row& row) {
       const std::optional<double> offset_s = smoother.Back({row.stamp_ns}, ClockOf(row));
-      if (!offset_s) continue;
+      if (!offset_s) return;
       row.stamp_ns += Duration::FromSeconds(*offset_s).ns - row.clock_correction_ns;
-    }
+    });
     rows_.seekp(begin);
     rows_.write(reinterpret_cast<const char*>(rows.data()), size);
   }

@@ -6,7 +6,8 @@
 
 namespace lio {
 
-ExtrinsicFollower::ExtrinsicFollower(const Options& options, std::optional<ExtrinsicStd> found_std)
+ExtrinsicFollower::ExtrinsicFollower(const Options& options,
+                                     const std::optional<ExtrinsicStd>& found_std)
     : is_on_(options.filter.estimate_extrinsic && options.pipeline.use_imu),
       T_configured_(options.rig.T_imu_lidar.value_or(Pose{})),
       T_imu_lidar_(T_configured_),

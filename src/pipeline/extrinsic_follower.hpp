@@ -16,7 +16,8 @@ class ExtrinsicFollower {
  public:
   // Keeps the rig's where filter.estimate_extrinsic is off, or no IMU is used.
   // `found_std`: an earlier pass has found it.
-  explicit ExtrinsicFollower(const Options& options, std::optional<ExtrinsicStd> found_std = {});
+  explicit ExtrinsicFollower(const Options& options,
+                             const std::optional<ExtrinsicStd>& found_std = {});
 
   const Pose& T_imu_lidar() const { return T_imu_lidar_; }
   // Nothing while the rig's is in use.
