@@ -2,23 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/extrinsic_doubt.hpp"
 
-#include <cmath>
+#include "lio/imu/start_state.hpp"
 
 namespace lio {
 namespace {
-
-// Returns the attitude without its yaw.
-Matrix3 StartOf(const Quaternion& R_world_imu) {
-  const Matrix3 R = R_world_imu.toRotationMatrix();
-  return ExpSo3(Vector3(0.0, 0.0, -std::atan2(R(1, 0), R(0, 0)))).toRotationMatrix() * R;
-}
 
 // How the position moves with the errors [t; theta].
 Eigen::Matrix<double, 3, 6> ByErrors(const Pose& T_world_imu) {
   const Matrix3 R = T_world_imu.rotation.toRotationMatrix();
   const Vector3 up_imu = R.transpose() * Vector3::UnitZ();
   Eigen::Matrix<double, 3, 6> by_errors;
-  by_errors.leftCols<3>() = R - StartOf(T_world_imu.rotation);
+  by_errors.leftCols<3>() = R - LevelledRotation(up_imu).toRotationMatrix();
   by_errors.rightCols<3>() = -Vector3::UnitZ().cross(T_world_imu.translation) * up_imu.transpose();
   return by_errors;
 }

@@ -47,7 +47,7 @@ class Naming {
     RigFindings findings;
     findings.is_checked = true;
     findings.bounds = Bounds();
-    const RigVector std = all_.cov.diagonal().cwiseSqrt();
+    const RigVector std = Std();
     findings.extrinsic_std = {std.segment<3>(kRigRotation), std.segment<3>(kRigLever)};
     NameInverted(findings.causes);
     for (const CauseKind kind : selection_.selected()) findings.causes.push_back(MakeCause(kind));
@@ -101,9 +101,11 @@ class Naming {
                          is_off(all_.errors.lever_m, kRigLever));
   }
 
+  RigVector Std() const { return all_.cov.diagonal().cwiseSqrt(); }
+
   RigBounds Bounds() const {
     const double sigmas = SureSigmas(all_.num_clusters, kRigFindings.bound_probability);
-    const RigVector margin = sigmas * all_.cov.diagonal().cwiseSqrt();
+    const RigVector margin = sigmas * Std();
     const RigErrors& errors = all_.errors;
     return {LogSo3(errors.rotation).cwiseAbs() + margin.segment<3>(kRigRotation),
             errors.lever_m.cwiseAbs() + margin.segment<3>(kRigLever),

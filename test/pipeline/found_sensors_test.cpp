@@ -36,11 +36,15 @@ TEST(FoundSensors, InAxesOfTheMessagesTheMountingIsTurnedAndTheMessagesAreNot) {
   found.convention.emplace();
   EXPECT_FALSE(InAxesOfMessages(found, rig).T_imu_lidar) << "they have the rig's axes";
   found.convention->R_imu_sent << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // x of the messages is the rig's y
+  found.extrinsic_std = ExtrinsicStd{Vector3(0.1, 0.2, 0.3), Vector3(1.0, 2.0, 3.0)};
   const FoundSensors of_messages = InAxesOfMessages(found, rig);
   EXPECT_EQ(of_messages.convention->R_imu_sent, Matrix3::Identity());
   ASSERT_TRUE(of_messages.T_imu_lidar);
   EXPECT_TRUE(of_messages.T_imu_lidar->translation.isApprox(Vector3(2.0, -1.0, 3.0)));
   EXPECT_TRUE((of_messages.T_imu_lidar->rotation * Vector3::UnitY()).isApprox(Vector3::UnitX()));
+  ASSERT_TRUE(of_messages.extrinsic_std);
+  EXPECT_EQ(of_messages.extrinsic_std->rotation_rad, Vector3(0.2, 0.1, 0.3));
+  EXPECT_EQ(of_messages.extrinsic_std->lever_m, Vector3(2.0, 1.0, 3.0));
 }
 
 TEST(FoundSensors, ARigWithoutExtrinsicGetsTheFoundOne) {

@@ -17,7 +17,7 @@ namespace lio {
 struct FoundSensors {
   std::optional<ImuConvention> convention;    // the inertial messages are read by it
   std::optional<Pose> T_imu_lidar;            // absent: nothing contradicts the rig's
-  std::optional<ExtrinsicStd> extrinsic_std;  // T_imu_lidar is known as well
+  std::optional<ExtrinsicStd> extrinsic_std;  // how well T_imu_lidar is known
   ClockBelief clock;  // at the first scan; to be added to rig.lidar.clock_offset_s
 };
 
