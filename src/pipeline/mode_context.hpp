@@ -19,6 +19,7 @@
 #include "pipeline/health.hpp"
 #include "pipeline/imu_convention_monitor.hpp"
 #include "pipeline/imu_noise_watch.hpp"
+#include "pipeline/imu_rate_watch.hpp"
 #include "pipeline/output_queue.hpp"
 #include "pipeline/place_knowledge.hpp"
 #include "pipeline/sensor_fixed_errors.hpp"
@@ -39,6 +40,7 @@ struct ModeContext {
   ClockOffsetFollower& clocks;
   ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
+  ImuRateWatch& imu_rate;
   SensorFixedErrors& sensor_errors;
   BlindAxis& blind_axis;
   RigExaminer& examiner;

@@ -66,7 +66,7 @@ struct Odometry::Impl {
         extrinsic(options, found.extrinsic_std),
         place(start_in == StartIn::kInitialMap, options.pipeline.map_locked),
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
-              outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise,
+              outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise, imu_rate,
               sensor_errors, blind_axis, examiner, place},
              place, handover) {
     if (found.convention) examiner.SetConvention(*found.convention);
@@ -97,6 +97,7 @@ struct Odometry::Impl {
   SweepQueue queue;
   ImuConventionMonitor convention;
   ImuNoiseWatch imu_noise;
+  ImuRateWatch imu_rate;
   SensorFixedErrors sensor_errors;
   BlindAxis blind_axis;
   RigExaminer examiner;

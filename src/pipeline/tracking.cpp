@@ -182,6 +182,11 @@ void Tracking::Publish(const MatchedScan& scan, ScanReport report, std::int64_t 
   if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
+  const std::vector<ImuSample> lately =
+      context_.stream.imu().Between(end - kImuRateWatch.window, end);
+  if (const auto news = context_.imu_rate.Add(lately)) {
+    context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
+  }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
   context_.EndSweep(report.fused || scan.starts_map());
   const auto& sweeps = context_.sweeps;

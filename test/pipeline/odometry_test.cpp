@@ -64,6 +64,17 @@ TEST(Odometry, ImuRateOutputFollowsTheMotion) {
   EXPECT_LT(worst_radps, 0.02);
 }
 
+TEST(Odometry, AnImuThatSamplesSlowlyIsTold) {
+  for (const double step_s : {0.01, 0.05}) {
+    DriveOptions options;
+    options.motion = RestThenDrive();
+    options.imu_step_s = step_s;
+    const RunResult run = RunOdometry(SimulateDrive(test::Street(), options), test::DriveRig());
+    EXPECT_EQ(test::HasNotice(run, "the IMU gives 20 samples a second"), step_s > 0.03);
+    EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).max_m, 0.15) << step_s;
+  }
+}
+
 TEST(Odometry, LidarAloneTracksTheDrive) {
   for (const bool has_samples : {true, false}) {
     Messages messages = StaticStartDrive();
