@@ -88,6 +88,7 @@ Transition Initializing::SetConvention(const ImuConvention& found, const std::st
   context_.stream.SetConvention(found);
   context_.examiner.SetConvention(found);
   context_.extrinsic.Restart();
+  context_.sensor_errors = SensorFixedErrors();  // they were learned in other axes
   context_.convention.Restart();
   context_.convention.TrustGyro(true);
   context_.convention.ForgetDoubt();

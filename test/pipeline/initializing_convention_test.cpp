@@ -38,6 +38,19 @@ TEST(InitializingConvention, ForcesInGAtRestChangeTheConventionAndBeginAgain) {
   EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
 }
 
+TEST(InitializingConvention, ErrorsLearnedInOtherAxesAreForgotten) {
+  InitializingBench b;
+  MatchResult match;
+  match.beam_pull.scores = {Vector6::Ones()};
+  match.shift_per_score = Matrix6::Identity();
+  match.new_content_share = 1.0;
+  b.bench.sensor_errors().Add(match);
+  ASSERT_FALSE(b.bench.sensor_errors().CovPerReplacement(match).isZero(0.0));
+  b.bench.force_scale = 1.0 / kStandardGravity_mps2;
+  ASSERT_TRUE(b.Drive(Leaning(), 0.0, 2.0));
+  EXPECT_TRUE(b.bench.sensor_errors().CovPerReplacement(match).isZero(0.0));
+}
+
 TEST(InitializingConvention, SecondTryWithTheSamplesInGStarts) {
   InitializingBench b;
   b.bench.force_scale = 1.0 / kStandardGravity_mps2;

@@ -143,6 +143,7 @@ class ModeBench {
   }
 
   SensorStream& stream() { return stream_; }
+  SensorFixedErrors& sensor_errors() { return sensor_errors_; }
   Pose T_map_world() const { return T_map_world_; }
 
   Counters counters;
