@@ -74,13 +74,15 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   TrackerOptions options = OptionsOfTrack();
   const Timestamp start = TrackStart(sweep, seed_);
   if (handover_.origin != Handover::Origin::kNone) StartAtLastFix(start, options);
+  handover_.was_level |= handover_.origin == Handover::Origin::kInertial;
   handover_.is_placed = false;
   tracker_.emplace(start, options);
   handover_.origin = Handover::Origin::kLidar;
   handover_.last_fix = MakeFix(start, tracker_->history().head(), Vector3::Zero());
   context_.convention.BeginMap(sweep.start);
   context_.blind_axis.Reset();
-  up_map_ = options.T_world_start.rotation * MeanUp({}, context_.options.rig);
+  up_map_ = handover_.was_level ? Vector3::UnitZ()
+                                : options.T_world_start.rotation * MeanUp({}, context_.options.rig);
 }
 
 // The world and the map are the inertial filter's.

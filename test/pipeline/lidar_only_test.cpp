@@ -254,6 +254,18 @@ TEST(LidarOnly, BeginsWhereTheLastPoseLeadsWhoeverPublishedIt) {
   }
 }
 
+// The world of an inertial filter is level, so it tells where up is in the map that goes on in it.
+TEST(LidarOnly, LevelWorldTellsTheUpOfTheNewMap) {
+  Handover handover = LostASecondAgo();
+  handover.last_fix.T_world_imu.rotation = ExpSo3(Vector3(0.3, 0, 0));
+  handover.w_imu_radps.setZero();
+  LidarOnlyBench upright(kSpeed_mps, handover);  // nothing but the rig tells
+  EXPECT_GT(upright.NextJob().prior.up_map.cross(Vector3::UnitZ()).norm(), 0.2);
+  handover.origin = Origin::kInertial;
+  LidarOnlyBench level(kSpeed_mps, handover);
+  EXPECT_NEAR(level.NextJob().prior.up_map.cross(Vector3::UnitZ()).norm(), 0.0, 1e-9);
+}
+
 TEST(LidarOnly, PlaceThatWasGivenIsAsSureAsItWasGiven) {
   Handover handover = LostASecondAgo();
   handover.origin = Origin::kInertial;
