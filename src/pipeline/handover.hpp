@@ -10,6 +10,7 @@
 
 #include "lio/imu/start_state.hpp"
 #include "pipeline/clock_step_doubt.hpp"
+#include "pipeline/imu_agreement.hpp"
 #include "pipeline/yaw_doubt.hpp"
 
 namespace lio {
@@ -36,6 +37,7 @@ struct Handover {
   std::optional<Timestamp> last_located;    // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published;  // at the IMU's rate
   ClockStepDoubt clock_step;
+  std::optional<ImuDoubt> imu_doubt;
 
   // The clock was set: all that is remembered is as long ago by the new one.
   void ShiftTimesBy(Duration by) {

@@ -37,6 +37,7 @@ LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const Motion
       inertial_(std::move(inertial)) {
   handover_.keeps_map = false;
   if (inertial_) g_world_ = inertial_->g_world;
+  if (inertial_ && IsImuDoubted()) imu_back_since_ = inertial_->estimate.stamp;
 }
 
 MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
@@ -163,6 +164,7 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
   context_.EndSweep(report.fused || starts_map);
+  if (IsImuDoubted()) CompareWithImu(outcome, report.fused);
   if (auto transition = TryReturn(outcome, report.fused && is_place_sure)) return transition;
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
   return std::nullopt;
@@ -234,6 +236,7 @@ std::optional<Transition> LidarOnly::TryReturn(const MatchOutcome& outcome, bool
   if (!imu_back_since_ || SecondsBetween(*imu_back_since_, end) < kGravityCheck.window_s) {
     return std::nullopt;
   }
+  if (IsImuDoubted() && !FollowsAgain(outcome.sweep->middle())) return std::nullopt;
   if (IsMisled(end)) return ReturnInNewMap(outcome);
   return is_sure ? std::optional(ReturnToImu(outcome)) : std::nullopt;
 }
@@ -281,6 +284,13 @@ Transition LidarOnly::ReturnToImu(const MatchOutcome& outcome) const {
   set(kGyroBias, imu.gyro_bias_std_radps);
   set(kAccelBias, imu.accel_bias_std_mps2);
   Handover handover = handover_;
+  if (IsImuDoubted()) {
+    handover.imu_doubt->is_open = false;
+    context_.clocks.Resume();
+    context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kWarning,
+                            "the IMU follows the motion again that scans show: the filter goes on "
+                            "with it, and nothing need be done");
+  }
   handover.origin = Handover::Origin::kInertial;
   handover.keeps_map = true;
   return {

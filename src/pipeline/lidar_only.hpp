@@ -23,6 +23,10 @@ struct LidarOnlyParameters {
   // s. A body that is not seen goes on turning for so long. Chosen: after more
   // the turn may have ended, and the new map would be turned too far.
   double turn_unseen_for_s = 0.5;
+  // s. An IMU that scans contradicted must follow them for so long, and twice as long after each
+  // time that it was believed again. Chosen: longer than a turn or a start takes.
+  double doubts_imu_for_s = 5.0;
+  int max_doublings = 5;  // chosen: 160 s
 };
 
 inline constexpr LidarOnlyParameters kLidarOnly;
@@ -47,6 +51,7 @@ class LidarOnly {
   TrackingStatus status() const { return health_.status(); }
 
  private:
+  bool IsImuDoubted() const { return handover_.imu_doubt && handover_.imu_doubt->is_open; }
   TrackerOptions OptionsOfTrack() const;
   void BeginTrack(const Sweep& sweep);
   void GoOn();
@@ -59,6 +64,10 @@ class LidarOnly {
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;
+  // Compares an IMU that is in doubt with the scan.
+  void CompareWithImu(const MatchOutcome& outcome, bool is_fused);
+  // Has an IMU that was in doubt followed the scans for long enough?
+  [[nodiscard]] bool FollowsAgain(Timestamp middle) const;
   [[nodiscard]] bool IsMisled(Timestamp sweep_end) const;
   [[nodiscard]] std::optional<Transition> TryReturn(const MatchOutcome& outcome,
                                                     bool is_sure) const;
@@ -77,6 +86,7 @@ class LidarOnly {
   std::optional<StartState> inertial_;  // state of the filter that this mode goes on from
   Vector3 g_world_ = Vector3::Zero();   // its gravity, which levelled the world
   std::optional<Timestamp> imu_back_since_;
+  ImuAgreement imu_agreement_;
 };
 
 }  // namespace lio

@@ -28,7 +28,7 @@ std::string_view NameOf(ModeKind kind) {
 }
 
 std::string_view NameOf(Trigger trigger) {
-  constexpr std::array<std::string_view, 10> kNames{"started",
+  constexpr std::array<std::string_view, 11> kNames{"started",
                                                     "no IMU",
                                                     "retry",
                                                     "segment starts",
@@ -37,7 +37,8 @@ std::string_view NameOf(Trigger trigger) {
                                                     "convention doubted",
                                                     "IMU appeared",
                                                     "IMU absent",
-                                                    "IMU returned"};
+                                                    "IMU returned",
+                                                    "IMU doubted"};
   return kNames.at(static_cast<std::size_t>(trigger));
 }
 

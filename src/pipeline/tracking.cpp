@@ -112,6 +112,10 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
     Publish(scan, MakeScanReport(outcome), begin_ns);
     return std::nullopt;
   }
+  if (const auto found = CompareWithImu(scan)) {
+    Publish(scan, MakeScanReport(outcome), begin_ns);
+    return DoubtImu(scan, *found);
+  }
   if (scan.starts_map()) context_.examiner.record().BeginMap();
   const ScanReport report = FuseWithTrend(scan);
   UpdateBesides(scan, report.fused);

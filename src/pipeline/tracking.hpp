@@ -13,6 +13,7 @@
 #include "lio/pipeline/keyframe_policy.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/health.hpp"
+#include "pipeline/imu_agreement.hpp"
 #include "pipeline/mode_context.hpp"
 #include "pipeline/motion_trend.hpp"
 #include "pipeline/outage.hpp"
@@ -100,6 +101,10 @@ class Tracking {
   void Publish(const MatchedScan& scan, ScanReport report, std::int64_t begin_ns);
   [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
   [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
+  ImuAgreement::Belief BeliefAt(const MatchedScan& scan) const;
+  [[nodiscard]] std::optional<ImuAgreement::Contradiction> CompareWithImu(const MatchedScan& scan);
+  [[nodiscard]] Transition DoubtImu(const MatchedScan& scan,
+                                    const ImuAgreement::Contradiction& found) const;
   void PublishAtImuRate();
   ReportContext MakeReportContext() const;
 
@@ -112,6 +117,7 @@ class Tracking {
   ZeroVelocityUpdater zero_velocity_;
   MotionTrend trend_;  // trend of the motion that the inertial samples miss
   OutageRecovery outage_;
+  ImuAgreement imu_agreement_;
   bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet
 };

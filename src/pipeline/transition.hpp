@@ -28,6 +28,7 @@ enum class Trigger : std::int8_t {
   kImuAppeared,        // inertial samples have come, after the lidar
   kImuAbsent,          // no inertial samples come any more
   kImuReturned,        // they come again, and the way was not lost meanwhile
+  kImuDoubted,         // they contradict the motion that scans show
 };
 
 // A mode that leads to itself is built anew, but for Tracking, which goes on in place.
@@ -49,6 +50,7 @@ inline constexpr std::array kTransitions{
     TransitionRule{ModeKind::kTracking, Trigger::kLost, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kTracking, Trigger::kConventionDoubted, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kTracking, Trigger::kImuAbsent, ModeKind::kLidarOnly, true},
+    TransitionRule{ModeKind::kTracking, Trigger::kImuDoubted, ModeKind::kLidarOnly, true},
     TransitionRule{ModeKind::kLidarOnly, Trigger::kImuReturned, ModeKind::kTracking, false},
     TransitionRule{ModeKind::kLidarOnly, Trigger::kLost, ModeKind::kInitializing, true},
     TransitionRule{ModeKind::kLidarOnly, Trigger::kImuAppeared, ModeKind::kInitializing, true},
@@ -69,10 +71,11 @@ std::string_view NameOf(Trigger trigger);
 struct Transition {
   Trigger trigger = Trigger::kRetry;
   Handover handover = {};
-  // The filter knew this at kStarted, kImuReturned and kImuAbsent, biases and gravity included.
+  // The filter knew this at kStarted, kImuReturned, kImuAbsent and kImuDoubted, biases and gravity
+  // included.
   std::optional<StartState> start = std::nullopt;
   bool is_at_rest = false;     // kStarted: from a rest
-  MotionSeed seed = {};        // kNoImu, kImuAbsent
+  MotionSeed seed = {};        // kNoImu, kImuAbsent, kImuDoubted
   bool needs_new_map = false;  // kImuReturned: the place in the map is lost
   std::optional<Timestamp> initializing_since =
       std::nullopt;  // kRetry: the first sweep of the first try

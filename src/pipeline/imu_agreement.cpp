@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "pipeline/imu_agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lio/sensor/gap.hpp"
+#include "lio/verdict/motion_record.hpp"
+#include "pipeline/unseen_motion.hpp"
+
+namespace lio {
+namespace {
+
+Preintegration Joined(const Preintegration& a, const Preintegration& b) {
+  Preintegration joined;
+  joined.from = a.from;
+  joined.to = b.to;
+  joined.rotation = a.rotation * b.rotation;
+  joined.velocity = a.velocity + a.rotation * b.velocity;
+  joined.position = a.position + b.span_s() * a.velocity + a.rotation * b.position;
+  return joined;
+}
+
+Matrix3 Turned(const Matrix3& R, const Matrix3& cov) {
+  return R * cov * R.transpose();
+}
+
+Matrix3 PositionCovInMap(const ImuAgreement::MatchedPose& pose) {
+  return Turned(pose.T_map_imu.rotation.toRotationMatrix(), pose.cov.topLeftCorner<3, 3>());
+}
+
+Vector3 MeanRate(const Preintegration& felt) {
+  return LogSo3(felt.rotation) / felt.span_s();
+}
+
+// Does an axis read the very same value all the time?
+bool IsStuck(std::span<const ImuSample> samples, Vector3 ImuSample::*reading) {
+  if (samples.size() < kImuAgreement.min_stuck_samples) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = (samples.front().*reading)[axis];
+    if (std::ranges::all_of(
+            samples, [&](const ImuSample& sample) { return (sample.*reading)[axis] == first; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from, Timestamp to) {
+  const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
+  std::vector<ImuSample> samples = imu.Between(from - margin, to + margin);
+  if (IsMotionHidden(samples)) samples.clear();
+  return samples;
+}
+
+void ImuAgreement::Add(const MatchedPose& pose, std::span<const ImuSample> samples,
+                       const Belief& belief) {
+  const bool goes_on = !poses_.empty() && !samples.empty() && pose.stamp > *last() &&
+                       pose.stamp - *last() <= kScanGap.unrelated;
+  if (!goes_on) {
+    poses_.clear();
+    poses_.push_back({.pose = pose, .felt = {}});
+    return;
+  }
+  poses_.push_back({.pose = pose,
+                    .felt = Preintegrate(samples, *last(), pose.stamp, belief.biases, {}),
+                    .is_gyro_stuck = IsStuck(samples, &ImuSample::w_imu_radps),
+                    .is_accelerometer_stuck = IsStuck(samples, &ImuSample::f_imu_mps2)});
+  if (poses_.size() > kImuAgreement.max_poses) poses_.pop_front();
+}
+
+std::optional<Timestamp> ImuAgreement::last() const {
+  return poses_.empty() ? std::nullopt : std::optional(poses_.back().pose.stamp);
+}
+
+Preintegration ImuAgreement::FeltBetween(std::size_t begin, std::size_t end) const {
+  Preintegration sum = poses_[begin + 1].felt;
+  for (std::size_t i = begin + 2; i <= end; ++i) sum = Joined(sum, poses_[i].felt);
+  return sum;
+}
+
+bool ImuAgreement::Misfit::Exceeds(const Vector3& direction) const {
+  const double noise = kImuAgreement.sigmas * std::sqrt(direction.dot(cov * direction));
+  return error.dot(direction) > limit + noise;
+}
+
+// All is in the axes of imu at the end.
+ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
+                                              const Belief& belief) const {
+  const std::size_t begin = end - span;
+  const Preintegration felt = FeltBetween(begin, end);
+  const double span_s = felt.span_s();
+  const Quaternion seen = pose(begin).T_map_imu.rotation.conjugate() * pose(end).T_map_imu.rotation;
+  const Vector3 turn_rad = LogSo3(seen);
+  const double rate_radps =
+      std::max(kImuAgreement.min_rate_radps, kImuAgreement.bias_stds * belief.gyro_bias_std_radps);
+  // With another clock the samples tell the turn between two other instants.
+  const double change_radps =
+      (MeanRate(poses_[end].felt) - MeanRate(poses_[begin + 1].felt)).norm();
+  Misfit misfit;
+  misfit.error = LogSo3(felt.rotation.conjugate() * seen);
+  misfit.cov =
+      pose(end).cov.bottomRightCorner<3, 3>() +
+      Turned(seen.conjugate().toRotationMatrix(), pose(begin).cov.bottomRightCorner<3, 3>()) +
+      belief.noise.gyro_psd.maxCoeff() * span_s * Matrix3::Identity();
+  misfit.limit = kImuAgreement.scale_error * turn_rad.norm() + rate_radps * span_s +
+                 kImuAgreement.clock_error_s * change_radps;
+  misfit.seen = turn_rad / span_s;
+  return misfit;
+}
+
+// All is in the axes of map. With a = first, b = second span:
+//   p_1 = p_0 + v_0 t_a + g t_a^2/2 + R_0 dp_a,   v_1 = v_0 + g t_a + R_0 dv_a,
+//   p_2 = p_1 + v_1 t_b + g t_b^2/2 + R_1 dp_b,   and v_0 drops out.
+ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
+                                              const Belief& belief) const {
+  const std::size_t middle = end - span;
+  const std::size_t begin = middle - span;
+  const Preintegration a = FeltBetween(begin, middle);
+  const Preintegration b = FeltBetween(middle, end);
+  const double ta_s = a.span_s();
+  const double tb_s = b.span_s();
+  const double ratio = tb_s / ta_s;
+  const double bend_s2 = 0.5 * tb_s * (ta_s + tb_s);
+  const auto second_difference = [&](const auto& at0, const auto& at1, const auto& at2) {
+    return (at2 - at1 - ratio * (at1 - at0)).eval();
+  };
+  const auto rotation = [&](std::size_t i) -> Matrix3 {
+    return pose(i).T_map_imu.rotation.toRotationMatrix();
+  };
+  const Matrix3 R0 = rotation(begin);
+  const Matrix3 R1 = rotation(middle);
+  const Vector3 seen =
+      second_difference(pose(begin).T_map_imu.translation, pose(middle).T_map_imu.translation,
+                        pose(end).T_map_imu.translation);
+  const double rate_radps = (LogSo3(a.rotation).norm() + LogSo3(b.rotation).norm()) / (ta_s + tb_s);
+  const double force_mps2 =
+      std::max(kImuAgreement.min_force_mps2, kImuAgreement.bias_stds * belief.accel_bias_std_mps2) +
+      kImuAgreement.clock_error_s * rate_radps * belief.g_map.norm();
+  Misfit misfit;
+  misfit.error = seen - bend_s2 * belief.g_map - R0 * (tb_s * a.velocity - ratio * a.position) -
+                 R1 * b.position;
+  misfit.cov =
+      PositionCovInMap(pose(end)) + (1.0 + ratio) * (1.0 + ratio) * PositionCovInMap(pose(middle)) +
+      ratio * ratio * PositionCovInMap(pose(begin)) +
+      belief.noise.accel_psd.maxCoeff() * (ta_s + tb_s) * tb_s * tb_s / 3.0 * Matrix3::Identity();
+  misfit.limit = kImuAgreement.scale_error * seen.norm() + force_mps2 * bend_s2 +
+                 kImuAgreement.lever_error_m * second_difference(R0, R1, rotation(end)).norm();
+  misfit.seen = seen / bend_s2;
+  misfit.R_imu_axes = rotation(end).transpose();
+  return misfit;
+}
+
+ImuAgreement::Misfit ImuAgreement::MisfitOf(Sensor sensor, std::size_t end, std::size_t span,
+                                            const Belief& belief) const {
+  return sensor == Sensor::kGyro ? TurnMisfit(end, span, belief) : BendMisfit(end, span, belief);
+}
+
+std::optional<ImuAgreement::Contradiction> ImuAgreement::FindIn(Sensor sensor, std::size_t span,
+                                                                const Belief& belief) const {
+  const bool is_gyro = sensor == Sensor::kGyro;
+  const Entry& newest = poses_.back();
+  const bool is_stuck = is_gyro ? newest.is_gyro_stuck : newest.is_accelerometer_stuck;
+  const std::size_t num = is_stuck ? 1 : kImuAgreement.num_in_row;
+  // Turns follow each other; each bend ends one pose before the next.
+  const std::size_t num_poses_before = is_gyro ? num * span : 2 * span + num - 1;
+  if (poses_.size() <= num_poses_before) return std::nullopt;
+  const std::size_t last = poses_.size() - 1;
+  std::vector<Misfit> misfits;
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < num; ++i) {
+    misfits.push_back(MisfitOf(sensor, last - (is_gyro ? i * span : i), span, belief));
+    sum += misfits.back().error;
+  }
+  const Vector3 direction = sum.normalized();
+  const auto exceeds = [&](const Misfit& misfit) { return misfit.Exceeds(direction); };
+  if (!std::ranges::all_of(misfits, exceeds)) return std::nullopt;
+  const Misfit& misfit = misfits.front();
+  const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
+  const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
+  return Contradiction{.sensor = sensor,
+                       .since = pose(last - num_poses_before).stamp,
+                       .axis_imu = misfit.R_imu_axes * direction,
+                       .seen = std::abs(misfit.seen.dot(direction)),
+                       .evidence = is_gyro
+                                       ? fmt::format("the gyro is {:.2f} rad/s off", off)
+                                       : fmt::format("the accelerometer is {:.1f} m/s^2 off", off)};
+}
+
+std::optional<ImuAgreement::Contradiction> ImuAgreement::Find(const Belief& belief) const {
+  if (poses_.size() < 2) return std::nullopt;
+  for (const std::size_t span : kImuAgreement.spans) {
+    if (auto found = FindIn(Sensor::kGyro, span, belief)) return found;
+  }
+  if (belief.g_map.isZero()) return std::nullopt;
+  for (const std::size_t span : kImuAgreement.spans) {
+    if (auto found = FindIn(Sensor::kAccelerometer, span, belief)) return found;
+  }
+  return std::nullopt;
+}
+
+bool ImuAgreement::HasShownAlike(const Contradiction& earlier, Timestamp from) const {
+  const std::size_t span = kImuAgreement.shown_span;
+  const std::size_t num_before = earlier.sensor == Sensor::kGyro ? span : 2 * span;
+  for (std::size_t end = num_before; end < poses_.size(); ++end) {
+    if (pose(end - num_before).stamp < from) continue;
+    const Misfit misfit = MisfitOf(earlier.sensor, end, span, {});
+    const Vector3 seen_imu = misfit.R_imu_axes * misfit.seen;
+    if (std::abs(seen_imu.dot(earlier.axis_imu)) >= kImuAgreement.shown_share * earlier.seen) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<ImuAgreement::Motion> ImuAgreement::MotionNow() const {
+  if (poses_.size() < 2) return std::nullopt;
+  const MatchedPose& to = poses_.back().pose;
+  const MatchedPose& from = pose(poses_.size() - std::min<std::size_t>(poses_.size(), 3));
+  const double span_s = SecondsBetween(from.stamp, to.stamp);
+  const Quaternion R_imu_map = to.T_map_imu.rotation.conjugate();
+  return Motion{R_imu_map * (to.T_map_imu.translation - from.T_map_imu.translation) / span_s,
+                LogSo3(from.T_map_imu.rotation.conjugate() * to.T_map_imu.rotation) / span_s};
+}
+
+}  // namespace lio

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Do the inertial samples follow the motion that scans show? A gyro or an accelerometer that has
+// died, is stuck or has lost an axis goes on sending samples, and the filter believes them more
+// than the scans.
+//
+// Matched poses are compared with the samples between them, over several spans:
+//
+//   turns  Log(dR^T R_0^T R_1), with dR the integral of the rates less their bias,
+//   bends  p_2 - p_1 - (p_1 - p_0) t_12 / t_01, less what gravity and the forces make of it: no
+//          velocity enters.
+//
+// A sensor is contradicted when the difference exceeds what noise, the rig and the clocks may leave
+// three times in a row, in the same direction: a match that is wrong by itself moves one pose, and
+// the next difference points the other way. Once is enough where an axis of the sensor has read the
+// very same value all the time. Nothing throws.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lio/filter/preintegration.hpp"
+#include "lio/sensor/imu_noise.hpp"
+#include "lio/stream/imu_buffer.hpp"
+
+namespace lio {
+
+struct ImuAgreementParameters {
+  // Scans. Chosen: a dead sensor is seen before matching loses the way, within half a second at 10
+  // Hz, and one that is off by a little within two.
+  std::array<std::size_t, 4> spans{1, 2, 4, 8};
+  std::size_t num_in_row = 3;  // chosen: one wrong match makes two
+  // An axis has stopped when so many samples between two poses are the same. Chosen: half the
+  // samples of a scan at 100 Hz; noise moves the last bit of any sensor that feels a motion.
+  std::size_t min_stuck_samples = 5;
+  double sigmas = 3.0;  // of poses and samples; statistics: 99.7 %
+  // These errors are a rig's, not those of a broken sensor. On sound drives differences stay below
+  // a fifth of what they leave (docs/experiments/dead_imu.md).
+  double scale_error = 0.15;     // chosen: five times a bad data sheet's, or 9 deg of misalignment
+  double bias_stds = 5.0;        // chosen, of the rig's standard deviation
+  double min_rate_radps = 0.01;  // chosen: half a degree per second
+  double min_force_mps2 = 0.15;  // chosen: gravity under 0.9 deg of tilt
+  double clock_error_s = 0.03;   // chosen: an offset that is usual and not found yet
+  double lever_error_m = 0.3;    // chosen: the size of a lidar
+  std::size_t max_poses = 200;   // chosen: 10 s at 20 Hz
+  // A sensor follows again once scans have shown this share of the motion that it did not follow,
+  // over so many scans. Chosen: half, which the limits above would not let pass either; a span over
+  // which the noise of poses is small.
+  double shown_share = 0.5;
+  std::size_t shown_span = 4;
+};
+
+inline constexpr ImuAgreementParameters kImuAgreement;
+
+// Returns the samples from the one instant to the other, and a few beside them to interpolate with;
+// none where some are missing or saturated, so that they do not tell the motion.
+[[nodiscard]] std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from,
+                                                     Timestamp to);
+
+class ImuAgreement {
+ public:
+  struct MatchedPose {
+    Timestamp stamp;
+    Pose T_map_imu;
+    Matrix6 cov = Matrix6::Zero();  // right error [m; rad]
+  };
+  // Holds what is believed of the IMU.
+  struct Belief {
+    Biases biases;
+    ImuNoise noise;
+    Vector3 g_map = Vector3::Zero();   // m/s^2; zero where no gravity is felt
+    double gyro_bias_std_radps = 0.0;  // the rig's
+    double accel_bias_std_mps2 = 0.0;
+  };
+  // `samples` cover the time since the last pose; without any it begins anew.
+  void Add(const MatchedPose& pose, std::span<const ImuSample> samples, const Belief& belief);
+  void Restart() { poses_.clear(); }
+  std::optional<Timestamp> last() const;
+
+  enum class Sensor : std::int8_t { kGyro, kAccelerometer };
+  struct Contradiction {
+    Sensor sensor = Sensor::kGyro;
+    Timestamp since;                     // here the samples still followed
+    Vector3 axis_imu = Vector3::Zero();  // unit, along the difference
+    double seen = 0.0;                   // the motion along it that scans showed, rad/s or m/s^2
+    std::string evidence;
+  };
+  // Does the newest pose contradict the samples?
+  [[nodiscard]] std::optional<Contradiction> Find(const Belief& belief) const;
+  // Have scans shown a motion since `from` that would have been contradicted as that one was, if
+  // the sensor still were as it was then?
+  [[nodiscard]] bool HasShownAlike(const Contradiction& earlier, Timestamp from) const;
+
+  // Holds the motion of the last two scans, as the poses show it.
+  struct Motion {
+    Vector3 v_imu_mps = Vector3::Zero();
+    Vector3 w_imu_radps = Vector3::Zero();
+  };
+  [[nodiscard]] std::optional<Motion> MotionNow() const;
+
+ private:
+  // Holds a pose and what the samples tell since the one before.
+  struct Entry {
+    MatchedPose pose;
+    Preintegration felt;
+    bool is_gyro_stuck = false;
+    bool is_accelerometer_stuck = false;
+  };
+  // Holds a difference of what scans show and what the samples tell, and what it may be.
+  struct Misfit {
+    Vector3 error = Vector3::Zero();
+    Matrix3 cov = Matrix3::Zero();             // by the noise of poses and samples
+    double limit = 0.0;                        // by all else
+    Vector3 seen = Vector3::Zero();            // what the scans show alone, rad/s or m/s^2
+    Matrix3 R_imu_axes = Matrix3::Identity();  // from the axes of these vectors to imu
+
+    [[nodiscard]] bool Exceeds(const Vector3& direction) const;
+  };
+  std::optional<Contradiction> FindIn(Sensor sensor, std::size_t span, const Belief& belief) const;
+  Misfit MisfitOf(Sensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
+  Misfit TurnMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
+  Misfit BendMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
+  Preintegration FeltBetween(std::size_t begin, std::size_t end) const;
+  const MatchedPose& pose(std::size_t i) const { return poses_[i].pose; }
+
+  std::deque<Entry> poses_;
+};
+
+// A unit that scans contradict is not believed until it follows them again.
+struct ImuDoubt {
+  ImuAgreement::Contradiction contradiction;
+  Timestamp last;      // the last scan that contradicted it
+  int num_before = 0;  // doubts that were given up
+  bool is_open = true;
+};
+
+}  // namespace lio

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// Lidar-only odometry watches an IMU that scans contradicted, until it follows them again.
+#include <algorithm>
+
+#include "pipeline/lidar_only.hpp"
+
+namespace lio {
+
+void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
+  if (!inertial_ || !imu_back_since_) return;  // no bias is known, or no samples come
+  if (!is_fused || outcome.is_relocalized) return imu_agreement_.Restart();
+  const Timestamp middle = outcome.sweep->middle();
+  const NavState& state = tracker_->history().At(middle).state;
+  const NavState& before = inertial_->estimate.state;
+  const ImuRig& rig = context_.options.rig.imu;
+  const ImuBuffer& imu = context_.stream.imu();
+  const ImuAgreement::Belief belief{
+      .biases = {before.gyro_bias, before.accel_bias},
+      .noise = imu.NoiseAt(outcome.sweep->end),
+      .g_map = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_),
+      .gyro_bias_std_radps = rig.gyro_bias_std_radps,
+      .accel_bias_std_mps2 = rig.accel_bias_std_mps2};
+  const Timestamp last = imu_agreement_.last().value_or(middle);
+  imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov},
+                     SamplesOfMotion(imu, last, middle), belief);
+  if (imu_agreement_.Find(belief)) handover_.imu_doubt->last = middle;
+}
+
+bool LidarOnly::FollowsAgain(Timestamp middle) const {
+  const ImuDoubt& doubt = *handover_.imu_doubt;
+  const int doublings = std::min(doubt.num_before, kLidarOnly.max_doublings);
+  const double wait_s = kLidarOnly.doubts_imu_for_s * (1 << doublings);
+  return SecondsBetween(doubt.last, middle) > wait_s &&
+         imu_agreement_.HasShownAlike(doubt.contradiction, doubt.last);
+}
+
+}  // namespace lio
