@@ -108,7 +108,7 @@ ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
       pose(end).cov.bottomRightCorner<3, 3>() +
       Turned(seen.conjugate().toRotationMatrix(), pose(begin).cov.bottomRightCorner<3, 3>()) +
       belief.noise.gyro_psd.maxCoeff() * span_s * Matrix3::Identity();
-  misfit.limit = kImuAgreement.scale_error * turn_rad.norm() + rate_radps * span_s +
+  misfit.limit = kImuAgreement.turn_error * turn_rad.norm() + rate_radps * span_s +
                  kImuAgreement.clock_error_s * change_radps;
   misfit.seen = turn_rad / span_s;
   return misfit;
@@ -149,7 +149,7 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
       PositionCovInMap(pose(end)) + (1.0 + ratio) * (1.0 + ratio) * PositionCovInMap(pose(middle)) +
       ratio * ratio * PositionCovInMap(pose(begin)) +
       belief.noise.accel_psd.maxCoeff() * (ta_s + tb_s) * tb_s * tb_s / 3.0 * Matrix3::Identity();
-  misfit.limit = kImuAgreement.scale_error * seen.norm() + force_mps2 * bend_s2 +
+  misfit.limit = kImuAgreement.bend_error * seen.norm() + force_mps2 * bend_s2 +
                  kImuAgreement.lever_error_m * second_difference(R0, R1, rotation(end)).norm();
   misfit.seen = seen / bend_s2;
   misfit.R_imu_axes = rotation(end).transpose();
