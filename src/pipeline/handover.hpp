@@ -39,6 +39,11 @@ struct Handover {
   ClockStepDoubt clock_step;
   std::optional<ImuDoubt> imu_doubt;
 
+  [[nodiscard]] bool doubts_imu() const { return imu_doubt && imu_doubt->is_open; }
+  // The unit is believed again, as one that has begun anew.
+  void BelieveImu() {
+    if (imu_doubt) imu_doubt->is_open = false;
+  }
   // The clock was set: all that is remembered is as long ago by the new one.
   void ShiftTimesBy(Duration by) {
     for (std::optional<Timestamp>* stamp : {&last_fused, &last_located}) {

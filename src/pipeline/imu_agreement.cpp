@@ -36,19 +36,6 @@ Vector3 MeanRate(const Preintegration& felt) {
   return LogSo3(felt.rotation) / felt.span_s();
 }
 
-// Does an axis read the very same value all the time?
-bool IsStuck(std::span<const ImuSample> samples, Vector3 ImuSample::*reading) {
-  if (samples.size() < kImuAgreement.min_stuck_samples) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double first = (samples.front().*reading)[axis];
-    if (std::ranges::all_of(
-            samples, [&](const ImuSample& sample) { return (sample.*reading)[axis] == first; })) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from, Timestamp to) {
@@ -56,6 +43,21 @@ std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from, Tim
   std::vector<ImuSample> samples = imu.Between(from - margin, to + margin);
   if (IsMotionHidden(samples)) samples.clear();
   return samples;
+}
+
+double ImuAgreement::Belief::rotation_error_rad() const {
+  constexpr double kMost = kImuAgreement.rotation_error_rad;
+  return rig ? std::min(kMost, rig->rotation_rad.norm()) : kMost;
+}
+
+double ImuAgreement::Belief::lever_error_m() const {
+  constexpr double kMost = kImuAgreement.lever_error_m;
+  return rig ? std::min(kMost, rig->lever_m.norm()) : kMost;
+}
+
+double ImuAgreement::Belief::clock_error_s() const {
+  constexpr double kMost = kImuAgreement.clock_error_s;
+  return rig ? std::min(kMost, rig->offset_s) : kMost;
 }
 
 void ImuAgreement::Add(const MatchedPose& pose, std::span<const ImuSample> samples,
@@ -67,10 +69,8 @@ void ImuAgreement::Add(const MatchedPose& pose, std::span<const ImuSample> sampl
     poses_.push_back({.pose = pose, .felt = {}});
     return;
   }
-  poses_.push_back({.pose = pose,
-                    .felt = Preintegrate(samples, *last(), pose.stamp, belief.biases, {}),
-                    .is_gyro_stuck = IsStuck(samples, &ImuSample::w_imu_radps),
-                    .is_accelerometer_stuck = IsStuck(samples, &ImuSample::f_imu_mps2)});
+  poses_.push_back(
+      {.pose = pose, .felt = Preintegrate(samples, *last(), pose.stamp, belief.biases, {})});
   if (poses_.size() > kImuAgreement.max_poses) poses_.pop_front();
 }
 
@@ -108,8 +108,8 @@ ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
       pose(end).cov.bottomRightCorner<3, 3>() +
       Turned(seen.conjugate().toRotationMatrix(), pose(begin).cov.bottomRightCorner<3, 3>()) +
       belief.noise.gyro_psd.maxCoeff() * span_s * Matrix3::Identity();
-  misfit.limit = kImuAgreement.turn_error * turn_rad.norm() + rate_radps * span_s +
-                 kImuAgreement.clock_error_s * change_radps;
+  misfit.limit = (kImuAgreement.scale_error + belief.rotation_error_rad()) * turn_rad.norm() +
+                 rate_radps * span_s + belief.clock_error_s() * change_radps;
   misfit.seen = turn_rad / span_s;
   return misfit;
 }
@@ -141,7 +141,7 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
   const double rate_radps = (LogSo3(a.rotation).norm() + LogSo3(b.rotation).norm()) / (ta_s + tb_s);
   const double force_mps2 =
       std::max(kImuAgreement.min_force_mps2, kImuAgreement.bias_stds * belief.accel_bias_std_mps2) +
-      kImuAgreement.clock_error_s * rate_radps * belief.g_map.norm();
+      belief.clock_error_s() * rate_radps * belief.g_map.norm();
   Misfit misfit;
   misfit.error = seen - bend_s2 * belief.g_map - R0 * (tb_s * a.velocity - ratio * a.position) -
                  R1 * b.position;
@@ -149,24 +149,22 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
       PositionCovInMap(pose(end)) + (1.0 + ratio) * (1.0 + ratio) * PositionCovInMap(pose(middle)) +
       ratio * ratio * PositionCovInMap(pose(begin)) +
       belief.noise.accel_psd.maxCoeff() * (ta_s + tb_s) * tb_s * tb_s / 3.0 * Matrix3::Identity();
-  misfit.limit = kImuAgreement.bend_error * seen.norm() + force_mps2 * bend_s2 +
-                 kImuAgreement.lever_error_m * second_difference(R0, R1, rotation(end)).norm();
+  misfit.limit = kImuAgreement.scale_error * seen.norm() + force_mps2 * bend_s2 +
+                 belief.lever_error_m() * second_difference(R0, R1, rotation(end)).norm();
   misfit.seen = seen / bend_s2;
   misfit.R_imu_axes = rotation(end).transpose();
   return misfit;
 }
 
-ImuAgreement::Misfit ImuAgreement::MisfitOf(Sensor sensor, std::size_t end, std::size_t span,
+ImuAgreement::Misfit ImuAgreement::MisfitOf(ImuSensor sensor, std::size_t end, std::size_t span,
                                             const Belief& belief) const {
-  return sensor == Sensor::kGyro ? TurnMisfit(end, span, belief) : BendMisfit(end, span, belief);
+  return sensor == ImuSensor::kGyro ? TurnMisfit(end, span, belief) : BendMisfit(end, span, belief);
 }
 
-std::optional<ImuAgreement::Contradiction> ImuAgreement::FindIn(Sensor sensor, std::size_t span,
-                                                                const Belief& belief) const {
-  const bool is_gyro = sensor == Sensor::kGyro;
-  const Entry& newest = poses_.back();
-  const bool is_stuck = is_gyro ? newest.is_gyro_stuck : newest.is_accelerometer_stuck;
-  const std::size_t num = is_stuck ? 1 : kImuAgreement.num_in_row;
+std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
+                                                     const Belief& belief) const {
+  const bool is_gyro = sensor == ImuSensor::kGyro;
+  const std::size_t num = kImuAgreement.num_in_row;
   // Turns follow each other; each bend ends one pose before the next.
   const std::size_t num_poses_before = is_gyro ? num * span : 2 * span + num - 1;
   if (poses_.size() <= num_poses_before) return std::nullopt;
@@ -183,30 +181,30 @@ std::optional<ImuAgreement::Contradiction> ImuAgreement::FindIn(Sensor sensor, s
   const Misfit& misfit = misfits.front();
   const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
   const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
-  return Contradiction{.sensor = sensor,
-                       .since = pose(last - num_poses_before).stamp,
-                       .axis_imu = misfit.R_imu_axes * direction,
-                       .seen = std::abs(misfit.seen.dot(direction)),
-                       .evidence = is_gyro
-                                       ? fmt::format("the gyro is {:.2f} rad/s off", off)
-                                       : fmt::format("the accelerometer is {:.1f} m/s^2 off", off)};
+  return ImuContradiction{
+      .sensor = sensor,
+      .since = pose(last - num_poses_before).stamp,
+      .axis_imu = misfit.R_imu_axes * direction,
+      .seen = std::abs(misfit.seen.dot(direction)),
+      .evidence = is_gyro ? fmt::format("the gyro is {:.2f} rad/s off", off)
+                          : fmt::format("the accelerometer is {:.1f} m/s^2 off", off)};
 }
 
-std::optional<ImuAgreement::Contradiction> ImuAgreement::Find(const Belief& belief) const {
+std::optional<ImuContradiction> ImuAgreement::Find(const Belief& belief) const {
   if (poses_.size() < 2) return std::nullopt;
   for (const std::size_t span : kImuAgreement.spans) {
-    if (auto found = FindIn(Sensor::kGyro, span, belief)) return found;
+    if (auto found = FindIn(ImuSensor::kGyro, span, belief)) return found;
   }
   if (belief.g_map.isZero()) return std::nullopt;
   for (const std::size_t span : kImuAgreement.spans) {
-    if (auto found = FindIn(Sensor::kAccelerometer, span, belief)) return found;
+    if (auto found = FindIn(ImuSensor::kAccelerometer, span, belief)) return found;
   }
   return std::nullopt;
 }
 
-bool ImuAgreement::HasShownAlike(const Contradiction& earlier, Timestamp from) const {
+bool ImuAgreement::HasShownAlike(const ImuContradiction& earlier, Timestamp from) const {
   const std::size_t span = kImuAgreement.shown_span;
-  const std::size_t num_before = earlier.sensor == Sensor::kGyro ? span : 2 * span;
+  const std::size_t num_before = earlier.sensor == ImuSensor::kGyro ? span : 2 * span;
   for (std::size_t end = num_before; end < poses_.size(); ++end) {
     if (pose(end - num_before).stamp < from) continue;
     const Misfit misfit = MisfitOf(earlier.sensor, end, span, {});

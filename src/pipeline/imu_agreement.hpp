@@ -12,8 +12,7 @@
 //
 // A sensor is contradicted when the difference exceeds what noise, the rig and the clocks may leave
 // three times in a row, in the same direction: a match that is wrong by itself moves one pose, and
-// the next difference points the other way. Once is enough where an axis of the sensor has read the
-// very same value all the time. Nothing throws.
+// the next difference points the other way. Nothing throws.
 #pragma once
 
 #include <array>
@@ -26,6 +25,8 @@
 #include "lio/filter/preintegration.hpp"
 #include "lio/sensor/imu_noise.hpp"
 #include "lio/stream/imu_buffer.hpp"
+#include "lio/verdict/rig_findings.hpp"
+#include "pipeline/stuck_imu.hpp"
 
 namespace lio {
 
@@ -34,21 +35,19 @@ struct ImuAgreementParameters {
   // Hz, and one that is off by a little within two.
   std::array<std::size_t, 4> spans{1, 2, 4, 8};
   std::size_t num_in_row = 3;  // chosen: one wrong match makes two
-  // An axis has stopped when so many samples between two poses are the same. Chosen: half the
-  // samples of a scan at 100 Hz; noise moves the last bit of any sensor that feels a motion.
-  std::size_t min_stuck_samples = 5;
-  double sigmas = 3.0;  // of poses and samples; statistics: 99.7 %
+  double sigmas = 3.0;         // of poses and samples; statistics: 99.7 %
   // These errors are a rig's, not those of a broken sensor. On sound drives differences stay below
   // a fifth of what they leave (docs/experiments/dead_imu.md).
-  double turn_error = 0.15;      // chosen, of the turn: five times a bad data sheet's scale error,
-                                 // or 9 deg of misalignment
-  double bend_error = 0.05;      // chosen, of the bend: 3 deg; gravity has shown larger ones
+  double scale_error = 0.02;     // chosen, of turn or bend: twice a bad data sheet's
   double bias_stds = 5.0;        // chosen, of the rig's standard deviation
   double min_rate_radps = 0.01;  // chosen: half a degree per second
   double min_force_mps2 = 0.15;  // chosen: gravity under 0.9 deg of tilt
-  double clock_error_s = 0.03;   // chosen: an offset that is usual and not found yet
-  double lever_error_m = 0.3;    // chosen: the size of a lidar
-  std::size_t max_poses = 200;   // chosen: 10 s at 20 Hz
+  // Nothing is known of the rig yet: it may be wrong by this. Chosen: 7 deg, the size of a lidar,
+  // and an offset of clocks that is usual.
+  double rotation_error_rad = 0.12;
+  double lever_error_m = 0.3;
+  double clock_error_s = 0.03;
+  std::size_t max_poses = 200;  // chosen: 10 s at 20 Hz
   // A sensor follows again once scans have shown this share of the motion that it did not follow,
   // over so many scans. Chosen: half, which the limits above would not let pass either; a span over
   // which the noise of poses is small.
@@ -62,6 +61,14 @@ inline constexpr ImuAgreementParameters kImuAgreement;
 // none where some are missing or saturated, so that they do not tell the motion.
 [[nodiscard]] std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from,
                                                      Timestamp to);
+
+struct ImuContradiction {
+  ImuSensor sensor = ImuSensor::kGyro;
+  Timestamp since;                     // here the samples still followed
+  Vector3 axis_imu = Vector3::Zero();  // unit, along the difference
+  double seen = 0.0;                   // the motion along it that scans showed, rad/s or m/s^2
+  std::string evidence;
+};
 
 class ImuAgreement {
  public:
@@ -77,25 +84,21 @@ class ImuAgreement {
     Vector3 g_map = Vector3::Zero();   // m/s^2; zero where no gravity is felt
     double gyro_bias_std_radps = 0.0;  // the rig's
     double accel_bias_std_mps2 = 0.0;
+    std::optional<RigBounds> rig = {};  // where the drive has shown it
+    [[nodiscard]] double rotation_error_rad() const;
+    [[nodiscard]] double lever_error_m() const;
+    [[nodiscard]] double clock_error_s() const;
   };
   // `samples` cover the time since the last pose; without any it begins anew.
   void Add(const MatchedPose& pose, std::span<const ImuSample> samples, const Belief& belief);
   void Restart() { poses_.clear(); }
   std::optional<Timestamp> last() const;
 
-  enum class Sensor : std::int8_t { kGyro, kAccelerometer };
-  struct Contradiction {
-    Sensor sensor = Sensor::kGyro;
-    Timestamp since;                     // here the samples still followed
-    Vector3 axis_imu = Vector3::Zero();  // unit, along the difference
-    double seen = 0.0;                   // the motion along it that scans showed, rad/s or m/s^2
-    std::string evidence;
-  };
   // Does the newest pose contradict the samples?
-  [[nodiscard]] std::optional<Contradiction> Find(const Belief& belief) const;
+  [[nodiscard]] std::optional<ImuContradiction> Find(const Belief& belief) const;
   // Have scans shown a motion since `from` that would have been contradicted as that one was, if
   // the sensor still were as it was then?
-  [[nodiscard]] bool HasShownAlike(const Contradiction& earlier, Timestamp from) const;
+  [[nodiscard]] bool HasShownAlike(const ImuContradiction& earlier, Timestamp from) const;
 
   // Holds the motion of the last two scans, as the poses show it.
   struct Motion {
@@ -109,8 +112,6 @@ class ImuAgreement {
   struct Entry {
     MatchedPose pose;
     Preintegration felt;
-    bool is_gyro_stuck = false;
-    bool is_accelerometer_stuck = false;
   };
   // Holds a difference of what scans show and what the samples tell, and what it may be.
   struct Misfit {
@@ -122,8 +123,9 @@ class ImuAgreement {
 
     [[nodiscard]] bool Exceeds(const Vector3& direction) const;
   };
-  std::optional<Contradiction> FindIn(Sensor sensor, std::size_t span, const Belief& belief) const;
-  Misfit MisfitOf(Sensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
+  std::optional<ImuContradiction> FindIn(ImuSensor sensor, std::size_t span,
+                                         const Belief& belief) const;
+  Misfit MisfitOf(ImuSensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit TurnMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit BendMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
   Preintegration FeltBetween(std::size_t begin, std::size_t end) const;
@@ -134,7 +136,7 @@ class ImuAgreement {
 
 // A unit that scans contradict is not believed until it follows them again.
 struct ImuDoubt {
-  ImuAgreement::Contradiction contradiction;
+  ImuContradiction contradiction;
   Timestamp last;      // the last scan that contradicted it
   int num_before = 0;  // doubts that were given up
   bool is_open = true;

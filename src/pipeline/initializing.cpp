@@ -47,7 +47,7 @@ void Initializing::BeginTrack(const Sweep& sweep) {
   options.nis_limit = context_.nis_limit;
   options.seed = seed_;
   const Timestamp start = TrackStart(sweep, seed_);
-  if (context_.stream.has_imu() && context_.convention.trusts_gyro() && !imu.samples().empty()) {
+  if (HasImu() && context_.convention.trusts_gyro() && !imu.samples().empty()) {
     options.first_rate_radps = SampleAt(imu.samples(), start).w_imu_radps;
   }
   tracker_.emplace(start, options);
@@ -64,7 +64,7 @@ std::optional<Transition> Initializing::FinishJob(const MatchOutcome& outcome, I
   AddScan(outcome, insert);
   const Timestamp end = outcome.sweep->end;
   const Estimate estimate = tracker_->history().At(outcome.sweep->middle());
-  const bool has_imu = context_.stream.has_imu();
+  const bool has_imu = HasImu();
   if (IsMotionKnown(end, estimate)) {
     seed_.motion = estimate.state;
     if (!has_imu) return GoLidarOnly();
@@ -103,7 +103,7 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   scans_.push_back(
       {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, outcome.match.cov},
        is_matched});
-  if (is_matched && context_.stream.has_imu()) {
+  if (is_matched && HasImu()) {
     context_.convention.AddPose({middle, outcome.match.T_map_imu});
   }
   if (is_fused) handover_.last_located = middle;
@@ -113,7 +113,7 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
 // Known for the first time: then the scans are matched again.
 bool Initializing::IsMotionKnown(Timestamp sweep_end, const Estimate& estimate) const {
   return !seed_.motion && scans_.size() >= kInitializing.min_scans_for_motion &&
-         HasMovedSince(0, context_.stream.has_imu() && IsVeryCalm(sweep_end)) &&
+         HasMovedSince(0, HasImu() && IsVeryCalm(sweep_end)) &&
          LargestStd(estimate, kVel) < kInitializing.motion_velocity_std_mps;
 }
 
@@ -163,6 +163,7 @@ std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
                           "inertial samples have come: initialization begins again, with them, and "
                           "nothing need be done");
   Handover handover = handover_;
+  handover.BelieveImu();
   if (handover.origin == Handover::Origin::kLostLidar) {
     handover.origin = Handover::Origin::kLidar;
     handover.is_map_by_lidar = true;
@@ -171,7 +172,7 @@ std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
 }
 
 std::optional<Transition> Initializing::EndStream() {
-  if (context_.stream.has_imu() || !IsLastScan()) return std::nullopt;
+  if (HasImu() || !IsLastScan()) return std::nullopt;
   return GoLidarOnly();
 }
 

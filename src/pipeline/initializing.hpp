@@ -80,6 +80,8 @@ class Initializing {
   TrackingStatus status() const { return TrackingStatus::kInit; }
 
  private:
+  // Samples come, and they are believed.
+  bool HasImu() const { return context_.stream.has_imu() && !handover_.doubts_imu(); }
   struct Scan {
     MatchedPose pose;  // T_map_imu
     bool is_matched = false;

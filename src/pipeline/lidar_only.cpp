@@ -37,7 +37,7 @@ LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const Motion
       inertial_(std::move(inertial)) {
   handover_.keeps_map = false;
   if (inertial_) g_world_ = inertial_->g_world;
-  if (inertial_ && IsImuDoubted()) imu_back_since_ = inertial_->estimate.stamp;
+  if (inertial_ && handover_.doubts_imu()) imu_back_since_ = inertial_->estimate.stamp;
 }
 
 MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
@@ -164,7 +164,7 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
   context_.EndSweep(report.fused || starts_map);
-  if (IsImuDoubted()) CompareWithImu(outcome, report.fused);
+  if (handover_.doubts_imu()) CompareWithImu(outcome, report.fused);
   if (auto transition = TryReturn(outcome, report.fused && is_place_sure)) return transition;
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
   return std::nullopt;
@@ -228,6 +228,7 @@ std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
   Handover handover = handover_;
   handover.origin = Handover::Origin::kLidar;
   handover.is_map_by_lidar = true;
+  handover.BelieveImu();
   return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
 }
 
@@ -236,7 +237,7 @@ std::optional<Transition> LidarOnly::TryReturn(const MatchOutcome& outcome, bool
   if (!imu_back_since_ || SecondsBetween(*imu_back_since_, end) < kGravityCheck.window_s) {
     return std::nullopt;
   }
-  if (IsImuDoubted() && !FollowsAgain(outcome.sweep->middle())) return std::nullopt;
+  if (handover_.doubts_imu() && !FollowsAgain(outcome.sweep->middle())) return std::nullopt;
   if (IsMisled(end)) return ReturnInNewMap(outcome);
   return is_sure ? std::optional(ReturnToImu(outcome)) : std::nullopt;
 }
@@ -284,8 +285,8 @@ Transition LidarOnly::ReturnToImu(const MatchOutcome& outcome) const {
   set(kGyroBias, imu.gyro_bias_std_radps);
   set(kAccelBias, imu.accel_bias_std_mps2);
   Handover handover = handover_;
-  if (IsImuDoubted()) {
-    handover.imu_doubt->is_open = false;
+  if (handover_.doubts_imu()) {
+    handover.BelieveImu();
     context_.clocks.Resume();
     context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kWarning,
                             "the IMU follows the motion again that scans show: the filter goes on "

@@ -51,7 +51,6 @@ class LidarOnly {
   TrackingStatus status() const { return health_.status(); }
 
  private:
-  bool IsImuDoubted() const { return handover_.imu_doubt && handover_.imu_doubt->is_open; }
   TrackerOptions OptionsOfTrack() const;
   void BeginTrack(const Sweep& sweep);
   void GoOn();

@@ -9,6 +9,9 @@ namespace lio {
 
 void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
   if (!inertial_ || !imu_back_since_) return;  // no bias is known, or no samples come
+  ImuDoubt& doubt = *handover_.imu_doubt;
+  context_.stuck_imu.Add(context_.stream.imu().samples(), outcome.sweep->end);
+  if (context_.stuck_imu.found()) doubt.last = outcome.sweep->end;
   if (!is_fused || outcome.is_relocalized) return imu_agreement_.Restart();
   const Timestamp middle = outcome.sweep->middle();
   const NavState& state = tracker_->history().At(middle).state;
@@ -20,11 +23,12 @@ void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
       .noise = imu.NoiseAt(outcome.sweep->end),
       .g_map = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_),
       .gyro_bias_std_radps = rig.gyro_bias_std_radps,
-      .accel_bias_std_mps2 = rig.accel_bias_std_mps2};
+      .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
+      .rig = context_.examiner.bounds()};
   const Timestamp last = imu_agreement_.last().value_or(middle);
   imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov},
                      SamplesOfMotion(imu, last, middle), belief);
-  if (imu_agreement_.Find(belief)) handover_.imu_doubt->last = middle;
+  if (imu_agreement_.Find(belief)) doubt.last = middle;
 }
 
 bool LidarOnly::FollowsAgain(Timestamp middle) const {

@@ -23,6 +23,7 @@
 #include "pipeline/output_queue.hpp"
 #include "pipeline/place_knowledge.hpp"
 #include "pipeline/sensor_fixed_errors.hpp"
+#include "pipeline/stuck_imu.hpp"
 
 namespace lio {
 
@@ -41,6 +42,7 @@ struct ModeContext {
   ExtrinsicFollower& extrinsic;
   ImuNoiseWatch& imu_noise;
   ImuRateWatch& imu_rate;
+  StuckImuDetector& stuck_imu;
   SensorFixedErrors& sensor_errors;
   BlindAxis& blind_axis;
   RigExaminer& examiner;

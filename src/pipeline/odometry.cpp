@@ -67,7 +67,7 @@ struct Odometry::Impl {
         place(start_in == StartIn::kInitialMap, options.pipeline.map_locked),
         mode({options, ChiSquareQuantile6(options.filter.gate_probability), clock, counters,
               outputs, stream, queue.sweeps(), convention, clocks, extrinsic, imu_noise, imu_rate,
-              sensor_errors, blind_axis, examiner, place},
+              stuck_imu, sensor_errors, blind_axis, examiner, place},
              place, handover) {
     if (found.convention) examiner.SetConvention(*found.convention);
   }
@@ -98,6 +98,7 @@ struct Odometry::Impl {
   ImuConventionMonitor convention;
   ImuNoiseWatch imu_noise;
   ImuRateWatch imu_rate;
+  StuckImuDetector stuck_imu;
   SensorFixedErrors sensor_errors;
   BlindAxis blind_axis;
   RigExaminer examiner;

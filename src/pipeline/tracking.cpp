@@ -109,12 +109,13 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   (void)history_.AddNoise(scan.end(), scan.noise);
   if (outage_.stage() == OutageRecovery::Stage::kFindVelocity) {
     AddScanAfterOutage(outcome, false);
-    Publish(scan, MakeScanReport(outcome), begin_ns);
+    Publish(scan, MakeScanReport(outcome), history_.At(scan.end()), begin_ns);
     return std::nullopt;
   }
-  if (const auto found = CompareWithImu(scan)) {
-    Publish(scan, MakeScanReport(outcome), begin_ns);
-    return DoubtImu(scan, *found);
+  if (auto transition = DoubtImu(scan)) {
+    // The prediction follows the samples that are in doubt.
+    Publish(scan, MakeScanReport(outcome), WithoutImu(*transition, scan.end()), begin_ns);
+    return transition;
   }
   if (scan.starts_map()) context_.examiner.record().BeginMap();
   const ScanReport report = FuseWithTrend(scan);
@@ -135,7 +136,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
     SeekAfterSilence(scan.end());
   }
   RememberFix(scan, report.fused);
-  Publish(scan, report, begin_ns);
+  Publish(scan, report, history_.At(scan.end()), begin_ns);
   LookAtRig(scan.end());
   return JudgeSelf(scan.end(), verdict.restarts);
 }
@@ -178,10 +179,11 @@ bool Tracking::IsPriorSure(Timestamp middle) const {
 }
 
 // Gives the scan's row and takes it off the queue.
-void Tracking::Publish(const MatchedScan& scan, ScanReport report, std::int64_t begin_ns) {
+void Tracking::Publish(const MatchedScan& scan, ScanReport report, const Estimate& at_end,
+                       std::int64_t begin_ns) {
   const Timestamp end = scan.end();
   CompleteTimes(scan.outcome.stage_ns, context_.NowNs() - begin_ns, report);
-  FilterReport filter = MakeFilterReport(history_.At(end), report, MakeReportContext());
+  FilterReport filter = MakeFilterReport(at_end, report, MakeReportContext());
   filter.imu_noise = NoiseRatiosOf(scan.noise, context_.options.rig.imu);
   if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);

@@ -23,6 +23,9 @@
 
 namespace lio {
 
+// Returns the estimate that lidar-only odometry begins with after that transition, at a later time.
+[[nodiscard]] Estimate WithoutImu(const Transition& transition, Timestamp stamp);
+
 class Tracking {
  public:
   // Begins at start.estimate with the samples in the stream's buffer, in an empty map unless the
@@ -98,13 +101,17 @@ class Tracking {
   void UpdateBesides(const MatchedScan& scan, bool is_fused);
   void GrowMap(const MatchedScan& scan, const ScanReport& report, bool rebases_map,
                InsertTask& insert);
-  void Publish(const MatchedScan& scan, ScanReport report, std::int64_t begin_ns);
+  void Publish(const MatchedScan& scan, ScanReport report, const Estimate& at_end,
+               std::int64_t begin_ns);
   [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
   [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
   ImuAgreement::Belief BeliefAt(const MatchedScan& scan) const;
-  [[nodiscard]] std::optional<ImuAgreement::Contradiction> CompareWithImu(const MatchedScan& scan);
-  [[nodiscard]] Transition DoubtImu(const MatchedScan& scan,
-                                    const ImuAgreement::Contradiction& found) const;
+  [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
+  [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
+  [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
+  [[nodiscard]] Transition LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const;
+  [[nodiscard]] Transition GoOnWithoutImu(StartState known, const Vector3& w_imu_radps,
+                                          const ImuContradiction& why, Timestamp end) const;
   void PublishAtImuRate();
   ReportContext MakeReportContext() const;
 

@@ -1,11 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Tracking compares the inertial samples with the motion that scans show, and goes on without them
-// where they contradict it.
+// where an axis has stopped or they contradict the scans.
+#include <algorithm>
+#include <utility>
+
 #include "lio/filter/estimate_change.hpp"
 #include "pipeline/tracking.hpp"
 
 namespace lio {
+
+Estimate WithoutImu(const Transition& transition, Timestamp stamp) {
+  TrackerOptions options;
+  options.seed = transition.seed;
+  options.follows_turns = true;
+  options.goes_on_from = transition.start.value().estimate;
+  ConstantVelocityTracker tracker(options.goes_on_from->stamp, options);
+  tracker.AdvanceTo(stamp);
+  return tracker.history().At(stamp);
+}
 
 ImuAgreement::Belief Tracking::BeliefAt(const MatchedScan& scan) const {
   const NavState& state = history_.At(scan.middle()).state;
@@ -15,11 +28,12 @@ ImuAgreement::Belief Tracking::BeliefAt(const MatchedScan& scan) const {
           .noise = scan.noise,
           .g_map = fix.T_map_imu.rotation * (fix.T_world_imu.rotation.conjugate() * g_world_),
           .gyro_bias_std_radps = rig.gyro_bias_std_radps,
-          .accel_bias_std_mps2 = rig.accel_bias_std_mps2};
+          .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
+          .rig = context_.examiner.bounds()};
 }
 
 // A wrong convention contradicts the scans as well, and is found out by a start anew.
-std::optional<ImuAgreement::Contradiction> Tracking::CompareWithImu(const MatchedScan& scan) {
+std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan) {
   const MatchOutcome& outcome = scan.outcome;
   if (!outcome.match.IsUsable()) return std::nullopt;
   if (outcome.is_relocalized || outage_.is_running() || is_map_rebased_) {
@@ -27,24 +41,43 @@ std::optional<ImuAgreement::Contradiction> Tracking::CompareWithImu(const Matche
     return std::nullopt;
   }
   const ImuAgreement::Belief belief = BeliefAt(scan);
-  const std::optional<Timestamp> last = imu_agreement_.last();
-  imu_agreement_.Add(
-      {scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
-      SamplesOfMotion(context_.stream.imu(), last.value_or(scan.middle()), scan.middle()), belief);
+  const Timestamp last = imu_agreement_.last().value_or(scan.middle());
+  imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
+                     SamplesOfMotion(context_.stream.imu(), last, scan.middle()), belief);
   auto found = imu_agreement_.Find(belief);
   if (found && context_.convention.MayBeAnother()) return std::nullopt;
   return found;
 }
 
-// The lidar goes on from the scan's pose, in the world as it was while the samples still followed.
-Transition Tracking::DoubtImu(const MatchedScan& scan,
-                              const ImuAgreement::Contradiction& found) const {
-  context_.clocks.Stop();
-  context_.outputs.Notify(
-      scan.end(), Notice::Severity::kWarning,
-      found.evidence +
-          " from what scans show: lidar-only odometry until it follows them again; "
-          "look at the IMU, its driver and its mounting");
+std::optional<Transition> Tracking::DoubtImu(const MatchedScan& scan) {
+  context_.stuck_imu.Add(context_.stream.imu().samples(), scan.end());
+  const auto contradiction = CompareWithImu(scan);
+  if (is_first_scan_ || outage_.is_running()) return std::nullopt;
+  if (const auto stuck = context_.stuck_imu.found()) return LeaveStuckImu(*stuck, scan.end());
+  if (contradiction) return LeaveImu(*contradiction, scan);
+  return std::nullopt;
+}
+
+// All was right until the axis stopped.
+Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const {
+  const Timestamp since = std::max(stuck.before.stamp, history_.start_stamp());
+  StartState known;
+  known.estimate = history_.At(since);
+  known.g_world = g_world_;
+  const Vector3 w_imu_radps = stuck.before.w_imu_radps - known.estimate.state.gyro_bias;
+  const bool is_gyro = stuck.sensor == ImuSensor::kGyro;
+  return GoOnWithoutImu(std::move(known), w_imu_radps,
+                        {.sensor = stuck.sensor,
+                         .since = since,
+                         .axis_imu = stuck.axis_imu,
+                         .evidence = is_gyro ? "an axis of the gyro reads the same all the time"
+                                             : "an axis of the accelerometer reads the same all "
+                                               "the time"},
+                        end);
+}
+
+// The pose is the scan's, in the world as it was while the samples still followed.
+Transition Tracking::LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const {
   StartState known;
   known.g_world = g_world_;
   known.estimate = history_.At(std::max(found.since, history_.start_stamp()));
@@ -55,14 +88,24 @@ Transition Tracking::DoubtImu(const MatchedScan& scan,
       kConstantVelocity.known_velocity_std_mps * kConstantVelocity.known_velocity_std_mps;
   SetVelocity(motion.v_imu_mps, kVelocityVar * Matrix3::Identity(), known.estimate);
   AddUnseenMotion(known.estimate, scan.outcome.match.cov);
+  return GoOnWithoutImu(std::move(known), motion.w_imu_radps, found, scan.end());
+}
 
+Transition Tracking::GoOnWithoutImu(StartState known, const Vector3& w_imu_radps,
+                                    const ImuContradiction& why, Timestamp end) const {
+  context_.clocks.Stop();
+  context_.outputs.Notify(
+      end, Notice::Severity::kWarning,
+      why.evidence +
+          ": lidar-only odometry until the IMU follows the scans again; look at the "
+          "unit, its driver and its mounting");
   Transition transition{.trigger = Trigger::kImuDoubted, .handover = handover_};
   transition.handover.keeps_map = true;
   const int num_before = handover_.imu_doubt ? handover_.imu_doubt->num_before + 1 : 0;
   transition.handover.imu_doubt =
-      ImuDoubt{.contradiction = found, .last = scan.middle(), .num_before = num_before};
+      ImuDoubt{.contradiction = why, .last = end, .num_before = num_before};
   transition.seed.motion = known.estimate.state;
-  transition.seed.motion->gyro_bias = -motion.w_imu_radps;
+  transition.seed.motion->gyro_bias = -w_imu_radps;
   transition.start = std::move(known);
   return transition;
 }

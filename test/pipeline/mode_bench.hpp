@@ -50,14 +50,15 @@ class ModeBench {
   ModeBench& operator=(const ModeBench&) = delete;
 
   ModeContext context() {
-    return {options_,       ChiSquareQuantile6(options_.filter.gate_probability),
-            nullptr,        counters,
-            outputs_,       stream_,
-            sweeps,         convention_,
-            clocks_,        extrinsic_,
-            imu_noise_,     imu_rate_,
-            sensor_errors_, blind_axis_,
-            examiner,       place};
+    return {options_,    ChiSquareQuantile6(options_.filter.gate_probability),
+            nullptr,     counters,
+            outputs_,    stream_,
+            sweeps,      convention_,
+            clocks_,     extrinsic_,
+            imu_noise_,  imu_rate_,
+            stuck_imu_,  sensor_errors_,
+            blind_axis_, examiner,
+            place};
   }
 
   const ExtrinsicFollower& extrinsic() const { return extrinsic_; }
@@ -163,6 +164,7 @@ class ModeBench {
   ImuConventionMonitor convention_;
   ImuNoiseWatch imu_noise_;
   ImuRateWatch imu_rate_;
+  StuckImuDetector stuck_imu_;
   SensorFixedErrors sensor_errors_;
   BlindAxis blind_axis_;
   ClockOffsetFollower clocks_;
