@@ -165,14 +165,16 @@ std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size
                                                      const Belief& belief) const {
   const bool is_gyro = sensor == ImuSensor::kGyro;
   const std::size_t num = kImuAgreement.num_in_row;
-  // Turns follow each other; each bend ends one pose before the next.
-  const std::size_t num_poses_before = is_gyro ? num * span : 2 * span + num - 1;
+  // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
+  // bends the path one way for a span, and then the other way.
+  const std::size_t step = is_gyro ? span : (span + 1) / 2;
+  const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (num - 1) * step;
   if (poses_.size() <= num_poses_before) return std::nullopt;
   const std::size_t last = poses_.size() - 1;
   std::vector<Misfit> misfits;
   Vector3 sum = Vector3::Zero();
   for (std::size_t i = 0; i < num; ++i) {
-    misfits.push_back(MisfitOf(sensor, last - (is_gyro ? i * span : i), span, belief));
+    misfits.push_back(MisfitOf(sensor, last - i * step, span, belief));
     sum += misfits.back().error;
   }
   const Vector3 direction = sum.normalized();
@@ -224,6 +226,12 @@ std::optional<ImuAgreement::Motion> ImuAgreement::MotionNow() const {
   const Quaternion R_imu_map = to.T_map_imu.rotation.conjugate();
   return Motion{R_imu_map * (to.T_map_imu.translation - from.T_map_imu.translation) / span_s,
                 LogSo3(from.T_map_imu.rotation.conjugate() * to.T_map_imu.rotation) / span_s};
+}
+
+bool ImuAgreement::HasMoved() const {
+  const std::optional<Motion> motion = MotionNow();
+  return motion && (motion->v_imu_mps.norm() > kImuAgreement.motion_mps ||
+                    motion->w_imu_radps.norm() > kImuAgreement.motion_radps);
 }
 
 }  // namespace lio

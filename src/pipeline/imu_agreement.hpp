@@ -48,6 +48,11 @@ struct ImuAgreementParameters {
   double lever_error_m = 0.3;
   double clock_error_s = 0.03;
   std::size_t max_poses = 200;  // chosen: 10 s at 20 Hz
+  // Samples that have followed so many scans in motion are of the right unit and axes. Chosen:
+  // three seconds at 10 Hz; a wrong convention contradicts the first three scans in motion.
+  int min_followed = 30;
+  double motion_mps = 0.3;  // chosen: these are a motion
+  double motion_radps = 0.05;
   // A sensor follows again once scans have shown this share of the motion that it did not follow,
   // over so many scans. Chosen: half, which the limits above would not let pass either; a span over
   // which the noise of poses is small.
@@ -106,6 +111,8 @@ class ImuAgreement {
     Vector3 w_imu_radps = Vector3::Zero();
   };
   [[nodiscard]] std::optional<Motion> MotionNow() const;
+  // Do the last two scans show a motion?
+  [[nodiscard]] bool HasMoved() const;
 
  private:
   // Holds a pose and what the samples tell since the one before.

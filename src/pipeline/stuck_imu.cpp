@@ -19,7 +19,8 @@ bool IsSaturated(const ImuSample& sample, std::size_t axis) {
 }  // namespace
 
 bool StuckImuDetector::Axis::is_stuck() const {
-  return num_equal >= std::max(kStuckImu.min_samples, kStuckImu.times_longer * longest);
+  return num_changes >= kStuckImu.min_changes &&
+         num_equal >= std::max(kStuckImu.min_samples, kStuckImu.times_longer * longest);
 }
 
 void StuckImuDetector::Add(const std::deque<ImuSample>& samples, Timestamp until) {
@@ -41,14 +42,13 @@ void StuckImuDetector::Take(const ImuSample& sample) {
     // A sensor that had stopped does not show how it is while it works.
     if (!axis.is_stuck()) axis.longest = std::max(axis.longest, axis.num_equal);
     axis.num_equal = 1;
+    ++axis.num_changes;
     axis.before_row = last_.value_or(sample);
   }
   last_ = sample;
-  ++num_samples_;
 }
 
 std::optional<StuckImuDetector::Stuck> StuckImuDetector::found() const {
-  if (num_samples_ < kStuckImu.min_learned) return std::nullopt;
   const auto stuck = std::ranges::find_if(axes_, &Axis::is_stuck);
   if (stuck == axes_.end()) return std::nullopt;
   const auto index = stuck - axes_.begin();

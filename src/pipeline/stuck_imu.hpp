@@ -21,7 +21,9 @@ struct StuckImuParameters {
   // ... and for so many times longer than it ever did. Chosen: a sensor whose noise is below its
   // last digit repeats itself by chance, seldom five times longer than it has in some seconds.
   int times_longer = 5;
-  int min_learned = 200;  // samples; chosen: two seconds at 100 Hz
+  // An axis that has changed less often, as in a simulator without noise, tells nothing by standing
+  // still. Chosen: two seconds at 100 Hz.
+  int min_changes = 200;
 };
 
 inline constexpr StuckImuParameters kStuckImu;
@@ -42,8 +44,9 @@ class StuckImuDetector {
 
  private:
   struct Axis {
-    int num_equal = 0;     // readings in a row that were the same, the newest one included
-    int longest = 1;       // such a row that has ended
+    int num_equal = 0;  // readings in a row that were the same, the newest one included
+    int longest = 1;    // such a row that has ended
+    int num_changes = 0;
     ImuSample before_row;  // the last sample before this row's first one
     [[nodiscard]] bool is_stuck() const;
   };
@@ -51,7 +54,6 @@ class StuckImuDetector {
 
   std::array<Axis, 6> axes_;  // of the gyro, then of the accelerometer
   std::optional<ImuSample> last_;
-  int num_samples_ = 0;
 };
 
 }  // namespace lio

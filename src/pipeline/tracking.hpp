@@ -125,6 +125,7 @@ class Tracking {
   MotionTrend trend_;  // trend of the motion that the inertial samples miss
   OutageRecovery outage_;
   ImuAgreement imu_agreement_;
+  int num_followed_ = 0;         // scans that showed a motion which the samples followed
   bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet
 };

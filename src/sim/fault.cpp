@@ -81,6 +81,18 @@ void Shake(Message& message, std::uint64_t key, double accel_std_mps2, double gy
   for (double& axis : sample.w_imu_radps) axis += gyro_std_radps * random.Gaussian();
 }
 
+void Silence(Message& message, bool is_gyro_dead, bool is_accelerometer_dead) {
+  ImuSample& sample = std::get<ImuMessage>(message.body).sample;
+  if (is_gyro_dead) sample.w_imu_radps.setZero();
+  if (is_accelerometer_dead) sample.f_imu_mps2.setZero();
+}
+
+void Offset(Message& message, double rate_z_radps, double force_x_mps2) {
+  ImuSample& sample = std::get<ImuMessage>(message.body).sample;
+  sample.w_imu_radps.z() += rate_z_radps;
+  sample.f_imu_mps2.x() += force_x_mps2;
+}
+
 void AppendCopy(std::vector<Message>& messages, double delay_s) {
   Message copy = messages.front();
   copy.arrival = copy.arrival + Duration::FromSeconds(delay_s);
@@ -144,6 +156,12 @@ void FaultInjector::ApplyOne(const Fault& fault, std::uint64_t fault_key,
       break;
     case FaultKind::kShaking:
       Shake(message, key, fault.Get("accel"), fault.Get("gyro"));
+      break;
+    case FaultKind::kImuDead:
+      Silence(message, fault.Get("gyro") != 0.0, fault.Get("accel") != 0.0);
+      break;
+    case FaultKind::kImuOffset:
+      Offset(message, fault.Get("gyro"), fault.Get("accel"));
       break;
     case FaultKind::kEmptyScan:
       if (hit) Thin(messages, 0);

@@ -189,6 +189,34 @@ TEST(Fault, ShakingAddsNoiseOfItsSizeFromItsStart) {
   EXPECT_TRUE(out.LidarIsWhole());
 }
 
+TEST(Fault, DeadSensorsReadZero) {
+  const Outcome gyro("imu_dead:start=5,duration=2");
+  const Outcome accelerometer("imu_dead:start=5,duration=2,gyro=0,accel=1");
+  const Outcome still("shaking:accel=0,gyro=0");
+  for (std::size_t k = 0; k < still.imu.size(); ++k) {
+    const bool is_dead = k >= 500 && k < 700;
+    const ImuSample& sound = still.imu[k].sample;
+    const Vector3 zero = Vector3::Zero();
+    EXPECT_EQ(gyro.imu[k].sample.w_imu_radps, is_dead ? zero : sound.w_imu_radps);
+    EXPECT_EQ(gyro.imu[k].sample.f_imu_mps2, sound.f_imu_mps2);
+    EXPECT_EQ(accelerometer.imu[k].sample.w_imu_radps, sound.w_imu_radps);
+    EXPECT_EQ(accelerometer.imu[k].sample.f_imu_mps2, is_dead ? zero : sound.f_imu_mps2);
+  }
+}
+
+TEST(Fault, OffsetsAreAddedFromTheirStart) {
+  const Outcome out("imu_offset:start=5,gyro=0.1,accel=-2");
+  const Outcome still("shaking:accel=0,gyro=0");
+  for (std::size_t k = 0; k < out.imu.size(); ++k) {
+    const double share = k < 500 ? 0.0 : 1.0;
+    const ImuSample& sound = still.imu[k].sample;
+    const ImuSample& off = out.imu[k].sample;
+    EXPECT_NEAR((off.w_imu_radps - sound.w_imu_radps - share * Vector3(0, 0, 0.1)).norm(), 0,
+                1e-12);
+    EXPECT_NEAR((off.f_imu_mps2 - sound.f_imu_mps2 - share * Vector3(-2, 0, 0)).norm(), 0, 1e-12);
+  }
+}
+
 TEST(Fault, NanHitsSamplesAndPoints) {
   const Outcome out("nan:ratio=0.05");
   const auto num_imu = std::count_if(out.imu.begin(), out.imu.end(), [](const auto& imu) {

@@ -35,7 +35,9 @@ FAULTS = (
     "reorder", "duplicate", "shaking:start=20", "dust:start=20,duration=10",
     "clock_offset:offset=0.025", "clock_offset:offset=-0.06",
     "nan", "wrong_extrinsic:yaw_deg=5,x=0.1",
-    "gyro_saturation:start=20,limit=2.0,duration=30")
+    "gyro_saturation:start=20,limit=2.0,duration=30",
+    "imu_dead:start=25,duration=10", "imu_dead:start=25,gyro=0,accel=1",
+    "imu_offset:start=25,duration=10", "imu_offset:start=25,gyro=0,accel=0.5")
 MAX_POINTS_PER_S = 1.0e6
 PASSES = {"one-pass": 1, "two-passes": 2}
 

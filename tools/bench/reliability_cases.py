@@ -59,6 +59,12 @@ def others():
     yield Case("stamps a sweep behind", ("clock_offset:channel=lidar,offset=-0.1",), START_S)
     yield simple("gyro_saturation", 5.0, "limit=0.2,")
     yield simple("shaking", 10.0)
+    for name, keys in (("gyro dead", ""), ("accelerometer dead", "gyro=0,accel=1,"),
+                       ("IMU dead", "accel=1,")):
+        yield Case(name, (timed("imu_dead", 10.0, keys),), START_S, is_live=not keys)
+    yield Case("gyro 0.05 rad/s off", (timed("imu_offset", 10.0),), START_S)
+    yield Case("accelerometer 0.5 m/s^2 off",
+               (timed("imu_offset", 10.0, "gyro=0,accel=0.5,"),), START_S)
     yield simple("empty_scan", 1.0)
     yield simple("sparse_scan", 1.0)
     yield simple("dust", 5.0, is_cast_anew=True)
@@ -70,7 +76,8 @@ def all_cases():
 
 
 # One of each kind that a change of the estimator could break, in a minute.
-BRIEF = ("none", "drop", "chunk_loss", "nan", "gyro_saturation", "empty_scan",
+BRIEF = ("none", "drop", "chunk_loss", "nan", "gyro_saturation", "gyro dead",
+         "accelerometer dead", "empty_scan",
          "IMU silent for 5 s", "lidar silent for 5 s", "both silent for 5 s",
          "both clocks set by -3600 s", "lidar's clock set by -0.2 s for 1 s")
 

@@ -29,6 +29,8 @@ enum class FaultKind {
   kNan,
   kGyroSaturation,
   kShaking,
+  kImuDead,
+  kImuOffset,
   kEmptyScan,
   kSparseScan,
   kDust,
