@@ -37,6 +37,7 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
 void Tracking::ForgetPoses(Timestamp stamp) {
   keyframes_.Reset();
   zero_velocity_.Forget();
+  imu_agreement_.Restart();
   context_.blind_axis.Reset();
   context_.clocks.Interrupt();
   context_.convention.BeginMap(stamp);

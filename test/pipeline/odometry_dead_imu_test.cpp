@@ -57,10 +57,10 @@ void StopYaw(ImuSample& sample) {
   sample.w_imu_radps.z() = 0.0;
 }
 void ShiftRate(ImuSample& sample) {
-  sample.w_imu_radps.z() += 0.2;
+  sample.w_imu_radps.z() += 0.06;
 }
 void ShiftForce(ImuSample& sample) {
-  sample.f_imu_mps2.x() += 2.0;
+  sample.f_imu_mps2.x() += 1.0;
 }
 
 struct Fault {
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "an axis of the accelerometer reads the same all the time"},
                     Fault{"Both", KillBoth, "reads the same all the time"},
                     Fault{"YawRate", StopYaw, "an axis of the gyro reads the same all the time"},
-                    Fault{"RateOff", ShiftRate, "the gyro is 0.2"},
+                    Fault{"RateOff", ShiftRate, "the gyro is 0.0"},
                     Fault{"ForceOff", ShiftForce, "the accelerometer is "}),
     [](const auto& test) { return std::string(test.param.name); });
 
