@@ -138,10 +138,13 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
   const Vector3 seen =
       second_difference(pose(begin).T_map_imu.translation, pose(middle).T_map_imu.translation,
                         pose(end).T_map_imu.translation);
+  // With another clock the samples tell the force of a moment before or after, in other axes.
   const double rate_radps = (LogSo3(a.rotation).norm() + LogSo3(b.rotation).norm()) / (ta_s + tb_s);
+  const double jerk_mps3 =
+      (R1 * b.velocity / tb_s - R0 * a.velocity / ta_s).norm() / (0.5 * (ta_s + tb_s));
   const double force_mps2 =
       std::max(kImuAgreement.min_force_mps2, kImuAgreement.bias_stds * belief.accel_bias_std_mps2) +
-      belief.clock_error_s() * rate_radps * belief.g_map.norm();
+      belief.clock_error_s() * (jerk_mps3 + rate_radps * belief.g_map.norm());
   Misfit misfit;
   misfit.error = seen - bend_s2 * belief.g_map - R0 * (tb_s * a.velocity - ratio * a.position) -
                  R1 * b.position;

@@ -48,8 +48,8 @@ struct ImuAgreementParameters {
   double lever_error_m = 0.3;
   double clock_error_s = 0.03;
   std::size_t max_poses = 200;  // chosen: 10 s at 20 Hz
-  // Samples that have followed so many scans in motion are of the right unit and axes. Chosen:
-  // three seconds at 10 Hz; a wrong convention contradicts the first three scans in motion.
+  // Samples that have followed so many scans in motion are of the right unit, axes and clock.
+  // Chosen: three seconds at 10 Hz; a wrong unit contradicts the first three scans in motion.
   int min_followed = 30;
   double motion_mps = 0.3;  // chosen: these are a motion
   double motion_radps = 0.05;

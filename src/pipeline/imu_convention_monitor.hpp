@@ -79,9 +79,6 @@ class ImuConventionMonitor {
   // True: matching and IMU contradict each other, and the start must begin anew to find out why.
   [[nodiscard]] bool IsContradicted(const TrackingFacts& facts);
 
-  // Is it beyond doubt what the messages mean?
-  [[nodiscard]] bool is_settled() const { return is_settled_; }
-
   // A start since then would be wrong again as long as the doubt that ended it is not settled.
   [[nodiscard]] bool IsInDoubt(Timestamp last_fix, Timestamp now) const;
 

@@ -32,8 +32,8 @@ ImuAgreement::Belief Tracking::BeliefAt(const MatchedScan& scan) const {
           .rig = context_.examiner.bounds()};
 }
 
-// A wrong convention contradicts the scans as well, from the first motion on, and is found out by a
-// start anew.
+// A wrong unit, axis or clock contradicts the scans as well, from the first motion on, and is found
+// elsewhere: a sensor breaks where it was right.
 std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan) {
   const MatchOutcome& outcome = scan.outcome;
   if (!outcome.match.IsUsable()) return std::nullopt;
@@ -46,9 +46,8 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      SamplesOfMotion(context_.stream.imu(), last, scan.middle()), belief);
   auto found = imu_agreement_.Find(belief);
-  if (!found) num_followed_ += imu_agreement_.HasMoved() ? 1 : 0;
-  const bool was_right =
-      context_.convention.is_settled() || num_followed_ >= kImuAgreement.min_followed;
+  const bool was_right = num_followed_ >= kImuAgreement.min_followed;
+  if (!was_right) num_followed_ = found ? 0 : num_followed_ + (imu_agreement_.HasMoved() ? 1 : 0);
   return was_right ? std::move(found) : std::nullopt;
 }
 

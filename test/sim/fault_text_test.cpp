@@ -93,7 +93,7 @@ TEST(DescribeFaults, TheKeysShownAreThoseOfTheKind) {
     EXPECT_EQ(ParseFault(text).values, ParseFault(kind).values) << text;
     ++num_kinds;
   }
-  EXPECT_EQ(num_kinds, 15);
+  EXPECT_EQ(num_kinds, 17);
 }
 
 }  // namespace
