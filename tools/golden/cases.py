@@ -41,6 +41,7 @@ LIDAR_ONLY = ("--set", "pipeline.use_imu=false")
 LOAM, GICP = (("--set", f"pipeline.method={method}") for method in ("loam", "gicp"))
 
 STREET = lio_sim("street", "vlp16", XSENS, 14)
+GYRO_DEAD = faulty("hall", XSENS, "imu_dead:start=8")
 STREET_CLOCKS_SET = faulty("street", XSENS, "stamp_jump:channel=both,start=6,offset=1.2,duration=2")
 IMU_COMES_LATE = faulty("street", XSENS, "imu_gap:start=0,duration=6")
 BOTH_GAP = faulty("street", XSENS, "imu_gap:start=7,duration=2", "lidar_gap:start=7,duration=2")
@@ -101,6 +102,8 @@ CASES = (
     Case("clock-offset", faulty("campus", XSENS, "clock_offset:offset=0.02")),
     Case("nan", faulty("street", XSENS, "nan:ratio=0.05")),
     Case("gyro-saturation", faulty("hall", XSENS, "gyro_saturation:limit=0.4,start=5,duration=4")),
+    Case("gyro-dead", GYRO_DEAD),
+    Case("accelerometer-off", faulty("hall", XSENS, "imu_offset:start=8,gyro=0,accel=1")),
     Case("shaking", faulty("street", XSENS, "shaking:start=6,duration=4")),
     Case("empty-sparse", faulty("suburb", XSENS, "empty_scan:start=5,duration=1",
                                 "sparse_scan:start=8,duration=2")),
@@ -124,6 +127,7 @@ CASES = (
     Case("lag-clocks-set", STREET_CLOCKS_SET, lag=17),
     Case("lag-campus", CAMPUS, lag=14),
     Case("lag-both-gap", BOTH_GAP, lag=13),
+    Case("lag-gyro-dead", GYRO_DEAD, lag=12),
     Case("lag-imu-comes-late", IMU_COMES_LATE, lag=11),
     Case("lag-imu-turned-moving", CAMPUS_TURNED_MOVING, lag=8),
     # real and realistic recordings
