@@ -35,18 +35,18 @@ struct ImuAgreementParameters {
   // Hz, and one that is off by a little within two.
   std::array<std::size_t, 4> spans{1, 2, 4, 8};
   std::size_t num_in_row = 3;  // chosen: one wrong match makes two
-  double sigmas = 3.0;         // of poses and samples; statistics: 99.7 %
+  double sigmas = 2.0;         // of poses and samples; statistics: thrice in a row 1 in 80 000
   // These errors are a rig's, not those of a broken sensor. On sound drives differences stay below
-  // a fifth of what they leave (docs/experiments/dead_imu.md).
-  double scale_error = 0.02;     // chosen, of turn or bend: twice a bad data sheet's
-  double bias_stds = 5.0;        // chosen, of the rig's standard deviation
-  double min_rate_radps = 0.01;  // chosen: half a degree per second
-  double min_force_mps2 = 0.15;  // chosen: gravity under 0.9 deg of tilt
-  // Nothing is known of the rig yet: it may be wrong by this. Chosen: 7 deg, the size of a lidar,
+  // half of what they leave (docs/experiments/dead_imu.md).
+  double scale_error = 0.02;      // chosen, of turn or bend: twice a bad data sheet's
+  double bias_stds = 3.0;         // statistics: 99.7 %, of the rig's standard deviation
+  double min_rate_radps = 0.006;  // chosen: a third of a degree per second
+  double min_force_mps2 = 0.08;   // chosen: gravity under half a degree of tilt
+  // Nothing is known of the rig yet: it may be wrong by this. Chosen: 6 deg, the size of a lidar,
   // and an offset of clocks that is usual.
-  double rotation_error_rad = 0.12;
-  double lever_error_m = 0.3;
-  double clock_error_s = 0.03;
+  double rotation_error_rad = 0.1;
+  double lever_error_m = 0.2;
+  double clock_error_s = 0.02;
   std::size_t max_poses = 200;  // chosen: 10 s at 20 Hz
   // Samples that have followed so many scans in motion are of the right unit, axes and clock.
   // Chosen: three seconds at 10 Hz; a wrong unit contradicts the first three scans in motion.
