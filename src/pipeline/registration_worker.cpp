@@ -314,6 +314,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   CorrectBeams(scan.reduced.points);
   outcome.num_used = static_cast<int>(scan.reduced.to_match.size());
   outcome.num_nonfinite = scan.reduced.num_nonfinite;
+  outcome.is_repeated = repeats_.IsRepeated(sweep);
   AddTime(Stage::kReduce, begin, outcome);
 
   begin = Now();

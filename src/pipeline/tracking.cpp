@@ -105,11 +105,16 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
 std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
   const std::int64_t begin_ns = context_.NowNs();
   const MatchedScan scan = Look(outcome);
+  last_middle_ = scan.middle();
   // A scan that comes too late for the filter's window comes too late to set its noise.
   (void)history_.AddNoise(scan.end(), scan.noise);
   if (outage_.stage() == OutageRecovery::Stage::kFindVelocity) {
     AddScanAfterOutage(outcome, false);
     Publish(scan, MakeScanReport(outcome), history_.At(scan.end()), begin_ns);
+    return std::nullopt;
+  }
+  if (scan.is_stale) {
+    PassOver(scan, begin_ns);
     return std::nullopt;
   }
   if (auto transition = DoubtImu(scan)) {
@@ -149,6 +154,7 @@ Tracking::MatchedScan Tracking::Look(const MatchOutcome& outcome) const {
   scan.is_keyframe = !scan.is_sought && !context_.place.is_map_locked() &&
                      keyframes_.IsKeyframe(outcome.match.T_map_imu);
   scan.is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+  scan.is_stale = outcome.is_repeated && !is_first_scan_ && HasMovedUntil(scan.middle());
   return scan;
 }
 

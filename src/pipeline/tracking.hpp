@@ -63,6 +63,7 @@ class Tracking {
     bool is_sought = false;    // its place is being looked for
     bool is_keyframe = false;  // the map may grow by it
     bool is_sound = false;     // all scans just before it were matched
+    bool is_stale = false;     // it shows what the scan before did, but the body has moved
 
     [[nodiscard]] Timestamp middle() const { return outcome.sweep->middle(); }
     [[nodiscard]] Timestamp end() const { return outcome.sweep->end; }
@@ -92,6 +93,9 @@ class Tracking {
   void SettleClockStep(const MatchOutcome& outcome);
   [[nodiscard]] MatchedScan Look(const MatchOutcome& outcome) const;
   ScanReport Fuse(const MatchedScan& scan);
+  // Has the body moved since the scan before, as far as the inertial samples know?
+  bool HasMovedUntil(Timestamp middle) const;
+  void PassOver(const MatchedScan& scan, std::int64_t begin_ns);
   ScanReport FuseWithTrend(const MatchedScan& scan);
   void RememberForHandover(const MatchedScan& scan, bool is_fused);
   void RememberFix(const MatchedScan& scan, bool is_fused);
@@ -125,6 +129,8 @@ class Tracking {
   MotionTrend trend_;  // trend of the motion that the inertial samples miss
   OutageRecovery outage_;
   ImuAgreement imu_agreement_;
+  std::optional<Timestamp> last_middle_;  // of the scan before
+  bool is_stale_told_ = false;
   int num_followed_ = 0;         // scans that showed a motion which the samples followed
   bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet

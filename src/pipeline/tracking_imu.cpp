@@ -68,6 +68,7 @@ Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timesta
   known.g_world = g_world_;
   const Vector3 w_imu_radps = stuck.before.w_imu_radps - known.estimate.state.gyro_bias;
   const bool is_gyro = stuck.sensor == ImuSensor::kGyro;
+  ++context_.counters.num_imu_stuck;
   return GoOnWithoutImu(std::move(known), w_imu_radps,
                         {.sensor = stuck.sensor,
                          .since = since,
@@ -80,6 +81,7 @@ Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timesta
 
 // The pose is the scan's, in the world as it was while the samples still followed.
 Transition Tracking::LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const {
+  ++context_.counters.num_imu_contradicted;
   StartState known;
   known.g_world = g_world_;
   known.estimate = history_.At(std::max(found.since, history_.start_stamp()));
@@ -110,6 +112,31 @@ Transition Tracking::GoOnWithoutImu(StartState known, const Vector3& w_imu_radps
   transition.seed.motion->gyro_bias = -w_imu_radps;
   transition.start = std::move(known);
   return transition;
+}
+
+bool Tracking::HasMovedUntil(Timestamp middle) const {
+  if (!last_middle_ || *last_middle_ < history_.start_stamp()) return false;
+  const Pose moved =
+      history_.At(*last_middle_).state.T_map_imu.Inverse() * history_.At(middle).state.T_map_imu;
+  return moved.translation.norm() > kRepeatedSweep.moved_m ||
+         LogSo3(moved.rotation).norm() > kRepeatedSweep.moved_rad;
+}
+
+// A lidar that repeats itself tells nothing of where the body is, and is as silent.
+void Tracking::PassOver(const MatchedScan& scan, std::int64_t begin_ns) {
+  ++context_.counters.num_scans_repeated;
+  if (!std::exchange(is_stale_told_, true)) {
+    context_.outputs.Notify(scan.end(), Notice::Severity::kWarning,
+                            "the lidar sends the same points again while the body moves: its scans "
+                            "are not used until they change; look at its driver");
+  }
+  imu_agreement_.Restart();
+  const Health::Verdict verdict = health_.AddScan(scan.end(), scan.outcome.match, 0, false);
+  if (verdict.is_newly_lost) {
+    NotifyLost(scan.end(), context_.outputs);
+    SeekAfterSilence(scan.end());
+  }
+  Publish(scan, MakeScanReport(scan.outcome), history_.At(scan.end()), begin_ns);
 }
 
 }  // namespace lio

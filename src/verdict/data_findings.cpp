@@ -68,6 +68,31 @@ void FindNoise(const ImuNoiseRatios& noise, const ImuRig& imu, std::vector<Cause
                     ""});
 }
 
+void FindBroken(const Counters& counters, std::vector<Cause>& causes) {
+  if (counters.num_imu_contradicted > 0) {
+    causes.push_back({CauseKind::kImuBroken, Trust::kDoubtful, 0.0,
+                      fmt::format("scans and IMU contradicted each other {} times on the way, and "
+                                  "the path followed the scans: has the IMU broken, or has the "
+                                  "lidar been moved?",
+                                  counters.num_imu_contradicted),
+                      ""});
+  }
+  if (counters.num_imu_stuck > 0) {
+    causes.push_back({CauseKind::kImuBroken, Trust::kYes, 0.0,
+                      fmt::format("an axis of the IMU stopped {} times, and the path followed the "
+                                  "scans alone",
+                                  counters.num_imu_stuck),
+                      ""});
+  }
+  if (counters.num_scans_repeated > 0) {
+    causes.push_back({CauseKind::kLidarRepeats, Trust::kDoubtful, 0.0,
+                      fmt::format("{} sweeps had the points of the sweep before, although the body "
+                                  "had moved",
+                                  counters.num_scans_repeated),
+                      ""});
+  }
+}
+
 }  // namespace
 
 std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
@@ -90,6 +115,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                                   100.0 * clipped),
                       ""});
   }
+  FindBroken(counters, causes);
   if (imu != nullptr) FindNoise(tally.MedianNoise(), *imu, causes);
   // Nobody knows what the body did while it had no poses.
   const bool is_watched = tally.Coverage() >= kRigExaminer.doubtful_coverage;

@@ -18,6 +18,8 @@ struct Counters {
   std::int64_t num_imu_out_of_range = 0;
   std::int64_t num_imu_clipped = 0;  // an axis at the end of its range
   std::int64_t num_imu_gaps = 0;
+  std::int64_t num_imu_stuck = 0;  // times that the IMU was left since an axis had stopped ...
+  std::int64_t num_imu_contradicted = 0;  // ... or since it contradicted the scans
   std::int64_t num_chunks = 0;
   std::int64_t num_chunks_duplicate = 0;
   std::int64_t num_chunks_late = 0;
@@ -30,6 +32,7 @@ struct Counters {
   std::int64_t num_scans_late = 0;
   std::int64_t num_scans_without_imu = 0;
   std::int64_t num_scan_gaps = 0;
+  std::int64_t num_scans_repeated = 0;  // the points of the scan before, while the body moved
   std::int64_t num_matches_rejected = 0;
   std::int64_t num_gated = 0;
   std::int64_t num_standstills = 0;  // scans taken at rest, and fused as such

@@ -78,6 +78,7 @@ struct MatchOutcome {
   int num_coarse_matches = 0;            // the same with a few hundred of its points
   int num_used = 0;                      // points that are matched
   int num_nonfinite = 0;
+  bool is_repeated = false;                      // the sweep's points are those of the one before
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle
   std::vector<ScanPoint> points_lidar;           // the same as their beams saw them
   std::vector<FeatureTag> tags;                  // one a point; empty where the method needs none

@@ -16,6 +16,7 @@
 #include "lio/relocalization/relocalizer.hpp"
 #include "lio/scan/dense_points.hpp"
 #include "lio/scan/reduced_scan.hpp"
+#include "lio/scan/repeated_sweep.hpp"
 
 namespace lio {
 
@@ -74,6 +75,7 @@ class RegistrationWorker {
   bool has_cells_;  // NDT's: they want all points of a new map's sweeps, and tell of the beams
   PointFilter filter_;
   std::unique_ptr<SweepReducer> reducer_;
+  RepeatedSweepDetector repeats_;
   std::unique_ptr<ScanMatcher> matcher_;
   Relocalizer relocalizer_;
   std::unique_ptr<InitialMapEntry> initial_;  // null: no initial map
