@@ -28,6 +28,12 @@ void ClockOffsetFollower::Resume() {
   is_announced_ = false;
 }
 
+std::optional<double> ClockOffsetFollower::error_s() const {
+  if (!offset_) return std::nullopt;
+  if (offset_->std_s() > kFilterParameters.clock_offset.known_std_s) return ClockOffset::kMax_s;
+  return std::abs(offset_->offset_s() - offset_->move_by_s()) + 3.0 * offset_->std_s();
+}
+
 ClockBelief ClockOffsetFollower::AtFirstScan() const {
   const bool was_found = at_first_scan_.mean != ClockBelief{}.mean;
   return was_found || !offset_ ? at_first_scan_ : offset_->AtFirstScan();

@@ -42,6 +42,10 @@ class ClockOffsetFollower {
   // To be added to the lidar's stamps, rig.lidar.clock_offset_s included [s].
   double total_s() const;
   double std_s() const { return offset_ ? offset_->std_s() : 0.0; }
+  // The stamps may be off by so much as they are corrected now: by all that is sought before the
+  // offset is known, then by what is not followed yet and three standard deviations. Absent where
+  // it is not estimated.
+  std::optional<double> error_s() const;
   // Returns what is known beyond rig.lidar.clock_offset_s, once stamps are moved by it.
   std::optional<ClockEstimate> Found() const { return offset_ ? offset_->Found() : std::nullopt; }
   // Returns what the drive tells of its first scan, beyond rig.lidar.clock_offset_s, where it tells

@@ -55,11 +55,6 @@ double ImuAgreement::Belief::lever_error_m() const {
   return rig ? std::min(kMost, rig->lever_m.norm()) : kMost;
 }
 
-double ImuAgreement::Belief::clock_error_s() const {
-  constexpr double kMost = kImuAgreement.clock_error_s;
-  return rig ? std::min(kMost, rig->offset_s) : kMost;
-}
-
 void ImuAgreement::Add(const MatchedPose& pose, std::span<const ImuSample> samples,
                        const Belief& belief) {
   const bool goes_on = !poses_.empty() && !samples.empty() && pose.stamp > *last() &&
@@ -109,7 +104,8 @@ ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
       Turned(seen.conjugate().toRotationMatrix(), pose(begin).cov.bottomRightCorner<3, 3>()) +
       belief.noise.gyro_psd.maxCoeff() * span_s * Matrix3::Identity();
   misfit.limit = (kImuAgreement.scale_error + belief.rotation_error_rad()) * turn_rad.norm() +
-                 rate_radps * span_s + belief.clock_error_s() * change_radps;
+                 rate_radps * span_s +
+                 belief.clock_error_s.value_or(kImuAgreement.clock_error_s) * change_radps;
   misfit.seen = turn_rad / span_s;
   return misfit;
 }
@@ -144,7 +140,8 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
       (R1 * b.velocity / tb_s - R0 * a.velocity / ta_s).norm() / (0.5 * (ta_s + tb_s));
   const double force_mps2 =
       std::max(kImuAgreement.min_force_mps2, kImuAgreement.bias_stds * belief.accel_bias_std_mps2) +
-      belief.clock_error_s() * (jerk_mps3 + rate_radps * belief.g_map.norm());
+      belief.clock_error_s.value_or(kImuAgreement.clock_error_s) *
+          (jerk_mps3 + rate_radps * belief.g_map.norm());
   Misfit misfit;
   misfit.error = seen - bend_s2 * belief.g_map - R0 * (tb_s * a.velocity - ratio * a.position) -
                  R1 * b.position;

@@ -43,14 +43,14 @@ struct ImuAgreementParameters {
   double min_rate_radps = 0.006;  // chosen: a third of a degree per second
   double min_force_mps2 = 0.08;   // chosen: gravity under half a degree of tilt
   // Nothing is known of the rig yet: it may be wrong by this. Chosen: 6 deg, the size of a lidar,
-  // and an offset of clocks that is usual.
+  // and what is left of an offset between clocks that somebody has configured.
   double rotation_error_rad = 0.1;
   double lever_error_m = 0.2;
   double clock_error_s = 0.02;
   std::size_t max_poses = 200;  // chosen: 10 s at 20 Hz
-  // Samples that have followed so many scans in motion are of the right unit, axes and clock.
-  // Chosen: three seconds at 10 Hz; a wrong unit contradicts the first three scans in motion.
-  int min_followed = 30;
+  // s. Samples that have followed scans in motion for so long are of the right unit and axes.
+  // Chosen: a wrong unit contradicts the first three scans in motion.
+  double min_followed_s = 3.0;
   double motion_mps = 0.3;  // chosen: these are a motion
   double motion_radps = 0.05;
   // A sensor follows again once scans have shown this share of the motion that it did not follow,
@@ -89,10 +89,10 @@ class ImuAgreement {
     Vector3 g_map = Vector3::Zero();   // m/s^2; zero where no gravity is felt
     double gyro_bias_std_radps = 0.0;  // the rig's
     double accel_bias_std_mps2 = 0.0;
-    std::optional<RigBounds> rig = {};  // where the drive has shown it
+    std::optional<RigBounds> rig = {};         // where the drive has shown it
+    std::optional<double> clock_error_s = {};  // the stamps may be off by so much
     [[nodiscard]] double rotation_error_rad() const;
     [[nodiscard]] double lever_error_m() const;
-    [[nodiscard]] double clock_error_s() const;
   };
   // `samples` cover the time since the last pose; without any it begins anew.
   void Add(const MatchedPose& pose, std::span<const ImuSample> samples, const Belief& belief);

@@ -287,7 +287,6 @@ Transition LidarOnly::ReturnToImu(const MatchOutcome& outcome) const {
   Handover handover = handover_;
   if (handover_.doubts_imu()) {
     handover.BelieveImu();
-    context_.clocks.Resume();
     context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kWarning,
                             "the IMU follows the motion again that scans show: the filter goes on "
                             "with it, and nothing need be done");

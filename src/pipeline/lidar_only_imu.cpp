@@ -24,7 +24,8 @@ void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
       .g_map = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_),
       .gyro_bias_std_radps = rig.gyro_bias_std_radps,
       .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
-      .rig = context_.examiner.bounds()};
+      .rig = context_.examiner.bounds(),
+      .clock_error_s = context_.clocks.error_s()};
   const Timestamp last = imu_agreement_.last().value_or(middle);
   imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov},
                      SamplesOfMotion(imu, last, middle), belief);

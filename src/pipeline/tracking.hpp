@@ -131,7 +131,7 @@ class Tracking {
   ImuAgreement imu_agreement_;
   std::optional<Timestamp> last_middle_;  // of the scan before
   bool is_stale_told_ = false;
-  int num_followed_ = 0;         // scans that showed a motion which the samples followed
+  double followed_s_ = 0.0;      // time of scans that showed a motion which the samples followed
   bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet
 };

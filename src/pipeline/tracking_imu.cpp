@@ -29,7 +29,8 @@ ImuAgreement::Belief Tracking::BeliefAt(const MatchedScan& scan) const {
           .g_map = fix.T_map_imu.rotation * (fix.T_world_imu.rotation.conjugate() * g_world_),
           .gyro_bias_std_radps = rig.gyro_bias_std_radps,
           .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
-          .rig = context_.examiner.bounds()};
+          .rig = context_.examiner.bounds(),
+          .clock_error_s = context_.clocks.error_s()};
 }
 
 // A wrong unit, axis or clock contradicts the scans as well, from the first motion on, and is found
@@ -46,8 +47,12 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      SamplesOfMotion(context_.stream.imu(), last, scan.middle()), belief);
   auto found = imu_agreement_.Find(belief);
-  const bool was_right = num_followed_ >= kImuAgreement.min_followed;
-  if (!was_right) num_followed_ = found ? 0 : num_followed_ + (imu_agreement_.HasMoved() ? 1 : 0);
+  const bool was_right = followed_s_ >= kImuAgreement.min_followed_s;
+  const bool has_moved = imu_agreement_.HasMoved();
+  if (!was_right) {
+    followed_s_ =
+        found ? 0.0 : followed_s_ + (has_moved ? SecondsBetween(last, scan.middle()) : 0.0);
+  }
   return was_right ? std::move(found) : std::nullopt;
 }
 
@@ -97,7 +102,7 @@ Transition Tracking::LeaveImu(const ImuContradiction& found, const MatchedScan& 
 
 Transition Tracking::GoOnWithoutImu(StartState known, const Vector3& w_imu_radps,
                                     const ImuContradiction& why, Timestamp end) const {
-  context_.clocks.Stop();
+  context_.clocks.Interrupt();  // the offset is kept, to compare the samples with
   context_.outputs.Notify(
       end, Notice::Severity::kWarning,
       why.evidence +
