@@ -79,9 +79,9 @@ Preintegration ImuAgreement::FeltBetween(std::size_t begin, std::size_t end) con
   return sum;
 }
 
-bool ImuAgreement::Misfit::Exceeds(const Vector3& direction) const {
+double ImuAgreement::Misfit::Excess(const Vector3& direction) const {
   const double noise = kImuAgreement.sigmas * std::sqrt(direction.dot(cov * direction));
-  return error.dot(direction) > limit + noise;
+  return error.dot(direction) / (limit + noise);
 }
 
 // All is in the axes of imu at the end.
@@ -178,8 +178,13 @@ std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size
     sum += misfits.back().error;
   }
   const Vector3 direction = sum.normalized();
-  const auto exceeds = [&](const Misfit& misfit) { return misfit.Exceeds(direction); };
-  if (!std::ranges::all_of(misfits, exceeds)) return std::nullopt;
+  double mean_excess = 0.0;
+  for (const Misfit& misfit : misfits) {
+    const double excess = misfit.Excess(direction);
+    if (!(excess > kImuAgreement.min_share)) return std::nullopt;
+    mean_excess += excess / static_cast<double>(num);
+  }
+  if (mean_excess < 1.0) return std::nullopt;
   const Misfit& misfit = misfits.front();
   const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
   const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
