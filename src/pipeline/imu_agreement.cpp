@@ -94,7 +94,7 @@ ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
   const Vector3 turn_rad = LogSo3(seen);
   const double rate_radps =
       std::max(kImuAgreement.min_rate_radps, kImuAgreement.bias_stds * belief.gyro_bias_std_radps);
-  // With another clock the samples tell the turn between two other instants.
+  // The samples of another clock tell the turn between two other instants.
   const double change_radps =
       (MeanRate(poses_[end].felt) - MeanRate(poses_[begin + 1].felt)).norm();
   Misfit misfit;
@@ -110,7 +110,7 @@ ImuAgreement::Misfit ImuAgreement::TurnMisfit(std::size_t end, std::size_t span,
   return misfit;
 }
 
-// All is in the axes of map. With a = first, b = second span:
+// All is in the axes of map. The first span is a, the second b:
 //   p_1 = p_0 + v_0 t_a + g t_a^2/2 + R_0 dp_a,   v_1 = v_0 + g t_a + R_0 dv_a,
 //   p_2 = p_1 + v_1 t_b + g t_b^2/2 + R_1 dp_b,   and v_0 drops out.
 ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
@@ -134,7 +134,7 @@ ImuAgreement::Misfit ImuAgreement::BendMisfit(std::size_t end, std::size_t span,
   const Vector3 seen =
       second_difference(pose(begin).T_map_imu.translation, pose(middle).T_map_imu.translation,
                         pose(end).T_map_imu.translation);
-  // With another clock the samples tell the force of a moment before or after, in other axes.
+  // The samples of another clock tell the force of a moment before or after, in other axes.
   const double rate_radps = (LogSo3(a.rotation).norm() + LogSo3(b.rotation).norm()) / (ta_s + tb_s);
   const double jerk_mps3 =
       (R1 * b.velocity / tb_s - R0 * a.velocity / ta_s).norm() / (0.5 * (ta_s + tb_s));

@@ -38,7 +38,7 @@ struct ImuAgreementParameters {
   // In their mean they exceed what they may be, and each of them this share of it: an error that
   // has just begun is growing. Chosen.
   double min_share = 0.5;
-  double sigmas = 2.0;  // of poses and samples; statistics: thrice in a row 1 in 80 000
+  double sigmas = 2.0;  // statistics: noise does this three times in a row once in 80 000
   // These errors are a rig's, not those of a broken sensor. On sound drives differences stay below
   // half of what they leave (docs/experiments/dead_imu.md).
   double scale_error = 0.02;      // chosen, of turn or bend: twice a bad data sheet's
@@ -92,7 +92,7 @@ class ImuAgreement {
     Vector3 g_map = Vector3::Zero();   // m/s^2; zero where no gravity is felt
     double gyro_bias_std_radps = 0.0;  // the rig's
     double accel_bias_std_mps2 = 0.0;
-    std::optional<RigBounds> rig = {};         // where the drive has shown it
+    std::optional<RigBounds> rig = {};         // the drive has shown this of it
     std::optional<double> clock_error_s = {};  // the stamps may be off by so much
     [[nodiscard]] double rotation_error_rad() const;
     [[nodiscard]] double lever_error_m() const;
@@ -128,7 +128,7 @@ class ImuAgreement {
     Vector3 error = Vector3::Zero();
     Matrix3 cov = Matrix3::Zero();             // by the noise of poses and samples
     double limit = 0.0;                        // by all else
-    Vector3 seen = Vector3::Zero();            // what the scans show alone, rad/s or m/s^2
+    Vector3 seen = Vector3::Zero();            // the scans show this alone, rad/s or m/s^2
     Matrix3 R_imu_axes = Matrix3::Identity();  // from the axes of these vectors to imu
 
     // The error along the direction, in the size that it may have.

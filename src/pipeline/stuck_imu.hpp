@@ -52,7 +52,7 @@ class StuckImuDetector {
   };
   void Take(const ImuSample& sample);
 
-  std::array<Axis, 6> axes_;  // of the gyro, then of the accelerometer
+  std::array<Axis, 6> axes_;  // the gyro has the first three
   std::optional<ImuSample> last_;
 };
 

@@ -129,7 +129,7 @@ class Tracking {
   MotionTrend trend_;  // trend of the motion that the inertial samples miss
   OutageRecovery outage_;
   ImuAgreement imu_agreement_;
-  std::optional<Timestamp> last_middle_;  // of the scan before
+  std::optional<Timestamp> last_middle_;  // the scan before has it
   bool is_stale_told_ = false;
   double followed_s_ = 0.0;      // time of scans that showed a motion which the samples followed
   bool is_first_scan_;           // the map is still empty

@@ -93,30 +93,6 @@ std::vector<KindText> ContentKinds() {
        true,
        C::kBoth,
        {{"ratio", 0.02}, {"start", 0}, {"duration", kToTheEnd}}},
-      {K::kGyroSaturation,
-       "gyro_saturation",
-       "angular rates saturate at limit [rad/s]",
-       false,
-       C::kImu,
-       {{"limit", 0.2}, {"start", 10}, {"duration", 5}}},
-      {K::kShaking,
-       "shaking",
-       "the IMU is shaken: white noise of accel [m/s^2] and gyro [rad/s] a sample, 1 sigma",
-       false,
-       C::kImu,
-       {{"accel", 0.3}, {"gyro", 0.005}, {"start", 10}, {"duration", kToTheEnd}}},
-      {K::kImuDead,
-       "imu_dead",
-       "sensors of the IMU read zero: the gyro, the accelerometer, or with 1 for each both",
-       false,
-       C::kImu,
-       {{"gyro", 1}, {"accel", 0}, {"start", 10}, {"duration", kToTheEnd}}},
-      {K::kImuOffset,
-       "imu_offset",
-       "the rate about z is off by gyro [rad/s], the force along x by accel [m/s^2]",
-       false,
-       C::kImu,
-       {{"gyro", 0.05}, {"accel", 0}, {"start", 10}, {"duration", kToTheEnd}}},
       {K::kEmptyScan,
        "empty_scan",
        "scans have no points",
@@ -144,10 +120,43 @@ std::vector<KindText> ContentKinds() {
   };
 }
 
+// These faults are the IMU's own.
+std::vector<KindText> ImuKinds() {
+  using K = FaultKind;
+  using C = FaultChannel;
+  return {
+      {K::kGyroSaturation,
+       "gyro_saturation",
+       "angular rates saturate at limit [rad/s]",
+       false,
+       C::kImu,
+       {{"limit", 0.2}, {"start", 10}, {"duration", 5}}},
+      {K::kShaking,
+       "shaking",
+       "the IMU is shaken: white noise of accel [m/s^2] and gyro [rad/s] a sample, 1 sigma",
+       false,
+       C::kImu,
+       {{"accel", 0.3}, {"gyro", 0.005}, {"start", 10}, {"duration", kToTheEnd}}},
+      {K::kImuDead,
+       "imu_dead",
+       "sensors of the IMU read zero: the gyro, the accelerometer, or with 1 for each both",
+       false,
+       C::kImu,
+       {{"gyro", 1}, {"accel", 0}, {"start", 10}, {"duration", kToTheEnd}}},
+      {K::kImuOffset,
+       "imu_offset",
+       "the rate about z is off by gyro [rad/s], the force along x by accel [m/s^2]",
+       false,
+       C::kImu,
+       {{"gyro", 0.05}, {"accel", 0}, {"start", 10}, {"duration", kToTheEnd}}},
+  };
+}
+
 const std::vector<KindText>& Kinds() {
   static const std::vector<KindText> kinds = [] {
     std::vector<KindText> all = DeliveryKinds();
     std::ranges::move(ContentKinds(), std::back_inserter(all));
+    std::ranges::move(ImuKinds(), std::back_inserter(all));
     return all;
   }();
   return kinds;

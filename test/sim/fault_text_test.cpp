@@ -64,10 +64,10 @@ TEST(ParseFault, NumbersAreWholeAndFinite) {
 
 TEST(DescribeFaults, EveryKindIsDescribedAndParsesByItsNameAlone) {
   const std::string text = DescribeFaults();
-  for (const char* kind : {"imu_gap", "lidar_gap", "drop", "duplicate", "reorder", "chunk_loss",
-                           "stamp_jump", "clock_offset", "nan", "gyro_saturation", "shaking",
-                           "imu_dead", "imu_offset", "empty_scan", "sparse_scan", "dust",
-                           "wrong_extrinsic"}) {
+  for (const char* kind :
+       {"imu_gap", "lidar_gap", "drop", "duplicate", "reorder", "chunk_loss", "stamp_jump",
+        "clock_offset", "nan", "gyro_saturation", "shaking", "imu_dead", "imu_offset", "empty_scan",
+        "sparse_scan", "dust", "wrong_extrinsic"}) {
     EXPECT_THAT(text, HasSubstr("  " + std::string(kind) + " ")) << kind;
     EXPECT_EQ(WordsOf(kind), "") << kind;
   }

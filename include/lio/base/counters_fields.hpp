@@ -56,7 +56,7 @@ inline constexpr std::array kCounterFields = std::to_array<CounterField>({
      "sweeps that the inertial samples do not cover"},
     {"num_scan_gaps", &Counters::num_scan_gaps, "gaps in the stream of sweeps"},
     {"num_scans_repeated", &Counters::num_scans_repeated,
-     "sweeps not used: the points of the sweep before, although the body has moved"},
+     "sweeps not used: the points of the one before, although the body moved"},
     {"num_matches_rejected", &Counters::num_matches_rejected,
      "matches that were not fused, for whatever reason"},
     {"num_gated", &Counters::num_gated,
