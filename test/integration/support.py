@@ -12,6 +12,7 @@ import fcntl
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import unittest
@@ -47,14 +48,20 @@ def locked(name):
         yield
 
 
-def made_once(folder, make):
-    """Returns the folder WORK/folder, filled by make(folder) unless an earlier call did so."""
+def made_once(folder, make, program=None):
+    """Returns the folder WORK/folder, filled by make(folder) unless an earlier call did so, by
+    `program` as it is now."""
     path = WORK / folder
+    complete = path / "complete"
     with locked(folder):
-        if not (path / "complete").exists():
+        is_old = (program and complete.exists()
+                  and complete.stat().st_mtime < program.stat().st_mtime)
+        if is_old:
+            shutil.rmtree(path)
+        if not complete.exists():
             path.mkdir(exist_ok=True)
             make(path)
-            (path / "complete").touch()
+            complete.touch()
     return path
 
 

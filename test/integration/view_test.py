@@ -24,7 +24,8 @@ def circle_log(seconds=20, points=3000):
     def make(folder):
         subprocess.run([support.BUILD / "bin/lio_view_log", folder / "log.lcm", str(seconds),
                         str(points)], check=True)
-    return support.made_once(f"view-{seconds}-{points}", make) / "log.lcm"
+    return support.made_once(f"view-{seconds}-{points}", make,
+                             support.BUILD / "bin/lio_view_log") / "log.lcm"
 
 
 def place_at(t_s):

@@ -39,7 +39,7 @@ def arguments():
                         help="put the table into docs/reliability.md")
     parser.add_argument("--check", action="store_true", help="end with 1 where a bar is broken")
     parser.add_argument("--brief", action="store_true",
-                        help=f"eleven cases of a walk of {BRIEF_DURATION_S} s, by replay, anew")
+                        help=f"thirteen cases of a walk of {BRIEF_DURATION_S} s, by replay, anew")
     options = parser.parse_args()
     if options.brief and options.docs:
         parser.error("the table of the docs is of all cases")
