@@ -233,6 +233,11 @@ std::optional<ImuAgreement::Motion> ImuAgreement::MotionNow() const {
                 LogSo3(from.T_map_imu.rotation.conjugate() * to.T_map_imu.rotation) / span_s};
 }
 
+bool ImuAgreement::HasJumped() const {
+  if (poses_.size() < 3) return false;
+  return BendMisfit(poses_.size() - 1, 1, {}).seen.norm() > kImuAgreement.jump_mps2;
+}
+
 bool ImuAgreement::HasMoved() const {
   const std::optional<Motion> motion = MotionNow();
   return motion && (motion->v_imu_mps.norm() > kImuAgreement.motion_mps ||

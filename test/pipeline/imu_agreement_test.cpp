@@ -134,6 +134,16 @@ TEST(ImuAgreement, AMatchThatIsWrongContradictsNothing) {
   }
 }
 
+TEST(ImuAgreement, AJumpOfThePosesIsTold) {
+  Bench b(HandMotion());
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_FALSE(b.Scan());
+    ASSERT_FALSE(b.agreement.HasJumped());
+  }
+  ASSERT_FALSE(b.Scan({}, Vector3(0, 0.3, 0)));
+  EXPECT_TRUE(b.agreement.HasJumped());
+}
+
 TEST(ImuAgreement, MapThatIsLeftForAnotherPlaceContradictsNothing) {
   Bench b;
   ASSERT_FALSE(b.Scans(50));
