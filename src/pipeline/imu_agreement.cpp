@@ -233,9 +233,11 @@ std::optional<ImuAgreement::Motion> ImuAgreement::MotionNow() const {
                 LogSo3(from.T_map_imu.rotation.conjugate() * to.T_map_imu.rotation) / span_s};
 }
 
-bool ImuAgreement::HasJumped() const {
-  if (poses_.size() < 3) return false;
-  return BendMisfit(poses_.size() - 1, 1, {}).seen.norm() > kImuAgreement.jump_mps2;
+bool ImuAgreement::HasJumped(const Belief& belief) const {
+  if (poses_.size() < 3 || belief.g_map.isZero()) return false;
+  const std::size_t last = poses_.size() - 1;
+  const double span_s = SecondsBetween(pose(last - 1).stamp, pose(last).stamp);
+  return BendMisfit(last, 1, belief).error.norm() > kImuAgreement.jump_mps2 * span_s * span_s;
 }
 
 bool ImuAgreement::HasMoved() const {

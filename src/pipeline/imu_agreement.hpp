@@ -56,9 +56,8 @@ struct ImuAgreementParameters {
   double min_followed_s = 3.0;
   double motion_mps = 0.3;  // chosen: these are a motion
   double motion_radps = 0.05;
-  // Poses that are bent by more have jumped, and tell nothing until the samples have followed them
-  // again for as long. Chosen: more than a hand or a car does from scan to scan, and 15 cm at 10
-  // Hz.
+  // Poses that the samples leave bent by more have jumped, and tell nothing until the samples have
+  // followed them again for as long. Chosen: one and a half times gravity, and 15 cm at 10 Hz.
   double jump_mps2 = 15.0;
   // A sensor follows again once scans have shown this share of the motion that it did not follow,
   // over so many scans. Chosen: half, which the limits above would not let pass either; a span over
@@ -118,9 +117,9 @@ class ImuAgreement {
     Vector3 w_imu_radps = Vector3::Zero();
   };
   [[nodiscard]] std::optional<Motion> MotionNow() const;
-  // Do the last three poses tell of a force that no body stands? Then matching has gone over to
-  // another part of the map, as where a loop closes, or was wrong.
-  [[nodiscard]] bool HasJumped() const;
+  // Are the last three poses bent by more than any broken sensor would leave? Then matching has
+  // gone over to another part of the map, as where a loop closes, or was wrong.
+  [[nodiscard]] bool HasJumped(const Belief& belief) const;
   // Do the last two scans show a motion?
   [[nodiscard]] bool HasMoved() const;
 

@@ -138,10 +138,10 @@ TEST(ImuAgreement, AJumpOfThePosesIsTold) {
   Bench b(HandMotion());
   for (int i = 0; i < 50; ++i) {
     ASSERT_FALSE(b.Scan());
-    ASSERT_FALSE(b.agreement.HasJumped());
+    ASSERT_FALSE(b.agreement.HasJumped(b.belief));
   }
   ASSERT_FALSE(b.Scan({}, Vector3(0, 0.3, 0)));
-  EXPECT_TRUE(b.agreement.HasJumped());
+  EXPECT_TRUE(b.agreement.HasJumped(b.belief));
 }
 
 TEST(ImuAgreement, MapThatIsLeftForAnotherPlaceContradictsNothing) {
