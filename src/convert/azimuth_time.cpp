@@ -8,7 +8,7 @@
 
 #include "azimuth_order.hpp"
 #include "lio/base/angle.hpp"
-#include "lio/io/stream_stats.hpp"
+#include "lio/base/median.hpp"
 
 namespace lio {
 namespace {

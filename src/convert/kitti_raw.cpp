@@ -11,6 +11,7 @@
 
 #include "convert/ordered_log.hpp"
 #include "convert/sweep_to_chunks.hpp"
+#include "lio/base/median.hpp"
 #include "lio/io/file_kind.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/io/output_file.hpp"

@@ -11,8 +11,8 @@
 
 #include "azimuth_order.hpp"
 #include "lio/base/angle.hpp"
+#include "lio/base/median.hpp"
 #include "lio/io/input_error.hpp"
-#include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "imu_file.hpp"
+#include "lio/base/median.hpp"
 #include "lio/io/input_error.hpp"
 #include "lio/sensor/scan_chunk.hpp"
 #include "ordered_log.hpp"

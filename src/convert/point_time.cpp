@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "lio/base/median.hpp"
 #include "lio/io/input_error.hpp"
-#include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {

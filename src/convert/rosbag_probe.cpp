@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "lio/base/median.hpp"
 #include "lio/convert/rosbag_convert.hpp"
 #include "lio/io/input_error.hpp"
-#include "lio/io/stream_stats.hpp"
 #include "livox_message.hpp"
 
 namespace lio {

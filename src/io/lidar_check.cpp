@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "lio/base/angle.hpp"
+#include "lio/base/median.hpp"
 #include "lio/io/beam_table.hpp"
 #include "lio/io/lidar_guess.hpp"
-#include "lio/io/stream_stats.hpp"
 
 namespace lio {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lcm_wire.hpp"
+#include "lio/base/median.hpp"
 
 namespace lio {
 namespace {
@@ -19,13 +20,6 @@ constexpr double kGapRatio = 3.0;
 
 Timestamp ReceiveStamp(std::int64_t utime) {
   return Timestamp::FromMicroseconds(std::clamp(utime, -kMaxUtime, kMaxUtime));
-}
-
-double UpperMedian(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void StreamStats::Add(Timestamp stamp, Timestamp received) {

@@ -14,9 +14,6 @@
 
 namespace lio {
 
-// Returns the middle value, the upper one of the two in the middle; 0 for none.
-[[nodiscard]] double UpperMedian(std::vector<double> values);
-
 // Returns the stamp of an event in a log; a time more than 146 years from the epoch, which is
 // damage, is moved there, so that differences of two do not overflow.
 [[nodiscard]] Timestamp ReceiveStamp(std::int64_t utime);
