@@ -9,6 +9,7 @@
 
 #include "lio/sensor/gap.hpp"
 #include "lio/verdict/motion_record.hpp"
+#include "pipeline/mode_context.hpp"
 #include "pipeline/unseen_motion.hpp"
 
 namespace lio {
@@ -38,11 +39,21 @@ Vector3 MeanRate(const Preintegration& felt) {
 
 }  // namespace
 
-std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from, Timestamp to) {
+std::vector<ImuSample> SamplesAbout(const ImuBuffer& imu, Timestamp from, Timestamp to) {
   const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
-  std::vector<ImuSample> samples = imu.Between(from - margin, to + margin);
-  if (IsMotionHidden(samples)) samples.clear();
-  return samples;
+  return imu.Between(from - margin, to + margin);
+}
+
+ImuAgreement::Belief BeliefAbout(const Biases& biases, const ImuNoise& noise, const Vector3& g_map,
+                                 const ModeContext& context) {
+  const ImuRig& rig = context.options.rig.imu;
+  return {.biases = biases,
+          .noise = noise,
+          .g_map = g_map,
+          .gyro_bias_std_radps = rig.gyro_bias_std_radps,
+          .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
+          .rig = context.examiner.bounds(),
+          .clock_error_s = context.clocks.error_s()};
 }
 
 double ImuAgreement::Belief::rotation_error_rad() const {
@@ -67,6 +78,12 @@ void ImuAgreement::Add(const MatchedPose& pose, std::span<const ImuSample> sampl
   poses_.push_back(
       {.pose = pose, .felt = Preintegrate(samples, *last(), pose.stamp, belief.biases, {})});
   if (poses_.size() > kImuAgreement.max_poses) poses_.pop_front();
+}
+
+void ImuAgreement::Add(const MatchedPose& pose, const ImuBuffer& imu, const Belief& belief) {
+  std::vector<ImuSample> samples = SamplesAbout(imu, last().value_or(pose.stamp), pose.stamp);
+  if (IsMotionHidden(samples)) samples.clear();
+  Add(pose, samples, belief);
 }
 
 std::optional<Timestamp> ImuAgreement::last() const {
@@ -164,18 +181,18 @@ ImuAgreement::Misfit ImuAgreement::MisfitOf(ImuSensor sensor, std::size_t end, s
 std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
                                                      const Belief& belief) const {
   const bool is_gyro = sensor == ImuSensor::kGyro;
-  const std::size_t num = kImuAgreement.num_in_row;
+  constexpr std::size_t num = kImuAgreement.num_in_row;
   // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
   // bends the path one way for a span, and then the other way.
   const std::size_t step = is_gyro ? span : (span + 1) / 2;
   const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (num - 1) * step;
   if (poses_.size() <= num_poses_before) return std::nullopt;
   const std::size_t last = poses_.size() - 1;
-  std::vector<Misfit> misfits;
+  std::array<Misfit, kImuAgreement.num_in_row> misfits;
   Vector3 sum = Vector3::Zero();
   for (std::size_t i = 0; i < num; ++i) {
-    misfits.push_back(MisfitOf(sensor, last - i * step, span, belief));
-    sum += misfits.back().error;
+    misfits[i] = MisfitOf(sensor, last - i * step, span, belief);
+    sum += misfits[i].error;
   }
   const Vector3 direction = sum.normalized();
   double mean_excess = 0.0;

@@ -68,10 +68,9 @@ struct ImuAgreementParameters {
 
 inline constexpr ImuAgreementParameters kImuAgreement;
 
-// Returns the samples from the one instant to the other, and a few beside them to interpolate with;
-// none where some are missing or saturated, so that they do not tell the motion.
-[[nodiscard]] std::vector<ImuSample> SamplesOfMotion(const ImuBuffer& imu, Timestamp from,
-                                                     Timestamp to);
+// Returns the samples from the one instant to the other, and a few beside them to interpolate with.
+[[nodiscard]] std::vector<ImuSample> SamplesAbout(const ImuBuffer& imu, Timestamp from,
+                                                  Timestamp to);
 
 struct ImuContradiction {
   ImuSensor sensor = ImuSensor::kGyro;
@@ -102,6 +101,9 @@ class ImuAgreement {
   };
   // `samples` cover the time since the last pose; without any it begins anew.
   void Add(const MatchedPose& pose, std::span<const ImuSample> samples, const Belief& belief);
+  // Takes those samples, and none where some are missing or saturated, so that they do not tell the
+  // motion.
+  void Add(const MatchedPose& pose, const ImuBuffer& imu, const Belief& belief);
   void Restart() { poses_.clear(); }
   std::optional<Timestamp> last() const;
 
@@ -150,6 +152,12 @@ class ImuAgreement {
 
   std::deque<Entry> poses_;
 };
+
+struct ModeContext;
+
+// The context tells all that is not the mode's own.
+[[nodiscard]] ImuAgreement::Belief BeliefAbout(const Biases& biases, const ImuNoise& noise,
+                                               const Vector3& g_map, const ModeContext& context);
 
 // A unit that scans contradict is not believed until it follows them again.
 struct ImuDoubt {

@@ -4,37 +4,35 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
+#include "lio/base/median.hpp"
+#include "lio/filter/sample_lookup.hpp"
 #include "lio/sensor/gap.hpp"
 
 namespace lio {
-namespace {
 
-// Single samples that were lost do not change the median.
-Duration MedianPeriod(std::span<const ImuSample> samples) {
-  std::vector<Duration> periods;
-  periods.reserve(samples.size());
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    periods.push_back(samples[i].stamp - samples[i - 1].stamp);
+std::optional<std::string> ImuRateWatch::Add(const std::deque<ImuSample>& samples, Timestamp end) {
+  if (is_told_) return std::nullopt;
+  const auto from = FirstNotBefore(samples, end - kImuRateWatch.window);
+  const auto to = FirstNotBefore(samples, end + Duration{1});
+  const auto num = static_cast<std::size_t>(to - from);
+  // Half of the periods are above their median, so that a window holds few of a slow unit.
+  const bool is_fast = 0.5 * static_cast<double>(num) * kImuGap.sparse.Seconds() >
+                       kImuRateWatch.window.Seconds() + kImuGap.sparse.Seconds();
+  if (is_fast || num < kImuRateWatch.min_samples) return std::nullopt;
+  std::vector<double> periods_s;
+  for (auto sample = from; sample + 1 != to; ++sample) {
+    periods_s.push_back(SecondsBetween(sample->stamp, (sample + 1)->stamp));
   }
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
-}
-
-}  // namespace
-
-std::optional<std::string> ImuRateWatch::Add(std::span<const ImuSample> samples) {
-  if (is_told_ || samples.size() < kImuRateWatch.min_samples) return std::nullopt;
-  const Duration period = MedianPeriod(samples);
-  if (period <= kImuGap.sparse) return std::nullopt;
+  // Single samples that were lost do not change the median.
+  const double period_s = UpperMedian(std::move(periods_s));
+  if (period_s <= kImuGap.sparse.Seconds()) return std::nullopt;
   is_told_ = true;
   return fmt::format(
       "the IMU gives {:.0f} samples a second: motion between two of them looks like noise to the "
       "filter, so it is less certain than it could be; set the unit to 100 Hz or more if it can",
-      1.0 / period.Seconds());
+      1.0 / period_s);
 }
 
 }  // namespace lio

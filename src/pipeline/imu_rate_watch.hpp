@@ -4,8 +4,8 @@
 // motion between two samples looks like noise to it.
 #pragma once
 
+#include <deque>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "lio/base/time.hpp"
@@ -22,8 +22,8 @@ inline constexpr ImuRateWatchParameters kImuRateWatch;
 
 class ImuRateWatch {
  public:
-  // Takes the samples of the window before a scan's end, by stamp; returns what to announce, once.
-  [[nodiscard]] std::optional<std::string> Add(std::span<const ImuSample> samples);
+  // Looks at the samples of the window before a scan's end; returns what to announce, once.
+  [[nodiscard]] std::optional<std::string> Add(const std::deque<ImuSample>& samples, Timestamp end);
 
  private:
   bool is_told_ = false;

@@ -26,7 +26,25 @@ void AddUnseen(double since_s, const Vector3& v_mps, const Vector3& dv_mps, Matr
   pose_cov.diagonal().tail<3>().array() += turn_std_rad * turn_std_rad;
 }
 
+TrackerOptions OptionsOfTrack(const MotionSeed& seed, const ModeContext& context) {
+  TrackerOptions options;
+  options.span_s = context.options.filter.history_s;
+  options.nis_limit = context.nis_limit;
+  options.seed = seed;
+  options.follows_turns = true;
+  return options;
+}
+
 }  // namespace
+
+Estimate BeginWithoutImu(const Transition& transition, Timestamp stamp,
+                         const ModeContext& context) {
+  TrackerOptions options = OptionsOfTrack(transition.seed, context);
+  options.goes_on_from = transition.start.value().estimate;
+  ConstantVelocityTracker tracker(options.goes_on_from->stamp, options);
+  tracker.AdvanceTo(stamp);
+  return tracker.history().At(stamp);
+}
 
 LidarOnly::LidarOnly(const ModeContext& context, Handover handover, const MotionSeed& seed,
                      std::optional<StartState> inertial)
@@ -61,18 +79,9 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   return job;
 }
 
-TrackerOptions LidarOnly::OptionsOfTrack() const {
-  TrackerOptions options;
-  options.span_s = context_.options.filter.history_s;
-  options.nis_limit = context_.nis_limit;
-  options.seed = seed_;
-  options.follows_turns = true;
-  return options;
-}
-
 void LidarOnly::BeginTrack(const Sweep& sweep) {
   handover_.last_located.reset();
-  TrackerOptions options = OptionsOfTrack();
+  TrackerOptions options = OptionsOfTrack(seed_, context_);
   const Timestamp start = TrackStart(sweep, seed_);
   if (handover_.origin != Handover::Origin::kNone) StartAtLastFix(start, options);
   handover_.was_level |= handover_.origin == Handover::Origin::kInertial;
@@ -88,7 +97,7 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
 
 // The world and the map are the inertial filter's.
 void LidarOnly::GoOn() {
-  TrackerOptions options = OptionsOfTrack();
+  TrackerOptions options = OptionsOfTrack(seed_, context_);
   options.goes_on_from = inertial_->estimate;
   tracker_.emplace(inertial_->estimate.stamp, options);
   handover_.origin = Handover::Origin::kLidar;

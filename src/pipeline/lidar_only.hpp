@@ -31,6 +31,11 @@ struct LidarOnlyParameters {
 
 inline constexpr LidarOnlyParameters kLidarOnly;
 
+// Returns the estimate that this mode begins with after a transition that gives one, carried on to
+// `stamp`.
+[[nodiscard]] Estimate BeginWithoutImu(const Transition& transition, Timestamp stamp,
+                                       const ModeContext& context);
+
 class LidarOnly {
  public:
   // Begins with the first sweep, along the seed's motion; at the handover's last fix, if anything
@@ -51,7 +56,6 @@ class LidarOnly {
   TrackingStatus status() const { return health_.status(); }
 
  private:
-  TrackerOptions OptionsOfTrack() const;
   void BeginTrack(const Sweep& sweep);
   void GoOn();
   void StartAtLastFix(Timestamp start, TrackerOptions& options) const;

@@ -16,19 +16,11 @@ void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
   const Timestamp middle = outcome.sweep->middle();
   const NavState& state = tracker_->history().At(middle).state;
   const NavState& before = inertial_->estimate.state;
-  const ImuRig& rig = context_.options.rig.imu;
   const ImuBuffer& imu = context_.stream.imu();
-  const ImuAgreement::Belief belief{
-      .biases = {before.gyro_bias, before.accel_bias},
-      .noise = imu.NoiseAt(outcome.sweep->end),
-      .g_map = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_),
-      .gyro_bias_std_radps = rig.gyro_bias_std_radps,
-      .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
-      .rig = context_.examiner.bounds(),
-      .clock_error_s = context_.clocks.error_s()};
-  const Timestamp last = imu_agreement_.last().value_or(middle);
-  imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov},
-                     SamplesOfMotion(imu, last, middle), belief);
+  const ImuAgreement::Belief belief = BeliefAbout(
+      {before.gyro_bias, before.accel_bias}, imu.NoiseAt(outcome.sweep->end),
+      state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_), context_);
+  imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov}, imu, belief);
   if (imu_agreement_.Find(belief)) doubt.last = middle;
 }
 

@@ -8,6 +8,7 @@
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/relocalization/relocalizer.hpp"
 #include "pipeline/estimate_report.hpp"
+#include "pipeline/lidar_only.hpp"
 #include "pipeline/prior_error.hpp"
 #include "pipeline/scan_fusion.hpp"
 
@@ -119,7 +120,8 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   }
   if (auto transition = DoubtImu(scan)) {
     // The prediction follows the samples that are in doubt.
-    Publish(scan, MakeScanReport(outcome), WithoutImu(*transition, scan.end()), begin_ns);
+    Publish(scan, MakeScanReport(outcome), BeginWithoutImu(*transition, scan.end(), context_),
+            begin_ns);
     return transition;
   }
   if (scan.starts_map()) context_.examiner.record().BeginMap();
@@ -136,10 +138,7 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
   if (rebases_map || report.fused) is_map_rebased_ = rebases_map;
   is_first_scan_ = false;
   RememberForHandover(scan, report.fused);
-  if (verdict.is_newly_lost) {
-    NotifyLost(scan.end(), context_.outputs);
-    SeekAfterSilence(scan.end());
-  }
+  if (verdict.is_newly_lost) TellLost(scan.end());
   RememberFix(scan, report.fused);
   Publish(scan, report, history_.At(scan.end()), begin_ns);
   LookAtRig(scan.end());
@@ -194,9 +193,7 @@ void Tracking::Publish(const MatchedScan& scan, ScanReport report, const Estimat
   if (const auto news = context_.imu_noise.Add(filter.imu_noise)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
-  const std::vector<ImuSample> lately =
-      context_.stream.imu().Between(end - kImuRateWatch.window, end);
-  if (const auto news = context_.imu_rate.Add(lately)) {
+  if (const auto news = context_.imu_rate.Add(context_.stream.imu().samples(), end)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
@@ -229,9 +226,8 @@ void Tracking::Examine(const MatchOutcome& outcome) const {
   const Timestamp middle = outcome.sweep->middle();
   const Duration correction = outcome.sweep->clock_correction;
   const Timestamp since = record.last_stamp().value_or(middle);
-  const Duration margin = Duration::FromSeconds(kMotionRecord.instant_s);
   record.Add({middle, outcome.match.T_map_imu}, correction,
-             context_.stream.imu().Between(since - margin, middle + margin));
+             SamplesAbout(context_.stream.imu(), since, middle));
 }
 
 // Updates the filters that stand beside this one.
@@ -289,17 +285,30 @@ Transition Tracking::Restart(Trigger trigger, Timestamp stamp, const std::string
   return {.trigger = trigger, .handover = std::move(handover)};
 }
 
-Transition Tracking::TakeImuAbsent(const ImuAbsent& event) const {
-  Transition transition{.trigger = Trigger::kImuAbsent, .handover = handover_};
-  if (is_first_scan_) return transition;  // there is no map yet
-  transition.handover.keeps_map = true;
+StartState Tracking::KnownAt(Timestamp stamp) const {
   StartState known;
-  known.estimate = history_.At(event.begin);
+  known.estimate = history_.At(stamp);
   known.g_world = g_world_;
+  return known;
+}
+
+Transition Tracking::GoLidarOnly(Trigger trigger, StartState known,
+                                 const Vector3& w_imu_radps) const {
+  Transition transition{.trigger = trigger, .handover = handover_};
+  transition.handover.keeps_map = true;
   transition.seed.motion = known.estimate.state;
-  transition.seed.motion->gyro_bias -= event.w_imu_radps;
+  transition.seed.motion->gyro_bias = -w_imu_radps;
   transition.start = std::move(known);
   return transition;
+}
+
+Transition Tracking::TakeImuAbsent(const ImuAbsent& event) const {
+  if (is_first_scan_) {  // there is no map yet
+    return {.trigger = Trigger::kImuAbsent, .handover = handover_};
+  }
+  StartState known = KnownAt(event.begin);
+  const Vector3 w_imu_radps = event.w_imu_radps - known.estimate.state.gyro_bias;
+  return GoLidarOnly(Trigger::kImuAbsent, std::move(known), w_imu_radps);
 }
 
 }  // namespace lio

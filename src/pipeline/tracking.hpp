@@ -23,9 +23,6 @@
 
 namespace lio {
 
-// Returns the estimate that lidar-only odometry begins with after that transition, at a later time.
-[[nodiscard]] Estimate WithoutImu(const Transition& transition, Timestamp stamp);
-
 class Tracking {
  public:
   // Begins at start.estimate with the samples in the stream's buffer, in an empty map unless the
@@ -81,6 +78,7 @@ class Tracking {
   void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
                        const std::string& why);
   void SeekAfterSilence(Timestamp end);
+  void TellLost(Timestamp end);
   void SetYawAside(Timestamp stamp);
   void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
   void TakeVelocity(const MatchOutcome& outcome);
@@ -109,11 +107,15 @@ class Tracking {
                std::int64_t begin_ns);
   [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
   [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
-  ImuAgreement::Belief BeliefAt(const MatchedScan& scan) const;
   [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
   [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
   [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
   [[nodiscard]] Transition LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const;
+  // The motion as it was known at that time, gravity included.
+  [[nodiscard]] StartState KnownAt(Timestamp stamp) const;
+  // Lidar-only odometry goes on in the same map from `known`, turning at that rate.
+  [[nodiscard]] Transition GoLidarOnly(Trigger trigger, StartState known,
+                                       const Vector3& w_imu_radps) const;
   [[nodiscard]] Transition GoOnWithoutImu(StartState known, const Vector3& w_imu_radps,
                                           const ImuContradiction& why, Timestamp end) const;
   void PublishAtImuRate();

@@ -10,29 +10,6 @@
 
 namespace lio {
 
-Estimate WithoutImu(const Transition& transition, Timestamp stamp) {
-  TrackerOptions options;
-  options.seed = transition.seed;
-  options.follows_turns = true;
-  options.goes_on_from = transition.start.value().estimate;
-  ConstantVelocityTracker tracker(options.goes_on_from->stamp, options);
-  tracker.AdvanceTo(stamp);
-  return tracker.history().At(stamp);
-}
-
-ImuAgreement::Belief Tracking::BeliefAt(const MatchedScan& scan) const {
-  const NavState& state = history_.At(scan.middle()).state;
-  const ImuRig& rig = context_.options.rig.imu;
-  const LastFix& fix = handover_.last_fix;
-  return {.biases = {state.gyro_bias, state.accel_bias},
-          .noise = scan.noise,
-          .g_map = fix.T_map_imu.rotation * (fix.T_world_imu.rotation.conjugate() * g_world_),
-          .gyro_bias_std_radps = rig.gyro_bias_std_radps,
-          .accel_bias_std_mps2 = rig.accel_bias_std_mps2,
-          .rig = context_.examiner.bounds(),
-          .clock_error_s = context_.clocks.error_s()};
-}
-
 // A wrong unit, axis or clock contradicts the scans as well, from the first motion on, and is found
 // elsewhere: a sensor breaks where it was right.
 std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan) {
@@ -42,10 +19,14 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
     imu_agreement_.Restart();
     return std::nullopt;
   }
-  const ImuAgreement::Belief belief = BeliefAt(scan);
+  const NavState& state = history_.At(scan.middle()).state;
+  const LastFix& fix = handover_.last_fix;
+  const ImuAgreement::Belief belief = BeliefAbout(
+      {state.gyro_bias, state.accel_bias}, scan.noise,
+      fix.T_map_imu.rotation * (fix.T_world_imu.rotation.conjugate() * g_world_), context_);
   const Timestamp last = imu_agreement_.last().value_or(scan.middle());
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
-                     SamplesOfMotion(context_.stream.imu(), last, scan.middle()), belief);
+                     context_.stream.imu(), belief);
   auto found = imu_agreement_.Find(belief);
   if (imu_agreement_.HasJumped(belief)) followed_s_ = 0.0;
   const bool was_right = followed_s_ >= kImuAgreement.min_followed_s;
@@ -69,9 +50,7 @@ std::optional<Transition> Tracking::DoubtImu(const MatchedScan& scan) {
 // All was right until the axis stopped.
 Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const {
   const Timestamp since = std::max(stuck.before.stamp, history_.start_stamp());
-  StartState known;
-  known.estimate = history_.At(since);
-  known.g_world = g_world_;
+  StartState known = KnownAt(since);
   const Vector3 w_imu_radps = stuck.before.w_imu_radps - known.estimate.state.gyro_bias;
   const bool is_gyro = stuck.sensor == ImuSensor::kGyro;
   ++context_.counters.num_imu_stuck;
@@ -88,9 +67,7 @@ Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timesta
 // The pose is the scan's, in the world as it was while the samples still followed.
 Transition Tracking::LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const {
   ++context_.counters.num_imu_contradicted;
-  StartState known;
-  known.g_world = g_world_;
-  known.estimate = history_.At(std::max(found.since, history_.start_stamp()));
+  StartState known = KnownAt(std::max(found.since, history_.start_stamp()));
   const ImuAgreement::Motion motion = imu_agreement_.MotionNow().value_or(ImuAgreement::Motion{});
   MoveTo(scan.outcome.match.T_map_imu, known.estimate);
   known.estimate.stamp = scan.middle();
@@ -109,40 +86,11 @@ Transition Tracking::GoOnWithoutImu(StartState known, const Vector3& w_imu_radps
       why.evidence +
           ": lidar-only odometry until the IMU follows the scans again; look at the "
           "unit, its driver and its mounting");
-  Transition transition{.trigger = Trigger::kImuDoubted, .handover = handover_};
-  transition.handover.keeps_map = true;
+  Transition transition = GoLidarOnly(Trigger::kImuDoubted, std::move(known), w_imu_radps);
   const int num_before = handover_.imu_doubt ? handover_.imu_doubt->num_before + 1 : 0;
   transition.handover.imu_doubt =
       ImuDoubt{.contradiction = why, .last = end, .num_before = num_before};
-  transition.seed.motion = known.estimate.state;
-  transition.seed.motion->gyro_bias = -w_imu_radps;
-  transition.start = std::move(known);
   return transition;
-}
-
-bool Tracking::HasMovedUntil(Timestamp middle) const {
-  if (!last_middle_ || *last_middle_ < history_.start_stamp()) return false;
-  const Pose moved =
-      history_.At(*last_middle_).state.T_map_imu.Inverse() * history_.At(middle).state.T_map_imu;
-  return moved.translation.norm() > kRepeatedSweep.moved_m ||
-         LogSo3(moved.rotation).norm() > kRepeatedSweep.moved_rad;
-}
-
-// A lidar that repeats itself tells nothing of where the body is, and is as silent.
-void Tracking::PassOver(const MatchedScan& scan, std::int64_t begin_ns) {
-  ++context_.counters.num_scans_repeated;
-  if (!std::exchange(is_stale_told_, true)) {
-    context_.outputs.Notify(scan.end(), Notice::Severity::kWarning,
-                            "the lidar sends the same points again while the body moves: its scans "
-                            "are not used until they change; look at its driver");
-  }
-  imu_agreement_.Restart();
-  const Health::Verdict verdict = health_.AddScan(scan.end(), scan.outcome.match, 0, false);
-  if (verdict.is_newly_lost) {
-    NotifyLost(scan.end(), context_.outputs);
-    SeekAfterSilence(scan.end());
-  }
-  Publish(scan, MakeScanReport(scan.outcome), history_.At(scan.end()), begin_ns);
 }
 
 }  // namespace lio

@@ -42,6 +42,11 @@ void Tracking::SeekAfterSilence(Timestamp end) {
   if (outage_.stage() == OutageStage::kFindVelocity) LeaveMap(end);
 }
 
+void Tracking::TellLost(Timestamp end) {
+  NotifyLost(end, context_.outputs);
+  SeekAfterSilence(end);
+}
+
 void Tracking::AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused) {
   using Event = OutageRecovery::Event;
   if (!outage_.is_running()) {
