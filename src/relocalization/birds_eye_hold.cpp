@@ -5,23 +5,47 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "relocalization/place_candidates.hpp"
 
 namespace lio {
 namespace {
 
-// Makes a linear (Kalman) update of the imu's position along the level axes' x and y.
-void HoldAt(const FoundShift& found, const Quaternion& R_level_map, MatchResult& match) {
-  const Matrix3 R_level_imu = (R_level_map * match.T_map_imu.rotation).toRotationMatrix();
-  Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();
-  H.leftCols<3>() = R_level_imu.topRows<2>();
+using LevelRows = Eigen::Matrix<double, 2, 6>;
+
+// Returns the Jacobian of the position along the level axes' x and y by a right increment.
+LevelRows LevelJacobian(const Quaternion& R_level_map, const MatchResult& match) {
+  LevelRows H = LevelRows::Zero();
+  H.leftCols<3>() = (R_level_map * match.T_map_imu.rotation).toRotationMatrix().topRows<2>();
+  return H;
+}
+
+// Returns the match's covariance with those degenerate directions alone that are seen from above.
+// Along any other, as up a stairwell, a small step to the side would stand for a large one.
+std::optional<Matrix6> CovSeenFromAbove(const LevelRows& H, const MatchResult& match) {
+  constexpr double kStd_m = DegeneracyParameters::kDegenerateStd_m;
+  bool is_seen = false;
+  Matrix6 cov = match.observable_cov;
+  for (const BlindDirection& blind : match.blind_directions) {
+    if ((H * blind.shift).norm() < kRelocalization.shift.min_level_share) continue;
+    cov += kStd_m * kStd_m * blind.shift * blind.shift.transpose();
+    is_seen = true;
+  }
+  return is_seen ? std::optional(cov) : std::nullopt;
+}
+
+// Makes a linear (Kalman) update of the imu's position along the level axes' x and y. The gain is
+// by `cov`, and the covariance right for any gain.
+void HoldAt(const FoundShift& found, const LevelRows& H, const Matrix6& cov,
+            const Quaternion& R_level_map, MatchResult& match) {
   const Eigen::Vector2d residual =
       found.position_m - (R_level_map * match.T_map_imu.translation).head<2>();
-  const Eigen::Matrix2d innovation_cov = H * match.cov * H.transpose() + found.cov;
-  const Eigen::Matrix<double, 6, 2> gain = match.cov * H.transpose() * innovation_cov.inverse();
+  const Eigen::Matrix2d innovation_cov = H * cov * H.transpose() + found.cov;
+  const Eigen::Matrix<double, 6, 2> gain = cov * H.transpose() * innovation_cov.inverse();
   match.T_map_imu = match.T_map_imu * ExpSe3(gain * residual);
   const Matrix6 left = Matrix6::Identity() - gain * H;
   match.cov = left * match.cov * left.transpose() + gain * found.cov * gain.transpose();
@@ -49,8 +73,10 @@ void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quat
   if (match.degenerate_mask == 0 && !is_apart) return;
   BirdsEyeView view(Levelled(points_imu, R_level_map * match.T_map_imu.rotation));
   if (match.degenerate_mask != 0 && !views_.empty()) {
-    if (const auto found = FindShift(views_, view, matched_m, SearchRange_m(match))) {
-      HoldAt(*found, R_level_map, match);
+    const LevelRows H = LevelJacobian(R_level_map, match);
+    if (const auto cov = CovSeenFromAbove(H, match)) {
+      const auto found = FindShift(views_, view, matched_m, SearchRange_m(match));
+      if (found) HoldAt(*found, H, *cov, R_level_map, match);
     }
   }
   if (!is_apart) return;

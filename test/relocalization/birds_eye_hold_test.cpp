@@ -24,24 +24,41 @@ test::Points RoadsidePosts(float x_m) {
   return points;
 }
 
-MatchResult MatchAt(double x_m, double along_std_m) {
+constexpr double kBlindStd_m = 100.0;  // as matching reports it
+
+MatchResult MatchAt(double x_m) {
   MatchResult match;
-  match.status = MatchStatus::kDegenerate;
+  match.status = MatchStatus::kConverged;
   match.T_map_imu.translation.x() = x_m;
-  match.cov = 1e-4 * Matrix6::Identity();
-  match.cov(0, 0) = along_std_m * along_std_m;
-  match.degenerate_mask = along_std_m > 0.5 ? 1u : 0u;
+  match.cov = match.observable_cov = 1e-4 * Matrix6::Identity();
   return match;
+}
+
+MatchResult BlindMatchAt(double x_m, const Vector6& shift) {
+  MatchResult match = MatchAt(x_m);
+  match.status = MatchStatus::kDegenerate;
+  match.cov += kBlindStd_m * kBlindStd_m * shift * shift.transpose();
+  match.degenerate_mask = 1u;
+  match.blind_directions = {{.shift = shift, .weight = shift}};
+  return match;
+}
+
+Vector6 Along(double x, double z, double pitch) {
+  Vector6 shift = Vector6::Zero();
+  shift[0] = x;
+  shift[2] = z;
+  shift[4] = pitch;
+  return shift.normalized();
 }
 
 TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
   BirdsEyeHold hold;
   for (int i = 0; i < 3; ++i) {
-    MatchResult match = MatchAt(2.0 * i, 0.05);
+    MatchResult match = MatchAt(2.0 * i);
     hold.Apply(RoadsidePosts(2.f * static_cast<float>(i)), Quaternion::Identity(), match);
     EXPECT_EQ(match.T_map_imu.translation.x(), 2.0 * i) << "nothing was degenerate";
   }
-  MatchResult match = MatchAt(4.8, 1.5);  // truth: 6 m
+  MatchResult match = BlindMatchAt(4.8, Along(1.0, 0.0, 0.0));  // truth: 6 m
   hold.Apply(RoadsidePosts(6.f), Quaternion::Identity(), match);
   EXPECT_NEAR(match.T_map_imu.translation.x(), 6.0, 0.25);
   EXPECT_LT(std::sqrt(match.cov(0, 0)), 0.5);
@@ -49,10 +66,24 @@ TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
 
 TEST(BirdsEyeHold, WithoutEarlierViewsAMatchStaysAsItIs) {
   BirdsEyeHold hold;
-  MatchResult match = MatchAt(1.0, 1.5);
+  MatchResult match = BlindMatchAt(1.0, Along(1.0, 0.0, 0.0));
   hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), match);
   EXPECT_EQ(match.T_map_imu.translation.x(), 1.0);
-  EXPECT_EQ(match.cov(0, 0), 2.25);
+  EXPECT_EQ(match.cov, BlindMatchAt(1.0, Along(1.0, 0.0, 0.0)).cov);
+}
+
+// Half a metre to the side would stand for five metres up a stairwell, or for a turn of a radian.
+TEST(BirdsEyeHold, TellsNothingOfHeightAndTurns) {
+  for (const Vector6& shift : {Along(0.1, 1.0, 0.0), Along(0.5, 0.0, 1.0)}) {
+    BirdsEyeHold hold;
+    MatchResult first = MatchAt(0.0);
+    hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), first);
+    MatchResult match = BlindMatchAt(1.5, shift);  // truth: 2 m
+    hold.Apply(RoadsidePosts(2.f), Quaternion::Identity(), match);
+    EXPECT_EQ(match.T_map_imu.translation, Vector3(1.5, 0.0, 0.0));
+    EXPECT_TRUE(match.T_map_imu.rotation.isApprox(Quaternion::Identity()));
+    EXPECT_EQ(match.cov, BlindMatchAt(1.5, shift).cov);
+  }
 }
 
 }  // namespace
