@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kOdometryBytes = 834;
 constexpr std::size_t kFilterStateFixedBytes = 212;
 constexpr std::size_t kRegistrationBytes = 134;
-constexpr std::size_t kStatusFixedBytes = 813;
+constexpr std::size_t kStatusFixedBytes = 821;
 constexpr int kMaxDim = 64;  // states of a filter; liod has 21
 
 // Reads fields and remembers whether all of them were values that can be.

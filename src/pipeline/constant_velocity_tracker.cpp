@@ -31,20 +31,20 @@ HistoryOptions MakeHistoryOptions(const TrackerOptions& options) {
   return history;
 }
 
-// Its samples are made up, so the force has no bias; that of the gyro is the turn rate.
-Estimate GoOnFrom(Estimate estimate, const Vector3& gyro_bias) {
-  constexpr double kStd = kConstantVelocity.known_turn_rate_std_radps;
+// The force is made up and has no bias; without a gyro its bias is the turn rate.
+Estimate GoOnFrom(Estimate estimate, const TrackerOptions& options) {
+  const bool has_gyro = options.first_rate_radps.has_value();
+  const double std_radps = has_gyro ? kConstantVelocity.gyro_bias_std_radps
+                                    : kConstantVelocity.known_turn_rate_std_radps;
   ForgetBiases(estimate);
-  estimate.state.gyro_bias = gyro_bias;
+  if (!has_gyro) estimate.state.gyro_bias = options.seed.motion.value_or(NavState{}).gyro_bias;
   estimate.state.accel_bias.setZero();
-  estimate.cov.block<3, 3>(kGyroBias, kGyroBias) = kStd * kStd * Matrix3::Identity();
+  estimate.cov.block<3, 3>(kGyroBias, kGyroBias) = std_radps * std_radps * Matrix3::Identity();
   return estimate;
 }
 
 Estimate Start(Timestamp start, const TrackerOptions& options) {
-  if (options.goes_on_from) {
-    return GoOnFrom(*options.goes_on_from, options.seed.motion.value_or(NavState{}).gyro_bias);
-  }
+  if (options.goes_on_from) return GoOnFrom(*options.goes_on_from, options);
   Estimate estimate;
   estimate.stamp = start;
   const bool is_known = options.seed.motion.has_value();
@@ -98,10 +98,10 @@ ImuSample Rate(Timestamp stamp, const Vector3& w_imu_radps) {
 
 // The velocity that is constant is that in the imu's axes: a car follows its wheels, and what a
 // hand holds swings about a body. So the force is the one that turns the velocity.
-ImuSample Predicted(Timestamp stamp, const NavState& state) {
+ImuSample Predicted(Timestamp stamp, const NavState& state, const Vector3& w_imu_radps) {
   const Vector3 v_imu_mps = state.T_world_imu.rotation.conjugate() * state.v_world_imu;
-  ImuSample sample = Rate(stamp, Vector3::Zero());
-  sample.f_imu_mps2 = (-state.gyro_bias).cross(v_imu_mps);
+  ImuSample sample = Rate(stamp, w_imu_radps);
+  sample.f_imu_mps2 = (w_imu_radps - state.gyro_bias).cross(v_imu_mps);
   return sample;
 }
 
@@ -110,7 +110,7 @@ ImuSample Predicted(Timestamp stamp, const NavState& state) {
 ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerOptions& options)
     : history_options_(MakeHistoryOptions(options)),
       has_gyro_(options.first_rate_radps.has_value()),
-      follows_turns_(options.follows_turns && !has_gyro_),
+      follows_turns_(options.follows_turns),
       last_rate_(options.first_rate_radps.value_or(Vector3::Zero())),
       turn_error_var_(std::pow(
           kConstantVelocity.start_turn_accel_density / kConstantVelocity.density_per_error, 2)),
@@ -121,8 +121,10 @@ ConstantVelocityTracker::ConstantVelocityTracker(Timestamp start, const TrackerO
 void ConstantVelocityTracker::AddRate(const ImuSample& sample) {
   if (!has_gyro_ || sample.stamp <= history_.head().stamp) return;
   last_rate_ = sample.w_imu_radps;
+  ImuSample now = SampleNow();
+  now.stamp = sample.stamp;
   // The history cannot refuse it: it is newer than all that came.
-  (void)history_.AddImu(Rate(sample.stamp, last_rate_));
+  (void)history_.AddImu(now);
 }
 
 void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
@@ -143,7 +145,8 @@ void ConstantVelocityTracker::AdvanceTo(Timestamp stamp) {
 
 ImuSample ConstantVelocityTracker::SampleNow() const {
   const Estimate& head = history_.head();
-  return follows_turns_ ? Predicted(head.stamp, head.state) : Rate(head.stamp, last_rate_);
+  return follows_turns_ ? Predicted(head.stamp, head.state, last_rate_)
+                        : Rate(head.stamp, last_rate_);
 }
 
 bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& match) {
@@ -159,7 +162,7 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
 }
 
 void ConstantVelocityTracker::NoteTurnError(double error_rad, double since_s) {
-  if (!follows_turns_) return;
+  if (!follows_turns_ || has_gyro_) return;
   const double var = error_rad * error_rad / (since_s * since_s * since_s);
   turn_error_var_ += kConstantVelocity.turn_error_rate * (var - turn_error_var_);
   history_options_.noise.gyro_bias_walk_density = std::clamp(
@@ -175,8 +178,9 @@ Estimate ConstantVelocityTracker::AtEnd(Timestamp middle, Timestamp end,
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
   H.middleCols<3>(kGyroBias) = -Matrix3::Identity();
   FuseLinear(estimate, H, shown->w_imu_radps + estimate.state.gyro_bias, shown->cov);
-  Propagate(estimate, Predicted(middle, estimate.state), Predicted(end, estimate.state),
-            history_options_.noise, history_options_.g_world);
+  Propagate(estimate, Predicted(middle, estimate.state, last_rate_),
+            Predicted(end, estimate.state, last_rate_), history_options_.noise,
+            history_options_.g_world);
   estimate.stamp = end;
   return estimate;
 }

@@ -26,6 +26,12 @@ void AddUnseen(double since_s, const Vector3& v_mps, const Vector3& dv_mps, Matr
   pose_cov.diagonal().tail<3>().array() += turn_std_rad * turn_std_rad;
 }
 
+void TellImuFollows(Timestamp end, const ModeContext& context) {
+  context.outputs.Notify(end, Notice::Severity::kWarning,
+                         "the IMU follows the motion again that scans show: the filter goes on "
+                         "with it, and nothing need be done");
+}
+
 TrackerOptions OptionsOfTrack(const MotionSeed& seed, const ModeContext& context) {
   TrackerOptions options;
   options.span_s = context.options.filter.history_s;
@@ -67,9 +73,10 @@ MatchJob LidarOnly::MakeJob(const SweepPtr& sweep) {
   } else {
     FollowClockBack(*sweep, *tracker_, handover_.last_located);
   }
+  if (tracker_->has_gyro()) AddRates(sweep->end);
   tracker_->AdvanceTo(sweep->end);
   MatchJob job = MakeCoarseJob(sweep, *tracker_, handover_.last_located, up_map_);
-  job.bends_scan = true;
+  job.bends_scan = !tracker_->has_gyro();
   CorrectPrior(trend_.Expected(), job);
   if (!inertial_ && num_scans_ < kLidarOnly.warm_up_scans) job.map_action = MapAction::kWarmUp;
   if (!inertial_ && is_first) job.map_action = MapAction::kClear;
@@ -83,6 +90,11 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
   handover_.last_located.reset();
   TrackerOptions options = OptionsOfTrack(seed_, context_);
   const Timestamp start = TrackStart(sweep, seed_);
+  options.first_rate_radps = RateAt(start);
+  if (options.first_rate_radps && options.seed.motion) {
+    options.seed.motion->gyro_bias = handover_.imu_doubt->biases.gyro;
+  }
+  if (handover_.doubts_imu()) imu_back_since_ = sweep.start;
   if (handover_.origin != Handover::Origin::kNone) StartAtLastFix(start, options);
   handover_.was_level |= handover_.origin == Handover::Origin::kInertial;
   handover_.is_placed = false;
@@ -97,13 +109,18 @@ void LidarOnly::BeginTrack(const Sweep& sweep) {
 
 // The world and the map are the inertial filter's.
 void LidarOnly::GoOn() {
-  TrackerOptions options = OptionsOfTrack(seed_, context_);
-  options.goes_on_from = inertial_->estimate;
-  tracker_.emplace(inertial_->estimate.stamp, options);
+  TrackOn(inertial_->estimate, RateAt(inertial_->estimate.stamp));
   handover_.origin = Handover::Origin::kLidar;
   handover_.was_level = !g_world_.isZero();
   const NavState& state = inertial_->estimate.state;
   up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
+}
+
+void LidarOnly::TrackOn(const Estimate& estimate, const std::optional<Vector3>& rate_radps) {
+  TrackerOptions options = OptionsOfTrack(seed_, context_);
+  options.goes_on_from = estimate;
+  options.first_rate_radps = rate_radps;
+  tracker_.emplace(estimate.stamp, options);
 }
 
 // The published path goes on: the new map begins where the motion before and after the scans that
@@ -214,7 +231,7 @@ Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {
   const Estimate estimate = tracker_->history().At(sweep_end);
   Handover handover = handover_;
   handover.origin = Handover::Origin::kLostLidar;
-  handover.w_imu_radps = -estimate.state.gyro_bias;
+  handover.w_imu_radps = tracker_->w_imu_radps();
   handover.pose_cov = estimate.cov.topLeftCorner<6, 6>();
   context_.outputs.Notify(
       sweep_end, Notice::Severity::kWarning,
@@ -234,11 +251,15 @@ std::optional<Transition> LidarOnly::TakeImu(const ImuAppeared& event) {
   context_.outputs.Notify(event.first, Notice::Severity::kWarning,
                           "inertial samples have come: initialization begins again, with them, and "
                           "nothing need be done");
+  return InitializeAgain();
+}
+
+Transition LidarOnly::InitializeAgain() const {
   Handover handover = handover_;
   handover.origin = Handover::Origin::kLidar;
   handover.is_map_by_lidar = true;
   handover.BelieveImu();
-  return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+  return {.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
 }
 
 std::optional<Transition> LidarOnly::TryReturn(const MatchOutcome& outcome, bool is_sure) const {
@@ -247,6 +268,10 @@ std::optional<Transition> LidarOnly::TryReturn(const MatchOutcome& outcome, bool
     return std::nullopt;
   }
   if (handover_.doubts_imu() && !FollowsAgain(outcome.sweep->middle())) return std::nullopt;
+  if (!inertial_) {
+    TellImuFollows(end, context_);
+    return InitializeAgain();
+  }
   if (IsMisled(end)) return ReturnInNewMap(outcome);
   return is_sure ? std::optional(ReturnToImu(outcome)) : std::nullopt;
 }
@@ -296,9 +321,7 @@ Transition LidarOnly::ReturnToImu(const MatchOutcome& outcome) const {
   Handover handover = handover_;
   if (handover_.doubts_imu()) {
     handover.BelieveImu();
-    context_.outputs.Notify(outcome.sweep->end, Notice::Severity::kWarning,
-                            "the IMU follows the motion again that scans show: the filter goes on "
-                            "with it, and nothing need be done");
+    TellImuFollows(outcome.sweep->end, context_);
   }
   handover.origin = Handover::Origin::kInertial;
   handover.keeps_map = true;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The mode without an IMU: scans are tracked by the constant-velocity model. A path that is lost
+// The mode without an IMU, or with one of which the gyro alone is believed: scans are tracked by
+// the constant-velocity model. A path that is lost
 // would go on straight, wherever that leads; so after a few scans that match nowhere a new map
 // begins, in the world that was published.
 #pragma once
@@ -51,13 +52,21 @@ class LidarOnly {
   // The next scan that is found once gravity was felt goes back to the inertial filter, if the way
   // was not lost since it ended; else the start begins anew.
   [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
-  void TakeImuAbsent() { imu_back_since_.reset(); }
+  void TakeImuAbsent();
 
   TrackingStatus status() const { return health_.status(); }
 
  private:
   void BeginTrack(const Sweep& sweep);
   void GoOn();
+  // The track goes on from this estimate, with a gyro that tells this rate there, or without one.
+  void TrackOn(const Estimate& estimate, const std::optional<Vector3>& rate_radps);
+  // Takes the gyro's samples up to `end`.
+  void AddRates(Timestamp end);
+  // The gyro's rate, where it is believed and has told it.
+  [[nodiscard]] std::optional<Vector3> RateAt(Timestamp stamp) const;
+  // The gyro does not tell the turns any more.
+  void LeaveGyro();
   void StartAtLastFix(Timestamp start, TrackerOptions& options) const;
   // A scan grows the map where its place is beyond doubt: in the first one that was located after
   // some that were not, it is not yet.
@@ -69,6 +78,8 @@ class LidarOnly {
   [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;
   // Compares an IMU that is in doubt with the scan.
   void CompareWithImu(const MatchOutcome& outcome, bool is_fused);
+  // The accelerometer alone is in doubt.
+  [[nodiscard]] bool BelievesGyro() const;
   // Has an IMU that was in doubt followed the scans for long enough?
   [[nodiscard]] bool FollowsAgain(Timestamp middle) const;
   [[nodiscard]] bool IsMisled(Timestamp sweep_end) const;
@@ -76,6 +87,8 @@ class LidarOnly {
                                                     bool is_sure) const;
   [[nodiscard]] Transition ReturnToImu(const MatchOutcome& outcome) const;
   [[nodiscard]] Transition ReturnInNewMap(const MatchOutcome& outcome) const;
+  // Initialization begins anew, with an IMU.
+  [[nodiscard]] Transition InitializeAgain() const;
 
   ModeContext context_;
   Handover handover_;

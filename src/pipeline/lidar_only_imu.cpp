@@ -1,27 +1,73 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// Lidar-only odometry watches an IMU that scans contradicted, until it follows them again.
+// Lidar-only odometry watches an IMU that scans contradicted, until it follows them again. Its gyro
+// is used where the accelerometer alone was contradicted.
 #include <algorithm>
+#include <cmath>
+#include <deque>
 
+#include "lio/filter/sample_lookup.hpp"
 #include "pipeline/lidar_only.hpp"
 
 namespace lio {
 
+void LidarOnly::AddRates(Timestamp end) {
+  const Timestamp from = tracker_->history().head().stamp;
+  for (const ImuSample& sample : context_.stream.imu().Between(from, end)) {
+    tracker_->AddRate(sample);
+  }
+}
+
+bool LidarOnly::BelievesGyro() const {
+  return handover_.doubts_imu() &&
+         handover_.imu_doubt->contradiction.sensor == ImuSensor::kAccelerometer;
+}
+
+std::optional<Vector3> LidarOnly::RateAt(Timestamp stamp) const {
+  const std::deque<ImuSample>& samples = context_.stream.imu().samples();
+  const bool is_told =
+      !samples.empty() && samples.front().stamp <= stamp && stamp <= samples.back().stamp;
+  if (!BelievesGyro() || !is_told) return std::nullopt;
+  return SampleAt(samples, stamp).w_imu_radps;
+}
+
+void LidarOnly::LeaveGyro() {
+  if (!tracker_ || !tracker_->has_gyro()) return;
+  seed_.motion.emplace().gyro_bias = -tracker_->w_imu_radps();
+  TrackOn(tracker_->history().head(), std::nullopt);
+}
+
+void LidarOnly::TakeImuAbsent() {
+  imu_back_since_.reset();
+  LeaveGyro();
+}
+
 void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
-  if (!inertial_ || !imu_back_since_) return;  // no bias is known, or no samples come
+  if (!imu_back_since_) return;
   ImuDoubt& doubt = *handover_.imu_doubt;
   context_.stuck_imu.Add(context_.stream.imu().samples(), outcome.sweep->end);
-  if (context_.stuck_imu.found()) doubt.last = outcome.sweep->end;
+  if (const auto stuck = context_.stuck_imu.found()) {
+    doubt.last = outcome.sweep->end;
+    doubt.contradiction.sensor = stuck->sensor;
+  }
   if (!is_fused || outcome.is_relocalized) return imu_agreement_.Restart();
   const Timestamp middle = outcome.sweep->middle();
-  const NavState& state = tracker_->history().At(middle).state;
-  const NavState& before = inertial_->estimate.state;
+  const Estimate estimate = tracker_->history().At(middle);
+  const NavState& state = estimate.state;
   const ImuBuffer& imu = context_.stream.imu();
-  const ImuAgreement::Belief belief = BeliefAbout(
-      {before.gyro_bias, before.accel_bias}, imu.NoiseAt(outcome.sweep->end),
-      state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * g_world_), context_);
+  ImuAgreement::Belief belief = BeliefAbout(
+      doubt.biases, imu.NoiseAt(outcome.sweep->end),
+      state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * doubt.g_world),
+      context_);
+  // A world that tilts tilts gravity.
+  belief.accel_bias_std_mps2 +=
+      doubt.g_world.norm() * std::sqrt(estimate.cov.diagonal().segment<3>(kRot).maxCoeff());
   imu_agreement_.Add({middle, outcome.match.T_map_imu, outcome.match.cov}, imu, belief);
-  if (imu_agreement_.Find(belief)) doubt.last = middle;
+  if (const auto found = imu_agreement_.Find(belief)) {
+    doubt.last = middle;
+    doubt.contradiction = *found;
+  }
+  if (!BelievesGyro()) LeaveGyro();
 }
 
 bool LidarOnly::FollowsAgain(Timestamp middle) const {

@@ -49,6 +49,7 @@ TransitionRule TakeRule(ModeKind from, Trigger trigger, Counters& counters) {
         fmt::format("no transition from {} by '{}'", NameOf(from), NameOf(trigger)));
   }
   if (rule->is_restart) ++counters.num_restarts;
+  if (trigger == Trigger::kLost) ++counters.num_lost;
   return *rule;
 }
 

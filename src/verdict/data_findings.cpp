@@ -93,6 +93,15 @@ void FindBroken(const Counters& counters, std::vector<Cause>& causes) {
   }
 }
 
+void FindLost(const Counters& counters, std::vector<Cause>& causes) {
+  if (counters.num_lost == 0) return;
+  causes.push_back({CauseKind::kWayLost, Trust::kDoubtful, 0.0,
+                    fmt::format("times that the way was lost, and the map began anew where the "
+                                "body was believed to be: {}",
+                                counters.num_lost),
+                    ""});
+}
+
 }  // namespace
 
 std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
@@ -116,6 +125,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
                       ""});
   }
   FindBroken(counters, causes);
+  FindLost(counters, causes);
   if (imu != nullptr) FindNoise(tally.MedianNoise(), *imu, causes);
   // Nobody knows what the body did while it had no poses.
   const bool is_watched = tally.Coverage() >= kRigExaminer.doubtful_coverage;

@@ -60,6 +60,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
                                           message.standstills,
                                           message.clock_jumps,
                                           message.restarts,
+                                          message.lost,
                                           message.imu_foreign,
                                           message.chunks_foreign};
   EXPECT_EQ(arrived, std::set<std::int64_t>(values.begin(), values.end()));

@@ -199,6 +199,25 @@ TEST(ConstantVelocityTracker, AGyroTurnsItAndForcesDoNotMoveIt) {
   EXPECT_EQ(state.v_world_imu, Vector3(Vector3::Zero()));
 }
 
+// The gyro reads 0.1 rad/s too much, which was known before.
+TEST(ConstantVelocityTracker, GoesOnByAGyroAlongTheCircleThatItReads) {
+  Estimate before;
+  before.stamp = StampAt(1.0);
+  before.state.v_world_imu = {4, 0, 0};
+  before.state.gyro_bias = {0, 0, 0.1};
+  TrackerOptions options = WithGyro({0, 0, 0.1});
+  options.follows_turns = true;
+  options.goes_on_from = before;
+  ConstantVelocityTracker tracker(StampAt(1.0), options);
+  for (int i = 1; i <= 100; ++i) tracker.AddRate(Reading(1.0 + 0.01 * i, {0, 0, 0.5 + 0.1}));
+  const NavState& state = tracker.history().head().state;
+  EXPECT_LT(LogSo3(state.T_map_imu.rotation * ExpSo3(Vector3(0, 0, -0.5))).norm(), 0.01);
+  EXPECT_LT((state.T_map_imu.rotation.conjugate() * state.v_world_imu - Vector3(4, 0, 0)).norm(),
+            0.05);
+  EXPECT_LT((tracker.w_imu_radps() - Vector3(0, 0, 0.5)).norm(), 1e-9);
+  EXPECT_LT(StdOf(tracker.history().head(), kMapPose + 5), 0.1) << "the gyro tells the turn";
+}
+
 TEST(ConstantVelocityTracker, TheLastRateHolds) {
   ConstantVelocityTracker tracker(StampAt(0.0), WithGyro({0, 0, 0.3}));
   tracker.AddRate(Reading(0.1, {0, 0, 0.5}));

@@ -73,6 +73,8 @@ TEST(Mode, RestartsAreCounted) {
     (void)rest.Next(rule.from, rule.trigger);
     EXPECT_EQ(rest.bench.context().counters.num_restarts - before, rule.is_restart ? 1 : 0)
         << NameOf(rule.from) << " by " << NameOf(rule.trigger);
+    EXPECT_EQ(rest.bench.context().counters.num_lost, rule.trigger == Trigger::kLost ? 1 : 0)
+        << NameOf(rule.from) << " by " << NameOf(rule.trigger);
   }
 }
 

@@ -110,6 +110,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"ForceOff", ShiftForce, "the accelerometer is "}),
     [](const auto& test) { return std::string(test.param.name); });
 
+// Sweeps of clouds of points lose the way while the unit is dead.
+TEST(DeadImuAndLost, IsBelievedAgainOnceItFollowsTheScans) {
+  Messages messages = Broken(KillBoth, kBroken_s + 1.5);
+  test::ShowClouds(kBroken_s + 0.5, kBroken_s + 1.2, messages);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_GE(run.counters.num_lost, 1);
+  EXPECT_TRUE(test::HasNotice(run, "the IMU follows the motion again"));
+  ASSERT_FALSE(run.navs.empty());
+  EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 0.5);
+}
+
 TEST(DeadImuBefore, SoundUnitIsBelieved) {
   const RunResult run = RunOdometry(LongDrive(), test::DriveRig());
   EXPECT_FALSE(test::HasNotice(run, "lidar-only"));

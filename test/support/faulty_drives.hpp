@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "support/simulated_drive.hpp"
 
@@ -58,6 +59,20 @@ inline Messages WithoutImu(const Messages& messages, double from_s, double to_s)
   return Where(messages, [=](const Message& message) {
     return !(message.is_imu && IsBetween(message, from_s, to_s));
   });
+}
+
+// Sweeps show clouds of points meanwhile: nothing fits.
+inline void ShowClouds(double from_s, double to_s, Messages& messages) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<float> place(-20.f, 20.f);
+  for (Message& message : messages) {
+    if (message.is_imu || !IsBetween(message, from_s, to_s)) continue;
+    for (LidarPoint& point : message.chunk.points) {
+      point.x_m = place(random);
+      point.y_m = place(random);
+      point.z_m = 4.f + place(random);
+    }
+  }
 }
 
 inline Messages WithoutLidar(const Messages& messages, double from_s, double to_s) {

@@ -55,6 +55,7 @@ TEST(DataFindings, EachFaultIsNamed) {
       {CauseKind::kTwoSenders, [](Counters& counters) { counters.num_chunks_duplicate = 250; }},
       {CauseKind::kPointTime, [](Counters& counters) { counters.num_chunks_bad = 100; }},
       {CauseKind::kSaturation, [](Counters& counters) { counters.num_imu_clipped = 100; }},
+      {CauseKind::kWayLost, [](Counters& counters) { counters.num_lost = 1; }},
   };
   for (const Case& spoiled : cases) {
     SCOPED_TRACE(std::string(Name(spoiled.kind)));

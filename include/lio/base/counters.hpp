@@ -38,6 +38,7 @@ struct Counters {
   std::int64_t num_standstills = 0;  // scans taken at rest, and fused as such
   std::int64_t num_clock_jumps = 0;
   std::int64_t num_restarts = 0;
+  std::int64_t num_lost = 0;            // restarts where scans had matched the map nowhere
   std::int64_t num_imu_foreign = 0;     // from a second sender on the channel
   std::int64_t num_chunks_foreign = 0;  // likewise
 

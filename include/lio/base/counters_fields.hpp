@@ -65,6 +65,8 @@ inline constexpr std::array kCounterFields = std::to_array<CounterField>({
      "zero-velocity updates: sweeps taken at rest; not a loss"},
     {"num_clock_jumps", &Counters::num_clock_jumps, "clock steps of a sensor"},
     {"num_restarts", &Counters::num_restarts, "times that the estimator started again"},
+    {"num_lost", &Counters::num_lost,
+     "those restarts where the way had been lost: the map began anew at a guess"},
     {"num_imu_foreign", &Counters::num_imu_foreign,
      "inertial samples refused: of a second sender on the channel"},
     {"num_chunks_foreign", &Counters::num_chunks_foreign,

@@ -12,7 +12,7 @@ namespace lio {
 inline constexpr std::uint64_t kOdometryFingerprint = 0x6aef2ca12689f54b;
 inline constexpr std::uint64_t kFilterStateFingerprint = 0x6dcb6ac3c994fbda;
 inline constexpr std::uint64_t kRegistrationFingerprint = 0x596baba604d08b4a;
-inline constexpr std::uint64_t kStatusFingerprint = 0x6c81b5f15f3dec65;
+inline constexpr std::uint64_t kStatusFingerprint = 0xc3f4d4099fe275d9;
 
 // Unless the result is kOk the outputs are unchanged or half filled and must not be used. Fields
 // that the message does not have keep their defaults. Numbers are finite, quaternions of unit norm

@@ -70,7 +70,7 @@ struct MotionSeed {
 struct TrackerOptions {
   double span_s = HistoryOptions{}.span_s;        // length of its history
   double nis_limit = HistoryOptions{}.nis_limit;  // gate of poses
-  // A gyro's rate at the start: the turn rate then comes from AddRate().
+  // A gyro's rate at the start, as it reads: the turn rate then comes from AddRate().
   std::optional<Vector3> first_rate_radps;
   // The velocity turns with the body, and the turn rate walks as the drive shows. Not while the
   // first scans tell what the rig is: there the simplest model shows best that something is wrong.
@@ -79,8 +79,8 @@ struct TrackerOptions {
   // The track and its map begin at this pose; the covariance is that of the pose in the world.
   Pose T_world_start;
   Matrix6 start_cov = Matrix6::Zero();
-  // Goes on from this estimate instead, in world and in map, with the turn rate of the seed's
-  // motion.
+  // Goes on from this estimate instead, in world and in map: with its gyro bias, or without a gyro
+  // with the turn rate of the seed's motion.
   std::optional<Estimate> goes_on_from = {};
 };
 
@@ -106,6 +106,9 @@ class ConstantVelocityTracker {
   Estimate AtEnd(Timestamp middle, Timestamp end, const std::optional<TurnRate>& shown) const;
   // Continues at another time, unsure of the velocity and of what happened in between.
   void SetClock(Timestamp stamp);
+  bool has_gyro() const { return has_gyro_; }
+  // rad/s: by the gyro, or as the scans show it.
+  Vector3 w_imu_radps() const { return last_rate_ - history_.head().state.gyro_bias; }
   FilterHistory& history() { return history_; }
   const FilterHistory& history() const { return history_; }
 
