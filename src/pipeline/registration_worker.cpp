@@ -277,7 +277,7 @@ void RegistrationWorker::FinishMatch(const Track& task, ScanInWork& scan) {
   if (outcome.match.IsUsable() || outcome.match.status == MatchStatus::kEmptyMap) {
     const std::int64_t begin = Now();
     if (task.holds_degenerate) {
-      relocalizer_.HoldDegenerate(outcome.points_imu, job.prior.up_map, outcome.match);
+      relocalizer_.HoldDegenerate(outcome.points_imu, job.prior, outcome.match);
     }
     if (job.seeks_place && initial_) SeekPlace(scan);
     AddTime(Stage::kMatch, begin, outcome);

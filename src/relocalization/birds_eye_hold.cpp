@@ -55,9 +55,11 @@ Eigen::Vector2f PositionOf(const MatchResult& match, const Quaternion& R_level_m
   return (R_level_map * match.T_map_imu.translation).head<2>().cast<float>();
 }
 
-float SearchRange_m(const MatchResult& match) {
+// Things stand alike along a corridor: a place that the prediction leaves no room for is another
+// one.
+float SearchRange_m(const LevelRows& H, const Matrix6& prior_cov) {
   const double std_m =
-      std::sqrt(std::max(0.0, match.cov.topLeftCorner<3, 3>().diagonal().maxCoeff()));
+      std::sqrt(std::max(0.0, (H * prior_cov * H.transpose()).diagonal().maxCoeff()));
   return static_cast<float>(std::clamp(kRelocalization.shift.range_sigmas * std_m,
                                        kRelocalization.shift.min_range_m,
                                        kRelocalization.shift.max_range_m));
@@ -66,7 +68,7 @@ float SearchRange_m(const MatchResult& match) {
 }  // namespace
 
 void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quaternion& R_level_map,
-                         MatchResult& match) {
+                         const Matrix6& prior_cov, MatchResult& match) {
   const Eigen::Vector2f matched_m = PositionOf(match, R_level_map);
   const bool is_apart = views_.empty() || (matched_m - views_.back().position_m).norm() >=
                                               kRelocalization.shift.view_spacing_m;
@@ -75,7 +77,7 @@ void BirdsEyeHold::Apply(std::span<const Eigen::Vector3f> points_imu, const Quat
   if (match.degenerate_mask != 0 && !views_.empty()) {
     const LevelRows H = LevelJacobian(R_level_map, match);
     if (const auto cov = CovSeenFromAbove(H, match)) {
-      const auto found = FindShift(views_, view, matched_m, SearchRange_m(match));
+      const auto found = FindShift(views_, view, matched_m, SearchRange_m(H, prior_cov));
       if (found) HoldAt(*found, H, *cov, R_level_map, match);
     }
   }

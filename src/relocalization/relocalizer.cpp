@@ -202,9 +202,9 @@ void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& pri
   found.is_clock_set = true;
 }
 
-void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
-                                 MatchResult& match) {
-  hold_.Apply(points_imu, LevelFromMap(up_map), match);
+void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu,
+                                 const MotionPrior& prior, MatchResult& match) {
+  hold_.Apply(points_imu, LevelFromMap(prior.up_map), prior.cov, match);
 }
 
 void Relocalizer::SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,

@@ -25,6 +25,7 @@ test::Points RoadsidePosts(float x_m) {
 }
 
 constexpr double kBlindStd_m = 100.0;  // as matching reports it
+const Matrix6 kPriorCov = Matrix6::Identity();
 
 MatchResult MatchAt(double x_m) {
   MatchResult match;
@@ -55,11 +56,12 @@ TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
   BirdsEyeHold hold;
   for (int i = 0; i < 3; ++i) {
     MatchResult match = MatchAt(2.0 * i);
-    hold.Apply(RoadsidePosts(2.f * static_cast<float>(i)), Quaternion::Identity(), match);
+    hold.Apply(RoadsidePosts(2.f * static_cast<float>(i)), Quaternion::Identity(), kPriorCov,
+               match);
     EXPECT_EQ(match.T_map_imu.translation.x(), 2.0 * i) << "nothing was degenerate";
   }
   MatchResult match = BlindMatchAt(4.8, Along(1.0, 0.0, 0.0));  // truth: 6 m
-  hold.Apply(RoadsidePosts(6.f), Quaternion::Identity(), match);
+  hold.Apply(RoadsidePosts(6.f), Quaternion::Identity(), kPriorCov, match);
   EXPECT_NEAR(match.T_map_imu.translation.x(), 6.0, 0.25);
   EXPECT_LT(std::sqrt(match.cov(0, 0)), 0.5);
 }
@@ -67,9 +69,19 @@ TEST(BirdsEyeHold, PutsADegenerateMatchWhereThePostsSay) {
 TEST(BirdsEyeHold, WithoutEarlierViewsAMatchStaysAsItIs) {
   BirdsEyeHold hold;
   MatchResult match = BlindMatchAt(1.0, Along(1.0, 0.0, 0.0));
-  hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), match);
+  hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), kPriorCov, match);
   EXPECT_EQ(match.T_map_imu.translation.x(), 1.0);
   EXPECT_EQ(match.cov, BlindMatchAt(1.0, Along(1.0, 0.0, 0.0)).cov);
+}
+
+// Things stand alike there: the prediction rules a place out that is three metres off.
+TEST(BirdsEyeHold, BelievesNoPlaceThatThePredictionRulesOut) {
+  BirdsEyeHold hold;
+  MatchResult first = MatchAt(0.0);
+  hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), kPriorCov, first);
+  MatchResult match = BlindMatchAt(2.0, Along(1.0, 0.0, 0.0));
+  hold.Apply(RoadsidePosts(5.f), Quaternion::Identity(), 0.1 * kPriorCov, match);
+  EXPECT_EQ(match.T_map_imu.translation.x(), 2.0);
 }
 
 // Half a metre to the side would stand for five metres up a stairwell, or for a turn of a radian.
@@ -77,9 +89,9 @@ TEST(BirdsEyeHold, TellsNothingOfHeightAndTurns) {
   for (const Vector6& shift : {Along(0.1, 1.0, 0.0), Along(0.5, 0.0, 1.0)}) {
     BirdsEyeHold hold;
     MatchResult first = MatchAt(0.0);
-    hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), first);
+    hold.Apply(RoadsidePosts(0.f), Quaternion::Identity(), kPriorCov, first);
     MatchResult match = BlindMatchAt(1.5, shift);  // truth: 2 m
-    hold.Apply(RoadsidePosts(2.f), Quaternion::Identity(), match);
+    hold.Apply(RoadsidePosts(2.f), Quaternion::Identity(), kPriorCov, match);
     EXPECT_EQ(match.T_map_imu.translation, Vector3(1.5, 0.0, 0.0));
     EXPECT_TRUE(match.T_map_imu.rotation.isApprox(Quaternion::Identity()));
     EXPECT_EQ(match.cov, BlindMatchAt(1.5, shift).cov);

@@ -19,9 +19,10 @@ class BirdsEyeHold {
  public:
   // Corrects pose and covariance of a usable match with degenerate directions, and remembers the
   // scan's view where it is some way from the last one. `points_imu` are deskewed, at the pose's
-  // instant; `R_level_map` turns up in the map to z.
+  // instant; `R_level_map` turns up in the map to z; `prior_cov` is that of the pose which matching
+  // began with, right error.
   void Apply(std::span<const Eigen::Vector3f> points_imu, const Quaternion& R_level_map,
-             MatchResult& match);
+             const Matrix6& prior_cov, MatchResult& match);
 
  private:
   std::vector<PlacedView> views_;  // from the last scans, some way apart, in level axes

@@ -67,13 +67,13 @@ struct ShiftSearchParameters {
   double min_std_m = 0.2;  // lower bound of a result's; chosen: about a cell's width
   // A score that is lower by its chance is e^-6 as likely. Chosen with the starts of that page.
   double log_odds = 6.0;
-  double range_sigmas = 3.0;  // searched around the match, ... statistics: 99.7 %
+  double range_sigmas = 3.0;  // searched, of the prediction's, ... statistics: 99.7 %
   double min_range_m = 1.5;   // ... at least, ... chosen: six steps, so that a peak shows its sides
   double max_range_m = 5.0;   // ... at most; chosen by cost
   // A view from above tells how far a body has gone in a degenerate direction that is level by so
   // much of its length, with turns in metres. Chosen: within 45 deg.
   double min_level_share = 0.7;
-  std::size_t max_views = 8;  // from earlier scans; chosen by cost, used in that page
+  std::size_t max_views = 8;    // from earlier scans; chosen by cost, used in that page
   float view_spacing_m = 1.5f;  // between them; chosen: posts look new; used in that page
 };
 

@@ -69,8 +69,9 @@ class Relocalizer {
                              const MotionPrior& prior, const MatchResult& near_prior,
                              const CandidateMatcher& matcher);
 
-  // Corrects degenerate directions of a usable match. `points_imu` are all of the scan's.
-  void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const Vector3& up_map,
+  // Corrects degenerate directions of a usable match, found from the prior. `points_imu` are all of
+  // the scan's.
+  void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const MotionPrior& prior,
                       MatchResult& match);
 
   // The scan was located there, or it begins the map. Later searches start from it.
