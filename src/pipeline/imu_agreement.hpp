@@ -166,7 +166,7 @@ struct ImuDoubt {
   // As they were before.
   Biases biases;
   Vector3 g_world = Vector3::Zero();  // m/s^2
-  int num_before = 0;  // doubts that were given up
+  int num_before = 0;                 // doubts that were given up
   bool is_open = true;
 };
 

@@ -4,50 +4,14 @@
 
 #include <utility>
 
-#include "lio/registration/match_budget.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/scan/deskew.hpp"
 #include "pipeline/lidar_beams.hpp"
 #include "pipeline/match_method.hpp"
-#include "pipeline/prior_error.hpp"
+#include "pipeline/scan_in_work.hpp"
 
 namespace lio {
 namespace {
-
-// Returns the trajectory over the sweep, bent so that its middle is where the scan was found.
-StampedPoses BentTo(const Pose& found, const MatchJob& job) {
-  return Bent(job, LogSe3(job.prior.T_map_imu.Inverse() * found));
-}
-
-template <class T>
-std::vector<T> Pick(const std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
-  std::vector<T> picked;
-  if (values.empty()) return picked;
-  picked.reserve(indices.size());
-  for (const std::uint32_t i : indices) picked.push_back(values[i]);
-  return picked;
-}
-
-// When the picked points were seen.
-std::vector<float> TimesFromMidSweep(const SweepTimes& times, const ReducedScan& reduced) {
-  const auto start_s = static_cast<float>(SecondsBetween(times.reference, times.start));
-  std::vector<float> from_mid_sweep_s;
-  from_mid_sweep_s.reserve(reduced.to_match.size());
-  for (const std::uint32_t i : reduced.to_match) {
-    from_mid_sweep_s.push_back(start_s + 1e-9f * static_cast<float>(reduced.points[i].t_offset_ns));
-  }
-  return from_mid_sweep_s;
-}
-
-std::vector<float> SharesOfPriorError(const std::vector<float>& from_mid_sweep_s,
-                                      const MatchJob& job) {
-  std::vector<float> shares;
-  shares.reserve(from_mid_sweep_s.size());
-  for (const float at_s : from_mid_sweep_s) {
-    shares.push_back(static_cast<float>(ShareOfPriorError(static_cast<double>(at_s), job)));
-  }
-  return shares;
-}
 
 // Returns the turn rate that the scan was deskewed by, less its error as the match shows it.
 TurnRate Corrected(const TurnRate& error, const StampedPoses& motion) {
@@ -56,44 +20,7 @@ TurnRate Corrected(const TurnRate& error, const StampedPoses& motion) {
   return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
 }
 
-int MaxMatches(const MatchJob& job) {
-  const auto* task = std::get_if<Relocalize>(&job.task);
-  const bool is_unseen = task != nullptr && task->search.region == SearchRegion::kObservable;
-  return is_unseen ? kRelocalization.max_matches_unseen : kRelocalization.max_matches_per_scan;
-}
-
-SweepTimes TimesOf(const Sweep& sweep) {
-  return {sweep.start, sweep.end, sweep.middle()};
-}
-
 }  // namespace
-
-struct RegistrationWorker::ScanInWork {
-  const MatchJob& job;
-  Pose T_imu_lidar;
-  BeamCalibration* calibration;
-  ReducedScan reduced = {};
-  StampedPoses motion;  // the trajectory that the points are deskewed by
-  MatchOutcome outcome = {};
-  std::vector<Eigen::Vector3f> to_match = {};  // chosen from outcome.points_imu
-  std::vector<FeatureTag> tags_to_match = {};
-  std::vector<ScanPoint> beams_to_match = {};
-  MatchBudget budget = MatchBudget(MaxMatches(job));
-
-  MatchInput InputFrom(const Pose& T_map_imu_guess, const Matrix6& cov) const {
-    return {.points_imu = to_match,
-            .T_map_imu_guess = T_map_imu_guess,
-            .guess_cov = cov,
-            .is_far_off = job.refines_deskew,
-            .tags = tags_to_match,
-            .scan_points_imu = outcome.points_imu,
-            .shift_std_m = job.prior.shift_std_m,
-            .from_mid_sweep_s = {},
-            .T_imu_lidar = T_imu_lidar,
-            .calibration = calibration,
-            .beam_points = beams_to_match};
-  }
-};
 
 RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
                                        const std::vector<double>& beam_elevations_rad,
@@ -179,20 +106,6 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
                            : MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
   if (search != nullptr) Search(*search, scan);
   AddTime(Stage::kMatch, begin, scan.outcome);
-}
-
-// The motion within the sweep is a guess as the prior is, so the scan is bent along with the pose,
-// and stays as it was bent where it was found.
-MatchResult RegistrationWorker::MatchBending(const MotionPrior& prior, ScanInWork& scan) {
-  const SweepTimes times = TimesOf(*scan.job.sweep);
-  const std::vector<float> shares =
-      SharesOfPriorError(TimesFromMidSweep(times, scan.reduced), scan.job);
-  MatchInput input = scan.InputFrom(prior.T_map_imu, prior.cov);
-  input.shares_of_correction = shares;
-  const MatchResult match = MatchFully(input, scan);
-  scan.motion = BentTo(match.T_map_imu, scan.job);
-  DeskewAgain(scan);
-  return match;
 }
 
 void RegistrationWorker::DeskewAgain(ScanInWork& scan) const {

@@ -90,12 +90,11 @@ Transition Tracking::GoOnWithoutImu(StartState known, const Vector3& w_imu_radps
   const Biases biases{before.gyro_bias, before.accel_bias};
   Transition transition = GoLidarOnly(Trigger::kImuDoubted, std::move(known), w_imu_radps);
   const int num_before = handover_.imu_doubt ? handover_.imu_doubt->num_before + 1 : 0;
-  transition.handover.imu_doubt =
-      ImuDoubt{.contradiction = why,
-               .last = end,
-               .biases = biases,
-               .g_world = g_world_,
-               .num_before = num_before};
+  transition.handover.imu_doubt = ImuDoubt{.contradiction = why,
+                                           .last = end,
+                                           .biases = biases,
+                                           .g_world = g_world_,
+                                           .num_before = num_before};
   return transition;
 }
 

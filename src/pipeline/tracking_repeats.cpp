@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lio/scan/repeated_sweep.hpp"
+#include "pipeline/scan_step.hpp"
 #include "pipeline/tracking.hpp"
 
 namespace lio {

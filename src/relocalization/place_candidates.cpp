@@ -33,13 +33,6 @@ Quaternion LevelFromMap(const Vector3& up_map) {
   return Quaternion::FromTwoVectors(up_map, Vector3::UnitZ());
 }
 
-Matrix6 CandidateCov() {
-  Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(kCandidate.std_m * kCandidate.std_m),
-      Vector3::Constant(kCandidate.std_rad * kCandidate.std_rad);
-  return cov;
-}
-
 std::vector<Pose> PlaceCandidates(const PlacedScan& earlier, const PlacedScan& now,
                                   const Matrix6& cov, const Quaternion& R_level_map,
                                   bool was_unseen) {

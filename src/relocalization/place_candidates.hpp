@@ -30,9 +30,6 @@ struct PlacedScan {
 // Returns the rotation R_level_map that turns up in the map to z.
 [[nodiscard]] Quaternion LevelFromMap(const Vector3& up_map);
 
-// Returns the covariance of a candidate's error, right error.
-[[nodiscard]] Matrix6 CandidateCov();
-
 // Returns the points in axes whose z is up; the origin stays at the sensor.
 [[nodiscard]] std::vector<Eigen::Vector3f> Levelled(std::span<const Eigen::Vector3f> points_imu,
                                                     const Quaternion& R_level_imu);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/relocalization/candidate.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/relocalization/tried_places.hpp"
 #include "relocalization/place_candidates.hpp"
@@ -14,11 +15,6 @@ namespace lio {
 namespace {
 
 constexpr PlaceContestParameters kContest = kRelocalization.contest;
-
-double SupportOf(const MatchResult& match) {
-  const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
-  return may_be_there ? ShareOf(match) * match.num_matched : 0.0;
-}
 
 // Says how well the scan fits the saved map there: the share of points that nothing contradicts,
 // over that in its own new map; less where the saved map shows little.

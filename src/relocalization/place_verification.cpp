@@ -66,6 +66,11 @@ bool HasPlenty(const MatchResult& match, const MatchResult& last) {
   return match.num_matched >= kVerify.plenty_number * last.num_matched;
 }
 
+bool IsAsTheLast(const MatchResult& match, const MatchResult& last) {
+  return match.IsUsable() && IsVerified(match, last) &&
+         match.num_matched >= kVerify.same_number * last.num_matched;
+}
+
 bool IsLikely(const MatchResult& match, const MatchResult& last) {
   const bool has_shares = last.num_in_map > 0;  // as the method ndt counts
   return has_shares && IsAsObservable(match, last) && HasPlenty(match, last) &&

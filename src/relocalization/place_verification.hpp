@@ -22,6 +22,10 @@ namespace lio {
 // Do nearly as many points lie on surfaces as of the last scan?
 [[nodiscard]] bool HasPlenty(const MatchResult& match, const MatchResult& last);
 
+// Does it lie on the map as well as the last scan did, and with about as many points? A view
+// changes little from scan to scan.
+[[nodiscard]] bool IsAsTheLast(const MatchResult& match, const MatchResult& last);
+
 // From an unsure prior: has it so many points, and more of them on surfaces than at any wrong place
 // that was measured? A scan that is bent by a motion that nobody measured cannot show more. No
 // direction may be degenerate unless the last scan had one.

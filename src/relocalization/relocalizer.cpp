@@ -5,22 +5,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/relocalization/candidate.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "relocalization/place_candidates.hpp"
 #include "relocalization/place_verification.hpp"
 
 namespace lio {
 namespace {
-
-// How much speaks for a coarse match: the number of points on surfaces times their share of those
-// that come to one. Ground gives many points anywhere, so that the number alone does not tell.
-double CoarseSupportOf(const MatchResult& match) {
-  const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
-  if (!may_be_there) return 0.0;
-  const double share =
-      match.num_in_map == 0 ? 1.0 : static_cast<double>(match.num_matched) / match.num_in_map;
-  return share * match.num_matched;
-}
 
 // A place is taken whose steps only go to and fro, and none is that the map contradicts.
 void RefuseUnlessVerified(const MatchResult& last, MatchResult& match) {
@@ -41,7 +32,7 @@ std::vector<Pose> RankedCandidates(const std::vector<Pose>& guesses,
   std::vector<Candidate> candidates;
   for (const Pose& guess : guesses) {
     const MatchResult coarse = match_coarsely(guess, CandidateCov());
-    const double support = CoarseSupportOf(coarse);
+    const double support = SupportOf(coarse);
     candidates.push_back({support > 0.0 ? coarse.T_map_imu : guess, support});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -205,6 +196,10 @@ void Relocalizer::TryAlternative(const Pose& alternative, const MotionPrior& pri
 void Relocalizer::HoldDegenerate(std::span<const Eigen::Vector3f> points_imu,
                                  const MotionPrior& prior, MatchResult& match) {
   hold_.Apply(points_imu, LevelFromMap(prior.up_map), prior.cov, match);
+}
+
+bool Relocalizer::MayBeElsewhere(const MatchResult& match) const {
+  return last_ && !IsAsTheLast(match, last_->match);
 }
 
 void Relocalizer::SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,

@@ -59,6 +59,10 @@ class RegistrationWorker {
   MatchResult MatchFully(const MatchInput& input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
   MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
+  MatchResult MatchBentFrom(const Pose& T_map_imu_guess, const Matrix6& cov, ScanInWork& scan);
+  // The prior turned about the vertical until most of the scan lies on the map, if any of it does.
+  std::optional<Pose> BestTurn(const MotionPrior& prior, ScanInWork& scan);
+  void BendTo(const Pose& T_map_imu, ScanInWork& scan) const;
   void Search(const SearchRequest& request, ScanInWork& scan);
   // Deskews the scan along its motion.
   void DeskewAgain(ScanInWork& scan) const;

@@ -105,6 +105,9 @@ struct PlaceVerificationParameters {
   // As many end the search and overrule inertial prediction. Chosen; used in
   // docs/experiments/clock_steps.md.
   double plenty_number = 0.6;
+  // A scan that has fewer is tried turned, if nothing measures turns. Chosen: a view changes by
+  // less from scan to scan, and at a wrong turn of 6 deg and more it had less.
+  double same_number = 0.8;
   double apart_m = 0.5;  // chosen: two poses nearer than this are not told apart by matching
   // A better match has so many times the points on surfaces. Chosen; used in
   // docs/experiments/clock_steps.md.

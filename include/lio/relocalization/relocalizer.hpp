@@ -74,6 +74,10 @@ class Relocalizer {
   void HoldDegenerate(std::span<const Eigen::Vector3f> points_imu, const MotionPrior& prior,
                       MatchResult& match);
 
+  // Do fewer points lie on surfaces than at a right place, compared with the last located scan?
+  // False before any scan was located.
+  [[nodiscard]] bool MayBeElsewhere(const MatchResult& match) const;
+
   // The scan was located there, or it begins the map. Later searches start from it.
   void SetLocated(Timestamp stamp, std::vector<Eigen::Vector3f> points_imu,
                   const MatchResult& match);

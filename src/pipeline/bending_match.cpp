@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+// A scan whose motion nobody has measured bends along with the pose that is found.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lio/relocalization/candidate.hpp"
+#include "pipeline/scan_in_work.hpp"
+
+namespace lio {
+namespace {
+
+// Tunes the search for the turn that nobody has measured.
+struct TurnSearchParameters {
+  double step_rad = 0.05;     // chosen: matching converges over 1 m, at 20 m
+  double range_sigmas = 3.0;  // searched, of the prior's; statistics: 99.7 %
+  double max_turn_rad = 0.6;  // ... at most; chosen by cost: 25 coarse matches
+};
+constexpr TurnSearchParameters kTurnSearch;
+
+std::vector<float> SharesOfPriorError(const std::vector<float>& from_mid_sweep_s,
+                                      const MatchJob& job) {
+  std::vector<float> shares;
+  shares.reserve(from_mid_sweep_s.size());
+  for (const float at_s : from_mid_sweep_s) {
+    shares.push_back(static_cast<float>(ShareOfPriorError(static_cast<double>(at_s), job)));
+  }
+  return shares;
+}
+
+// Returns the prior turned about the vertical, by steps up to as far as it may be off.
+std::vector<Pose> Turned(const MotionPrior& prior) {
+  const Vector3 up_imu = prior.T_map_imu.rotation.conjugate() * prior.up_map;
+  const double std_rad = std::sqrt(up_imu.dot(prior.cov.bottomRightCorner<3, 3>() * up_imu));
+  const double most_rad = std::min(kTurnSearch.range_sigmas * std_rad, kTurnSearch.max_turn_rad);
+  const int num_steps = static_cast<int>(std::ceil(most_rad / kTurnSearch.step_rad));
+  std::vector<Pose> turned;
+  for (int i = -num_steps; i <= num_steps; ++i) {
+    const Quaternion turn = ExpSo3(kTurnSearch.step_rad * i * up_imu);
+    turned.push_back({prior.T_map_imu.rotation * turn, prior.T_map_imu.translation});
+  }
+  return turned;
+}
+
+}  // namespace
+
+// The motion within the sweep is a guess as the prior is, so the scan stays as it was bent where it
+// was found. A body that begins or ends a quick turn is far from the prior by its direction alone.
+MatchResult RegistrationWorker::MatchBending(const MotionPrior& prior, ScanInWork& scan) {
+  MatchResult match = MatchBentFrom(prior.T_map_imu, prior.cov, scan);
+  if (relocalizer_.MayBeElsewhere(match)) {
+    if (const auto turned = BestTurn(prior, scan)) {
+      BendTo(*turned, scan);
+      calibration_.ForgetScan();
+      const MatchResult other = MatchBentFrom(*turned, CandidateCov(), scan);
+      if (SupportOf(other) > SupportOf(match)) match = other;
+    }
+  }
+  BendTo(match.T_map_imu, scan);
+  return match;
+}
+
+void RegistrationWorker::BendTo(const Pose& T_map_imu, ScanInWork& scan) const {
+  scan.motion = BentTo(T_map_imu, scan.job);
+  DeskewAgain(scan);
+}
+
+// The scan is deskewed along the motion that leads to the guess.
+MatchResult RegistrationWorker::MatchBentFrom(const Pose& T_map_imu_guess, const Matrix6& cov,
+                                              ScanInWork& scan) {
+  const std::vector<float> shares =
+      SharesOfPriorError(TimesFromMidSweep(TimesOf(*scan.job.sweep), scan.reduced), scan.job);
+  MatchInput input = scan.InputFrom(T_map_imu_guess, cov);
+  input.shares_of_correction = shares;
+  return MatchFully(input, scan);
+}
+
+// Few of the scan's points tell which of the turns it is.
+std::optional<Pose> RegistrationWorker::BestTurn(const MotionPrior& prior, ScanInWork& scan) {
+  const SweepTimes times = TimesOf(*scan.job.sweep);
+  const std::vector<std::uint32_t> few =
+      SpreadIndices(scan.reduced.to_match.size(), kRelocalization.num_coarse_points);
+  const std::vector<ScanPoint> points = Pick(scan.reduced.points, Pick(scan.reduced.to_match, few));
+  const std::vector<FeatureTag> tags = Pick(scan.tags_to_match, few);
+  const std::vector<float> shares =
+      Pick(SharesOfPriorError(TimesFromMidSweep(times, scan.reduced), scan.job), few);
+  std::optional<Pose> best;
+  double most = 0.0;
+  for (const Pose& guess : Turned(prior)) {
+    const std::vector<Eigen::Vector3f> points_imu =
+        Deskew(points, times, BentTo(guess, scan.job), T_imu_lidar_);
+    MatchInput input = scan.InputFrom(guess, CandidateCov());
+    input.points_imu = points_imu;
+    input.tags = tags;
+    input.shares_of_correction = shares;
+    input.calibration = nullptr;
+    scan.budget.CountCoarse();
+    const MatchResult coarse = matcher_->Match(input);
+    if (SupportOf(coarse) <= most) continue;
+    most = SupportOf(coarse);
+    best = coarse.T_map_imu;
+  }
+  return best;
+}
+
+}  // namespace lio
