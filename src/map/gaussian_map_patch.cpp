@@ -27,6 +27,17 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
+void GaussianMap::SetRangeStd(double range_std_m) {
+  constexpr double kUsual_m = GaussianMapParameters::kUsualRangeStd_m;
+  noise_var_ = std::max(0.0, range_std_m * range_std_m - kUsual_m * kUsual_m);
+}
+
+// The planes of a noisy lidar are thick, but no blob is a plane.
+bool GaussianMap::IsThin(double thickness_var, double width_var) const {
+  return thickness_var < GaussianMapParameters::kMaxThicknessRatio * width_var + noise_var_ &&
+         thickness_var < GaussianMapParameters::kMaxNoisyThicknessRatio * width_var;
+}
+
 bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(cov);
@@ -36,8 +47,7 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
   const double min_width = GaussianMapParameters::kMinWidthPerVoxel * options_.voxel_m;
   const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
   const bool is_view_known = !sums.view.isZero(0.f);
-  const bool is_plane = variance[1] > min_width * min_width &&
-                        variance[0] < GaussianMapParameters::kMaxThicknessRatio * variance[1] &&
+  const bool is_plane = variance[1] > min_width * min_width && IsThin(variance[0], variance[1]) &&
                         thickness < GaussianMapParameters::kMaxNormalStd_rad *
                                         GaussianMapParameters::kMaxNormalStd_rad * sums.num_points *
                                         variance[1] &&

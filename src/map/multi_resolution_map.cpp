@@ -95,6 +95,10 @@ void MultiResolutionMap::SetUp(const Vector3& up_map) {
   for (GaussianMap& level : levels_) level.SetUp(up_map);
 }
 
+void MultiResolutionMap::SetRangeStd(double range_std_m) {
+  for (GaussianMap& level : levels_) level.SetRangeStd(range_std_m);
+}
+
 void MultiResolutionMap::Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
                                 const Workers& workers, std::size_t finest,
                                 const SeenBeams& beams) {

@@ -224,6 +224,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
 
   std::int64_t begin = Now();
   scan.reduced = reducer_->Reduce(sweep);
+  range_std_m_ = scan.reduced.range_std_m;
   CorrectBeams(scan.reduced.points);
   outcome.num_used = static_cast<int>(scan.reduced.to_match.size());
   outcome.num_nonfinite = scan.reduced.num_nonfinite;
@@ -257,7 +258,8 @@ void RegistrationWorker::Insert(const InsertTask& task) {
                     .tags = task.tags,
                     .T_imu_lidar = T_imu_lidar_,
                     .beam_points = task.points_lidar,
-                    .corrected = &calibration_.errors()},
+                    .corrected = &calibration_.errors(),
+                    .range_std_m = range_std_m_},
                    *task.T_map_imu);
   calibration_.Keep(new_content_share_, is_blind_);
   last_insert_ns_ = Now() - begin;

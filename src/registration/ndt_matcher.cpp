@@ -108,6 +108,7 @@ void NdtMatcher::Insert(const ScanView& scan, const Pose& T_map_imu) {
   const Pose T_grid_imu = GridFromMap() * T_map_imu;
   if (inserted_at_) path_m_ += static_cast<float>((T_map_imu.translation - *inserted_at_).norm());
   inserted_at_ = T_map_imu.translation;
+  map_.SetRangeStd(scan.range_std_m);
   const std::vector<SeenBeam> beams = BeamsOf(scan, GridFromLidar(T_grid_imu, scan.T_imu_lidar));
   map_.Insert(InGrid(scan.points_imu, T_grid_imu), T_grid_imu * scan.T_imu_lidar.translation,
               workers_, LevelsInUse().finest, {beams, path_m_});

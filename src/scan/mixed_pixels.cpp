@@ -76,6 +76,17 @@ float MixedPixelFinder::RangeBeside(const Eigen::Vector3f& direction, std::uint3
   return position.dot(direction) > kMixedPixels.min_cos * range_m ? range_m : 0.f;
 }
 
+std::optional<float> MixedPixelFinder::OffsetFromPlane(std::uint32_t index) const {
+  if (neighbours_.empty()) return std::nullopt;
+  const Eigen::Vector3f position = PositionOf((*points_)[index]);
+  const float range_m = position.norm();
+  const float before_m = RangeBeside(position / range_m, neighbours_[index].before);
+  const float after_m = RangeBeside(position / range_m, neighbours_[index].after);
+  // A point that is not finite compares false.
+  if (!(before_m > 0.f && after_m > 0.f && range_m > 0.f)) return std::nullopt;
+  return range_m - 2.f / (1.f / before_m + 1.f / after_m);
+}
+
 bool MixedPixelFinder::IsMixed(std::uint32_t index) const {
   if (neighbours_.empty()) return false;
   const Neighbours& beside = neighbours_[index];

@@ -122,6 +122,8 @@ ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   ChoosePoints(sweep);
   result.points.reserve(choices_.size());
   mixed_pixels_.Load(sweep);
+  range_noise_.Add(mixed_pixels_, sweep.points.size());
+  result.range_std_m = range_noise_.std_m();
   for (const Chosen& chosen : SortedChoice(sweep)) {
     if (mixed_pixels_.IsMixed(chosen.index)) continue;
     const LidarPoint& point = sweep.points[chosen.index];

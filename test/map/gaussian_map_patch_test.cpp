@@ -89,6 +89,33 @@ TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
 }
 
+// Returns points of a level plane through the middle of a voxel, with noise across it.
+std::vector<Vector3> ThickPlane(const Vector3& centre, double noise_m) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> along(-0.45, 0.45);
+  std::normal_distribution<double> across(0.0, noise_m);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 200; ++i) {
+    points.push_back(
+        centre + Vector3(along(random), along(random), std::clamp(across(random), -0.49, 0.49)));
+  }
+  return points;
+}
+
+bool IsPlane(double noise_m, double range_std_m) {
+  GaussianMap map(TestOptions());
+  map.SetRangeStd(range_std_m);
+  map.Insert(ThickPlane(CentreOf(0, 0, 0), noise_m), CentreOf(0, 0, 9));
+  return PatchAt(map, CentreOf(0, 0, 0)).thickness_var > 0.f;
+}
+
+TEST(GaussianMapPatch, PlanesOfANoisyLidarAreThick) {
+  EXPECT_FALSE(IsPlane(0.12, 0.0)) << "nothing is known of the noise";
+  EXPECT_FALSE(IsPlane(0.12, 0.03));
+  EXPECT_TRUE(IsPlane(0.12, 0.12));
+  EXPECT_FALSE(IsPlane(0.25, 0.5)) << "a blob";
+}
+
 TEST(GaussianMapPatch, PatchHasTheMeanNormalAndThicknessOfItsPoints) {
   GaussianMap map(TestOptions());
   const Vector3 normal = Vector3(0.2, -0.3, 1.0).normalized();

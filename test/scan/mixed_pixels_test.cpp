@@ -113,6 +113,19 @@ TEST(MixedPixels, JitterOfTheStampsDoesNotChangeTheOrder) {
   EXPECT_EQ(NumMixed(sweep), 2);
 }
 
+// A wall 5 m off, seen at up to 70 deg from its normal, with one return 7 cm behind it.
+TEST(MixedPixels, APointIsSoFarFromThePlaneOfItsNeighbours) {
+  const Sweep sweep = TwoRingSweep([](double azimuth) {
+    const double range_m = 5.0 / std::cos(azimuth + 1.0);
+    return std::abs(azimuth) < 0.5 * kStep_rad ? range_m + 0.07 : range_m;
+  });
+  MixedPixelFinder finder;
+  finder.Load(sweep);
+  EXPECT_NEAR(finder.OffsetFromPlane(100).value(), 0.07, 0.005);
+  EXPECT_NEAR(finder.OffsetFromPlane(60).value(), 0.0, 0.005);
+  EXPECT_FALSE(finder.OffsetFromPlane(0)) << "the first of its ring";
+}
+
 TEST(MixedPixels, WithoutRingsNothingIsKnown) {
   Sweep sweep = TwoRingSweep(AcrossEdge);
   for (LidarPoint& point : sweep.points) point.ring = 0;

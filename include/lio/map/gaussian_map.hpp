@@ -69,6 +69,9 @@ class GaussianMap {
   // Sets the vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
+  // Sets the noise of ranges of the scans to come, 1 sigma [m].
+  void SetRangeStd(double range_std_m);
+
   // Returns the beams that the points of a plane came from.
   const CellBeams& beams(std::int32_t cell) const { return voxels_.Of<CellBeams>(cell); }
 
@@ -123,6 +126,7 @@ class GaussianMap {
 
   // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
+  [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
 
@@ -130,6 +134,7 @@ class GaussianMap {
   bool finds_vertical_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
+  double noise_var_ = 0.0;  // m^2, by which ranges are noisier than most lidars'
   VoxelMap<SurfacePatch, Sums, CellBeams> voxels_;
   // Insert() uses these as scratch.
   std::vector<Place> places_;

@@ -15,6 +15,11 @@ struct GaussianMapParameters {
   // A plane's variance along its normal is at most this share of that along its narrower tangent.
   // Chosen: 3 cm of noise on the narrowest plane have 0.06, the crown of a bush 1.
   static constexpr double kMaxThicknessRatio = 0.1;
+  // A lidar whose ranges have more noise than this standard deviation [m] makes planes thicker by
+  // the difference of the variances. Data sheets of spinning lidars say 0.02 to 0.03.
+  static constexpr double kUsualRangeStd_m = 0.03;
+  // ... but not beyond this share. Chosen: a third of a blob's.
+  static constexpr double kMaxNoisyThicknessRatio = 0.35;
   // A plane's standard deviation along its narrower tangent is at least this share of the voxel's
   // edge. Chosen: a single ring is a few centimetres wide, and a cell that is evenly filled has
   // 0.29.

@@ -53,6 +53,8 @@ class MultiResolutionMap {
   }
 
   void SetUp(const Vector3& up_map);
+  // Sets the noise of ranges of the scans to come, 1 sigma [m].
+  void SetRangeStd(double range_std_m);
   // Adds a scan taken from `sensor_map`, to all levels from `finest` on.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1), std::size_t finest = 0,

@@ -84,6 +84,7 @@ class RegistrationWorker {
   Relocalizer relocalizer_;
   std::unique_ptr<InitialMapEntry> initial_;  // null: no initial map
   std::int64_t last_insert_ns_ = 0;
+  double range_std_m_ = 0.0;  // the noise that the last scan showed
 };
 
 }  // namespace lio

@@ -30,6 +30,7 @@ struct ScanView {
   // them; empty where the beams are not known.
   std::span<const ScanPoint> beam_points = {};
   const BeamErrors* corrected = nullptr;
+  double range_std_m = 0.0;  // noise of the ranges; 0: not known
 };
 
 struct TurnRate {

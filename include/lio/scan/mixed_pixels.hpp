@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lio/scan/sweep.hpp"
@@ -24,6 +25,9 @@ class MixedPixelFinder {
   // sweep without rings has no neighbours and no mixed pixels.
   void Load(const Sweep& sweep);
   [[nodiscard]] bool IsMixed(std::uint32_t index) const;
+  // Returns how much farther a point is than the plane through its neighbours on the ring [m];
+  // absent where it has not both.
+  [[nodiscard]] std::optional<float> OffsetFromPlane(std::uint32_t index) const;
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;

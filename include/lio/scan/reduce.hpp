@@ -11,6 +11,7 @@
 #include "lio/base/voxel_table.hpp"
 #include "lio/scan/mixed_pixels.hpp"
 #include "lio/scan/point_filter.hpp"
+#include "lio/scan/range_noise.hpp"
 #include "lio/scan/reduce_options.hpp"
 #include "lio/scan/reduced_scan.hpp"
 #include "lio/sensor/rig.hpp"
@@ -42,6 +43,7 @@ class ScanReducer final : public SweepReducer {
   ReduceOptions options_;
   PointFilter filter_;
   MixedPixelFinder mixed_pixels_;
+  RangeNoiseEstimator range_noise_;
   float voxel_m_;
   std::vector<std::uint32_t> candidates_;  // indices of the finite, sampled points in range
   VoxelTable<Choice> choices_;             // by voxel

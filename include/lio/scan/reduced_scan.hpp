@@ -29,7 +29,8 @@ struct ReducedScan {
   std::shared_ptr<const LoamFeatures> features;  // LOAM only
   int num_raw = 0;
   int num_nonfinite = 0;
-  float voxel_m = 0;  // the edge of the thinning grid that was used
+  float range_std_m = 0;  // noise of the ranges, as the sweeps so far show it; 0: not known
+  float voxel_m = 0;      // the edge of the thinning grid that was used
 };
 
 class SweepReducer {
