@@ -70,19 +70,21 @@ void FindNoise(const ImuNoiseRatios& noise, const ImuRig& imu, std::vector<Cause
 
 void FindBroken(const Counters& counters, std::vector<Cause>& causes) {
   if (counters.num_imu_contradicted > 0) {
-    causes.push_back({CauseKind::kImuBroken, Trust::kDoubtful, 0.0,
-                      fmt::format("scans and IMU contradicted each other {} times on the way, and "
-                                  "the path followed the scans: has the IMU broken, or has the "
-                                  "lidar been moved?",
-                                  counters.num_imu_contradicted),
-                      ""});
+    causes.push_back(
+        {CauseKind::kImuBroken, Trust::kDoubtful, 0.0,
+         fmt::format("times that scans and IMU contradicted each other on the way, and "
+                     "the path followed the scans: {}; has the IMU broken, or has "
+                     "the lidar been moved?",
+                     counters.num_imu_contradicted),
+         ""});
   }
   if (counters.num_imu_stuck > 0) {
-    causes.push_back({CauseKind::kImuBroken, Trust::kYes, 0.0,
-                      fmt::format("an axis of the IMU stopped {} times, and the path followed the "
-                                  "scans alone",
-                                  counters.num_imu_stuck),
-                      ""});
+    causes.push_back(
+        {CauseKind::kImuBroken, Trust::kYes, 0.0,
+         fmt::format("times that an axis of the IMU stopped, and the path followed the "
+                     "scans alone: {}",
+                     counters.num_imu_stuck),
+         ""});
   }
   if (counters.num_scans_repeated > 0) {
     causes.push_back({CauseKind::kLidarRepeats, Trust::kDoubtful, 0.0,
