@@ -3,36 +3,18 @@
 // A scan whose motion nobody has measured.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "lio/pipeline/registration_worker.hpp"
-#include "support/simulated_drive.hpp"
+#include "support/street_job.hpp"
 
 namespace lio {
 namespace {
 
 using test::Driving;
-using test::StampAt;
-
-MatchJob JobAt(double start_s) {
-  std::mt19937_64 random(static_cast<unsigned>(1000 * start_s));
-  auto sweep = std::make_shared<Sweep>();
-  sweep->start = StampAt(start_s);
-  sweep->end = StampAt(start_s + 0.1);
-  sweep->points = test::CastSweep(test::Street(), test::TestLidar(), Driving(), start_s, random);
-  MatchJob job;
-  job.sweep = sweep;
-  for (int i = 0; i <= 10; ++i) {
-    job.T_any_imu.push_back({StampAt(start_s + 0.01 * i), Driving()(start_s + 0.01 * i)});
-  }
-  job.prior.T_map_imu = Driving()(start_s + 0.05);
-  job.prior.cov.diagonal() << Vector3::Constant(0.0025), Vector3::Constant(2.5e-5);
-  return job;
-}
+using test::StreetJob;
 
 // The prediction has missed a turn of this rate since the last scan.
 MatchJob JobWithoutTurn(double start_s, double rate_radps) {
-  MatchJob job = JobAt(start_s);
+  MatchJob job = StreetJob(start_s);
   job.prior.since_last_fix_s = 0.1;
   for (StampedPose& pose : job.T_any_imu) {
     const double since_s = SecondsBetween(job.sweep->middle(), pose.stamp) + 0.1;
@@ -51,7 +33,7 @@ class BendingMatch : public testing::Test {
  protected:
   BendingMatch() {
     for (int i = 0; i < 10; ++i) {
-      MatchOutcome outcome = side_.Run(JobAt(0.1 * i));
+      MatchOutcome outcome = side_.Run(StreetJob(0.1 * i));
       side_.Insert(
           {.points_imu = std::move(outcome.points_imu), .T_map_imu = Driving()(0.1 * i + 0.05)});
     }

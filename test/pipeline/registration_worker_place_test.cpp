@@ -4,30 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "lio/pipeline/registration_worker.hpp"
-#include "support/simulated_drive.hpp"
+#include "support/street_job.hpp"
 
 namespace lio {
 namespace {
 
 using test::Driving;
-using test::StampAt;
 
 MatchJob GuessedJob(double start_s, const Vector6& guess_error) {
-  std::mt19937_64 random(static_cast<unsigned>(1000 * start_s));
-  auto sweep = std::make_shared<Sweep>();
-  sweep->start = StampAt(start_s);
-  sweep->end = StampAt(start_s + 0.1);
-  sweep->points = test::CastSweep(test::Street(), test::TestLidar(), Driving(), start_s, random);
-  MatchJob job;
-  job.sweep = sweep;
-  for (int i = 0; i <= 10; ++i) {
-    job.T_any_imu.push_back({StampAt(start_s + 0.01 * i), Driving()(start_s + 0.01 * i)});
-  }
-  job.prior.T_map_imu = Driving()(start_s + 0.05) * ExpSe3(guess_error);
-  job.prior.cov.diagonal() << Vector3::Constant(0.01), Vector3::Constant(2.5e-5);
+  MatchJob job = test::StreetJob(start_s);
+  job.prior.T_map_imu = job.prior.T_map_imu * ExpSe3(guess_error);
   return job;
 }
 
