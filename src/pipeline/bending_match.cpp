@@ -94,9 +94,7 @@ std::optional<Pose> RegistrationWorker::BestTurn(const MotionPrior& prior, ScanI
     input.points_imu = points_imu;
     input.tags = tags;
     input.shares_of_correction = shares;
-    input.calibration = nullptr;
-    scan.budget.CountCoarse();
-    const MatchResult coarse = matcher_->Match(input);
+    const MatchResult coarse = MatchCoarsely(input, scan);
     if (SupportOf(coarse) <= most) continue;
     most = SupportOf(coarse);
     best = coarse.T_map_imu;

@@ -44,6 +44,15 @@ std::vector<ImuSample> SamplesAbout(const ImuBuffer& imu, Timestamp from, Timest
   return imu.Between(from - margin, to + margin);
 }
 
+ImuContradiction ContradictionOf(const StuckImuDetector::Stuck& stuck, Timestamp since) {
+  const bool is_gyro = stuck.sensor == ImuSensor::kGyro;
+  return {.sensor = stuck.sensor,
+          .since = since,
+          .axis_imu = stuck.axis_imu,
+          .evidence = is_gyro ? "an axis of the gyro reads the same all the time"
+                              : "an axis of the accelerometer reads the same all the time"};
+}
+
 ImuAgreement::Belief BeliefAbout(const Biases& biases, const ImuNoise& noise, const Vector3& g_map,
                                  const ModeContext& context) {
   const ImuRig& rig = context.options.rig.imu;

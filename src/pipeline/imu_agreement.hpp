@@ -80,6 +80,11 @@ struct ImuContradiction {
   std::string evidence;
 };
 
+// Returns an axis that has stopped, as a contradiction; whatever the scans show from then on, the
+// sensor does not follow it.
+[[nodiscard]] ImuContradiction ContradictionOf(const StuckImuDetector::Stuck& stuck,
+                                               Timestamp since);
+
 class ImuAgreement {
  public:
   struct MatchedPose {

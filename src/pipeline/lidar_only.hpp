@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // The mode without an IMU, or with one of which the gyro alone is believed: scans are tracked by
-// the constant-velocity model. A path that is lost
-// would go on straight, wherever that leads; so after a few scans that match nowhere a new map
-// begins, in the world that was published.
+// the constant-velocity model. A path that is lost would go on straight, wherever that leads; so
+// after a few scans that match nowhere a new map begins, in the world that was published.
 #pragma once
 
 #include <optional>

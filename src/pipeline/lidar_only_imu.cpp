@@ -48,7 +48,10 @@ void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
   context_.stuck_imu.Add(context_.stream.imu().samples(), outcome.sweep->end);
   if (const auto stuck = context_.stuck_imu.found()) {
     doubt.last = outcome.sweep->end;
-    doubt.contradiction.sensor = stuck->sensor;
+    // The motion that was not followed is another sensor's.
+    if (stuck->sensor != doubt.contradiction.sensor) {
+      doubt.contradiction = ContradictionOf(*stuck, stuck->before.stamp);
+    }
   }
   if (!is_fused || outcome.is_relocalized) return imu_agreement_.Restart();
   const Timestamp middle = outcome.sweep->middle();

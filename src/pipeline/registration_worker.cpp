@@ -92,6 +92,12 @@ MatchResult RegistrationWorker::MatchFully(const MatchInput& input, ScanInWork& 
   return none;
 }
 
+MatchResult RegistrationWorker::MatchCoarsely(MatchInput input, ScanInWork& scan) {
+  input.calibration = nullptr;
+  scan.budget.CountCoarse();
+  return matcher_->Match(input);
+}
+
 void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* search,
                                         ScanInWork& scan) {
   const std::int64_t begin = Now();
@@ -136,9 +142,7 @@ void RegistrationWorker::Search(const SearchRequest& request, ScanInWork& scan) 
                                    input.points_imu = few_points;
                                    input.tags = few_tags;
                                    input.is_far_off = false;
-                                   input.calibration = nullptr;
-                                   scan.budget.CountCoarse();
-                                   return matcher_->Match(input);
+                                   return MatchCoarsely(input, scan);
                                  },
                                  scan.budget.num_left() - num_for_deskew};
   const DeskewedScan deskewed{scan.job.sweep->middle(), scan.to_match};

@@ -52,16 +52,8 @@ Transition Tracking::LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timesta
   const Timestamp since = std::max(stuck.before.stamp, history_.start_stamp());
   StartState known = KnownAt(since);
   const Vector3 w_imu_radps = stuck.before.w_imu_radps - known.estimate.state.gyro_bias;
-  const bool is_gyro = stuck.sensor == ImuSensor::kGyro;
   ++context_.counters.num_imu_stuck;
-  return GoOnWithoutImu(std::move(known), w_imu_radps,
-                        {.sensor = stuck.sensor,
-                         .since = since,
-                         .axis_imu = stuck.axis_imu,
-                         .evidence = is_gyro ? "an axis of the gyro reads the same all the time"
-                                             : "an axis of the accelerometer reads the same all "
-                                               "the time"},
-                        end);
+  return GoOnWithoutImu(std::move(known), w_imu_radps, ContradictionOf(stuck, since), end);
 }
 
 // The pose is the scan's, in the world as it was while the samples still followed.

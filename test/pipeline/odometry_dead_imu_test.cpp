@@ -121,6 +121,19 @@ TEST(DeadImuAndLost, IsBelievedAgainOnceItFollowsTheScans) {
   EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 0.5);
 }
 
+// The accelerometer is contradicted, and then the gyro dies as well.
+TEST(DeadImuOneByOne, IsBelievedAgainOnceBothFollowTheScans) {
+  Messages messages = Broken(ShiftForce, kBroken_s + 2.0);
+  for (test::Message& message : messages) {
+    const double t_s = message.is_imu ? SecondsOf(message.sample.stamp) : 0.0;
+    if (t_s >= kBroken_s + 1.3 && t_s < kBroken_s + 2.0) KillGyro(message.sample);
+  }
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(run, "the accelerometer is "));
+  EXPECT_TRUE(test::HasNotice(run, "the IMU follows the motion again"));
+  EXPECT_LT(ErrorAgainst(RestThenDrive(), run.scans).max_m, 0.2);
+}
+
 TEST(DeadImuBefore, SoundUnitIsBelieved) {
   const RunResult run = RunOdometry(LongDrive(), test::DriveRig());
   EXPECT_FALSE(test::HasNotice(run, "lidar-only"));

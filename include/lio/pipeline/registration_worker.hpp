@@ -57,6 +57,8 @@ class RegistrationWorker {
   void Do(const Relocalize& task, ScanInWork& scan);
   // A match with these points that counts; one without budget finds nothing.
   MatchResult MatchFully(const MatchInput& input, ScanInWork& scan);
+  // A match with a few of the points, which ranks guesses and teaches the calibration nothing.
+  MatchResult MatchCoarsely(MatchInput input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
   MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
   MatchResult MatchBentFrom(const Pose& T_map_imu_guess, const Matrix6& cov, ScanInWork& scan);

@@ -4,6 +4,9 @@
 // neighbours on the ring say (MixedPixelFinder), and how far it is off is noise. Nothing throws.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "lio/scan/mixed_pixels.hpp"
 
 namespace lio {
@@ -17,6 +20,7 @@ class RangeNoiseEstimator {
 
  private:
   float std_m_ = 0.f;
+  std::vector<float> offsets_m_;  // scratch
 };
 
 }  // namespace lio
