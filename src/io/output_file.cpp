@@ -13,6 +13,7 @@ namespace lio {
 namespace {
 
 constexpr std::size_t kMaxKeptBytes = 1 << 20;
+constexpr std::uint64_t kPageBytes = 4096;
 constexpr mode_t kMode = 0666;  // less the umask
 
 // Cuts what was written of a row that did not fit; devices and pipes have nothing to cut.
@@ -27,6 +28,15 @@ void CutToWholeRows(std::FILE* file, std::string_view written) {
 }
 
 }  // namespace
+
+std::string_view RowsWithinPage(std::string_view rows, std::uint64_t at) {
+  const std::size_t left = static_cast<std::size_t>(kPageBytes - at % kPageBytes);
+  if (rows.size() <= left) return rows;
+  const std::size_t last_end = rows.substr(0, left).rfind('\n');
+  if (last_end != rows.npos) return rows.substr(0, last_end + 1);
+  const std::size_t end = rows.find('\n');
+  return end == rows.npos ? rows : rows.substr(0, end + 1);
+}
 
 // Without O_NONBLOCK a FIFO that nobody reads would be waited for; a pipe that is full is waited
 // for all the same.
@@ -72,7 +82,8 @@ void OutputFile::Write(std::string_view rows) {
 void OutputFile::Flush() {
   std::string_view left = kept_;
   while (!left.empty()) {
-    const ssize_t num = ::write(::fileno(file_.get()), left.data(), left.size());
+    const std::string_view piece = RowsWithinPage(left, size_);
+    const ssize_t num = ::write(::fileno(file_.get()), piece.data(), piece.size());
     if (num < 0 && errno == EINTR) continue;
     if (num < 0) {
       const int reason = errno;
@@ -81,6 +92,7 @@ void OutputFile::Flush() {
       throw WriteError("cannot write " + path_.string() + " in full: " + std::strerror(reason));
     }
     left.remove_prefix(static_cast<std::size_t>(num));
+    size_ += static_cast<std::uint64_t>(num);
   }
   kept_.clear();
 }

@@ -53,6 +53,29 @@ TEST(OutputFile, RowsAreInTheFileAfterAFlushAndAtTheEnd) {
   EXPECT_EQ(test::ReadText(path), "1\n2\n");
 }
 
+TEST(OutputFile, ManyRowsAreWrittenAsTheyAre) {
+  const test::TempDir folder;
+  const std::filesystem::path path = folder.path() / "rows.csv";
+  std::string all;
+  OutputFile file(path);
+  for (std::size_t i = 0; i < 500; ++i) {
+    const std::string row = std::string(i * 37 % 6000, 'a') + "\n";
+    file.Write(row);
+    all += row;
+    if (i % 100 == 0) file.Flush();
+  }
+  file.Close();
+  EXPECT_EQ(test::ReadText(path), all);
+}
+
+TEST(RowsWithinPage, EndWithARowBeforeThePageEnds) {
+  EXPECT_EQ(RowsWithinPage("one\ntwo\nthree\n", 0), "one\ntwo\nthree\n");
+  EXPECT_EQ(RowsWithinPage("one\ntwo\nthree\n", 4096 - 10), "one\ntwo\n");
+  EXPECT_EQ(RowsWithinPage("one\ntwo\nthree\n", 8192 - 8), "one\ntwo\n");
+  EXPECT_EQ(RowsWithinPage("one\ntwo\nthree\n", 4096 - 2), "one\n") << "it crosses the page";
+  EXPECT_EQ(RowsWithinPage("no row", 4096 - 2), "no row");
+}
+
 TEST(OutputFile, ASymbolicLinkIsReplacedOrFollowed) {
   const test::TempDir folder;
   const std::filesystem::path precious = folder.Write("precious", "precious");

@@ -3,6 +3,7 @@
 // Writes a file in whole rows, and names it in errors.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -43,7 +44,13 @@ class OutputFile {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;  // without a buffer of its own
   std::string kept_;
+  std::uint64_t size_ = 0;  // bytes written
 };
+
+// Returns the first rows, as many as end within the page of the file that `at` is in, or the one
+// row that does not. A process that is killed while it writes leaves its file cut at the end of a
+// page: the kernel looks for a signal after each.
+[[nodiscard]] std::string_view RowsWithinPage(std::string_view rows, std::uint64_t at);
 
 // Opens a file as OutputFile does, without its errors: returns -1, and errno says why.
 [[nodiscard]] int OpenToWrite(const std::filesystem::path& path, OutputFile::Links links);
