@@ -116,11 +116,12 @@ void LidarOnly::GoOn() {
   up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
 }
 
-void LidarOnly::TrackOn(const Estimate& estimate, const std::optional<Vector3>& rate_radps) {
+// The estimate may be the tracker's that ends here, so it is a copy.
+void LidarOnly::TrackOn(Estimate estimate, const std::optional<Vector3>& rate_radps) {
   TrackerOptions options = OptionsOfTrack(seed_, context_);
-  options.goes_on_from = estimate;
+  options.goes_on_from = std::move(estimate);
   options.first_rate_radps = rate_radps;
-  tracker_.emplace(estimate.stamp, options);
+  tracker_.emplace(options.goes_on_from->stamp, options);
 }
 
 // The published path goes on: the new map begins where the motion before and after the scans that

@@ -59,7 +59,7 @@ class LidarOnly {
   void BeginTrack(const Sweep& sweep);
   void GoOn();
   // The track goes on from this estimate, with a gyro that tells this rate there, or without one.
-  void TrackOn(const Estimate& estimate, const std::optional<Vector3>& rate_radps);
+  void TrackOn(Estimate estimate, const std::optional<Vector3>& rate_radps);
   // Takes the gyro's samples up to `end`.
   void AddRates(Timestamp end);
   // The gyro's rate, where it is believed and has told it.
