@@ -52,6 +52,8 @@ class LidarOnly {
   // was not lost since it ended; else the start begins anew.
   [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
   void TakeImuAbsent();
+  // The inertial stream goes on elsewhere in time.
+  void StartSegment(const SegmentStarts& segment);
 
   TrackingStatus status() const { return health_.status(); }
 

@@ -42,6 +42,13 @@ void LidarOnly::TakeImuAbsent() {
   LeaveGyro();
 }
 
+// An IMU in doubt has to follow the scans for as long again.
+void LidarOnly::StartSegment(const SegmentStarts& segment) {
+  if (imu_back_since_) imu_back_since_ = segment.first.stamp;
+  if (handover_.doubts_imu()) handover_.imu_doubt->last = segment.first.stamp;
+  imu_agreement_.Restart();
+}
+
 void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
   if (!imu_back_since_) return;
   ImuDoubt& doubt = *handover_.imu_doubt;

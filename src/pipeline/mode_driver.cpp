@@ -103,6 +103,7 @@ ModeDriver::Next ModeDriver::Take(const SegmentStarts& event) {
     tracking->StartSegment(event);
     return std::nullopt;
   }
+  if (auto* lidar_only = As<LidarOnly>()) lidar_only->StartSegment(event);
   auto* initializing = As<Initializing>();
   return initializing ? initializing->StartSegment(event) : std::nullopt;
 }

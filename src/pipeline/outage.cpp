@@ -24,7 +24,7 @@ double UnseenTurnStd_rad(double unseen_s) {
 }
 
 Estimate AcrossOutage(Estimate before, Timestamp now) {
-  const double unseen_s = SecondsBetween(before.stamp, now);
+  const double unseen_s = std::abs(SecondsBetween(before.stamp, now));
   const double coasted_s = std::min(unseen_s, kInitializationParameters.at_rest.max_coast_s);
   const double speed_mps = std::max(before.state.v_world_imu.norm(), kOutage.min_speed_mps);
   const double std_m = std::min(speed_mps * unseen_s, kOutage.max_std_m);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An outage: stamps of all sensors went forth by seconds. Either nothing was received meanwhile (a
-// suspended host, a switch) and the body moved unseen, or the clocks were set and it did not. The
-// stamps are the same, so the covariance holds both, and the estimator is lost until scans tell:
+// An outage: for seconds nothing tells the motion. Stamps of all sensors went forward, and either
+// nothing was received meanwhile (a suspended host, a switch) and the body moved unseen, or the
+// clocks were set and it did not; or clocks were set back; or samples came and no scans; or the map
+// was given up. The covariance holds all of it, and the estimator is lost until scans tell:
 //
 //   kSeek           the scan is sought near the old place and where the motion before leads to
 //   kCheck          the scans after it must match as well as those before the outage did
@@ -65,7 +66,8 @@ inline constexpr OutageParameters kOutage;
 [[nodiscard]] double UnseenTurnStd_rad(double unseen_s);
 
 // Returns the state at `now`, driven on as before, with a covariance that holds a body that
-// stopped, that drove on or turned, and clocks that were set.
+// stopped, that drove on or turned, and clocks that were set. Clocks that were set back tell as
+// little of the time that passed as clocks that were set forward by as much.
 [[nodiscard]] Estimate AcrossOutage(Estimate before, Timestamp now);
 
 // Takes a yaw that is less sure than kOutage.known_yaw_std_rad out of an estimate that begins a new

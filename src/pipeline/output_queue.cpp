@@ -17,7 +17,9 @@ void OutputQueue::Notify(Timestamp stamp, Notice::Severity severity, std::string
 }
 
 void OutputQueue::NotifyWaiting(Timestamp stamp, std::string text) {
-  if (SecondsBetween(last_waiting_, stamp) < kOutputQueue.waiting_every_s) return;
+  const double since_s = SecondsBetween(last_waiting_, stamp);
+  const bool was_clock_set_back = since_s < 0.0;
+  if (!was_clock_set_back && since_s < kOutputQueue.waiting_every_s) return;
   last_waiting_ = stamp;
   Notify(stamp, Notice::Severity::kInfo, std::move(text));
 }

@@ -20,13 +20,16 @@ bool IsSaturated(const ImuSample& sample, std::size_t axis) {
 
 bool StuckImuDetector::Axis::is_stuck() const {
   return num_changes >= kStuckImu.min_changes &&
-         num_equal >= std::max(kStuckImu.min_samples, kStuckImu.times_longer * longest);
+         num_equal >= std::max<std::int64_t>(kStuckImu.min_samples, kStuckImu.times_longer * longest);
 }
 
 void StuckImuDetector::Add(const std::deque<ImuSample>& samples, Timestamp until) {
+  if (samples.empty()) return;
   const auto after = [](Timestamp stamp, const ImuSample& sample) { return stamp < sample.stamp; };
-  auto next = last_ ? std::upper_bound(samples.begin(), samples.end(), last_->stamp, after)
-                    : samples.begin();
+  // After a clock was set back all samples are of the time since.
+  const bool are_all_new = !last_ || samples.back().stamp < last_->stamp;
+  auto next = are_all_new ? samples.begin()
+                          : std::upper_bound(samples.begin(), samples.end(), last_->stamp, after);
   for (; next != samples.end() && next->stamp <= until; ++next) {
     if (!next->is_made_up()) Take(*next);
   }

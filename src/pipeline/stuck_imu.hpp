@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <optional>
 
@@ -44,9 +45,9 @@ class StuckImuDetector {
 
  private:
   struct Axis {
-    int num_equal = 0;  // readings in a row that were the same, the newest one included
-    int longest = 1;    // such a row that has ended
-    int num_changes = 0;
+    std::int64_t num_equal = 0;  // readings in a row that were the same, the newest one included
+    std::int64_t longest = 1;    // such a row that has ended
+    std::int64_t num_changes = 0;
     ImuSample before_row;  // the last sample before this row's first one
     [[nodiscard]] bool is_stuck() const;
   };

@@ -153,7 +153,7 @@ MatchResult LoamScanMatcher::MatchSkewed(const MatchInput& input,
     const Pose solved = terms_->Solve(input.points_imu, sweep_ratios, pose);
     const Vector6 step = LogSe3(pose.Inverse() * solved);
     if (!sweep_ratios.empty()) return step;
-    const MatchSums sums = terms_->Linearize(input.points_imu, pose, &scores_);
+    const MatchSums sums = terms_->Linearize(input.points_imu, pose, nullptr);
     const DirectionSplit split = SplitDirections(sums);
     return KeepObservableDirections(split, step);
   };

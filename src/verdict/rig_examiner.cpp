@@ -44,6 +44,9 @@ void RigExaminer::SetConvention(const ImuConvention& convention) {
 
 std::optional<RigFindings> RigExaminer::Look(Timestamp stamp) {
   if (!first_stamp_) first_stamp_ = stamp;
+  // A clock that was set back takes nothing off the time that was driven.
+  if (last_stamp_ && stamp < *last_stamp_) *first_stamp_ = *first_stamp_ + (stamp - *last_stamp_);
+  last_stamp_ = stamp;
   if (SecondsBetween(*first_stamp_, stamp) < next_look_s_) return std::nullopt;
   next_look_s_ *= kRigExaminer.next_look_factor;
   RigFindings findings = FindRigErrors(record_, rig_, convention_, is_lever_found_);
@@ -68,6 +71,7 @@ void RigExaminer::SetExtrinsic(const RigFindings& findings, const Pose& T_imu_li
   told_.reset();
   if (findings.T_imu_lidar) {
     first_stamp_.reset();
+    last_stamp_.reset();
     next_look_s_ = kRigExaminer.first_look_s;
     std::ranges::copy_if(findings.causes, std::back_inserter(corrected_), IsOfExtrinsic);
     record_.Clear();  // sweeps were deskewed wrongly

@@ -244,7 +244,7 @@ TEST_P(MatcherContract, InformationIsTheCurvatureOfItsCost) {
   }
 }
 
-// Returns the spread of the results over draws of the scan's noise, with one map.
+// The draws are of the scan's noise; the map is one.
 TEST_P(MatcherContract, CovarianceAgreesWithMonteCarlo) {
   const RayScene scene = test::StreetScene(2);
   MethodBench bench(GetParam());

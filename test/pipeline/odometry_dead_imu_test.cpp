@@ -121,6 +121,16 @@ TEST(DeadImuAndLost, IsBelievedAgainOnceItFollowsTheScans) {
   EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 0.5);
 }
 
+TEST(DeadImuAndClocksSetBack, IsBelievedAgainOnceItFollowsTheScans) {
+  const Messages messages =
+      test::WithClockStep(Broken(KillBoth, kBroken_s + 2.0), kBroken_s + 1.0, -600.0);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_TRUE(test::HasNotice(run, "reads the same all the time"));
+  EXPECT_TRUE(test::HasNotice(run, "the IMU follows the motion again"));
+  ASSERT_FALSE(run.navs.empty());
+  EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 600.5);
+}
+
 // The accelerometer is contradicted, and then the gyro dies as well.
 TEST(DeadImuOneByOne, IsBelievedAgainOnceBothFollowTheScans) {
   Messages messages = Broken(ShiftForce, kBroken_s + 2.0);

@@ -93,6 +93,16 @@ TEST(AcrossOutage, YawMayBeAnyAndTiltIsThatOfRoads) {
   EXPECT_NEAR(std::sqrt(after.cov(kRot, kRot)), 0.1, 0.01);
 }
 
+TEST(AcrossOutage, AClockThatWasSetBackTellsAsLittleAsOneThatWasSetForward) {
+  const Estimate before = HeadingAlongY();
+  const Duration five_s = Duration::FromSeconds(5.0);
+  const Estimate forward = AcrossOutage(before, before.stamp + five_s);
+  const Estimate back = AcrossOutage(before, before.stamp - five_s);
+  EXPECT_EQ(back.stamp, before.stamp - five_s);
+  EXPECT_EQ(back.cov, forward.cov);
+  EXPECT_EQ(back.state.T_world_imu.translation, forward.state.T_world_imu.translation);
+}
+
 TEST(AcrossOutage, YearsLeaveACovarianceThatCanBeFused) {
   const Estimate after = AcrossOutage(HeadingAlongY(), StampAt(1e9));
   EXPECT_LT(after.state.T_world_imu.translation.norm(), 400.0);  // no longer than 30 s on

@@ -58,6 +58,14 @@ TEST(OutputQueue, WaitingIsToldOnceASecond) {
             (std::vector<std::string>{"at once", "a second later", "two seconds later"}));
 }
 
+TEST(OutputQueue, WaitingIsToldAfterTheClockWasSetBack) {
+  OutputQueue queue;
+  queue.NotifyWaiting(StampAt(3600.0), "before");
+  queue.NotifyWaiting(StampAt(0.0), "after");
+  queue.NotifyWaiting(StampAt(0.5), "too soon");
+  EXPECT_EQ(TextsOf(queue.Take()), (std::vector<std::string>{"before", "after"}));
+}
+
 TEST(OutputQueue, WaitingIsToldNoMoreOftenWhereOutputsAreTaken) {
   OutputQueue queue;
   queue.NotifyWaiting(StampAt(0.0), "at once");

@@ -53,6 +53,19 @@ struct Bench {
 
 constexpr int kLearned = kStuckImu.min_changes;
 
+TEST(StuckImu, AnAxisThatStopsAfterTheClockWasSetBackHasStopped) {
+  Bench b;
+  b.Add(kLearned);
+  b.samples.clear();
+  const auto set_back = [](ImuSample& sample) {
+    sample.stamp = sample.stamp - Duration::FromSeconds(3600.0);
+    sample.w_imu_radps.x() = 0.25;
+  };
+  b.Add(kStuckImu.min_samples + 1, set_back);
+  ASSERT_TRUE(b.detector.found());
+  EXPECT_EQ(b.detector.found()->sensor, ImuSensor::kGyro);
+}
+
 TEST(StuckImu, AnAxisThatReadsTheSameFiveTimesHasStopped) {
   for (const int axis : {0, 1, 2}) {
     for (const auto sensor : {ImuSensor::kGyro, ImuSensor::kAccelerometer}) {

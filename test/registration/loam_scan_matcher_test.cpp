@@ -66,6 +66,19 @@ TEST_F(LoamScanMatching, FindsTheMotionBetweenTwoScans) {
   EXPECT_LT(LogSo3(error.rotation).norm(), 0.004);
 }
 
+// A scan whose points all have the whole motion is a rigid one.
+TEST_F(LoamScanMatching, CovarianceIsThatOfTheLastStepAlone) {
+  InsertFirst(Pose::Identity());
+  const Pose motion{ExpSo3(Vector3(0.01, -0.01, 0.04)), Vector3(0.6, -0.2, 0.02)};
+  const Scan scan = Reduce(CastTurn(scene_, lidar_, T_world_last_ * motion).sweep);
+  const MatchInput input = scan.InputFor(Pose::Identity(), 0.4, 0.03);
+  const std::vector<float> whole(scan.ratios.size(), 1.f);
+  const MatchResult rigid = matcher_.Match(input);
+  const MatchResult skewed = matcher_.MatchSkewed(input, whole);
+  ASSERT_TRUE(rigid.IsUsable() && skewed.IsUsable());
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(rigid.cov(i, i) / skewed.cov(i, i), 1.0, 0.2) << i;
+}
+
 TEST_F(LoamScanMatching, SweepRatiosTakeTheDistortionIntoAccount) {
   InsertFirst(Pose::Identity());
   const Pose motion{ExpSo3(Vector3(0, 0, 0.06)), Vector3(0.8, 0, 0)};  // during the sweep

@@ -125,6 +125,14 @@ TEST(RigExaminer, WrongRigIsToldOnceAndDistrusted) {
   EXPECT_EQ(examiner.Judge(CleanRun()).trust, Trust::kNo);
 }
 
+TEST(RigExaminer, LooksAfterTheSameDriveWhenTheClockWasSetBack) {
+  RigExaminer examiner = ExaminerOfWrongRig();
+  EXPECT_FALSE(examiner.Look(StampAt(3600.0)));
+  EXPECT_FALSE(examiner.Look(StampAt(3600.0 + 0.5 * kRigExaminer.first_look_s)));
+  EXPECT_FALSE(examiner.Look(StampAt(0.0)));
+  EXPECT_TRUE(examiner.Look(StampAt(0.5 * kRigExaminer.first_look_s)));
+}
+
 TEST(RigExaminer, CauseThatWasToldStaysInTheVerdict) {
   RigExaminer examiner = ExaminerOfWrongRig();
   std::optional<std::string> news;
