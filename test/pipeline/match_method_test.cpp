@@ -68,7 +68,9 @@ TEST(MatchMethod, TheRigsRangeHoldsForEveryMethod) {
   for (const MatchMethod method : {MatchMethod::kNdt, MatchMethod::kGicp, MatchMethod::kLoam}) {
     Options options = With(method);
     options.rig.lidar.min_range_m = 15.0;
-    for (const ScanPoint& point : MakeReducer(options, {})->Reduce(sweep).points) {
+    const ReducedScan scan = MakeReducer(options, {})->Reduce(sweep);
+    ASSERT_GT(scan.points.size(), 100u);
+    for (const ScanPoint& point : scan.points) {
       ASSERT_GE(point.position.norm(), 15.0f);
     }
   }

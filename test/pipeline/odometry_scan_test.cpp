@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -111,7 +112,9 @@ TEST(OdometryScan, ARowTellsWhatTheMatchFound) {
 TEST(OdometryScan, TheTotalTimeIsTheSumOfTheStages) {
   const AlteredRun run(
       6.0, [](MatchOutcome& outcome) { outcome.stage_ns = {1, 10, 100, 1000, 5, 0, 0}; });
-  for (const ScanOutput& row : run.Altered()) {
+  const std::vector<ScanOutput> rows = run.Altered();
+  ASSERT_FALSE(rows.empty());
+  for (const ScanOutput& row : rows) {
     const StageTimes& stages = row.scan.stage_ns;
     const std::int64_t filter_ns = stages[static_cast<std::size_t>(Stage::kFilter)];
     EXPECT_GE(filter_ns, 1000) << "of the clock that counts";
@@ -211,11 +214,15 @@ TEST(OdometryScan, WeakDirectionsAreToldAsDegenerate) {
     is_weak = SecondsOf(outcome.sweep->end) < 6.0;
     if (is_weak) outcome.match.degenerate_mask = 1u;
   });
+  std::array<int, 2> num_rows{};
   for (const ScanOutput& row : run.Altered()) {
     const bool was_weak = SecondsOf(row.scan.stamp) < 6.0;
+    ++num_rows[was_weak ? 1 : 0];
     EXPECT_EQ(row.filter->nav.status, was_weak ? TrackingStatus::kDegenerate : TrackingStatus::kOk);
     EXPECT_EQ(row.scan.degenerate_mask, was_weak ? 1u : 0u);
   }
+  EXPECT_GE(num_rows[0], 4);
+  EXPECT_GE(num_rows[1], 4);
 }
 
 // Matches five metres off, and as sure as ever: the gate holds them off as often as the options

@@ -189,6 +189,7 @@ TEST(BeamCalibration, FrozenItKeepsWhatIsKnownAndHowWell) {
 TEST(BeamCalibration, WhileStandingNoErrorIsFoundThatIsNotThere) {
   CalibrationDrive drive;
   drive.Stand(60, 0.05);
+  ASSERT_FALSE(drive.found().rings.empty());
   for (const BeamErrors::OfRing& ring : drive.found().rings) {
     EXPECT_LT(std::abs(ring.range_m), 0.03f);
     EXPECT_LT(std::abs(ring.elevation_rad), 1.5e-3f);

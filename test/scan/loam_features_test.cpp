@@ -240,6 +240,7 @@ TEST(LoamFeatures, NoisyWallFacingTheSensorIsNotGrazed) {
   lidar.range_std_m = 0.02;
   const RayCastSweep cast = CastTurn(scene, lidar, Pose::Identity());
   const LoamFeatures features = Extract(cast.sweep);
+  EXPECT_GT(features.less_flat.size(), 100u);
   for (const std::uint32_t i : features.grazed) {
     EXPECT_GT(std::abs(cast.sweep.points[i].y_m), 5.f);
   }

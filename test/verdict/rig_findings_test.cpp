@@ -120,12 +120,12 @@ TEST(RigFindings, AnExactPartIsNamedAndNotCorrected) {
 }
 
 TEST(RigFindings, ARoughExtrinsicThatIsCorrectedLeavesDoubtAlone) {
-  for (const Cause& cause : FindingsWhereKnownTo(0.03, 1.0).causes) {
-    EXPECT_EQ(cause.leaves, Trust::kNo);
-  }
-  for (const Cause& cause : FindingsWhereKnownTo(1.0, 5.0).causes) {
-    EXPECT_EQ(cause.leaves, Trust::kDoubtful);
-  }
+  const RigFindings of_exact = FindingsWhereKnownTo(0.03, 1.0);
+  ASSERT_FALSE(of_exact.causes.empty());
+  for (const Cause& cause : of_exact.causes) EXPECT_EQ(cause.leaves, Trust::kNo);
+  const RigFindings of_rough = FindingsWhereKnownTo(1.0, 5.0);
+  ASSERT_FALSE(of_rough.causes.empty());
+  for (const Cause& cause : of_rough.causes) EXPECT_EQ(cause.leaves, Trust::kDoubtful);
 }
 
 // x of the messages is read as the rig's y, and the rig's translation is (1, 2, 3) in its own axes.
