@@ -121,7 +121,7 @@ void FilterHistory::StepTo(Estimate& estimate, const Node& before, const ImuSamp
 // Fuses the node's pose and learns the gyro's error in proportion to its rate, unless the pose says
 // nothing of the turn since the last one.
 void FilterHistory::FuseIn(Node& node, const HistoryOptions& options) {
-  if (!node.pose.is_clock_set && !node.pose.replaces_motion) {
+  if (node.pose.motion == PredictedMotion::kKept) {
     const PoseMeasurement& measurement = node.pose.measurement;
     const Estimate& predicted = node.posterior;
     const Quaternion residual =

@@ -81,9 +81,8 @@ UpdateResult FusePoseEvent(const PoseEvent& event, double nis_limit,
                            Estimate& estimate) {
   PoseMeasurement measurement = event.measurement;
   measurement.cov = Inflated(measurement.cov, inflation);
-  if (event.replaces_motion) {
-    MoveTo(measurement.T_map_imu, estimate);
-  } else if (event.is_clock_set) {
+  if (event.motion == PredictedMotion::kReplaced) MoveTo(measurement.T_map_imu, estimate);
+  if (event.motion == PredictedMotion::kTakenBack) {
     TakeBackMotion(ResidualOf(measurement, estimate), estimate);
   }
   UpdateResult update = FusePose(estimate, measurement, nis_limit);

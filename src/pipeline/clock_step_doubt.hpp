@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The stamps of all sensors went forth, and it is open whether time passed meanwhile or the clocks
-// were set. The first sweep after the step that is located settles it: matching is told the pose
-// that the body has if no time passed, and says which of the two it found.
+// The stamps of all sensors went forward, and it is open whether time passed meanwhile or the
+// clocks were set. The first sweep after the step that is located settles it: matching is told the
+// pose that the body has if no time passed, and says which of the two it found.
 #pragma once
 
 #include <optional>

@@ -79,7 +79,7 @@ class Health {
   }
   std::optional<Timestamp> last_fused() const { return last_fused_; }
   int num_unmatched_in_a_row() const { return num_unmatched_in_a_row_; }
-  // How many of the last five matched scans were beyond the gate?
+  // How many of the last kHealth.gated_lately_scans matched scans were beyond the gate?
   [[nodiscard]] int NumGatedLately() const;
   void ShiftTimesBy(Duration by) {
     if (last_fused_) *last_fused_ = *last_fused_ + by;

@@ -252,7 +252,8 @@ bool ImuAgreement::HasShownAlike(const ImuContradiction& earlier, Timestamp from
 std::optional<ImuAgreement::Motion> ImuAgreement::MotionNow() const {
   if (poses_.size() < 2) return std::nullopt;
   const MatchedPose& to = poses_.back().pose;
-  const MatchedPose& from = pose(poses_.size() - std::min<std::size_t>(poses_.size(), 3));
+  constexpr std::size_t kNumPoses = 3;
+  const MatchedPose& from = pose(poses_.size() - std::min(poses_.size(), kNumPoses));
   const double span_s = SecondsBetween(from.stamp, to.stamp);
   const Quaternion R_imu_map = to.T_map_imu.rotation.conjugate();
   return Motion{R_imu_map * (to.T_map_imu.translation - from.T_map_imu.translation) / span_s,

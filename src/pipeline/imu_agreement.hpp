@@ -118,7 +118,7 @@ class ImuAgreement {
   // the sensor still were as it was then?
   [[nodiscard]] bool HasShownAlike(const ImuContradiction& earlier, Timestamp from) const;
 
-  // Holds the motion of the last two scans, as the poses show it.
+  // Holds the motion of the last two steps from scan to scan, as the poses show it.
   struct Motion {
     Vector3 v_imu_mps = Vector3::Zero();
     Vector3 w_imu_radps = Vector3::Zero();
@@ -127,7 +127,7 @@ class ImuAgreement {
   // Are the last three poses bent by more than any broken sensor would leave? Then matching has
   // gone over to another part of the map, as where a loop closes, or was wrong.
   [[nodiscard]] bool HasJumped(const Belief& belief) const;
-  // Do the last two scans show a motion?
+  // Do the last two steps show a motion?
   [[nodiscard]] bool HasMoved() const;
 
  private:

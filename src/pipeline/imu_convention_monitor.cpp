@@ -139,7 +139,8 @@ bool ImuConventionMonitor::MayBeDegrees(std::span<const ImuSample> samples) cons
 
 std::optional<bool> ImuConventionMonitor::GravityInMotion(const Vector3& mean_f_mps2) const {
   if (mean_f_mps2.norm() > 0.5 * rig_->gravity_mps2) return true;
-  return has_gravity_in_motion_ == false ? has_gravity_in_motion_ : std::nullopt;
+  if (has_gravity_in_motion_.has_value() && !*has_gravity_in_motion_) return false;
+  return std::nullopt;
 }
 
 }  // namespace lio

@@ -141,7 +141,7 @@ void Initializing::ForgetOldestScan() {
   scans_.erase(scans_.begin());
 }
 
-std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segment) {
+Transition Initializing::StartSegment(const SegmentStarts& segment) {
   Handover handover = handover_;
   if (segment.last_imu && segment.step != ImuPreprocessor::Step::kGap) {
     handover.ShiftTimesBy(segment.first.stamp - *segment.last_imu);
@@ -151,14 +151,14 @@ std::optional<Transition> Initializing::StartSegment(const SegmentStarts& segmen
   context_.outputs.Notify(segment.first.stamp, Notice::Severity::kWarning,
                           "the IMU's stamps jumped: initialization begins again; look for lost "
                           "messages or a clock that was set");
-  return Transition{.trigger = Trigger::kSegmentStarts, .handover = std::move(handover)};
+  return {.trigger = Trigger::kSegmentStarts, .handover = std::move(handover)};
 }
 
 std::optional<Transition> Initializing::TakeImuAbsent() const {
   return tracker_ ? std::optional(Retry()) : std::nullopt;
 }
 
-std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
+Transition Initializing::TakeImu(const ImuAppeared& event) {
   context_.outputs.Notify(event.first, Notice::Severity::kWarning,
                           "inertial samples have come: initialization begins again, with them, and "
                           "nothing need be done");
@@ -168,7 +168,7 @@ std::optional<Transition> Initializing::TakeImu(const ImuAppeared& event) {
     handover.origin = Handover::Origin::kLidar;
     handover.is_map_by_lidar = true;
   }
-  return Transition{.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
+  return {.trigger = Trigger::kImuAppeared, .handover = std::move(handover)};
 }
 
 std::optional<Transition> Initializing::EndStream() {

@@ -69,8 +69,8 @@ class Initializing {
   // Takes the outcome of that job. `insert` gets the pose for the map where the scan grows it.
   [[nodiscard]] std::optional<Transition> FinishJob(const MatchOutcome& outcome,
                                                     InsertTask& insert);
-  [[nodiscard]] std::optional<Transition> StartSegment(const SegmentStarts& segment);
-  [[nodiscard]] std::optional<Transition> TakeImu(const ImuAppeared& event);
+  [[nodiscard]] Transition StartSegment(const SegmentStarts& segment);
+  [[nodiscard]] Transition TakeImu(const ImuAppeared& event);
   // A track by the rates of a gyro is of no use without it.
   [[nodiscard]] std::optional<Transition> TakeImuAbsent() const;
   // No more sweeps come: without an IMU what is known of the motion must do.
@@ -99,8 +99,12 @@ class Initializing {
   // These are in initializing_convention.cpp.
   bool IsInDoubt(Timestamp stamp) const;
   [[nodiscard]] std::optional<Transition> JudgeConvention(Timestamp stamp);
-  [[nodiscard]] std::optional<Transition> CheckForceAtRest(const Vector3& mean_f_mps2,
-                                                           Timestamp stamp, bool& is_accepted);
+  // A force that is not accepted is waited for, unless it ends this mode.
+  struct ForceCheck {
+    bool is_accepted = false;
+    std::optional<Transition> transition = {};
+  };
+  [[nodiscard]] ForceCheck CheckForceAtRest(const Vector3& mean_f_mps2, Timestamp stamp);
   [[nodiscard]] std::optional<Transition> CheckGravity(bool is_there, const std::string& evidence,
                                                        Timestamp stamp) const;
   [[nodiscard]] Transition SetConvention(const ImuConvention& found, const std::string& evidence,

@@ -36,26 +36,27 @@ std::optional<Transition> Initializing::JudgeConvention(Timestamp stamp) {
 }
 
 // The mean force over a rest tells its unit and whether gravity is in it.
-std::optional<Transition> Initializing::CheckForceAtRest(const Vector3& mean_f_mps2,
-                                                         Timestamp stamp, bool& is_accepted) {
+Initializing::ForceCheck Initializing::CheckForceAtRest(const Vector3& mean_f_mps2,
+                                                        Timestamp stamp) {
   const auto verdict = context_.convention.JudgeForce(mean_f_mps2);
   if (verdict.force == ForceAtRest::kUnclear) {
     context_.outputs.NotifyWaiting(
         stamp, verdict.evidence +
                    ", neither m/s^2 nor g nor without gravity: initialization waits; check the "
                    "IMU's driver");
-    return std::nullopt;
+    return {};
   }
   const bool has_gravity = verdict.force != ForceAtRest::kWithoutGravity;
-  if (auto rejection = CheckGravity(has_gravity, verdict.evidence, stamp)) return rejection;
+  if (auto rejection = CheckGravity(has_gravity, verdict.evidence, stamp)) {
+    return {.transition = std::move(rejection)};
+  }
   if (has_gravity) {
     context_.convention.KeepForceUnit();
     if (verdict.convention != context_.stream.imu().convention()) {
-      return SetConvention(verdict.convention, verdict.evidence, stamp);
+      return {.transition = SetConvention(verdict.convention, verdict.evidence, stamp)};
     }
   }
-  is_accepted = true;
-  return std::nullopt;
+  return {.is_accepted = true};
 }
 
 std::optional<Transition> Initializing::CheckGravity(bool is_there, const std::string& evidence,

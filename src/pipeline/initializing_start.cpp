@@ -79,9 +79,8 @@ std::optional<Transition> Initializing::TryStartAtRest(Timestamp begin, Timestam
                     limits.max_accel_std_mps2));
     return std::nullopt;
   }
-  bool is_accepted = false;
-  auto transition = CheckForceAtRest(statistics.mean_f_mps2, stamp, is_accepted);
-  if (transition || !is_accepted) return transition;
+  ForceCheck check = CheckForceAtRest(statistics.mean_f_mps2, stamp);
+  if (!check.is_accepted) return std::move(check.transition);
   if (context_.convention.MayBeDegrees(samples)) {  // should they be rad/s, the drive tells
     ImuConvention found = context_.stream.imu().convention();
     found.is_in_deg = true;

@@ -112,8 +112,7 @@ void LidarOnly::GoOn() {
   TrackOn(inertial_->estimate, RateAt(inertial_->estimate.stamp));
   handover_.origin = Handover::Origin::kLidar;
   handover_.was_level = !g_world_.isZero();
-  const NavState& state = inertial_->estimate.state;
-  up_map_ = state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
+  up_map_ = InMap(inertial_->estimate.state, Vector3::UnitZ());
 }
 
 // The estimate may be the tracker's that ends here, so it is a copy.
@@ -222,9 +221,14 @@ void LidarOnly::Publish(const MatchOutcome& outcome, const ScanReport& report) {
   const Estimate at_end = report.fused
                               ? tracker_->AtEnd(outcome.sweep->middle(), end, outcome.turn_rate)
                               : tracker_->history().At(end);
-  const ReportContext context{
-      context_.options, g_world_,        handover_.last_seq, health_.status(),
-      nullptr,          context_.clocks, context_.extrinsic, handover_.yaw_doubt};
+  const ReportContext context{.options = context_.options,
+                              .g_world = g_world_,
+                              .last_seq = handover_.last_seq,
+                              .status = health_.status(),
+                              .imu = nullptr,
+                              .clocks = context_.clocks,
+                              .extrinsic = context_.extrinsic,
+                              .yaw_doubt = handover_.yaw_doubt};
   context_.outputs.Add(ScanOutput{MakeFilterReport(at_end, report, context), report});
 }
 

@@ -15,13 +15,12 @@
 
 namespace lio {
 
-// Both are those of docs/experiments/relocalization.md.
 struct LidarOnlyParameters {
   // So many scans go into a map unthinned. Chosen: with fewer it is thin, and its cells are
   // rank-deficient.
   int warm_up_scans = 10;
-  // s. A body that is not seen goes on turning for so long. Chosen: after more
-  // the turn may have ended, and the new map would be turned too far.
+  // s. A body that is not seen goes on turning for so long. Chosen: after more the turn may have
+  // ended, and the new map would be turned too far (docs/experiments/relocalization.md).
   double turn_unseen_for_s = 0.5;
   // s. An IMU that scans contradicted must follow them for so long, and twice as long after each
   // time that it was believed again. Chosen: longer than a turn or a start takes.

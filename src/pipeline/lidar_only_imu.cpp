@@ -65,10 +65,8 @@ void LidarOnly::CompareWithImu(const MatchOutcome& outcome, bool is_fused) {
   const Estimate estimate = tracker_->history().At(middle);
   const NavState& state = estimate.state;
   const ImuBuffer& imu = context_.stream.imu();
-  ImuAgreement::Belief belief = BeliefAbout(
-      doubt.biases, imu.NoiseAt(outcome.sweep->end),
-      state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * doubt.g_world),
-      context_);
+  ImuAgreement::Belief belief = BeliefAbout(doubt.biases, imu.NoiseAt(outcome.sweep->end),
+                                            InMap(state, doubt.g_world), context_);
   // A world that tilts tilts gravity.
   belief.accel_bias_std_mps2 +=
       doubt.g_world.norm() * std::sqrt(estimate.cov.diagonal().segment<3>(kRot).maxCoeff());

@@ -104,8 +104,8 @@ ModeDriver::Next ModeDriver::Take(const SegmentStarts& event) {
     return std::nullopt;
   }
   if (auto* lidar_only = As<LidarOnly>()) lidar_only->StartSegment(event);
-  auto* initializing = As<Initializing>();
-  return initializing ? initializing->StartSegment(event) : std::nullopt;
+  if (auto* initializing = As<Initializing>()) return initializing->StartSegment(event);
+  return std::nullopt;
 }
 
 ModeDriver::Next ModeDriver::Take(const AmbiguousClockStep& event) {
@@ -130,8 +130,8 @@ ModeDriver::Next ModeDriver::Take(const ImuAppeared& event) {
   context_.ForgetSweeps(context_.sweeps.size());
   context_.clocks.Resume();
   if (auto* lidar_only = As<LidarOnly>()) return lidar_only->TakeImu(event);
-  auto* initializing = As<Initializing>();
-  return initializing ? initializing->TakeImu(event) : std::nullopt;
+  if (auto* initializing = As<Initializing>()) return initializing->TakeImu(event);
+  return std::nullopt;
 }
 
 ModeDriver::Next ModeDriver::Take(const StreamEnded& /*event*/) {

@@ -31,28 +31,44 @@ UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, bool is_blind,
   return is_blind ? UnseenMotion{0.0, 0.0} : UnseenMotion{};
 }
 
-}  // namespace
-
-void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeContext& context,
-              FilterHistory& history, Health& health, ScanReport& report) {
-  const FilterOptions& filter = context.options.filter;
-  if (outcome.is_relocalized) context.blind_axis.Reset();
-  const BlindAxis::Answer answer = context.blind_axis.Judge(outcome.match);
-  settings.match_cov = answer.cov;
-  settings.sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match);
+// Must the match be fused even beyond the gate, since the filter itself must be wrong?
+bool IsForced(const MatchOutcome& outcome, bool is_blind, const FusionSettings& settings,
+              const ModeContext& context, const Health& health) {
   const std::optional<Timestamp> last_fused = health.last_fused();
   const bool is_contradicted_by_guess =
-      !answer.is_blind && last_fused &&
+      !is_blind && last_fused &&
       IsMotionGuessed(*last_fused, outcome.sweep->end, settings, context);
   // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
   const bool is_insisted_on =
-      health.MustForce(filter.max_gated_in_a_row) && !settings.is_map_unproved;
-  settings.force = is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
-  if (settings.force)
-    settings.max_unseen = MaxUnseenMotion(outcome, answer.is_blind, settings, context, history);
-  const EventOutcome fused = FuseMatch(outcome, settings, filter, history, report.nis);
-  health.AddFusion(fused);
-  report.fused = fused == EventOutcome::kApplied;
+      health.MustForce(context.options.filter.max_gated_in_a_row) && !settings.is_map_unproved;
+  return is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
+}
+
+MatchJudgement Judge(const MatchOutcome& outcome, const FusionSettings& settings,
+                     const ModeContext& context, const FilterHistory& history,
+                     const Health& health) {
+  const auto [match_cov, is_blind] = context.blind_axis.Judge(outcome.match);
+  MatchJudgement judgement{
+      .match_cov = match_cov,
+      .sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match),
+      .force = IsForced(outcome, is_blind, settings, context, health)};
+  if (judgement.force) {
+    judgement.max_unseen = MaxUnseenMotion(outcome, is_blind, settings, context, history);
+  }
+  return judgement;
+}
+
+}  // namespace
+
+void FuseScan(const MatchOutcome& outcome, const FusionSettings& settings,
+              const ModeContext& context, FilterHistory& history, Health& health,
+              ScanReport& report) {
+  if (outcome.is_relocalized) context.blind_axis.Reset();
+  const MatchJudgement judgement = Judge(outcome, settings, context, history, health);
+  const FusedMatch fused = FuseMatch(outcome, judgement, settings, context.options.filter, history);
+  health.AddFusion(fused.outcome);
+  report.nis = fused.nis;
+  report.fused = fused.outcome == EventOutcome::kApplied;
   if (report.fused && settings.grows_map) context.sensor_errors.Add(outcome.match);
 }
 

@@ -10,9 +10,9 @@
 
 namespace lio {
 
-// Fuses a usable match and tells `health`. Fills match_cov, sensor_error_cov, force and
-// max_unseen of the settings, and what the report says of the fusion.
-void FuseScan(const MatchOutcome& outcome, FusionSettings settings, const ModeContext& context,
-              FilterHistory& history, Health& health, ScanReport& report);
+// Judges and fuses a usable match and tells `health`. Fills in what the report says of the fusion.
+void FuseScan(const MatchOutcome& outcome, const FusionSettings& settings,
+              const ModeContext& context, FilterHistory& history, Health& health,
+              ScanReport& report);
 
 }  // namespace lio

@@ -54,28 +54,27 @@ MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
   return job;
 }
 
-EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settings,
-                       const FilterOptions& filter, FilterHistory& history, double& nis) {
+FusedMatch FuseMatch(const MatchOutcome& outcome, const MatchJudgement& judgement,
+                     const FusionSettings& settings, const FilterOptions& filter,
+                     FilterHistory& history) {
   PoseEvent event;
   event.measurement.T_map_imu = outcome.match.T_map_imu;
-  event.measurement.cov =
-      filter.registration_cov_scale * settings.match_cov.value_or(outcome.match.cov) +
-      DeskewCov(*outcome.sweep, history, settings.gyro_density);
+  event.measurement.cov = filter.registration_cov_scale * judgement.match_cov +
+                          DeskewCov(*outcome.sweep, history, settings.gyro_density);
   event.measurement.cov *= settings.alike_factor;
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;
     event.measurement.blend_cov =
-        filter.map_walk_scale * outcome.match.observable_cov + settings.sensor_error_cov;
+        filter.map_walk_scale * outcome.match.observable_cov + judgement.sensor_error_cov;
     event.measurement.is_level = settings.is_level;
   }
-  event.is_clock_set = outcome.is_clock_set;
-  event.force = settings.force;
-  event.max_unseen = settings.max_unseen;
-  event.replaces_motion = settings.replaces_motion;
+  event.force = judgement.force;
+  event.max_unseen = judgement.max_unseen;
+  if (outcome.is_clock_set) event.motion = PredictedMotion::kTakenBack;
+  if (settings.replaces_motion) event.motion = PredictedMotion::kReplaced;
   UpdateResult update;
   const EventOutcome fused = history.AddPose(outcome.sweep->middle(), event, &update);
-  nis = update.nis;
-  return fused;
+  return {fused, update.nis};
 }
 
 ScanReport MakeScanReport(const MatchOutcome& outcome) {

@@ -32,29 +32,36 @@ inline constexpr ScanStepParameters kScanStep;
 [[nodiscard]] MatchJob MakeTrackingJob(const SweepPtr& sweep, const FilterHistory& history,
                                        std::optional<Timestamp> last_located);
 
+// How a mode wants its matches to be fused.
 struct FusionSettings {
   double gyro_density = 0.0;  // rad/s/sqrt(Hz); zero without a gyro
   // The covariance of matches is scaled by this, for errors that are alike from scan to scan.
   double alike_factor = 1.0;
-  // The covariance of the match; absent: as the match says.
-  std::optional<Matrix6> match_cov = {};
-  // SensorFixedErrors::CovPerReplacement()
-  Matrix6 sensor_error_cov = Matrix6::Zero();
-  UnseenMotion max_unseen;       // as PoseEvent's
   bool grows_map = false;        // the scan will be inserted
   bool is_level = false;         // ... level, with the map's bend taken back (map_bend.hpp)
-  bool force = false;            // fuse even beyond the gate
   bool is_map_unproved = false;  // it began anew, and no scan has been fused with it yet
   bool replaces_motion = false;  // nothing is known of the motion since the last fused scan
   bool is_inertial = true;       // the prediction follows the inertial samples
 };
 
+// How wrong one match may be.
+struct MatchJudgement {
+  Matrix6 match_cov;                           // right error of T_map_imu [m; rad]
+  Matrix6 sensor_error_cov = Matrix6::Zero();  // SensorFixedErrors::CovPerReplacement()
+  bool force = false;                          // fuse even beyond the gate
+  UnseenMotion max_unseen = {};                // as PoseEvent's
+};
+
+struct FusedMatch {
+  EventOutcome outcome = EventOutcome::kGated;
+  double nis = 0.0;  // normalised innovation squared
+};
+
 // Fuses a usable match at the sweep's middle. The measurement's covariance is that of the match and
-// of what errors of the motion within the sweep leave in the deskewed scan. `nis` is filled with
-// the normalised innovation squared.
-[[nodiscard]] EventOutcome FuseMatch(const MatchOutcome& outcome, const FusionSettings& settings,
-                                     const FilterOptions& filter, FilterHistory& history,
-                                     double& nis);
+// of what errors of the motion within the sweep leave in the deskewed scan.
+[[nodiscard]] FusedMatch FuseMatch(const MatchOutcome& outcome, const MatchJudgement& judgement,
+                                   const FusionSettings& settings, const FilterOptions& filter,
+                                   FilterHistory& history);
 
 // Returns the report of the matching for registration.csv: all but the filter's part.
 [[nodiscard]] ScanReport MakeScanReport(const MatchOutcome& outcome);

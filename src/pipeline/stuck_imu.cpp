@@ -20,7 +20,8 @@ bool IsSaturated(const ImuSample& sample, std::size_t axis) {
 
 bool StuckImuDetector::Axis::is_stuck() const {
   return num_changes >= kStuckImu.min_changes &&
-         num_equal >= std::max<std::int64_t>(kStuckImu.min_samples, kStuckImu.times_longer * longest);
+         num_equal >=
+             std::max<std::int64_t>(kStuckImu.min_samples, kStuckImu.times_longer * longest);
 }
 
 void StuckImuDetector::Add(const std::deque<ImuSample>& samples, Timestamp until) {

@@ -76,8 +76,14 @@ void Tracking::PublishAtImuRate() {
 }
 
 ReportContext Tracking::MakeReportContext() const {
-  return {context_.options,       g_world_,        handover_.last_seq, status(),
-          &context_.stream.imu(), context_.clocks, context_.extrinsic, handover_.yaw_doubt};
+  return {.options = context_.options,
+          .g_world = g_world_,
+          .last_seq = handover_.last_seq,
+          .status = status(),
+          .imu = &context_.stream.imu(),
+          .clocks = context_.clocks,
+          .extrinsic = context_.extrinsic,
+          .yaw_doubt = handover_.yaw_doubt};
 }
 
 void Tracking::AddSweep(const Sweep& sweep) {
@@ -90,8 +96,7 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   if (job.bends_scan) CorrectPrior(trend_.Expected(), job);
   if (is_first_scan_) job.map_action = MapAction::kClear;
   const NavState& predicted = history_.At(sweep->middle()).state;
-  job.prior.up_map = predicted.T_map_imu.rotation *
-                     (predicted.T_world_imu.rotation.conjugate() * Vector3::UnitZ());
+  job.prior.up_map = InMap(predicted, Vector3::UnitZ());
   if (outage_.is_running()) {
     outage_.SetTask(PoseIfClockSet(*sweep, predicted.T_map_imu), job);
   } else if (handover_.last_located && handover_.clock_step.IsAbout(*sweep)) {
@@ -124,6 +129,12 @@ std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, Inser
             begin_ns);
     return transition;
   }
+  return TakeScan(scan, insert, begin_ns);
+}
+
+std::optional<Transition> Tracking::TakeScan(const MatchedScan& scan, InsertTask& insert,
+                                             std::int64_t begin_ns) {
+  const MatchOutcome& outcome = scan.outcome;
   if (scan.starts_map()) context_.examiner.record().BeginMap();
   const ScanReport report = FuseWithTrend(scan);
   UpdateBesides(scan, report.fused);
@@ -152,7 +163,7 @@ Tracking::MatchedScan Tracking::Look(const MatchOutcome& outcome) const {
                    outage_.stage() == OutageRecovery::Stage::kCheck;
   scan.is_keyframe = !scan.is_sought && !context_.place.is_map_locked() &&
                      keyframes_.IsKeyframe(outcome.match.T_map_imu);
-  scan.is_sound = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
+  scan.is_place_sure = health_.num_unmatched_in_a_row() == 0 && !outcome.is_relocalized;
   scan.is_stale = outcome.is_repeated && !is_first_scan_ && HasMovedUntil(scan.middle());
   return scan;
 }
@@ -175,7 +186,7 @@ void Tracking::RememberForHandover(const MatchedScan& scan, bool is_fused) {
 }
 
 void Tracking::RememberFix(const MatchedScan& scan, bool is_fused) {
-  if (!is_fused || !scan.is_sound) return;
+  if (!is_fused || !scan.is_place_sure) return;
   handover_.last_fix = MakeFix(scan.middle(), history_.At(scan.middle()), g_world_);
 }
 
@@ -198,6 +209,10 @@ void Tracking::Publish(const MatchedScan& scan, ScanReport report, const Estimat
   }
   context_.outputs.Add(ScanOutput{std::move(filter), report});
   context_.EndSweep(report.fused || scan.starts_map());
+  KeepHistoryForQueue();
+}
+
+void Tracking::KeepHistoryForQueue() {
   const auto& sweeps = context_.sweeps;
   history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
 }

@@ -56,11 +56,11 @@ class Tracking {
   // Holds what is known of a scan as it comes back from matching.
   struct MatchedScan {
     const MatchOutcome& outcome;
-    ImuNoise noise = {};       // at its end
-    bool is_sought = false;    // its place is being looked for
-    bool is_keyframe = false;  // the map may grow by it
-    bool is_sound = false;     // all scans just before it were matched
-    bool is_stale = false;     // it shows what the scan before did, but the body has moved
+    ImuNoise noise = {};         // at its end
+    bool is_sought = false;      // its place is being looked for
+    bool is_keyframe = false;    // the map may grow by it
+    bool is_place_sure = false;  // all scans just before it were matched
+    bool is_stale = false;       // it shows what the scan before did, but the body has moved
 
     [[nodiscard]] Timestamp middle() const { return outcome.sweep->middle(); }
     [[nodiscard]] Timestamp end() const { return outcome.sweep->end; }
@@ -68,58 +68,79 @@ class Tracking {
   };
 
   bool FeelsGravity() const { return !g_world_.isZero(); }
-  // Matching from the prediction finds the scan, if it is there.
-  bool IsPriorSure(Timestamp middle) const;
   HistoryOptions HistoryOptionsAt(Timestamp stamp) const;
   // The same for a history that takes the place of this one.
   HistoryOptions LearnedOptionsAt(Timestamp stamp) const;
-  void CarryOver(const Estimate& before, const SegmentJump& jump, const ImuSample& sample);
-  void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
-  void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
-                       const std::string& why);
-  void SeekAfterSilence(Timestamp end);
-  void TellLost(Timestamp end);
-  void SetYawAside(Timestamp stamp);
-  void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
-  void TakeVelocity(const MatchOutcome& outcome);
-  void NotifyFound(Timestamp end);
-  void LeaveMap(Timestamp stamp);
-  void BeginHistoryAt(const Estimate& estimate);
-  void AddSamplesAfter(Timestamp stamp);
-  void ForgetPoses(Timestamp stamp);
-  std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
-  void SettleClockStep(const MatchOutcome& outcome);
+
+  // Take a scan on its way, in this order.
   [[nodiscard]] MatchedScan Look(const MatchOutcome& outcome) const;
-  ScanReport Fuse(const MatchedScan& scan);
-  // Has the body moved since the scan before, as far as the inertial samples know?
-  bool HasMovedUntil(Timestamp middle) const;
-  void PassOver(const MatchedScan& scan, std::int64_t begin_ns);
+  // Takes one that shows something new, while the place is known or sought.
+  [[nodiscard]] std::optional<Transition> TakeScan(const MatchedScan& scan, InsertTask& insert,
+                                                   std::int64_t begin_ns);
   ScanReport FuseWithTrend(const MatchedScan& scan);
+  ScanReport Fuse(const MatchedScan& scan);
+  void Examine(const MatchOutcome& outcome) const;
   void RememberForHandover(const MatchedScan& scan, bool is_fused);
   void RememberFix(const MatchedScan& scan, bool is_fused);
-  void Examine(const MatchOutcome& outcome) const;
-  void LookAtRig(Timestamp end);
-  void CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end);
-  void UpdateBesides(const MatchedScan& scan, bool is_fused);
   void GrowMap(const MatchedScan& scan, const ScanReport& report, bool rebases_map,
                InsertTask& insert);
+  void UpdateBesides(const MatchedScan& scan, bool is_fused);
   void Publish(const MatchedScan& scan, ScanReport report, const Estimate& at_end,
                std::int64_t begin_ns);
   [[nodiscard]] std::optional<Transition> JudgeSelf(Timestamp sweep_end, bool restarts);
+  // Matching from the prediction finds the scan, if it is there.
+  bool IsPriorSure(Timestamp middle) const;
+  // Nothing that is older than the sweeps that wait is asked for.
+  void KeepHistoryForQueue();
+  void PublishAtImuRate();
+  ReportContext MakeReportContext() const;
+
+  // Ways out of this mode.
   [[nodiscard]] Transition Restart(Trigger trigger, Timestamp stamp, const std::string& why) const;
-  [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
-  [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
-  [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
-  [[nodiscard]] Transition LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const;
   // The motion as it was known at that time, gravity included.
   [[nodiscard]] StartState KnownAt(Timestamp stamp) const;
   // Lidar-only odometry goes on in the same map from `known`, turning at that rate.
   [[nodiscard]] Transition GoLidarOnly(Trigger trigger, StartState known,
                                        const Vector3& w_imu_radps) const;
+
+  // These are in tracking_imu.cpp.
+  [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
+  [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
+  [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
+  [[nodiscard]] Transition LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const;
   [[nodiscard]] Transition GoOnWithoutImu(StartState known, const Vector3& w_imu_radps,
                                           const ImuContradiction& why, Timestamp end) const;
-  void PublishAtImuRate();
-  ReportContext MakeReportContext() const;
+
+  // These are in tracking_repeats.cpp.
+  // Has the body moved since the scan before, as far as the inertial samples know?
+  bool HasMovedUntil(Timestamp middle) const;
+  void PassOver(const MatchedScan& scan, std::int64_t begin_ns);
+
+  // These are in tracking_extrinsic.cpp.
+  void LookAtRig(Timestamp end);
+  void CorrectExtrinsicBy(const Pose& T_old_new, Timestamp end);
+
+  // These are in tracking_segment.cpp.
+  void CarryOver(const Estimate& before, const SegmentJump& jump, const ImuSample& sample);
+  void SeekAfterSetBack(Estimate before, const SegmentStarts& segment);
+  std::optional<Pose> PoseIfClockSet(const Sweep& sweep, const Pose& T_map_imu_predicted) const;
+  void SettleClockStep(const MatchOutcome& outcome);
+
+  // These are in tracking_outage.cpp.
+  void SeekAfterOutage(const Estimate& before, const SegmentStarts& segment,
+                       const std::string& why);
+  void SeekAfterSilence(Timestamp end);
+  void TellLost(Timestamp end);
+  void AddScanAfterOutage(const MatchOutcome& outcome, bool is_fused);
+  void TakeVelocity(const MatchOutcome& outcome);
+  void NotifyFound(Timestamp end);
+  void LeaveMap(Timestamp stamp);
+  void SetYawAside(Timestamp stamp);
+  void BeginHistoryAt(const Estimate& estimate);
+  void AddSamplesAfter(Timestamp stamp);
+
+  // This is in tracking_place.cpp.
+  void ForgetPoses(Timestamp stamp);
 
   ModeContext context_;
   Handover handover_;

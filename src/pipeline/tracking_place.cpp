@@ -14,8 +14,7 @@ void Tracking::EnterMap(const FoundPlace& place, const Sweep& sweep) {
   Estimate estimate = history_.At(sweep.middle());
   ChangeMap(place.T_initial_map, place.cov, estimate);
   BeginHistoryAt(estimate);
-  const auto& sweeps = context_.sweeps;
-  history_.KeepFrom(sweeps.empty() ? std::nullopt : std::optional(sweeps.front()->start));
+  KeepHistoryForQueue();
   handover_.clock_step.End();
   handover_.yaw_doubt = {};
   handover_.T_world_start = estimate.state.T_world_imu;

@@ -117,7 +117,7 @@ TEST(FilterHistory, ASetClockTakesTheWayBackAndLeavesTheSpeed) {
   PoseEvent event;
   event.measurement.T_map_imu = before.state.T_map_imu * ExpSe3(-16.0 * Vector6::Unit(0));
   event.measurement.cov = 1e-4 * Matrix6::Identity();
-  event.is_clock_set = true;
+  event.motion = PredictedMotion::kTakenBack;
   EXPECT_EQ(history.AddPose(StampAt(2.0), event), EventOutcome::kApplied);
   const NavState& state = history.head().state;
   EXPECT_LT(LogSe3(event.measurement.T_map_imu.Inverse() * state.T_map_imu).norm(), 0.01);

@@ -111,7 +111,7 @@ TEST(PoseEvent, APoseThatReplacesTheMotionIsWhereTheBodyIs) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
   PoseEvent event = PoseAlongX(500.0);
-  event.replaces_motion = true;
+  event.motion = PredictedMotion::kReplaced;
   const UpdateResult update = FusePoseEvent(event, kGate, kMost, inflation, estimate);
   EXPECT_TRUE(update.fused);
   EXPECT_NEAR(update.nis, 0.0, 1e-9);
@@ -122,7 +122,7 @@ TEST(PoseEvent, AClockThatWasSetTakesTheMotionBackAndLeavesTheVelocity) {
   Estimate estimate = Sure();
   CovarianceInflation inflation;
   PoseEvent event = PoseAlongX(3.0);
-  event.is_clock_set = true;
+  event.motion = PredictedMotion::kTakenBack;
   EXPECT_TRUE(FusePoseEvent(event, kGate, kMost, inflation, estimate).fused);
   EXPECT_NEAR(estimate.state.T_map_imu.translation.x(), 3.0, 0.02);
   EXPECT_NEAR(estimate.cov(kVel, kVel), kStd_m * kStd_m, 1e-9);

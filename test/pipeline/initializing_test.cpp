@@ -172,10 +172,9 @@ TEST(Initializing, NewSegmentBeginsAgainWithoutTheSweepsBeforeIt) {
   ASSERT_FALSE(b.Drive(Straight(0.0), 0.0, 0.5));
   ImuSample first;
   first.stamp = StampAt(5.0);
-  const auto transition = b.mode->StartSegment({first, Step::kGap, StampAt(0.5)});
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kSegmentStarts);
-  EXPECT_FALSE(transition->initializing_since);
+  const Transition transition = b.mode->StartSegment({first, Step::kGap, StampAt(0.5)});
+  EXPECT_EQ(transition.trigger, Trigger::kSegmentStarts);
+  EXPECT_FALSE(transition.initializing_since);
   EXPECT_TRUE(b.bench.sweeps.empty());
   EXPECT_TRUE(b.bench.HasNotified(Notice::Severity::kWarning));
 }
@@ -187,7 +186,7 @@ Timestamp LastFixAfterASegment(Step step) {
   InitializingBench b({}, handover);
   ImuSample first;
   first.stamp = StampAt(4.0);
-  return b.mode->StartSegment({first, step, StampAt(10.0)})->handover.last_fix.stamp;
+  return b.mode->StartSegment({first, step, StampAt(10.0)}).handover.last_fix.stamp;
 }
 
 TEST(Initializing, ClockSetBackMovesTheLastFixWithIt) {
@@ -203,20 +202,18 @@ TEST(Initializing, ImuThatAppearsBeginsAgainInTheWorldThatIsKnown) {
   handover.origin = Origin::kLostLidar;
   handover.last_fix.T_world_imu.translation = Vector3(1, 2, 3);
   InitializingBench b(WithoutImu(), handover);
-  const auto transition = b.mode->TakeImu({StampAt(1.0)});
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->trigger, Trigger::kImuAppeared);
-  EXPECT_EQ(transition->handover.origin, Origin::kLidar);
-  EXPECT_TRUE(transition->handover.is_map_by_lidar);
-  EXPECT_EQ(transition->handover.last_fix.T_world_imu.translation, Vector3(1, 2, 3));
+  const Transition transition = b.mode->TakeImu({StampAt(1.0)});
+  EXPECT_EQ(transition.trigger, Trigger::kImuAppeared);
+  EXPECT_EQ(transition.handover.origin, Origin::kLidar);
+  EXPECT_TRUE(transition.handover.is_map_by_lidar);
+  EXPECT_EQ(transition.handover.last_fix.T_world_imu.translation, Vector3(1, 2, 3));
 }
 
 TEST(Initializing, ImuThatAppearsBeforeAnythingWasPublishedHasNoWorldToGoOnIn) {
   InitializingBench b(WithoutImu());
-  const auto transition = b.mode->TakeImu({StampAt(1.0)});
-  ASSERT_TRUE(transition);
-  EXPECT_EQ(transition->handover.origin, Origin::kNone);
-  EXPECT_FALSE(transition->handover.is_map_by_lidar);
+  const Transition transition = b.mode->TakeImu({StampAt(1.0)});
+  EXPECT_EQ(transition.handover.origin, Origin::kNone);
+  EXPECT_FALSE(transition.handover.is_map_by_lidar);
 }
 
 TEST(Initializing, ClockStepInDoubtIsHandedOver) {
@@ -224,8 +221,8 @@ TEST(Initializing, ClockStepInDoubtIsHandedOver) {
   b.mode->TakeClockStep({{StampAt(0.5), StampAt(0.9)}});
   ImuSample first;
   first.stamp = StampAt(5.0);
-  const auto transition = b.mode->StartSegment({first, Step::kGap, StampAt(0.9)});
-  const std::optional<ClockStep> step = transition->handover.clock_step.stamps();
+  const Transition transition = b.mode->StartSegment({first, Step::kGap, StampAt(0.9)});
+  const std::optional<ClockStep> step = transition.handover.clock_step.stamps();
   ASSERT_TRUE(step);
   EXPECT_EQ(step->after, StampAt(0.9));
 }

@@ -103,7 +103,7 @@ TEST(Mode, HandoverOfTheTransitionReachesTheNextMode) {
   const Mode lidar_only = rest.Of(ModeKind::kLidarOnly);
   Mode initializing = BuildNext(lidar_only, std::move(lost), rest.bench.context());
   const auto appeared = std::get<Initializing>(initializing).TakeImu({StampAt(0.0)});
-  EXPECT_EQ(appeared->handover.origin, Handover::Origin::kLidar);
+  EXPECT_EQ(appeared.handover.origin, Handover::Origin::kLidar);
 }
 
 TEST(Mode, WaitingTimeOfEarlierTriesReachesTheNextOne) {

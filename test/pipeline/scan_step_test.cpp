@@ -76,6 +76,12 @@ FilterOptions UnscaledFilter() {
   return filter;
 }
 
+FusedMatch Fuse(const MatchOutcome& outcome, FilterHistory& history,
+                const FusionSettings& settings = {},
+                const FilterOptions& filter = UnscaledFilter()) {
+  return FuseMatch(outcome, {.match_cov = outcome.match.cov}, settings, filter, history);
+}
+
 // The variance that the filter takes a match to have along an axis of the imu (translation, then
 // rotation), from the NIS of an error there: the map begins just before, so that nothing else is
 // unknown of the pose.
@@ -84,10 +90,9 @@ double VarianceOfMatch(int axis, const Unknown& unknown, const FusionSettings& s
   constexpr double kError = 1e-4;
   FilterHistory history = DrivenAlongX(unknown);
   (void)history.AddRebase(StampAt(1.0) - Duration{1});
-  double nis = 0.0;
-  const MatchOutcome outcome = Matched(Along(axis, kError));
-  EXPECT_EQ(FuseMatch(outcome, settings, filter, history, nis), EventOutcome::kApplied);
-  return kError * kError / nis;
+  const FusedMatch fused = Fuse(Matched(Along(axis, kError)), history, settings, filter);
+  EXPECT_EQ(fused.outcome, EventOutcome::kApplied);
+  return kError * kError / fused.nis;
 }
 
 const Track& TrackOf(const MatchJob& job) {
@@ -150,9 +155,7 @@ TEST(MakeTrackingJob, TheTimeSinceTheLastFixIsPositive) {
 
 TEST(FuseMatch, MovesTheEstimateToTheMatchAtTheMiddleOfTheSweep) {
   FilterHistory history = DrivenAlongX({Vector3(1.0, 1.0, 1.0)});
-  double nis = 0.0;
-  const MatchOutcome outcome = Matched(Along(1, -0.5));
-  EXPECT_EQ(FuseMatch(outcome, {}, UnscaledFilter(), history, nis), EventOutcome::kApplied);
+  EXPECT_EQ(Fuse(Matched(Along(1, -0.5)), history).outcome, EventOutcome::kApplied);
   const Estimate middle = history.At(StampAt(1.0));
   EXPECT_NEAR(middle.state.T_map_imu.translation.x(), 10.5, 0.01);
   EXPECT_NEAR(middle.state.v_world_imu.x(), 10.5, 0.01) << "for a second it was faster";
@@ -203,21 +206,19 @@ TEST(FuseMatch, AnUnsureGyroBiasLeavesErrorsInTheDeskewedScan) {
 
 TEST(FuseMatch, AMatchBeyondTheGateLeavesTheEstimate) {
   FilterHistory history = DrivenAlongX({Vector3(0.01, 0.01, 0.01)}, 22.5);
-  double nis = 0.0;
-  EXPECT_EQ(FuseMatch(Matched(Along(1, -1.0)), {}, UnscaledFilter(), history, nis),
-            EventOutcome::kGated);
-  EXPECT_GT(nis, 22.5);
+  const FusedMatch fused = Fuse(Matched(Along(1, -1.0)), history);
+  EXPECT_EQ(fused.outcome, EventOutcome::kGated);
+  EXPECT_GT(fused.nis, 22.5);
   EXPECT_NEAR(history.At(StampAt(1.0)).state.T_map_imu.translation.x(), 10.0, 1e-9);
 }
 
 TEST(FuseMatch, AForcedMatchIsFusedEvenBeyondTheGate) {
   FilterHistory history = DrivenAlongX({Vector3(0.01, 0.01, 0.01)}, 22.5);
-  FusionSettings settings;
-  settings.force = true;
-  double nis = 0.0;
-  EXPECT_EQ(FuseMatch(Matched(Along(1, -1.0)), settings, UnscaledFilter(), history, nis),
-            EventOutcome::kApplied);
-  EXPECT_GT(nis, 22.5) << "as it was before it was forced";
+  const MatchOutcome outcome = Matched(Along(1, -1.0));
+  const MatchJudgement judgement{.match_cov = outcome.match.cov, .force = true};
+  const FusedMatch fused = FuseMatch(outcome, judgement, {}, UnscaledFilter(), history);
+  EXPECT_EQ(fused.outcome, EventOutcome::kApplied);
+  EXPECT_GT(fused.nis, 22.5) << "as it was before it was forced";
   EXPECT_GT(history.At(StampAt(1.0)).state.T_map_imu.translation.x(), 10.4);
 }
 
@@ -225,9 +226,9 @@ TEST(FuseMatch, AScanBeforeTheStartIsNotFused) {
   FilterHistory history = DrivenAlongX({});
   MatchOutcome outcome = Matched();
   outcome.sweep = SweepOf(-0.3, -0.2);
-  double nis = 7.0;
-  EXPECT_EQ(FuseMatch(outcome, {}, UnscaledFilter(), history, nis), EventOutcome::kBeforeStart);
-  EXPECT_EQ(nis, 0.0);
+  const FusedMatch fused = Fuse(outcome, history);
+  EXPECT_EQ(fused.outcome, EventOutcome::kBeforeStart);
+  EXPECT_EQ(fused.nis, 0.0);
 }
 
 // All of the map there is of this scan: its pose is known but for what the scan brings in.
@@ -241,8 +242,7 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
     outcome.match.observable_cov = 9e-4 * Matrix6::Identity();
     FusionSettings settings;
     settings.grows_map = grows_map;
-    double nis = 0.0;
-    (void)FuseMatch(outcome, settings, filter, history, nis);
+    (void)Fuse(outcome, history, settings, filter);
     const double variance = history.At(StampAt(1.0)).cov(kMapPose, kMapPose);
     EXPECT_EQ(std::abs(variance - 0.5 * 9e-4) < 1e-9, grows_map) << variance;
   }
@@ -255,9 +255,9 @@ TEST(FuseMatch, AGrowingMapIsBentByTheErrorsThatMoveWithTheSensor) {
     outcome.match.new_content_share = 1.0;
     FusionSettings settings;
     settings.grows_map = grows_map;
-    settings.sensor_error_cov = 1e-6 * Matrix6::Identity();
-    double nis = 0.0;
-    (void)FuseMatch(outcome, settings, UnscaledFilter(), history, nis);
+    const MatchJudgement judgement{.match_cov = outcome.match.cov,
+                                   .sensor_error_cov = 1e-6 * Matrix6::Identity()};
+    (void)FuseMatch(outcome, judgement, settings, UnscaledFilter(), history);
     const double variance = history.At(StampAt(1.0)).cov(kMapPose, kMapPose);
     EXPECT_EQ(std::abs(variance - 1e-6) < 1e-9, grows_map) << variance;
   }
@@ -269,8 +269,7 @@ TEST(FuseMatch, WhereTheClockWasSetThePlaceIsCorrectedAndTheSpeedIsNot) {
     FilterHistory history = DrivenAlongX({Vector3(0.1, 0.1, 0.1)});
     MatchOutcome outcome = Matched(Along(1, 5.0));
     outcome.is_clock_set = is_clock_set;
-    double nis = 0.0;
-    (void)FuseMatch(outcome, {}, UnscaledFilter(), history, nis);
+    (void)Fuse(outcome, history);
     const NavState state = history.At(StampAt(1.0)).state;
     EXPECT_NEAR(state.T_map_imu.translation.x(), 5.0, 0.1);
     EXPECT_NEAR(state.v_world_imu.x(), is_clock_set ? kSpeedAlongX_mps : 5.0, 0.2);

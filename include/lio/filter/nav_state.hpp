@@ -48,6 +48,11 @@ struct NavState {
   Quaternion R_world_map_start = Quaternion::Identity();  // map_bend.hpp
 };
 
+// Returns a vector of the world in the axes of the map.
+inline Vector3 InMap(const NavState& state, const Vector3& v_world) {
+  return state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * v_world);
+}
+
 // Returns state (+) error, by the conventions above.
 NavState BoxPlus(const NavState& state, const ErrorVector& error);
 

@@ -4,6 +4,7 @@
 // shown, and beyond the gate where that is asked for. The update itself is in pose_update.hpp.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "lio/filter/pose_update.hpp"
@@ -26,16 +27,20 @@ struct UnseenMotion {
   double rotation_rad = std::numeric_limits<double>::infinity();
 };
 
+// The motion that was predicted up to a pose.
+enum class PredictedMotion : std::int8_t {
+  kKept,
+  kTakenBack,  // the stamps jumped but no time has passed; the velocity stays
+  kReplaced,   // nothing is known of it: the estimate is moved to the pose first (MoveTo)
+};
+
 struct PoseEvent {
   PoseMeasurement measurement;
   // Fuses the pose even beyond the gate, with the covariance or the unseen motion that explains it.
   bool force = false;
   // A pose that is farther off, beyond errors of registration, is wrong: force does not fuse it.
   UnseenMotion max_unseen;
-  // The stamps jumped but no time has passed: the predicted motion is taken back, velocity stays.
-  bool is_clock_set = false;
-  // Nothing is known of the motion before the pose: the estimate is moved to it first (MoveTo).
-  bool replaces_motion = false;
+  PredictedMotion motion = PredictedMotion::kKept;
 };
 
 // Fuses the pose into `estimate` and lets `inflation` go on to the next one. Without force a pose

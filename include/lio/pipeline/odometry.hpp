@@ -34,9 +34,9 @@ namespace lio {
 // CPU clock for stage times; the core has none of its own. Null: no times.
 using ClockNs = std::int64_t (*)();
 
-struct MatchJob;      // registration_worker.hpp
-struct MatchOutcome;  // registration_worker.hpp
-struct InsertTask;    // registration_worker.hpp
+struct MatchJob;      // match_job.hpp
+struct MatchOutcome;  // match_job.hpp
+struct InsertTask;    // match_job.hpp
 struct FoundSensors;  // found_sensors.hpp
 
 // Reports one accepted scan: rows of the trajectories, covariances and registration.csv. `filter`
@@ -96,7 +96,8 @@ class Odometry {
   // The fates of every sample, chunk and scan so far, with those that wait now.
   [[nodiscard]] Ledgers ledgers() const;
   [[nodiscard]] TrackingStatus status() const;
-  // May the result so far be trusted, and if not, why? Costs some ten milliseconds.
+  // May the result so far be trusted, and if not, why? Counts the outputs that TakeOutputs() has
+  // given. Costs some ten milliseconds.
   [[nodiscard]] Verdict Judge() const;
   // The trust that the last of the looks at the rig left, which come ever more seldom; costs
   // nothing.

@@ -77,7 +77,8 @@ struct FilterReport {
   ImuNoiseRatios imu_noise;  // zero where it is not known
   double nis = 0.0;          // normalised innovation squared of the last update
   int nis_dof = 0;           // 0: no update
-  Eigen::MatrixXd cov;       // covariance of the pose and velocity in `nav`
+  // 21 x 21, all blocks in the order above. The pose and velocity are those in `nav`.
+  Eigen::MatrixXd cov;
 };
 
 enum class Stage { kDecode, kReduce, kDeskew, kMatch, kInsert, kFilter, kTotal };

@@ -36,7 +36,7 @@ struct SegmentStarts {
   std::optional<Timestamp> last_imu;  // the newest sample before it
 };
 
-// Stamps of all sensors went forth by less than a second: did time pass, or was the clock set?
+// Stamps of all sensors went forward by less than a second: did time pass, or was the clock set?
 struct AmbiguousClockStep {
   ClockStep stamps;
 };

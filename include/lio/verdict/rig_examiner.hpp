@@ -73,7 +73,7 @@ class RigExaminer {
   std::vector<Cause> contradictions_;
   std::vector<Cause> corrected_;  // causes that are no longer there
   std::optional<Timestamp> first_stamp_;
-  std::optional<Timestamp> last_stamp_;  // of the last look
+  std::optional<Timestamp> last_stamp_;
   double next_look_s_ = kRigExaminer.first_look_s;
   std::optional<Cause> told_;  // reason for distrust that was told on the way
   Trust trust_ = Trust::kYes;
