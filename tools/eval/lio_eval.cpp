@@ -25,9 +25,9 @@ Files are TUM (t x y z qx qy qz qw) or KITTI (12 numbers per row); the format is
 docs/evaluation.md explains each figure.
 
 Examples:
-  lio-eval truth.tum out/trajectory.tum
-  lio-eval truth.tum out/trajectory.tum --json out/eval.json --plot out/eval.png --map out/map.pcd
   lio-eval truth.tum out/run                      a run's folder: its trajectory_level.tum
+  lio-eval truth.tum out/run/trajectory.tum       the path as it was published
+  lio-eval truth.tum out/run --json out/eval.json --plot out/eval.png --map out/run/map.pcd
   lio-eval truth.tum out/a out/b --csv table.csv  several runs in one table
   lio-eval truth.tum out/run --time-offset auto   where the clocks differ
   lio-eval poses/05.txt mine.txt --align none

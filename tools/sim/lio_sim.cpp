@@ -139,9 +139,11 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "seed of the sensors' errors alone: another recording of the same drive")
       ->check(WholeNumberFromZero());
   app.add_option("--lidar", arguments.lidar,
-                 "lidar model: hdl32e, vlp16, hdl64e, os1_64 or a data file like theirs");
+                 "lidar model: hdl32e, vlp16, hdl64e, os1_64, rosette70 or a file like theirs\n"
+                 "(default: hdl32e, in office, mine and warehouse vlp16)");
   app.add_option("--imu", arguments.imu,
-                 "IMU model: xsens_mti10, consumer_mems, ideal or a data file like theirs");
+                 "IMU model: xsens_mti10, consumer_mems, ideal or a data file like theirs\n"
+                 "(default: xsens_mti10)");
   app.add_option("--imu-rate", arguments.imu_rate_hz, "sample rate of the IMU [Hz]")
       ->check(NumberWithin(100.0, 1000.0));
   app.add_option("--imu-variant", arguments.imu_variant,
