@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
-#include <vector>
 
+#include "lio/base/chunked_array.hpp"
 #include "lio/base/voxel_index.hpp"
 
 namespace lio {
@@ -30,46 +30,43 @@ class VoxelMap : private VoxelIndex {
   using VoxelIndex::size;
   using VoxelIndex::Touch;
 
-  // Works as VoxelIndex::FindOrAdd; a new voxel holds Content{} of each type. It invalidates
-  // references.
+  // Works as VoxelIndex::FindOrAdd; a new voxel holds Content{} of each type. References to
+  // contents stay valid.
   Added FindOrAdd(VoxelKey key) {
     const Added added = VoxelIndex::FindOrAdd(key);
-    if (added.is_new) (Renew(std::get<std::vector<Contents>>(contents_), added.voxel), ...);
+    if (added.is_new) (Renew(ArrayOf<Contents>(), static_cast<std::size_t>(added.voxel)), ...);
     return added;
   }
   // Returns the content of a number below capacity(); that of a removed voxel is what was left
   // there.
   template <class Content>
   [[nodiscard]] Content& Of(std::int32_t voxel) {
-    return std::get<std::vector<Content>>(contents_)[static_cast<std::size_t>(voxel)];
+    return ArrayOf<Content>()[static_cast<std::size_t>(voxel)];
   }
   template <class Content>
   [[nodiscard]] const Content& Of(std::int32_t voxel) const {
-    return std::get<std::vector<Content>>(contents_)[static_cast<std::size_t>(voxel)];
+    return std::get<ChunkedArray<Content>>(contents_)[static_cast<std::size_t>(voxel)];
   }
   // Keeps the memory of the contents.
-  void Clear() {
-    VoxelIndex::Clear();
-    (std::get<std::vector<Contents>>(contents_).clear(), ...);
-  }
+  void Clear() { VoxelIndex::Clear(); }
   [[nodiscard]] std::size_t memory_bytes() const {
     return VoxelIndex::memory_bytes() +
-           (... + (std::get<std::vector<Contents>>(contents_).capacity() * sizeof(Contents)));
+           (... + std::get<ChunkedArray<Contents>>(contents_).memory_bytes());
   }
 
  private:
+  template <class Content>
+  ChunkedArray<Content>& ArrayOf() {
+    return std::get<ChunkedArray<Content>>(contents_);
+  }
   // Numbers are given one after the other, or anew.
   template <class Content>
-  static void Renew(std::vector<Content>& contents, std::int32_t voxel) {
-    const auto at = static_cast<std::size_t>(voxel);
-    if (at == contents.size()) {
-      contents.emplace_back();
-    } else {
-      contents[at] = Content{};
-    }
+  static void Renew(ChunkedArray<Content>& contents, std::size_t at) {
+    contents.MakeRoomAt(at);
+    contents[at] = Content{};
   }
 
-  std::tuple<std::vector<Contents>...> contents_;  // by number
+  std::tuple<ChunkedArray<Contents>...> contents_;  // by number
 };
 
 }  // namespace lio
