@@ -23,29 +23,28 @@ class ClusterScores {
 
   // Forgets all scores. `num_parts` is an upper bound of the parts' numbers.
   void Reset(std::size_t num_parts) {
-    for (const std::int32_t part : parts_) is_used_[static_cast<std::size_t>(part)] = 0;
+    for (const std::int32_t part : parts_) place_of_[static_cast<std::size_t>(part)] = kNone;
     parts_.clear();
-    if (by_part_.size() < num_parts) {
-      by_part_.resize(num_parts);
-      is_used_.assign(num_parts, 0);
-    }
+    sums_.clear();
+    if (place_of_.size() < num_parts) place_of_.resize(num_parts, kNone);
   }
 
   void Add(std::int32_t part, const Score& score) {
-    const auto i = static_cast<std::size_t>(part);
-    if (!is_used_[i]) {
-      is_used_[i] = 1;
-      by_part_[i].setZero();
+    std::int32_t& place = place_of_[static_cast<std::size_t>(part)];
+    if (place == kNone) {
+      place = static_cast<std::int32_t>(sums_.size());
+      sums_.push_back(score);
       parts_.push_back(part);
+    } else {
+      sums_[static_cast<std::size_t>(place)] += score;
     }
-    by_part_[i] += score;
   }
 
   // Returns the sum over parts of score score^T.
   [[nodiscard]] Square SumOfSquares() const {
     Square sum = Square::Zero();
-    for (const std::int32_t part : parts_) {
-      const auto score = by_part_[static_cast<std::size_t>(part)].template cast<double>().eval();
+    for (const Score& of_part : sums_) {
+      const auto score = of_part.template cast<double>().eval();
       sum += score * score.transpose();
     }
     return sum;
@@ -54,14 +53,16 @@ class ClusterScores {
   // Returns the same, corrected for the estimated dimensions: that of the gradient of the whole
   // cost.
   [[nodiscard]] Square Covariance() const {
-    const auto num_parts = static_cast<double>(parts_.size());
+    const auto num_parts = static_cast<double>(sums_.size());
     return num_parts / std::max(1.0, num_parts - kDims) * SumOfSquares();
   }
 
  private:
-  std::vector<Score> by_part_;
-  std::vector<std::int32_t> parts_;  // in use
-  std::vector<std::uint8_t> is_used_;
+  static constexpr std::int32_t kNone = -1;
+
+  std::vector<Score> sums_;             // by part, in the order in which they came
+  std::vector<std::int32_t> parts_;     // the part of each
+  std::vector<std::int32_t> place_of_;  // by part: its place among the sums
 };
 
 using PoseScores = ClusterScores<6>;
