@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 
+#include "lio/map/map_parameters.hpp"
+
 namespace lio {
 
 // How far from its predicted place a point may have its counterpart on the map, from the covariance
@@ -147,8 +149,8 @@ struct ScanNormalParameters {
   // The 27 voxels need so many points together. Chosen: as NdtOptions::min_cell_points.
   static constexpr double kMinPoints = 6.0;
   // The variance along the normal is at most this share of that along the narrower tangent: as for
-  // the cells of NDT (GaussianMapParameters).
-  static constexpr double kMaxThicknessRatio = 0.1;
+  // the cells of NDT.
+  static constexpr double kMaxThicknessRatio = GaussianMapParameters::kMaxThicknessRatio;
   // The standard deviation along the narrower tangent is at least this share of the voxel's edge.
   // Chosen: a single ring is narrower, and three voxels evenly filled have 0.87.
   static constexpr double kMinWidthPerVoxel = 0.3;
@@ -185,8 +187,8 @@ struct LoamParameters {
   // Points of a line or a plane spread at least this much over the map's leaf, as a standard
   // deviation. Chosen: less is a piece of one scan ring.
   static constexpr double kMinWidthPerLeaf = 0.3;
-  // A plane's normal may err by this standard deviation [rad]: as for ScanNormalParameters.
-  static constexpr double kMaxNormalStd_rad = 0.1;
+  // A plane's normal may err by this standard deviation [rad]: as a normal fitted in a scan may.
+  static constexpr double kMaxNormalStd_rad = ScanNormalParameters::kMaxNormalStd_rad;
 };
 
 // Tunes scan-to-scan matching: A-LOAM's neighbours, and bounds that keep noise from tilting lines
