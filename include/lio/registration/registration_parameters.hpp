@@ -12,8 +12,8 @@
 
 namespace lio {
 
-// How far from its predicted place a point may have its counterpart on the map, from the covariance
-// of the guess.
+// Bounds how far from its predicted place a point may have its counterpart on the map, by the
+// covariance of the guess.
 struct CorrespondenceParameters {
   // Rotations and translations are compared at this range [m]: a rotation error moves a point by
   // its range times the angle. Chosen: between a room's ranges and a street's.
@@ -57,7 +57,7 @@ struct RobustKernelParameters {
   static constexpr float kMaxDistanceSq = 25.f;
 };
 
-// Limits that every matcher has for its report.
+// Holds the limits that every matcher has for its report.
 struct MatchParameters {
   // Fewer matched points than these end a match. Chosen: six unknowns, with outliers among the
   // points.
@@ -77,7 +77,7 @@ struct WellConstrainedTranslationParameters {
   static constexpr double kMaxStd_m = 0.02;
 };
 
-// When a place is narrow (place_width.hpp).
+// Tells when a place is narrow (place_width.hpp).
 struct PlaceWidthParameters {
   // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
   // first, and wide again where it lies in more than the second. Measured: walks in offices lie in
