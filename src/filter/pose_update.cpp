@@ -79,17 +79,6 @@ void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   }
 }
 
-void MakeMapTheWorld(Estimate& estimate) {
-  NavState& state = estimate.state;
-  state.T_map_imu = state.T_world_imu;
-  // mu = (R^T dp, dtheta).
-  ErrorMatrix J = ErrorMatrix::Identity();
-  J.block<6, 6>(kMapPose, kMapPose).setZero();
-  J.block<3, 3>(kMapPose, kPos) = state.T_world_imu.rotation.conjugate().toRotationMatrix();
-  J.block<3, 3>(kMapPose + 3, kRot).setIdentity();
-  estimate.cov = (J * estimate.cov * J.transpose()).eval();
-}
-
 void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,
                 const Eigen::MatrixXd& R) {
   const Eigen::MatrixXd PHt = estimate.cov * H.transpose();

@@ -31,12 +31,8 @@ GaussianMap::GaussianMap(const NdtOptions& options, bool finds_vertical)
 }
 
 Vector3 GaussianMap::CentreOf(VoxelKey key) const {
-  constexpr std::uint64_t kMask = (1u << 21) - 1;
-  const auto coordinate = [&](int shift) {
-    return static_cast<double>(static_cast<std::int64_t>((key >> shift) & kMask) -
-                               kVoxelCoordinateLimit);
-  };
-  return options_.voxel_m * (Vector3(coordinate(42), coordinate(21), coordinate(0)).array() + 0.5);
+  const VoxelCell voxel = UnpackVoxel(key);
+  return options_.voxel_m * (Vector3(voxel[0], voxel[1], voxel[2]).array() + 0.5);
 }
 
 GaussianMap::Place GaussianMap::PlaceOf(const Vector3& point_map) const {

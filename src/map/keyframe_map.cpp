@@ -19,7 +19,8 @@ std::int32_t Take(std::vector<std::int32_t>& free, std::size_t next_new) {
   return taken;
 }
 
-double DistanceSq(const Vector3& a, const Vector3& b) {
+// Returns the squared distance by which a submap's keyframes are chosen: storeys are far apart.
+double SubmapDistanceSq(const Vector3& a, const Vector3& b) {
   const Vector3 d = a - b;
   constexpr double kFactor = KeyframeMapParameters::kHeightFactor;
   return d.head<2>().squaredNorm() + kFactor * kFactor * d.z() * d.z();
@@ -124,19 +125,25 @@ void KeyframeMap::Add(std::span<const PointWithNormal> points_kf, const Pose& T_
     const std::int32_t added = AddPoint(rotated, T_map_kf * point.position.cast<double>(), number);
     if (added != kNone) frame.points.push_back(added);
   }
+  DropFarKeyframes(number);
+  DropLongestUnused(number);
+}
 
+void KeyframeMap::DropFarKeyframes(std::int32_t newest) {
+  const Vector3 place_map = keyframes_[ToIndex(newest)].T_map_kf.translation;
   const double limit_sq = options_.max_distance_m * options_.max_distance_m;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(keyframes_.size()); ++i) {
     const Keyframe& other = keyframes_[ToIndex(i)];
-    if (!other.is_used || i == number) continue;
-    if ((other.T_map_kf.translation - T_map_kf.translation).squaredNorm() > limit_sq) {
-      RemoveKeyframe(i);
-    }
+    if (!other.is_used || i == newest) continue;
+    if ((other.T_map_kf.translation - place_map).squaredNorm() > limit_sq) RemoveKeyframe(i);
   }
+}
+
+void KeyframeMap::DropLongestUnused(std::int32_t newest) {
   while (num_points_ > static_cast<std::size_t>(options_.max_points) && num_keyframes_ > 1) {
     std::int32_t oldest = kNone;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(keyframes_.size()); ++i) {
-      if (!keyframes_[ToIndex(i)].is_used || i == number) continue;
+      if (!keyframes_[ToIndex(i)].is_used || i == newest) continue;
       if (oldest == kNone ||
           keyframes_[ToIndex(i)].last_chosen < keyframes_[ToIndex(oldest)].last_chosen) {
         oldest = i;
@@ -167,8 +174,8 @@ void KeyframeMap::ChooseSubmap(const Vector3& place_map) {
   const auto choose_nearest = [&](std::vector<std::int32_t> from, int count) {
     const auto wanted = std::min(from.size(), static_cast<std::size_t>(count));
     const auto is_nearer = [&](std::int32_t a, std::int32_t b) {
-      const double p = DistanceSq(keyframes_[ToIndex(a)].T_map_kf.translation, place_map);
-      const double q = DistanceSq(keyframes_[ToIndex(b)].T_map_kf.translation, place_map);
+      const double p = SubmapDistanceSq(keyframes_[ToIndex(a)].T_map_kf.translation, place_map);
+      const double q = SubmapDistanceSq(keyframes_[ToIndex(b)].T_map_kf.translation, place_map);
       return p != q ? p < q : a < b;
     };
     std::partial_sort(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(wanted), from.end(),

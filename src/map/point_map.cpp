@@ -112,7 +112,6 @@ PointMap::Content PointMap::ContentAt(const Vector3& point_map) const {
   const VoxelCell voxel = blocks_.VoxelAt(point_map);
   Content content;
   if (!blocks_.IsInRange(voxel)) return content;
-  content.key = PackVoxel(voxel[0], voxel[1], voxel[2]);
   const std::int32_t number = blocks_.Find(voxel);
   if (number == Blocks::kNone) return content;
   const Blocks::Block& block = blocks_.block(number);

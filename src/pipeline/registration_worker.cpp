@@ -20,6 +20,13 @@ TurnRate Corrected(const TurnRate& error, const StampedPoses& motion) {
   return {LogSo3(turn) / span_s + error.w_imu_radps, error.cov};
 }
 
+// Fills the times of what others did for the scan, and of the insertion of the scan before.
+void FillTimes(const MatchJob& job, std::int64_t insert_ns, StageTimes& times) {
+  times[static_cast<std::size_t>(Stage::kDecode)] = job.sweep->decode_ns;
+  times[static_cast<std::size_t>(Stage::kInsert)] = insert_ns;
+  times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;
+}
+
 }  // namespace
 
 RegistrationWorker::RegistrationWorker(const Options& options, ClockNs clock,
@@ -245,11 +252,7 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   outcome.points_lidar = std::move(scan.reduced.points);
   outcome.tags = std::move(scan.reduced.tags);
   outcome.features = std::move(scan.reduced.features);
-  StageTimes& times = outcome.stage_ns;
-  times[static_cast<std::size_t>(Stage::kDecode)] = sweep.decode_ns;
-  times[static_cast<std::size_t>(Stage::kInsert)] = last_insert_ns_;
-  times[static_cast<std::size_t>(Stage::kFilter)] = job.filter_ns;
-  last_insert_ns_ = 0;
+  FillTimes(job, std::exchange(last_insert_ns_, 0), outcome.stage_ns);
   outcome.num_matches = scan.budget.num_taken();
   outcome.num_coarse_matches = scan.budget.num_coarse();
   return std::move(scan.outcome);

@@ -85,7 +85,7 @@ Matrix6 CountedInformation(const Matrix6& information, const Matrix6& sure_infor
 Matrix6 ObservableInverse(const DirectionSplit& split) {
   Matrix6 inverse = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {
-    if (split.degenerate_mask & (1u << i)) continue;
+    if (split.IsDegenerate(i)) continue;
     const Vector6 v = split.directions.col(i);
     inverse += v * v.transpose() / split.eigenvalues[i];
   }
@@ -101,7 +101,7 @@ Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& ste
   const Vector6 scale = split.Scale();
   Vector6 scaled = scale.cwiseProduct(step);
   for (int i = 0; i < 6; ++i) {
-    if (!(split.degenerate_mask & (1u << i))) continue;
+    if (!split.IsDegenerate(i)) continue;
     const Vector6 v = split.directions.col(i);
     scaled -= v * v.dot(scaled);
   }
@@ -118,7 +118,7 @@ Matrix6 DegenerateCovariance(const DirectionSplit& split) {
   const Vector6 inverse_scale = split.Scale().cwiseInverse();
   Matrix6 cov = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {
-    if (!(split.degenerate_mask & (1u << i))) continue;
+    if (!split.IsDegenerate(i)) continue;
     const Vector6 v = inverse_scale.cwiseProduct(split.directions.col(i));
     cov += kStd_m * kStd_m * v * v.transpose();
   }

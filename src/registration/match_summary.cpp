@@ -12,7 +12,7 @@ std::vector<BlindDirection> BlindDirectionsOf(const DirectionSplit& split) {
   std::vector<BlindDirection> directions;
   const Vector6 scale = split.Scale();
   for (int i = 0; i < 6; ++i) {
-    if (!(split.degenerate_mask & (1u << i))) continue;
+    if (!split.IsDegenerate(i)) continue;
     const Vector6 direction = split.directions.col(i);
     directions.push_back({direction.cwiseQuotient(scale), direction.cwiseProduct(scale)});
   }

@@ -54,6 +54,11 @@ Grid Widened(const Grid& grid, const Eigen::Vector2i& size, int tolerance) {
 }  // namespace
 
 StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
+  Frame(points);
+  BuildLevels(MarkThings(points));
+}
+
+void StructurePyramid::Frame(std::span<const Eigen::Vector2f> points) {
   Eigen::Vector2f low = Eigen::Vector2f::Zero();
   Eigen::Vector2f high = Eigen::Vector2f::Zero();
   if (!points.empty()) low = high = points.front();
@@ -69,6 +74,9 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
   }
   corner_m_ = low - Eigen::Vector2f::Constant(kRelocalization.map_search.margin_m);
   size_ = (extent_m / kRelocalization.map_search.cell_m).array().ceil().cast<int>() + 1;
+}
+
+StructurePyramid::Grid StructurePyramid::MarkThings(std::span<const Eigen::Vector2f> points) const {
   Grid marked(IndexOf(0, size_.y(), size_), 0);
   for (const Eigen::Vector2f& point : points) {
     const Eigen::Vector2i at = CellOf(point);
@@ -80,6 +88,10 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
     }
     marked[IndexOf(at.x(), at.y(), size_)] = kThing;
   }
+  return marked;
+}
+
+void StructurePyramid::BuildLevels(Grid marked) {
   constexpr int kLog2Cells = kRelocalization.map_search.log2_cells_per_block;
   Eigen::Vector2i marked_size = size_;
   for (int level = 0; level < kRelocalization.map_search.num_levels; ++level) {

@@ -57,7 +57,6 @@ void LoamReducer::AddSurfaces(const Sweep& sweep, const LoamFeatures& features,
 
 ReducedScan LoamReducer::Reduce(const Sweep& sweep) {
   ReducedScan result;
-  result.num_raw = static_cast<int>(sweep.points.size());
   result.num_nonfinite = static_cast<int>(std::count_if(
       sweep.points.begin(), sweep.points.end(), [](const auto& p) { return !IsFinite(p); }));
   result.voxel_m = voxel_m_;

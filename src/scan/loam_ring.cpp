@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace lio {
@@ -120,53 +121,42 @@ void LoamRing::SuppressNeighbours(std::size_t i) {
   }
 }
 
-// Picks the sharpest first, equal ones by index, so that the result does not depend on the heap.
-void LoamRing::PickEdges(std::size_t begin, std::size_t end) {
+// Picks the foremost curvature first, equal ones by index, so that the result does not depend on
+// the heap.
+template <class ComesBefore, class LabelOf>
+void LoamRing::Pick(std::size_t begin, std::size_t end, int most, const ComesBefore& comes_before,
+                    const LabelOf& label_of) {
   const auto threshold = static_cast<float>(options_.curvature_m2);
-  const auto is_duller = [&](std::uint32_t a, std::uint32_t b) {
-    return curvature_m2_[a] != curvature_m2_[b] ? curvature_m2_[a] < curvature_m2_[b] : a > b;
+  const auto comes_after = [&](std::uint32_t a, std::uint32_t b) {
+    return curvature_m2_[a] != curvature_m2_[b] ? comes_before(curvature_m2_[b], curvature_m2_[a])
+                                                : a > b;
   };
   heap_.clear();
   for (std::size_t i = begin; i < end; ++i) {
-    if (!is_taken_[i] && curvature_m2_[i] > threshold) {
+    if (!is_taken_[i] && comes_before(curvature_m2_[i], threshold)) {
       heap_.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  std::make_heap(heap_.begin(), heap_.end(), is_duller);
+  std::make_heap(heap_.begin(), heap_.end(), comes_after);
   int num_picked = 0;
-  while (!heap_.empty() && num_picked < options_.num_less_sharp) {
-    std::pop_heap(heap_.begin(), heap_.end(), is_duller);
+  while (!heap_.empty() && num_picked < most) {
+    std::pop_heap(heap_.begin(), heap_.end(), comes_after);
     const std::uint32_t i = heap_.back();
     heap_.pop_back();
     if (is_taken_[i]) continue;
-    label_[i] = num_picked < options_.num_sharp ? Label::kSharp : Label::kLessSharp;
-    ++num_picked;
+    label_[i] = label_of(num_picked++);
     SuppressNeighbours(i);
   }
 }
 
+void LoamRing::PickEdges(std::size_t begin, std::size_t end) {
+  Pick(begin, end, options_.num_less_sharp, std::greater<float>(), [&](int num_before) {
+    return num_before < options_.num_sharp ? Label::kSharp : Label::kLessSharp;
+  });
+}
+
 void LoamRing::PickFlats(std::size_t begin, std::size_t end) {
-  const auto threshold = static_cast<float>(options_.curvature_m2);
-  const auto is_sharper = [&](std::uint32_t a, std::uint32_t b) {
-    return curvature_m2_[a] != curvature_m2_[b] ? curvature_m2_[a] > curvature_m2_[b] : a > b;
-  };
-  heap_.clear();
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!is_taken_[i] && curvature_m2_[i] < threshold) {
-      heap_.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  std::make_heap(heap_.begin(), heap_.end(), is_sharper);
-  int num_picked = 0;
-  while (!heap_.empty() && num_picked < options_.num_flat) {
-    std::pop_heap(heap_.begin(), heap_.end(), is_sharper);
-    const std::uint32_t i = heap_.back();
-    heap_.pop_back();
-    if (is_taken_[i]) continue;
-    label_[i] = Label::kFlat;
-    ++num_picked;
-    SuppressNeighbours(i);
-  }
+  Pick(begin, end, options_.num_flat, std::less<float>(), [](int) { return Label::kFlat; });
 }
 
 }  // namespace lio

@@ -40,6 +40,11 @@ class LoamRing {
   void ComputeCurvature();
   void PickEdges(std::size_t begin, std::size_t end);
   void PickFlats(std::size_t begin, std::size_t end);
+  // Picks at most `most` of the points whose curvature comes before the threshold. `label_of` gives
+  // the label of a pick from the number of those before it.
+  template <class ComesBefore, class LabelOf>
+  void Pick(std::size_t begin, std::size_t end, int most, const ComesBefore& comes_before,
+            const LabelOf& label_of);
   void SuppressNeighbours(std::size_t i);
   float Chord(std::size_t i, std::size_t j) const { return (direction_[i] - direction_[j]).norm(); }
 

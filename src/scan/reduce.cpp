@@ -116,7 +116,6 @@ std::vector<ScanReducer::Chosen> ScanReducer::SortedChoice(const Sweep& sweep) {
 
 ReducedScan ScanReducer::Reduce(const Sweep& sweep) {
   ReducedScan result;
-  result.num_raw = static_cast<int>(sweep.points.size());
   result.voxel_m = voxel_m_;
   FindCandidates(sweep, result.num_nonfinite);
   ChoosePoints(sweep);

@@ -34,6 +34,15 @@ TEST(VoxelKey, DifferentVoxelsHaveDifferentKeys) {
   EXPECT_EQ(keys.size(), num_voxels);
 }
 
+TEST(VoxelKey, AKeyTellsItsVoxel) {
+  constexpr std::int32_t kFar = kVoxelCoordinateLimit - 1;
+  for (const VoxelCell& voxel :
+       {VoxelCell{0, 0, 0}, VoxelCell{1, -2, 3}, VoxelCell{-kFar, kFar, -1},
+        VoxelCell{kFar, 0, kFar}, VoxelCell{-1, -kVoxelCoordinateLimit, kFar}}) {
+    EXPECT_EQ(UnpackVoxel(PackVoxel(voxel[0], voxel[1], voxel[2])), voxel);
+  }
+}
+
 // Clouds hold such coordinates where a driver marks a missing return.
 TEST(VoxelKey, CoordinatesFarAwayOrNoNumbersLieAtTheLimit) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

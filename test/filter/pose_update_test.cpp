@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "support/map_is_world.hpp"
 #include "support/numeric_jacobian.hpp"
 #include "support/random_state.hpp"
 #include "support/state_error.hpp"
@@ -247,7 +248,7 @@ TEST(PoseUpdate, WhollyNewMapForgetsTheMapPoseError) {
 TEST(PoseUpdate, WhereTheMapIsTheWorldAPoseMeasuresBoth) {
   std::mt19937_64 random(12);
   Estimate estimate = RandomEstimate(random, 0.01);
-  MakeMapTheWorld(estimate);
+  test::MakeMapTheWorld(estimate);
   EXPECT_EQ(LogSe3(estimate.state.T_world_imu.Inverse() * estimate.state.T_map_imu).norm(), 0.0);
   Estimate expected = estimate;  // the textbook's update of the world pose alone
   const Vector6 shift = 1e-4 * test::RandomVector<6>(random);

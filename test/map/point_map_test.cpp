@@ -28,15 +28,20 @@ PointMapOptions FineOptions() {
   return options;
 }
 
+// Returns the voxel of a map with these options around a point.
+VoxelCell VoxelAround(const Vector3& point, const PointMapOptions& options) {
+  return VoxelOf(1.0 / options.voxel_m * point);
+}
+
 TEST(PointMap, WiderSearchFindsTheExactNearest) {
   PointMapOptions options = FineOptions();
   options.voxel_m = 0.1;
   options.max_voxel_points = 1;  // a voxel is its first point
   PointMap map(options);
   std::vector<Vector3> kept;
-  std::set<VoxelKey> keys;
+  std::set<VoxelCell> voxels;
   for (const Vector3& point : RandomPositions(500, 2.0, 1)) {
-    if (keys.insert(map.ContentAt(point).key).second) kept.push_back(point);
+    if (voxels.insert(VoxelAround(point, options)).second) kept.push_back(point);
   }
   map.Insert(kept, Vector3::Zero());
   for (const Vector3& query : RandomPositions(50, 2.0, 2)) {
@@ -96,11 +101,10 @@ TEST(PointMap, BoundsHoldExactlyAfterEveryInsertion) {
     map.Insert(points, centre);
     all.insert(all.end(), points.begin(), points.end());
     ASSERT_LE(map.num_voxels(), 300u);
-    std::set<VoxelKey> held;
+    std::set<VoxelCell> held;
     for (const Vector3& point : all) {
-      const auto content = map.ContentAt(point);
-      if (content.num_points == 0) continue;
-      held.insert(content.key);
+      if (map.ContentAt(point).num_points == 0) continue;
+      held.insert(VoxelAround(point, options));
       const double half_block = 0.8 * std::sqrt(3.0);
       ASSERT_LE((point - centre).norm(), 30.0 + half_block + 0.4);
     }

@@ -3,8 +3,7 @@
 // Which units, axes and gravity a start finds in the inertial messages.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "lio/base/angle.hpp"
 #include "pipeline/initializing.hpp"
 #include "pipeline/initializing_bench.hpp"
 
@@ -16,8 +15,6 @@ using test::kDriveFrom_s;
 using test::kStandardGravity_mps2;
 using test::Leaning;
 using test::Motion;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 Options OptionsIn(ImuUnits units) {
   Options options;

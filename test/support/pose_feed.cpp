@@ -10,6 +10,7 @@
 
 #include "lio/filter/filter_history.hpp"
 #include "lio/filter/preintegration.hpp"
+#include "support/map_is_world.hpp"
 #include "support/random_state.hpp"
 #include "support/state_error.hpp"
 

@@ -50,11 +50,24 @@ inline constexpr int kBlockEdge = 4;
   return {voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2};
 }
 
+// A key holds x, y and z from its high end to its low one, each of this many bits. Arithmetic: they
+// hold twice kVoxelCoordinateLimit.
+inline constexpr int kVoxelBits = 21;
+inline constexpr std::uint64_t kVoxelMask = (std::uint64_t{1} << kVoxelBits) - 1;
+
 [[nodiscard]] inline VoxelKey PackVoxel(std::int32_t x, std::int32_t y, std::int32_t z) {
-  constexpr std::uint64_t kMask = (1u << 21) - 1;
-  return ((static_cast<std::uint64_t>(x + kVoxelCoordinateLimit) & kMask) << 42) |
-         ((static_cast<std::uint64_t>(y + kVoxelCoordinateLimit) & kMask) << 21) |
-         (static_cast<std::uint64_t>(z + kVoxelCoordinateLimit) & kMask);
+  return ((static_cast<std::uint64_t>(x + kVoxelCoordinateLimit) & kVoxelMask)
+          << (2 * kVoxelBits)) |
+         ((static_cast<std::uint64_t>(y + kVoxelCoordinateLimit) & kVoxelMask) << kVoxelBits) |
+         (static_cast<std::uint64_t>(z + kVoxelCoordinateLimit) & kVoxelMask);
+}
+
+// Returns the voxel that PackVoxel() named so, given coordinates within the limit.
+[[nodiscard]] inline VoxelCell UnpackVoxel(VoxelKey key) {
+  const auto coordinate = [&](int shift) {
+    return static_cast<std::int32_t>((key >> shift) & kVoxelMask) - kVoxelCoordinateLimit;
+  };
+  return {coordinate(2 * kVoxelBits), coordinate(kVoxelBits), coordinate(0)};
 }
 
 // Uses Fibonacci hashing. The product's high bits depend on all three coordinates, so they are

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "lio/base/angle.hpp"
 #include "lio/sensor/imu_sample.hpp"
 
 namespace lio {
@@ -37,7 +38,7 @@ struct RotationCalibrationOptions {
   // A result with larger standard deviations is not sure: the motion does not determine it. Chosen:
   // 24 times and 5 times those of 40 s of a walk (docs/calibration.md, Figures).
   double max_offset_std_s = 1e-3;
-  double max_rotation_std_rad = 0.2 * 0.017453292519943295;
+  double max_rotation_std_rad = 0.2 * kRadPerDeg;
 };
 
 struct RotationCalibration {

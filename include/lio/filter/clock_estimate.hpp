@@ -18,10 +18,10 @@ struct ClockEstimate {
   Timestamp as_of;
 };
 
-// The time between two scans in seconds. Stamps that go back, or on by too much, are those of
-// clocks that were set: no time has passed.
+// Returns the time between two scans in seconds. Stamps that go back, or on by too much, are those
+// of clocks that were set: no time has passed.
 [[nodiscard]] double PassedTime_s(Timestamp before, Timestamp now);
-// How d and its rate go on in that time, which may be negative.
+// Returns the matrix by which (d, its rate) go on in that time, which may be negative.
 [[nodiscard]] Eigen::Matrix2d ClockTransition(double span_s);
 // Returns what an estimate tells of a later time.
 [[nodiscard]] ClockEstimate Predicted(const ClockEstimate& estimate, Timestamp now);

@@ -63,7 +63,7 @@ class ClockOffset {
 
   double offset_s() const { return belief_.mean(kOffset); }  // the estimate of d
   double std_s() const;                                      // its standard deviation
-  // How fast d grows, s per second, and the standard deviation.
+  // These return how fast d grows, s per second, and its standard deviation, to tests.
   double rate() const { return belief_.mean(kRate); }
   double rate_std() const;
   // The correction to add to the next scan's stamps. It follows the estimate by at most 2 ms a

@@ -24,7 +24,7 @@ struct ExtrinsicCorrectionParameters {
 
 inline constexpr ExtrinsicCorrectionParameters kExtrinsicCorrection;
 
-// Standard deviations of biases that are forgotten: those before anything is known.
+// Holds the standard deviations of biases that are forgotten: those before anything is known.
 struct BiasStds {
   double gyro_radps = 0.0;
   double accel_mps2 = 0.0;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Runs the error-state filter over a sliding window of time: it keeps every event (inertial sample,
-// pose, zero velocity, rebase) with the estimate after it, ordered by stamp.
+// pose, zero velocity, velocity, rebase, noise) with the estimate after it, ordered by stamp.
 //
 // An event that comes late is inserted at its own stamp and all later events are replayed, so the
 // result does not depend on the order of arrival. Events of equal stamp are ordered by kind:
-// inertial samples, poses, zero velocities, velocities, rebases. Frames, units and error
+// inertial samples, poses, zero velocities, velocities, rebases, noises. Frames, units and error
 // conventions: nav_state.hpp. Equations: docs/filter.md; Sola, arXiv 1711.02508. Failures are
 // values of EventOutcome; nothing throws. Cost: one event at the end is one propagation step; a
 // late event replays those after it.
@@ -32,7 +32,7 @@ enum class EventOutcome {
   kGated,        // the innovation is beyond the gate: the estimate is unchanged
 };
 
-// Holds settings of one history; defaults of the last two groups are those of
+// Holds settings of one history; the defaults of `max_inflation` and `imu_outage` are those of
 // filter_parameters.hpp.
 struct HistoryOptions {
   ProcessNoise noise;

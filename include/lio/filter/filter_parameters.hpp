@@ -26,7 +26,7 @@ struct InflationParameters {
   double max_factor = 9.0;
 };
 
-// How a pose beyond the gate is fused when it must be (docs/filter.md, Pose update).
+// Tells how a pose beyond the gate is fused when it must be (docs/filter.md, Pose update).
 struct ForcedUpdateParameters {
   // m, rad. Smaller residuals are registration errors: the pose's covariance is multiplied by the
   // residual's NIS over the gate's limit. Larger ones are motion that no sample showed, or a wrong
@@ -38,7 +38,7 @@ struct ForcedUpdateParameters {
   double unseen_motion_s = 0.2;
 };
 
-// Process noise added where inertial samples are missing or saturated.
+// Tells the process noise that is added where inertial samples are missing or saturated.
 struct ImuOutageParameters {
   // Samples that are farther apart have a gap between them: as sensor/gap.hpp defines it.
   Duration gap = kImuGap.sparse;
@@ -108,7 +108,7 @@ struct ClockOffsetParameters {
   double min_announced_s = 3e-3;
 };
 
-// The window of events (filter_history.hpp).
+// Bounds the window of events (filter_history.hpp).
 struct HistoryParameters {
   // Events that are kept at most, where stamps hardly advance. Chosen: three seconds of a 10 kHz
   // IMU.

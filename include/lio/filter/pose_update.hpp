@@ -44,11 +44,6 @@ struct UpdateResult {
 // turn.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
-// Makes the map's frame the world's, for absolute poses, such as those of motion capture or of a
-// surveyed map. T_map_imu becomes T_world_imu with the same error, so that FusePose measures both.
-// Neither BlendMapPose nor a rebase may follow. The two poses stay equal to second order of errors.
-void MakeMapTheWorld(Estimate& estimate);
-
 // Fuses a general linear measurement, for the initialization: residual = H error + noise of
 // covariance `R`. `H` is n x kStateDim, `R` n x n, `residual` n. It uses the Joseph form, injection
 // and reset, and never gates.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A bounded map of keyframes: the points of chosen scans, each with its normal, in one hashed voxel
-// map. A submap is a choice of keyframes: a search passes over the points of all others, so that
-// choosing anew costs nothing. Not safe for concurrent use while changing.
+// Holds a bounded map of keyframes: the points of chosen scans, each with its normal, in one hashed
+// voxel map. A submap is a choice of keyframes: a search passes over the points of all others, so
+// that choosing anew costs nothing. Not safe for concurrent use while changing.
 // Source: Chen, Lopez, Agha-mohammadi, Mehta, "Direct LiDAR Odometry", RA-L 2022, for the submap of
 // nearest and hull keyframes.
 #pragma once
@@ -56,7 +56,7 @@ class KeyframeMap {
     return points_[ToIndex(point)].value;
   }
 
-  // How many points of all keyframes lie in the voxel around a point.
+  // Returns how many points of all keyframes lie in the voxel around a point.
   [[nodiscard]] int CountAt(const Vector3& point_map) const;
 
   // Holds the keyframe nearest to a place; none: -1.
@@ -103,11 +103,14 @@ class KeyframeMap {
                         std::int32_t keyframe);
   void RemovePoint(std::int32_t point);
   void RemoveKeyframe(std::int32_t keyframe);
+  // These drop what Add() says, and keep the newest keyframe.
+  void DropFarKeyframes(std::int32_t newest);
+  void DropLongestUnused(std::int32_t newest);
+  std::vector<std::int32_t> HullKeyframes(const std::vector<std::int32_t>& all) const;
   // These are in keyframe_map_search.cpp.
   void SearchAround(Search& search, int radius_voxels) const;
   void SearchVoxel(const Blocks::Block& block, std::size_t voxel, const Eigen::Vector3f& query,
                    Search& search) const;
-  std::vector<std::int32_t> HullKeyframes(const std::vector<std::int32_t>& all) const;
 
   KeyframeMapOptions options_;
   Blocks blocks_;

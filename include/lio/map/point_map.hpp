@@ -49,7 +49,6 @@ class PointMap {
 
   // Holds the voxel around a point, for the share of new content.
   struct Content {
-    VoxelKey key = 0;  // an integer name of the voxel
     int num_points = 0;
     bool is_frozen = false;
   };

@@ -53,7 +53,8 @@ class VoxelBlocks {
 
   // Returns the number of the block around a voxel, kNone where there is none.
   [[nodiscard]] std::int32_t Find(const VoxelCell& voxel) const {
-    return blocks_.Find(PackVoxel(voxel[0] >> 2, voxel[1] >> 2, voxel[2] >> 2));
+    const VoxelCell at = BlockOf(voxel);
+    return blocks_.Find(PackVoxel(at[0], at[1], at[2]));
   }
   // A new block is empty, and the last touched.
   VoxelIndex::Added FindOrAdd(const VoxelCell& voxel) {

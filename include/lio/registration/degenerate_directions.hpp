@@ -23,6 +23,7 @@ struct DirectionSplit {
   unsigned degenerate_mask = 0;              // bit i: direction i is degenerate
 
   int num_degenerate() const { return __builtin_popcount(degenerate_mask); }
+  bool IsDegenerate(int direction) const { return (degenerate_mask >> direction & 1u) != 0; }
   // Scales [translation; rotation] to metres.
   Vector6 Scale() const {
     Vector6 scale;

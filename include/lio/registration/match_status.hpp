@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How a match of a scan against the map ended.
+// Tells how a match of a scan against the map ended.
 #pragma once
 
 #include <array>

@@ -8,10 +8,12 @@
 #include <array>
 #include <cstddef>
 
+#include "lio/map/map_parameters.hpp"
+
 namespace lio {
 
-// How far from its predicted place a point may have its counterpart on the map, from the covariance
-// of the guess.
+// Bounds how far from its predicted place a point may have its counterpart on the map, by the
+// covariance of the guess.
 struct CorrespondenceParameters {
   // Rotations and translations are compared at this range [m]: a rotation error moves a point by
   // its range times the angle. Chosen: between a room's ranges and a street's.
@@ -55,7 +57,7 @@ struct RobustKernelParameters {
   static constexpr float kMaxDistanceSq = 25.f;
 };
 
-// Limits that every matcher has for its report.
+// Holds the limits that every matcher has for its report.
 struct MatchParameters {
   // Fewer matched points than these end a match. Chosen: six unknowns, with outliers among the
   // points.
@@ -75,7 +77,7 @@ struct WellConstrainedTranslationParameters {
   static constexpr double kMaxStd_m = 0.02;
 };
 
-// When a place is narrow (place_width.hpp).
+// Tells when a place is narrow (place_width.hpp).
 struct PlaceWidthParameters {
   // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
   // first, and wide again where it lies in more than the second. Measured: walks in offices lie in
@@ -147,8 +149,8 @@ struct ScanNormalParameters {
   // The 27 voxels need so many points together. Chosen: as NdtOptions::min_cell_points.
   static constexpr double kMinPoints = 6.0;
   // The variance along the normal is at most this share of that along the narrower tangent: as for
-  // the cells of NDT (GaussianMapParameters).
-  static constexpr double kMaxThicknessRatio = 0.1;
+  // the cells of NDT.
+  static constexpr double kMaxThicknessRatio = GaussianMapParameters::kMaxThicknessRatio;
   // The standard deviation along the narrower tangent is at least this share of the voxel's edge.
   // Chosen: a single ring is narrower, and three voxels evenly filled have 0.87.
   static constexpr double kMinWidthPerVoxel = 0.3;
@@ -185,8 +187,8 @@ struct LoamParameters {
   // Points of a line or a plane spread at least this much over the map's leaf, as a standard
   // deviation. Chosen: less is a piece of one scan ring.
   static constexpr double kMinWidthPerLeaf = 0.3;
-  // A plane's normal may err by this standard deviation [rad]: as for ScanNormalParameters.
-  static constexpr double kMaxNormalStd_rad = 0.1;
+  // A plane's normal may err by this standard deviation [rad]: as a normal fitted in a scan may.
+  static constexpr double kMaxNormalStd_rad = ScanNormalParameters::kMaxNormalStd_rad;
 };
 
 // Tunes scan-to-scan matching: A-LOAM's neighbours, and bounds that keep noise from tilting lines

@@ -40,18 +40,19 @@ class PlaceContest {
  public:
   PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map);
 
-  // Ranks some more places; true when all are ranked. True: all are ranked.
+  // Ranks some more places. Returns true when all are ranked.
   [[nodiscard]] bool Rank(const MatchInInitial& match);
-  // Call it after ranking. It makes at most `max_matches` matches of the scan.
+  // Follows the leader and a rival by another scan, with at most `max_matches` matches of it. Call
+  // it after ranking. Returns the place that has won, if one has.
   [[nodiscard]] std::optional<FoundPlace> Check(const LocatedScan& scan,
                                                 const MatchInInitial& match, int max_matches);
-  // No place can win any more.
+  // Returns true when no place can win any more.
   [[nodiscard]] bool is_over() const;
 
  private:
   struct Contender {
     Pose T_initial_map;
-    double support = 0.0;  // share of points that the coarse match found
+    double support = 0.0;  // SupportOf() the coarse match
     int num_checks = 0;
     int num_good_in_a_row = 0;
     double fit_sum = 0.0;  // sum over scans: 1 where one fits as well as its new map

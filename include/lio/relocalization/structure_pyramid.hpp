@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// The standing things of a whole map, seen from above, as grids for larger and larger blocks of
-// shifts: a cell says whether any shift of the block may have a thing there, so that a search
+// Holds the standing things of a whole map, seen from above, as grids for larger and larger blocks
+// of shifts: a cell says whether any shift of the block may have a thing there, so that a search
 // leaves out whole parts of the map at once. After W. Hess et al., "Real-Time Loop Closure in 2D
 // LIDAR SLAM", ICRA 2016. Unlike theirs a grid's cells grow with its blocks, to a quarter of their
 // width, so that all grids take three times the memory of the finest; the bound is a little looser.
@@ -53,6 +53,12 @@ class StructurePyramid {
     Eigen::Vector2i size = Eigen::Vector2i::Zero();
     Grid grid;
   };
+
+  // Puts the corner and the size of the finest grid around the points.
+  void Frame(std::span<const Eigen::Vector2f> points);
+  // Returns the finest grid, with the cells of the points and those beside them.
+  [[nodiscard]] Grid MarkThings(std::span<const Eigen::Vector2f> points) const;
+  void BuildLevels(Grid marked);
 
   Eigen::Vector2f corner_m_ = Eigen::Vector2f::Zero();
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();

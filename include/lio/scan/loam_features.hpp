@@ -9,10 +9,11 @@
 // at the border of an occlusion, whose edge belongs to the nearer surface and moves with the
 // sensor, and those seen at grazing incidence.
 //
-// Inputs: points in the lidar frame, metres, in any order; a ring is put in order by time, or by
-// azimuth where the points have no time, and begins where its largest gap ends. Non-finite and
-// unwanted points (range, own vehicle) are ignored. Nothing throws. The result has indices into the
-// sweep's points, by ring and then along the ring; it is the same set for any order of the points.
+// Inputs: points in the lidar frame, metres, in any order; a ring is put in order by time. If no
+// point has a time, rings are put in order by azimuth, clockwise from the sweep's first finite
+// point on. Non-finite and unwanted points (range, own vehicle) are ignored. Nothing throws. The
+// result has indices into the sweep's points, by ring and then along the ring. It is the same set
+// for any order of the points; without times, for any order that begins with the same finite point.
 // Sources: Zhang and Singh, "LOAM", RSS 2014, section V-A; A-LOAM's constants. Differences: the
 // surface's slope is judged by four steps of the ring together and against the beam's own angular
 // step, so that neither range noise nor the sensor's resolution decides. The cost is linear but for

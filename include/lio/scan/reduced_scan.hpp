@@ -27,10 +27,9 @@ struct ReducedScan {
   std::vector<FeatureTag> tags;                  // one per point; empty when the method needs none
   std::vector<std::uint32_t> to_match;           // indices of the points that are matched
   std::shared_ptr<const LoamFeatures> features;  // LOAM only
-  int num_raw = 0;
   int num_nonfinite = 0;
   float range_std_m = 0;  // noise of the ranges, as the sweeps so far show it; 0: not known
-  float voxel_m = 0;      // the edge of the thinning grid that was used
+  float voxel_m = 0;      // the edge of the thinning grid that was used; only tests read it
 };
 
 class SweepReducer {
