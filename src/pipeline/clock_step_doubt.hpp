@@ -21,7 +21,7 @@ class ClockStepDoubt {
   void Begin(const ClockStep& stamps, const Pose& T_map_imu) { step_ = {stamps, T_map_imu}; }
   void End() { step_.reset(); }
 
-  // Returns the step in doubt, if there is one.
+  // Returns the step in doubt, if there is one; tests ask for it.
   [[nodiscard]] std::optional<ClockStep> stamps() const;
   [[nodiscard]] bool IsAbout(const Sweep& sweep) const;  // it is after the step
   // Returns the pose of a sweep after the step if no time passed there: the motion since the step

@@ -10,7 +10,7 @@
 
 #include "lio/imu/start_state.hpp"
 #include "pipeline/clock_step_doubt.hpp"
-#include "pipeline/imu_agreement.hpp"
+#include "pipeline/imu_doubt.hpp"
 #include "pipeline/yaw_doubt.hpp"
 
 namespace lio {

@@ -50,7 +50,8 @@ ImuConventionMonitor::Finding ImuConventionMonitor::JudgeInitializing(const Trac
   return {Finding::Kind::kOtherwise, verdict.convention, verdict.evidence};
 }
 
-// It judges by poses that were tracked with its rates.
+// The poses that the verdict is about were tracked with this gyro's rates, so that wrong rates
+// spoil them.
 bool ImuConventionMonitor::IsGyroMisleading(const ImuVerdict& verdict,
                                             const TrackFacts& facts) const {
   if (verdict.finding == ImuVerdict::Finding::kOtherwise) {
@@ -62,7 +63,7 @@ bool ImuConventionMonitor::IsGyroMisleading(const ImuVerdict& verdict,
          classifier_.IsGyroAbsurd() || MayBeDegrees(facts.samples);
 }
 
-// After a start at rest the first turns tell.
+// A start at rest tells nothing of the rates: the first turns do.
 bool ImuConventionMonitor::IsContradicted(const TrackingFacts& facts) {
   if (is_settled_) return false;
   const bool is_wild = IsGyroWild(facts);

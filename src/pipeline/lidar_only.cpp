@@ -163,11 +163,9 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
   const Pose T_map_imu_predicted = tracker_->history().At(middle).state.T_map_imu;
   ScanReport report = Fuse(outcome, is_keyframe);
   trend_.Forget();
-  if (starts_map) context_.sensor_errors.BeginMap();
-  if (starts_map && tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
-    ++context_.counters.num_scans_late;
-  }
+  if (starts_map) BeginMap(middle);
   const Estimate estimate = tracker_->history().At(middle);
+  const bool is_located = report.fused || starts_map;
   if (report.fused && !outcome.is_relocalized) {
     NoteError(T_map_imu_predicted, estimate.state.T_map_imu, middle);
   }
@@ -175,25 +173,32 @@ std::optional<Transition> LidarOnly::FinishJob(const MatchOutcome& outcome, Inse
     insert.T_map_imu = estimate.state.T_map_imu;
     keyframes_.Accept(estimate.state.T_map_imu);
   }
-  if (report.fused || starts_map) {
-    handover_.last_located = middle;
-    handover_.last_seq = outcome.sweep->scan_seq;
-  }
   ++num_scans_;
   const Health::Verdict verdict =
       health_.AddScan(outcome.sweep->end, outcome.match, outcome.num_used, report.fused);
-  handover_.last_fused = health_.last_fused();
   if (verdict.is_newly_lost) NotifyLost(outcome.sweep->end, context_.outputs);
-  if (report.fused && is_place_sure) {
-    handover_.last_fix = MakeFix(middle, estimate, g_world_);
-  }
+  if (is_located) Remember(*outcome.sweep);
+  handover_.last_fused = health_.last_fused();
+  if (report.fused && is_place_sure) handover_.last_fix = MakeFix(middle, estimate, g_world_);
   CompleteTimes(outcome.stage_ns, context_.NowNs() - begin_ns, report);
   Publish(outcome, report);
-  context_.EndSweep(report.fused || starts_map);
+  context_.EndSweep(is_located);
   if (handover_.doubts_imu()) CompareWithImu(outcome, report.fused);
   if (auto transition = TryReturn(outcome, report.fused && is_place_sure)) return transition;
   if (verdict.restarts) return RestartWhenLost(outcome.sweep->end);
   return std::nullopt;
+}
+
+void LidarOnly::BeginMap(Timestamp middle) {
+  context_.sensor_errors.BeginMap();
+  if (tracker_->history().AddRebase(middle) != EventOutcome::kApplied) {
+    ++context_.counters.num_scans_late;
+  }
+}
+
+void LidarOnly::Remember(const Sweep& located) {
+  handover_.last_located = located.middle();
+  handover_.last_seq = located.scan_seq;
 }
 
 // The pose that was fused: where a match sees nothing it has the error that was expected, which

@@ -74,6 +74,9 @@ class LidarOnly {
   // A fused scan tells how wrong its prediction was.
   void NoteError(const Pose& T_map_imu_predicted, const Pose& T_map_imu_fused, Timestamp middle);
   ScanReport Fuse(const MatchOutcome& outcome, bool is_keyframe);
+  // The map begins with a scan of this instant.
+  void BeginMap(Timestamp middle);
+  void Remember(const Sweep& located);
   void Publish(const MatchOutcome& outcome, const ScanReport& report);
   [[nodiscard]] Transition RestartWhenLost(Timestamp sweep_end) const;
   // Compares an IMU that is in doubt with the scan.

@@ -25,9 +25,9 @@ TrackingStatus StatusOf(const Mode& mode);
 // Returns the index of the sweep to match next in the queue of those that wait.
 std::size_t NextSweepOf(const Mode& mode);
 
-// The rule of the table, which is counted where the table calls it a restart: all restarts are
-// counted here, but for those that Odometry::Reset is asked for. Throws std::logic_error where the
-// table has no rule.
+// Returns the rule of the table, which is counted where the table calls it a restart: all restarts
+// are counted here, but for those that Odometry::Reset is asked for. Throws std::logic_error where
+// the table has no rule.
 TransitionRule TakeRule(ModeKind from, Trigger trigger, Counters& counters);
 
 // Builds the mode that the rule names.

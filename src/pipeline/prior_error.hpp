@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How an error of the motion prior shows within a sweep: an error of a constant velocity has grown
-// in proportion to the time since the last located scan, so that it moves the scan and bends it.
+// Tells how an error of the motion prior shows within a sweep: an error of a constant velocity has
+// grown in proportion to the time since the last located scan, so that it moves the scan and bends
+// it.
 #pragma once
 
 #include "lio/pipeline/match_job.hpp"

@@ -217,6 +217,25 @@ void RegistrationWorker::SeekPlace(ScanInWork& scan) {
       initial_->Seek({scan.to_match, outcome.match}, outcome.points_imu, T_imu_lidar_, scan.budget);
 }
 
+void RegistrationWorker::PrepareMap(const MatchJob& job) {
+  if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
+  if (job.map_action == MapAction::kEnter && initial_) {
+    initial_->Enter(matcher_);
+    relocalizer_.Clear();
+  }
+}
+
+void RegistrationWorker::Reduce(const Sweep& sweep, ScanInWork& scan) {
+  const std::int64_t begin = Now();
+  scan.reduced = reducer_->Reduce(sweep);
+  range_std_m_ = scan.reduced.range_std_m;
+  CorrectBeams(scan.reduced.points);
+  scan.outcome.num_used = static_cast<int>(scan.reduced.to_match.size());
+  scan.outcome.num_nonfinite = scan.reduced.num_nonfinite;
+  scan.outcome.is_repeated = repeats_.IsRepeated(sweep);
+  AddTime(Stage::kReduce, begin, scan.outcome);
+}
+
 MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   const Sweep& sweep = *job.sweep;
   if (job.T_imu_lidar) T_imu_lidar_ = *job.T_imu_lidar;
@@ -227,25 +246,11 @@ MatchOutcome RegistrationWorker::Run(const MatchJob& job) {
   MatchOutcome& outcome = scan.outcome;
   outcome.sweep = job.sweep;
   calibration_.ForgetScan();
-  if (job.map_action == MapAction::kClear) ClearMap(job.prior.up_map);
-  if (job.map_action == MapAction::kEnter && initial_) {
-    initial_->Enter(matcher_);
-    relocalizer_.Clear();
-  }
-
-  std::int64_t begin = Now();
-  scan.reduced = reducer_->Reduce(sweep);
-  range_std_m_ = scan.reduced.range_std_m;
-  CorrectBeams(scan.reduced.points);
-  outcome.num_used = static_cast<int>(scan.reduced.to_match.size());
-  outcome.num_nonfinite = scan.reduced.num_nonfinite;
-  outcome.is_repeated = repeats_.IsRepeated(sweep);
-  AddTime(Stage::kReduce, begin, outcome);
-
-  begin = Now();
+  PrepareMap(job);
+  Reduce(sweep, scan);
+  const std::int64_t begin = Now();
   outcome.points_imu = Deskew(scan.reduced.points, TimesOf(sweep), scan.motion, T_imu_lidar_);
   AddTime(Stage::kDeskew, begin, outcome);
-
   std::visit([&](const auto& task) { Do(task, scan); }, job.task);
   new_content_share_ = outcome.match.new_content_share;
   is_blind_ = outcome.match.degenerate_mask != 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// How far errors that move with the sensor bend the map, as the drive itself shows it. Points of
-// one beam direction that are wrong in the same way have the same score (gradient) in every match:
-// the mean of their scores over the drive is what neither points nor scans average away.
+// Tells how far errors that move with the sensor bend the map, as the drive itself shows it. Points
+// of one beam direction that are wrong in the same way have the same score (gradient) in every
+// match: the mean of their scores over the drive is what neither points nor scans average away.
 //
 // A match is off by A^-1 m, with m the mean score and A the curvature of its cost, and a scan that
 // is inserted there carries the error into its share of the map. After N replacements of the map by

@@ -19,7 +19,7 @@ struct InitialMap {
   std::optional<PlaceGuess> guess;      // absent: anywhere in the map
 };
 
-// Why nobody can start in these points; empty where one can.
+// Tells why nobody can start in these points; empty where one can.
 [[nodiscard]] std::string WhyUnusable(std::span<const Eigen::Vector3f> points);
 
 // It is read only, so that threads may share it. Null: no such map.

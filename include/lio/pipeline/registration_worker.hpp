@@ -51,18 +51,21 @@ class RegistrationWorker {
   // Takes the errors of the beams off, as far as they are known.
   void CorrectBeams(std::vector<ScanPoint>& points) const;
   void AddTime(Stage stage, std::int64_t since_ns, MatchOutcome& outcome) const;
+  // Clears or enters the map, as the job asks.
+  void PrepareMap(const MatchJob& job);
   void ClearMap(const Vector3& up_map);
+  void Reduce(const Sweep& sweep, ScanInWork& scan);
   void Do(const FindVelocity& task, ScanInWork& scan);
   void Do(const Track& task, ScanInWork& scan);
   void Do(const Relocalize& task, ScanInWork& scan);
-  // A match with these points that counts; one without budget finds nothing.
+  // Matches with these points; it counts, and without budget it finds nothing.
   MatchResult MatchFully(const MatchInput& input, ScanInWork& scan);
-  // A match with a few of the points, which ranks guesses and teaches the calibration nothing.
+  // Matches with a few of the points; this ranks guesses and teaches the calibration nothing.
   MatchResult MatchCoarsely(MatchInput input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
   MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
   MatchResult MatchBentFrom(const Pose& T_map_imu_guess, const Matrix6& cov, ScanInWork& scan);
-  // The prior turned about the vertical until most of the scan lies on the map, if any of it does.
+  // Turns the prior about the vertical until most of the scan lies on the map, if any of it does.
   std::optional<Pose> BestTurn(const MotionPrior& prior, ScanInWork& scan);
   void BendTo(const Pose& T_map_imu, ScanInWork& scan) const;
   void Search(const SearchRequest& request, ScanInWork& scan);
