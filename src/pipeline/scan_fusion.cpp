@@ -14,33 +14,38 @@ bool IsMotionGuessed(Timestamp from, Timestamp until, const FusionSettings& sett
   return !settings.is_inertial || IsMotionHidden(context.stream.imu().Between(from, until));
 }
 
-UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, bool is_blind,
-                             const FusionSettings& settings, const ModeContext& context,
-                             const FilterHistory& history) {
+// Returns the samples whose errors are still in the estimate.
+std::vector<ImuSample> LastingSamples(Timestamp until, const ModeContext& context) {
+  return context.stream.imu().Between(until - Duration::FromSeconds(kUnseenMotion.lasts_s), until);
+}
+
+UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& settings,
+                             const ModeContext& context, const FilterHistory& history) {
   if (outcome.is_relocalized || outcome.is_clock_set || settings.replaces_motion) return {};
   if (!settings.is_inertial) return {};
   const Timestamp until = outcome.sweep->end;
-  const Duration window = Duration::FromSeconds(kUnseenMotion.lasts_s);
-  const std::vector<ImuSample> samples = context.stream.imu().Between(until - window, until);
+  const std::vector<ImuSample> samples = LastingSamples(until, context);
   if (IsMotionHidden(samples)) return {};
   const std::optional<RigBounds>& bounds = context.examiner.bounds();
   if (bounds) {
     return MotionByRigErrors(*bounds, samples, history.At(until).state.v_world_imu.norm());
   }
-  // Nothing is known of the rig yet: a match that sees all directions is believed.
-  return is_blind ? UnseenMotion{0.0, 0.0} : UnseenMotion{};
+  return {};  // nothing is known of the rig yet
 }
 
 // Must the match be fused even beyond the gate, since the filter itself must be wrong?
 bool IsForced(const MatchOutcome& outcome, bool is_blind, const FusionSettings& settings,
               const ModeContext& context, const Health& health) {
   const std::optional<Timestamp> last_fused = health.last_fused();
+  const Timestamp until = outcome.sweep->end;
   const bool is_contradicted_by_guess =
-      !is_blind && last_fused &&
-      IsMotionGuessed(*last_fused, outcome.sweep->end, settings, context);
-  // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
-  const bool is_insisted_on =
-      health.MustForce(context.options.filter.max_gated_in_a_row) && !settings.is_map_unproved;
+      !is_blind && last_fused && IsMotionGuessed(*last_fused, until, settings, context);
+  // Samples that have missed nothing are not overruled by a match that hangs on few surfaces, nor
+  // by a map of one scan, whose rings hold a body back.
+  const bool may_lie_wrong =
+      is_blind && settings.is_inertial && !IsMotionHidden(LastingSamples(until, context));
+  const bool is_insisted_on = health.MustForce(context.options.filter.max_gated_in_a_row) &&
+                              !may_lie_wrong && !settings.is_map_unproved;
   return is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
 }
 
@@ -53,7 +58,7 @@ MatchJudgement Judge(const MatchOutcome& outcome, const FusionSettings& settings
       .sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match),
       .force = IsForced(outcome, is_blind, settings, context, health)};
   if (judgement.force) {
-    judgement.max_unseen = MaxUnseenMotion(outcome, is_blind, settings, context, history);
+    judgement.max_unseen = MaxUnseenMotion(outcome, settings, context, history);
   }
   return judgement;
 }

@@ -62,6 +62,11 @@ class ScanFusionTest : public testing::Test {
     outcome.match.cov = 1e-6 * Matrix6::Identity();
     return outcome;
   }
+  MatchOutcome BlindAt(double x_m) {
+    MatchOutcome outcome = MatchedAt(x_m);
+    outcome.match.degenerate_mask = 4;
+    return outcome;
+  }
   ScanReport Fuse(const MatchOutcome& outcome, const FusionSettings& settings = {}) {
     ScanReport report;
     FuseScan(outcome, settings, bench_.context(), *history_, health_, report);
@@ -98,11 +103,22 @@ TEST_F(ScanFusionTest, AMatchFarOffInAMapThatBeganAnewIsRefusedForGood) {
 
 TEST_F(ScanFusionTest, AMatchFarOffThatDoesNotSeeAllIsRefusedForGood) {
   FeedImu(-4.0, 2.0);
-  for (int i = 0; i < 2 * kMaxGated + 2; ++i) {
-    MatchOutcome outcome = MatchedAt(5.0);
-    outcome.match.degenerate_mask = 4;
-    EXPECT_FALSE(Fuse(outcome).fused) << i;
-  }
+  for (int i = 0; i < 2 * kMaxGated + 2; ++i) EXPECT_FALSE(Fuse(BlindAt(5.0)).fused) << i;
+}
+
+// The samples have missed nothing.
+TEST_F(ScanFusionTest, ABlindMatchThatIsALittleOffIsRefusedForGood) {
+  FeedImu(-4.0, 2.0);
+  KnowTheRig();
+  for (int i = 0; i < 2 * kMaxGated + 2; ++i) EXPECT_FALSE(Fuse(BlindAt(0.1)).fused) << i;
+}
+
+TEST_F(ScanFusionTest, ABlindMatchThatIsALittleOffIsFusedAtLastWhereTheSamplesHaveAHole) {
+  FeedImu(-4.0, 0.3);
+  FeedImu(0.45, 2.0);
+  KnowTheRig();
+  for (int i = 0; i < kMaxGated; ++i) EXPECT_FALSE(Fuse(BlindAt(0.1)).fused) << i;
+  EXPECT_TRUE(Fuse(BlindAt(0.1)).fused);
 }
 
 // The samples have a hole in the third scan's sweep.
