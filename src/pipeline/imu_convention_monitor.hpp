@@ -101,6 +101,8 @@ class ImuConventionMonitor {
 
   // May the gyro's rates serve the constant-velocity tracker?
   bool trusts_gyro() const { return trusts_gyro_; }
+  // Is it beyond doubt what the messages mean?
+  bool is_settled() const { return is_settled_; }
   void TrustGyro(bool trusts) { trusts_gyro_ = trusts; }
 
  private:

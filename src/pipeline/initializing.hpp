@@ -51,6 +51,9 @@ struct InitializingParameters {
   // The track starts from rest if no velocity is clear after so many scans. Measured against five:
   // docs/experiments/starts_in_motion.md.
   std::size_t max_scans_for_velocity = 8;
+  // rad/s, 1 sigma. The bias of a gyro that was right before the way was lost may have jumped by
+  // this. Chosen: 3 deg/s, beyond what shock or heat leave in one that still works.
+  double jumped_gyro_bias_std_radps = 0.05;
   // m. A scan whose place in the map is less sure would blur the map. Chosen: a third of a cell.
   double max_insert_std_m = 0.3;
 };
@@ -118,6 +121,7 @@ class Initializing {
   [[nodiscard]] std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartInMotion(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
+  [[nodiscard]] MovingStart Align(Timestamp begin, Timestamp stamp, bool has_gravity) const;
   void TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const;
   [[nodiscard]] Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
 

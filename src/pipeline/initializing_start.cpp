@@ -106,14 +106,36 @@ std::optional<Transition> Initializing::TryStartInMotion(Timestamp stamp) {
   return AlignInMotion(begin, stamp);
 }
 
-std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp stamp) {
+// The bias of a gyro that was right before the way was lost is found wherever it has jumped to. An
+// accelerometer's is not: where scans do not tell the height, it would be anywhere.
+MovingStart Initializing::Align(Timestamp begin, Timestamp stamp, bool has_gravity) const {
   std::vector<MatchedPose> poses;
   for (const Scan& scan : scans_) {
     if (scan.is_matched) poses.push_back(scan.pose);
   }
   const ImuBuffer& imu = context_.stream.imu();
   const std::vector<ImuSample> samples(imu.samples().begin(), imu.samples().end());
-  const Vector3 mean_f_mps2 = Summarise(imu.Between(begin, stamp)).mean_f_mps2;
+  Rig rig = context_.options.rig;
+  rig.imu = RaisedTo(imu.NoiseAt(stamp), rig.imu);
+  MovingStart moving = StartMoving(samples, poses, begin, rig, has_gravity);
+  const bool was_right =
+      handover_.origin == Handover::Origin::kInertial && context_.convention.is_settled();
+  if (moving.start || !was_right) return moving;
+  double& bias_std_radps = rig.imu.gyro_bias_std_radps;
+  const double usual_std_radps = std::exchange(
+      bias_std_radps, std::max(bias_std_radps, kInitializing.jumped_gyro_bias_std_radps));
+  MovingStart jumped = StartMoving(samples, poses, begin, rig, has_gravity);
+  if (!jumped.start) return moving;
+  context_.outputs.Notify(
+      stamp, Notice::Severity::kWarning,
+      fmt::format("the gyro's bias is now {:.3f} rad/s, far beyond rig.imu.gyro_bias_std_radps "
+                  "({:.3f}); the filter goes on with it, but look at the unit",
+                  jumped.start->estimate.state.gyro_bias.cwiseAbs().maxCoeff(), usual_std_radps));
+  return jumped;
+}
+
+std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp stamp) {
+  const Vector3 mean_f_mps2 = Summarise(context_.stream.imu().Between(begin, stamp)).mean_f_mps2;
   const std::optional<bool> has_gravity = context_.convention.GravityInMotion(mean_f_mps2);
   const std::string seen = fmt::format("{:.2f} m/s^2 in the mean", mean_f_mps2.norm());
   MovingStart moving;
@@ -122,9 +144,7 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   } else if (auto rejection = CheckGravity(*has_gravity, seen, stamp)) {
     return rejection;
   } else {
-    Rig rig = context_.options.rig;
-    rig.imu = RaisedTo(imu.NoiseAt(stamp), rig.imu);
-    moving = StartMoving(samples, poses, begin, rig, *has_gravity);
+    moving = Align(begin, stamp, *has_gravity);
   }
   if (moving.start) return StartFrom(*moving.start, 0, false);
   context_.outputs.NotifyWaiting(stamp, "no start in motion yet: " + moving.why_not);

@@ -131,6 +131,19 @@ TEST(DeadImuAndClocksSetBack, IsBelievedAgainOnceItFollowsTheScans) {
   EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 600.5);
 }
 
+// Scans show nothing while the rate jumps, so that nothing accuses the gyro before the way is lost.
+TEST(GyroThatJumpsAndLost, StartsAnewWithTheBiasThatItHasNow) {
+  Messages messages = Broken(ShiftRate);
+  test::ShowClouds(kBroken_s - 0.2, kBroken_s + 2.8, messages);
+  const RunResult run = RunOdometry(messages, test::DriveRig());
+  EXPECT_GE(run.counters.num_lost, 1);
+  EXPECT_TRUE(test::HasNotice(run, "the gyro's bias is now 0.0"));
+  EXPECT_EQ(run.status, TrackingStatus::kOk);
+  ASSERT_FALSE(run.navs.empty());
+  EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 0.5);
+  EXPECT_NEAR(run.scans.back().filter->gyro_bias_radps.z(), 0.06, 0.01);
+}
+
 // The accelerometer is contradicted, and then the gyro dies as well.
 TEST(DeadImuOneByOne, IsBelievedAgainOnceBothFollowTheScans) {
   Messages messages = Broken(ShiftForce, kBroken_s + 2.0);
