@@ -50,6 +50,7 @@ struct Handover {
       if (*stamp) **stamp = **stamp + by;
     }
     last_fix.stamp = last_fix.stamp + by;
+    if (imu_doubt) imu_doubt->last = imu_doubt->last + by;
   }
 };
 

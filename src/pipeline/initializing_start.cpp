@@ -128,8 +128,8 @@ MovingStart Initializing::Align(Timestamp begin, Timestamp stamp, bool has_gravi
   if (!jumped.start) return moving;
   context_.outputs.Notify(
       stamp, Notice::Severity::kWarning,
-      fmt::format("the gyro's bias is now {:.3f} rad/s, far beyond rig.imu.gyro_bias_std_radps "
-                  "({:.3f}); the filter goes on with it, but look at the unit",
+      fmt::format("the gyro's bias is now {:.3f} rad/s, and rig.imu.gyro_bias_std_radps says "
+                  "{:.3f}; the filter goes on with it, but look at the unit",
                   jumped.start->estimate.state.gyro_bias.cwiseAbs().maxCoeff(), usual_std_radps));
   return jumped;
 }

@@ -101,6 +101,8 @@ class OutageRecovery {
   [[nodiscard]] Event AddScan(const MatchOutcome& outcome, bool is_fused, bool sees_enough);
 
   const Estimate& before() const { return before_; }
+  // The clock was set: what is remembered is as long ago by the new one.
+  void ShiftTimesBy(Duration by) { before_.stamp = before_.stamp + by; }
   // Returns the distance of the scan that was found from the last one that was matched before.
   double moved_m() const { return moved_m_; }
 

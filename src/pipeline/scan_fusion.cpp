@@ -33,19 +33,24 @@ UnseenMotion MaxUnseenMotion(const MatchOutcome& outcome, const FusionSettings& 
   return {};  // nothing is known of the rig yet
 }
 
+// May a match lie wrong because it hangs on few surfaces, while the samples have missed nothing?
+bool MayLieWrong(const MatchOutcome& outcome, bool is_blind, const FusionSettings& settings,
+                 const ModeContext& context) {
+  return is_blind && settings.is_inertial &&
+         !IsMotionHidden(LastingSamples(outcome.sweep->end, context));
+}
+
 // Must the match be fused even beyond the gate, since the filter itself must be wrong?
 bool IsForced(const MatchOutcome& outcome, bool is_blind, const FusionSettings& settings,
               const ModeContext& context, const Health& health) {
   const std::optional<Timestamp> last_fused = health.last_fused();
-  const Timestamp until = outcome.sweep->end;
   const bool is_contradicted_by_guess =
-      !is_blind && last_fused && IsMotionGuessed(*last_fused, until, settings, context);
-  // Samples that have missed nothing are not overruled by a match that hangs on few surfaces, nor
-  // by a map of one scan, whose rings hold a body back.
-  const bool may_lie_wrong =
-      is_blind && settings.is_inertial && !IsMotionHidden(LastingSamples(until, context));
+      !is_blind && last_fused &&
+      IsMotionGuessed(*last_fused, outcome.sweep->end, settings, context);
+  // A map of one scan is of rings, which hold a body back: it cannot overrule the inertial samples.
   const bool is_insisted_on = health.MustForce(context.options.filter.max_gated_in_a_row) &&
-                              !may_lie_wrong && !settings.is_map_unproved;
+                              !settings.is_map_unproved &&
+                              !MayLieWrong(outcome, is_blind, settings, context);
   return is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
 }
 

@@ -20,10 +20,8 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
     return std::nullopt;
   }
   const NavState& state = history_.At(scan.middle()).state;
-  const LastFix& fix = handover_.last_fix;
-  const ImuAgreement::Belief belief = BeliefAbout(
-      {state.gyro_bias, state.accel_bias}, scan.noise,
-      fix.T_map_imu.rotation * (fix.T_world_imu.rotation.conjugate() * g_world_), context_);
+  const ImuAgreement::Belief belief = BeliefAbout({state.gyro_bias, state.accel_bias}, scan.noise,
+                                                  InMap(handover_.last_fix, g_world_), context_);
   const Timestamp last = imu_agreement_.last().value_or(scan.middle());
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      context_.stream.imu(), belief);

@@ -44,6 +44,7 @@ void Tracking::CarryOver(const Estimate& before, const SegmentJump& jump, const 
   } else {
     handover_.ShiftTimesBy(jump.set_by());
     health_.ShiftTimesBy(jump.set_by());
+    outage_.ShiftTimesBy(jump.set_by());
     context_.clocks.Interrupt();
   }
   history_ = FilterHistory(options, CarriedOver(before, jump, first, options), sample);

@@ -17,10 +17,12 @@ TEST(Handover, AClockThatWasSetMovesWhenTheVehicleWasLocated) {
     handover.last_fused = StampAt(1.0);
     handover.last_located = StampAt(2.0);
     handover.last_fix.stamp = StampAt(3.0);
+    handover.imu_doubt.emplace().last = StampAt(4.0);
     handover.ShiftTimesBy(Duration::FromSeconds(by_s));
     EXPECT_EQ(handover.last_fused, StampAt(1.0 + by_s));
     EXPECT_EQ(handover.last_located, StampAt(2.0 + by_s));
     EXPECT_EQ(handover.last_fix.stamp, StampAt(3.0 + by_s));
+    EXPECT_EQ(handover.imu_doubt->last, StampAt(4.0 + by_s));
   }
 }
 

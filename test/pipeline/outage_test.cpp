@@ -93,6 +93,12 @@ TEST(AcrossOutage, YawMayBeAnyAndTiltIsThatOfRoads) {
   EXPECT_NEAR(std::sqrt(after.cov(kRot, kRot)), 0.1, 0.01);
 }
 
+TEST(OutageRecovery, AClockThatWasSetLeavesTheEstimateBeforeAsLongAgo) {
+  OutageRecovery recovery = Begun();
+  recovery.ShiftTimesBy(Duration::FromSeconds(-2.5));
+  EXPECT_EQ(recovery.before().stamp, HeadingAlongY().stamp - Duration::FromSeconds(2.5));
+}
+
 TEST(AcrossOutage, AClockThatWasSetBackTellsAsLittleAsOneThatWasSetForward) {
   const Estimate before = HeadingAlongY();
   const Duration five_s = Duration::FromSeconds(5.0);

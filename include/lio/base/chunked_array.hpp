@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// An array that grows without moving what it holds: a vector would copy all of it now and then, in
-// the midst of a scan, and keep up to twice the memory.
+// Holds an array that grows without moving what it holds: a vector would copy all of it now and
+// then, in the midst of a scan, and keep up to twice the memory.
 #pragma once
 
 #include <bit>
@@ -29,6 +29,7 @@ class ChunkedArray {
   }
 
  private:
+  // Chosen: half of the size from which glibc asks the kernel for each block.
   static constexpr std::size_t kMaxChunkBytes = 65536;
   static_assert(sizeof(Content) <= kMaxChunkBytes);
   static constexpr int kBits = std::bit_width(kMaxChunkBytes / sizeof(Content)) - 1;

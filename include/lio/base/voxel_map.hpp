@@ -20,6 +20,7 @@ class VoxelMap : private VoxelIndex {
  public:
   using VoxelIndex::Added;
   using VoxelIndex::capacity;
+  using VoxelIndex::Clear;  // keeps the memory of the contents
   using VoxelIndex::Find;
   using VoxelIndex::IsUsed;
   using VoxelIndex::key;
@@ -47,8 +48,6 @@ class VoxelMap : private VoxelIndex {
   [[nodiscard]] const Content& Of(std::int32_t voxel) const {
     return std::get<ChunkedArray<Content>>(contents_)[static_cast<std::size_t>(voxel)];
   }
-  // Keeps the memory of the contents.
-  void Clear() { VoxelIndex::Clear(); }
   [[nodiscard]] std::size_t memory_bytes() const {
     return VoxelIndex::memory_bytes() +
            (... + std::get<ChunkedArray<Contents>>(contents_).memory_bytes());

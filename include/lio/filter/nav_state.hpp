@@ -48,9 +48,10 @@ struct NavState {
   Quaternion R_world_map_start = Quaternion::Identity();  // map_bend.hpp
 };
 
-// Returns a vector of the world in the axes of the map.
-inline Vector3 InMap(const NavState& state, const Vector3& v_world) {
-  return state.T_map_imu.rotation * (state.T_world_imu.rotation.conjugate() * v_world);
+// Returns a vector of the world in the axes of the map, by the poses of one instant in both.
+template <class PosesOfInstant>
+Vector3 InMap(const PosesOfInstant& at, const Vector3& v_world) {
+  return at.T_map_imu.rotation * (at.T_world_imu.rotation.conjugate() * v_world);
 }
 
 // Returns state (+) error, by the conventions above.
