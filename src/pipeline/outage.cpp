@@ -81,7 +81,7 @@ bool OutageRecovery::MatchesAsBefore(const MatchResult& match) const {
     return now >= kOutage.min_share_matched * before;
   };
   return is_enough(match.num_matched, last_match_.num_matched) &&
-         is_enough(match.num_matched_in_finest, last_match_.num_matched_in_finest);
+         is_enough(match.by_level.num_in_finest, last_match_.by_level.num_in_finest);
 }
 
 void OutageRecovery::SetTask(const std::optional<Pose>& T_map_imu_if_set, MatchJob& job) const {

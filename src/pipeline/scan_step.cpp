@@ -85,7 +85,7 @@ ScanReport MakeScanReport(const MatchOutcome& outcome) {
   report.num_raw = static_cast<int>(outcome.sweep->points.size());
   report.num_used = outcome.num_used;
   report.num_matched = outcome.match.num_matched;
-  report.num_matched_at = outcome.match.num_matched_at;
+  report.num_matched_at = outcome.match.by_level.counts;
   report.num_matches = outcome.num_matches;
   report.num_coarse_matches = outcome.num_coarse_matches;
   report.iterations = outcome.match.iterations;

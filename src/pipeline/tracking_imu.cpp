@@ -26,6 +26,7 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      context_.stream.imu(), belief);
   auto found = imu_agreement_.Find(belief);
+  if (outcome.match.support_at_guess > kImuAgreement.max_support_at_guess) found.reset();
   if (imu_agreement_.HasJumped(belief)) followed_s_ = 0.0;
   const bool was_right = followed_s_ >= kImuAgreement.min_followed_s;
   const bool has_moved = imu_agreement_.HasMoved();

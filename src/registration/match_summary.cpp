@@ -116,4 +116,13 @@ void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, Ma
   scores.Complete(sums.curvature_ratio(), result);
 }
 
+bool ContradictsGuess(const MatchResult& result, const MatchInput& input) {
+  if (!result.IsUsable()) return false;
+  const Pose change = input.T_map_imu_guess.Inverse() * result.T_map_imu;
+  Vector6 shift;
+  shift << change.translation, LogSo3(change.rotation);
+  const Matrix6 cov = input.guess_cov + result.cov;
+  return shift.dot(cov.ldlt().solve(shift)) > MatchParameters::kContradictionChi2;
+}
+
 }  // namespace lio

@@ -315,9 +315,9 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (scores_[i].num_rows > 0) ++result.num_matched_at[map_.LevelOf(pairs_[i].cell)];
+    if (scores_[i].num_rows > 0) ++result.by_level.counts[map_.LevelOf(pairs_[i].cell)];
   }
-  result.num_matched_in_finest = result.num_matched_at[LevelsInUse().finest];
+  result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
   result.num_in_map =
       static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
         return pair.cell != GaussianMap::kNoCell;
@@ -337,6 +337,12 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }
+}
+
+double NdtMatcher::SupportAt(const MatchInput& input, const Pose& T_grid_imu) {
+  counted_at_.reset();
+  Associate(input, T_grid_imu, 0.0);
+  return Linearize(input, T_grid_imu, 0.f, {}).weight_sum;
 }
 
 MatchResult NdtMatcher::Match(const MatchInput& input) {
@@ -362,6 +368,10 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   Pose T_grid_imu = T_grid_guess;
   if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
     Finish(scan_at(T_grid_imu), T_grid_imu, result);
+    if (ContradictsGuess(result, input)) {
+      const double support = SupportAt(scan_at(T_grid_imu), T_grid_imu);
+      result.support_at_guess = SupportAt(scan_at(T_grid_guess), T_grid_guess) / support;
+    }
   }
   return result;
 }

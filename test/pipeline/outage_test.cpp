@@ -34,7 +34,7 @@ MatchOutcome Scan(int num_matched, int num_in_finest_cells) {
   MatchOutcome outcome;
   outcome.match.status = MatchStatus::kConverged;
   outcome.match.num_matched = num_matched;
-  outcome.match.num_matched_in_finest = num_in_finest_cells;
+  outcome.match.by_level.num_in_finest = num_in_finest_cells;
   return outcome;
 }
 

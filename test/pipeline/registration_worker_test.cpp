@@ -145,7 +145,7 @@ TEST(RegistrationWorker, DeskewIsRefinedWhenTheMotionIsOnlyGuessed) {
   };
   const MatchOutcome refined = outcome_of(2.0, true);
   EXPECT_LT(ErrorOf(refined), 0.005);
-  EXPECT_GT(refined.match.num_matched_in_finest, 0);
+  EXPECT_GT(refined.match.by_level.num_in_finest, 0);
   const std::vector<Eigen::Vector3f> truth = outcome_of(0.0, false).points_imu;
   const auto smear_m = [&](const std::vector<Eigen::Vector3f>& points) {
     double sum_sq = 0;

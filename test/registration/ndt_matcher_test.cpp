@@ -92,12 +92,12 @@ TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {
   street.InsertRoad(0.0, 20.0);
   const MatchResult result = street.MatchFrom(OnRoad(12.4), Vector6::Zero(), 0.02);
   ASSERT_TRUE(result.IsUsable());
-  const LevelCounts& counts = result.num_matched_at;
+  const LevelCounts& counts = result.by_level.counts;
   EXPECT_EQ(counts[0], 0);
   EXPECT_GT(counts[1], 1000);
   EXPECT_GT(counts[2], 100);
   EXPECT_EQ(counts[1] + counts[2], result.num_matched);
-  EXPECT_EQ(result.num_matched_in_finest, counts[1]);
+  EXPECT_EQ(result.by_level.num_in_finest, counts[1]);
 }
 
 TEST(NdtMatcher, InANarrowPlacePointsAreMatchedInCellsOfAQuarterAndOfHalfAMetre) {
@@ -106,11 +106,11 @@ TEST(NdtMatcher, InANarrowPlacePointsAreMatchedInCellsOfAQuarterAndOfHalfAMetre)
   const MatchResult result =
       closet.MatchFrom({ExpSo3({0, 0, 0.33}), {0.2, 0.02, 0.1}}, Vector6::Zero(), 0.02);
   ASSERT_TRUE(result.IsUsable());
-  const LevelCounts& counts = result.num_matched_at;
+  const LevelCounts& counts = result.by_level.counts;
   EXPECT_GT(counts[0], 1000);
   EXPECT_EQ(counts[2], 0);
   EXPECT_EQ(counts[0] + counts[1], result.num_matched);
-  EXPECT_EQ(result.num_matched_in_finest, counts[0]);
+  EXPECT_EQ(result.by_level.num_in_finest, counts[0]);
 }
 
 // Returns the NEES per degree of freedom over places along a street.
@@ -211,6 +211,36 @@ TEST(NdtMatcher, TellsHowMuchTheDirectionThatItDoesNotSeeVaries) {
     EXPECT_GT(seen_var, told_var[axis] / 9.0) << axis;
     EXPECT_LT(seen_var, told_var[axis] * 9.0) << axis;
   }
+}
+
+TEST(NdtMatcher, TellsTheSupportAtAGuessThatThePoseContradicts) {
+  NdtMatcherIn street(test::Street());
+  street.InsertRoad(0.0, 20.0);
+  const Pose truth = OnRoad(12.4);
+  Vector6 error = Vector6::Zero();
+  error[1] = 0.2;
+  const MatchResult contradicted = street.MatchFrom(truth, error, 0.005);
+  ASSERT_TRUE(contradicted.IsUsable());
+  ASSERT_TRUE(contradicted.support_at_guess);
+  EXPECT_GT(*contradicted.support_at_guess, 0.0);
+  EXPECT_LT(*contradicted.support_at_guess, 0.9);
+  const MatchResult within = street.MatchFrom(truth, error, 0.2);
+  ASSERT_TRUE(within.IsUsable());
+  EXPECT_FALSE(within.support_at_guess);
+}
+
+// Along a corridor the guess stays where it is.
+TEST(NdtMatcher, AGuessAlongADirectionThatIsOpenIsNotContradicted) {
+  NdtMatcherIn corridor(test::Corridor());
+  for (double x = 0.0; x <= 10.0; x += 1.0) {
+    corridor.InsertFrom({Quaternion::Identity(), {x, 0, 0}});
+  }
+  Vector6 error = Vector6::Zero();
+  error[0] = 0.2;
+  const MatchResult result =
+      corridor.MatchFrom({Quaternion::Identity(), {5.4, 0.3, 0.0}}, error, 0.005);
+  ASSERT_EQ(result.status, MatchStatus::kDegenerate);
+  EXPECT_FALSE(result.support_at_guess);
 }
 
 TEST(NdtMatcher, EmptyMapGivesTheGuessAndSaysSo) {

@@ -135,6 +135,9 @@ void TakeLastStep(const Vector6& step, MatchResult& result);
 // last step.
 void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, MatchResult& result);
 
+// Is the pose farther from its guess than the covariances of both allow?
+[[nodiscard]] bool ContradictsGuess(const MatchResult& result, const MatchInput& input);
+
 // Takes the mean over matched points of (points that this scan adds to a voxel) / (points in it
 // after), which is MatchResult::new_content_share.
 class NewContentMean {

@@ -111,6 +111,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   // Shows the rows of the match, as they are in scores_, to the calibration of the beams.
   void Teach(const MatchInput& input, const Pose& T_grid_imu) const;
   void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
+  // Returns the sum of the robust weights of the points at the pose.
+  [[nodiscard]] double SupportAt(const MatchInput& input, const Pose& T_grid_imu);
 
   NdtOptions options_;
   Workers workers_;

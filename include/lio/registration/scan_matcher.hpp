@@ -107,6 +107,12 @@ struct BeamPull {
   std::optional<Matrix6> unknown_cov;
 };
 
+// Counts matched points by the level of the map; zero where the method has no levels.
+struct MatchedByLevel {
+  LevelCounts counts{};
+  int num_in_finest = 0;  // at the finest level in use, which depends on the place
+};
+
 struct [[nodiscard]] MatchResult {
   MatchStatus status = MatchStatus::kEmptyMap;
   Pose T_map_imu;                         // under every status; the guess where nothing was matched
@@ -119,8 +125,7 @@ struct [[nodiscard]] MatchResult {
   unsigned degenerate_mask = 0;           // bit i: eigenvalue i is of a degenerate direction
   std::vector<BlindDirection> blind_directions;  // one for each bit
   int num_matched = 0;
-  LevelCounts num_matched_at{};   // by level of the map; method ndt
-  int num_matched_in_finest = 0;  // at the finest level in use, which depends on the place
+  MatchedByLevel by_level;
   // So many points lie where the map has a surface, near or far from it; 0 where the method does
   // not tell.
   int num_in_map = 0;
@@ -136,6 +141,9 @@ struct [[nodiscard]] MatchResult {
   // without degenerate directions.
   Matrix6 shift_per_score = Matrix6::Zero();
   double new_content_share = 1.0;  // 0..1, share of the matched map that this scan brings
+  // The support that the scan has at the guess, over that at T_map_imu: near one, the scan lies as
+  // well at either. Given where the two contradict each other and the method tells.
+  std::optional<double> support_at_guess;
 
   [[nodiscard]] bool IsUsable() const {
     return status == MatchStatus::kConverged || status == MatchStatus::kDegenerate;
