@@ -65,8 +65,8 @@ struct ImuAgreementParameters {
   double shown_share = 0.5;
   std::size_t shown_span = 4;
   // A scan whose support where the samples predict it is this share of that at its match accuses
-  // nobody: it has slid along what it sees. Measured: .98 and .99 where a narrow view slid in an
-  // office, .92 and less where a gyro was off by .05 rad/s (docs/experiments/dead_imu.md).
+  // nobody: it has slid along what it sees. Measured on simulated drives: .98 where a narrow view
+  // slid in an office, .89 and less where a gyro was off (docs/experiments/dead_imu.md).
   double max_support_at_guess = 0.95;
 };
 

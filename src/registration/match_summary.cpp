@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/base/chi_square.hpp"
+
 namespace lio {
 namespace {
 
@@ -118,11 +120,10 @@ void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, Ma
 
 bool ContradictsGuess(const MatchResult& result, const MatchInput& input) {
   if (!result.IsUsable()) return false;
-  const Pose change = input.T_map_imu_guess.Inverse() * result.T_map_imu;
-  Vector6 shift;
-  shift << change.translation, LogSo3(change.rotation);
+  static const double limit = ChiSquareQuantile6(MatchParameters::kAgreementProbability);
+  const Vector6 shift = LogSe3(input.T_map_imu_guess.Inverse() * result.T_map_imu);
   const Matrix6 cov = input.guess_cov + result.cov;
-  return shift.dot(cov.ldlt().solve(shift)) > MatchParameters::kContradictionChi2;
+  return shift.dot(cov.ldlt().solve(shift)) > limit;
 }
 
 }  // namespace lio

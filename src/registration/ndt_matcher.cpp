@@ -307,11 +307,16 @@ Support NdtMatcher::UprightSupport() const {
   return support;
 }
 
-void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
+MatchSums NdtMatcher::SumsAt(const MatchInput& input, const Pose& T_grid_imu,
+                             std::span<PointScore> scores) {
   counted_at_.reset();
   Associate(input, T_grid_imu, 0.0);
+  return Linearize(input, T_grid_imu, 0.f, scores);
+}
+
+double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   scores_.resize(input.points_imu.size());
-  const MatchSums sums = Linearize(input, T_grid_imu, 0.f, scores_);
+  const MatchSums sums = SumsAt(input, T_grid_imu, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   result.num_matched = sums.num_matched;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -326,7 +331,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   result.new_content_share = NewContentShare();
   if (sums.num_matched < MatchParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;
-    return;
+    return sums.weight_sum;
   }
   if (input.calibration != nullptr && input.beam_points.size() == input.points_imu.size()) {
     Teach(input, T_grid_imu);
@@ -337,12 +342,7 @@ void NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchRe
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());
   }
-}
-
-double NdtMatcher::SupportAt(const MatchInput& input, const Pose& T_grid_imu) {
-  counted_at_.reset();
-  Associate(input, T_grid_imu, 0.0);
-  return Linearize(input, T_grid_imu, 0.f, {}).weight_sum;
+  return sums.weight_sum;
 }
 
 MatchResult NdtMatcher::Match(const MatchInput& input) {
@@ -367,10 +367,10 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
                       options_.converged_step_rad};
   Pose T_grid_imu = T_grid_guess;
   if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
-    Finish(scan_at(T_grid_imu), T_grid_imu, result);
+    const double support = Finish(scan_at(T_grid_imu), T_grid_imu, result);
     if (ContradictsGuess(result, input)) {
-      const double support = SupportAt(scan_at(T_grid_imu), T_grid_imu);
-      result.support_at_guess = SupportAt(scan_at(T_grid_guess), T_grid_guess) / support;
+      const MatchSums at_guess = SumsAt(scan_at(T_grid_guess), T_grid_guess, {});
+      result.support_at_guess = at_guess.weight_sum / support;
     }
   }
   return result;

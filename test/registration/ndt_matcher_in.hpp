@@ -23,6 +23,11 @@ inline Pose OnRoad(double x_m, double y_m = 5.0) {
   return pose;
 }
 
+// Returns the right error of the match.
+inline Vector6 ErrorOf(const MatchResult& result, const Pose& truth) {
+  return LogSe3(truth.Inverse() * result.T_map_imu);
+}
+
 // Holds a world, a lidar in it, and a matcher with a map of its scans.
 class NdtMatcherIn {
  public:

@@ -110,9 +110,10 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::vector<SeenBeam> BeamsOf(const ScanView& scan, const Eigen::Matrix3f& grid_from_lidar) const;
   // Shows the rows of the match, as they are in scores_, to the calibration of the beams.
   void Teach(const MatchInput& input, const Pose& T_grid_imu) const;
-  void Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
-  // Returns the sum of the robust weights of the points at the pose.
-  [[nodiscard]] double SupportAt(const MatchInput& input, const Pose& T_grid_imu);
+  // Associates and linearises at the pose, with no correspondence radius.
+  MatchSums SumsAt(const MatchInput& input, const Pose& T_grid_imu, std::span<PointScore> scores);
+  // Fills the result at the pose, and returns the sum of the robust weights there.
+  double Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result);
 
   NdtOptions options_;
   Workers workers_;

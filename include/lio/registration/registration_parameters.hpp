@@ -68,9 +68,9 @@ struct MatchParameters {
   // The step that is left at the solution is taken when it is shorter than this [m and rad as one
   // norm]. Chosen: five times NDT's step that ends the iterations.
   static constexpr double kMaxLastStep = 5e-3;
-  // A pose contradicts its guess where the squared distance exceeds this many of their variances.
-  // Statistics: chance exceeds it once in a hundred matches, with six degrees of freedom.
-  static constexpr double kContradictionChi2 = 16.81;
+  // A pose contradicts its guess where their distance is beyond what so many of a hundred have by
+  // chance. Statistics.
+  static constexpr double kAgreementProbability = 0.99;
 };
 
 // Trunks, bushes and edges look different from each side.
