@@ -31,6 +31,12 @@ def run(program, *words, **kwargs):
                           timeout=TIMEOUT_S, check=False, **kwargs)
 
 
+def may_unshare(flags):
+    """May this user make namespaces of its own? Not in a chroot, nor in many containers."""
+    return subprocess.run(["unshare", flags, "true"], check=False,
+                          capture_output=True).returncode == 0
+
+
 def run_well(program, *words):
     done = run(program, *words)
     if done.returncode != 0:
