@@ -28,7 +28,7 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libtbb-dev libboost-d
   libpcl-dev libembree-dev liblcm-dev liblcm-bin
   python3 python3-matplotlib iproute2 util-linux xz-utils)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libnanoflann-dev
-  clang libclang-rt-dev clang-format clang-tidy chromium help2man lintian systemd
+  clang libclang-rt-dev llvm clang-format clang-tidy chromium help2man lintian systemd
   snakemake python3-scipy
   pybind11-dev python3-dev python3-numpy python3-pip python3-setuptools python3-wheel mypy)
 spy_packages=(default-jdk-headless default-jre liblcm-java libjchart2d-java)
