@@ -160,7 +160,7 @@ void FilterLoop::Emit(const ScanOutput& output) {
   if (!output.filter) return;
   to_.board.SetImuNoise(output.filter->imu_noise);
   to_.board.SetClockOffset({output.filter->clock_offset_s, output.filter->clock_offset_std_s});
-  to_.board.SetTrust(odometry_.trust());
+  to_.board.SetTrust(output.trust);
   EmitClouds(output);
 }
 

@@ -21,7 +21,8 @@ constexpr std::array<const char*, 6> kMatchStatusNames = {
 
 std::string RegistrationHeader() {
   std::string header =
-      "t_s,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,nis,"
+      "t_s,segment,scan_seq,num_raw,num_used,num_matched,iterations,status,fused,residual_rms_m,"
+      "nis,"
       "degenerate_mask";
   for (int i = 0; i < 6; ++i) header += fmt::format(",information_eigenvalue_{}", i);
   for (std::size_t i = 0; i < LevelCounts().size(); ++i)
@@ -31,10 +32,10 @@ std::string RegistrationHeader() {
   return header + "\n";
 }
 
-std::string RegistrationRow(const ScanReport& scan) {
+std::string RegistrationRow(int segment, const ScanReport& scan) {
   std::string row =
-      fmt::format("{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", StampText(scan.stamp), scan.scan_seq,
-                  scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
+      fmt::format("{},{},{},{},{},{},{},{},{},{:.9e},{:.9e},{}", StampText(scan.stamp), segment,
+                  scan.scan_seq, scan.num_raw, scan.num_used, scan.num_matched, scan.iterations,
                   kMatchStatusNames.at(static_cast<std::size_t>(scan.status)), scan.fused ? 1 : 0,
                   scan.residual_rms_m, scan.nis, scan.degenerate_mask);
   for (const double eigenvalue : scan.information_eigenvalues) {
@@ -82,8 +83,8 @@ RowFiles::RowFiles(const fs::path& folder, bool has_base, bool turns_map)
   registration_.Write(RegistrationHeader());
 }
 
-void RowFiles::Write(const Output& output, std::optional<Trust> trust) {
-  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, trust);
+void RowFiles::Write(const Output& output, int segment) {
+  if (const auto* scan = std::get_if<ScanOutput>(&output)) WriteScan(*scan, segment);
   const auto* nav = std::get_if<NavOutput>(&output);
   if (nav != nullptr && nav->source == OdometrySource::kImuPropagated) WriteImuRate(*nav);
 }
@@ -97,9 +98,19 @@ void RowFiles::WriteImuRate(const NavOutput& nav) {
   imu_rate_.Write(TumRow({nav.stamp, nav.T_map_imu}) + "\n");
 }
 
-void RowFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
-  registration_.Write(RegistrationRow(output.scan));
+void RowFiles::WriteState(const ScanOutput& output, int segment) {
+  const Timestamp stamp = output.filter->nav.stamp;
+  const bool is_later =
+      !last_state_ || segment > last_state_->segment || stamp > last_state_->stamp;
+  if (!is_later) return;
+  last_state_ = {segment, stamp};
+  states_.Write(StateRow(segment, *output.filter, output.trust));
+}
+
+void RowFiles::WriteScan(const ScanOutput& output, int segment) {
+  registration_.Write(RegistrationRow(segment, output.scan));
   if (!output.filter) return;
+  WriteState(output, segment);
   const NavOutput& nav = output.filter->nav;
   if (last_scan_ && nav.stamp <= *last_scan_) {
     ++num_rows_not_later_;
@@ -109,7 +120,6 @@ void RowFiles::WriteScan(const ScanOutput& output, std::optional<Trust> trust) {
   WriteRow({nav.stamp, nav.T_map_imu}, output.filter->map_as_world_cov, in_map_);
   WriteRow({nav.stamp, nav.T_world_imu}, nav.pose_cov, in_world_);
   level_.Add(*output.filter, output.scan.clock_correction);
-  states_.Write(StateRow(*output.filter, trust));
   if (base_ && nav.base) base_->Write(TumRow({nav.stamp, nav.base->T_map_base}) + "\n");
 }
 

@@ -118,16 +118,16 @@ void RunWriter::Flush() {
   });
 }
 
-void RunWriter::Write(const Output& output, std::optional<Trust> trust) {
+void RunWriter::Write(const Output& output) {
   Summarize(output);
   if (failure_) return;
-  Try([&] { WriteRows(output, trust); });
+  Try([&] { WriteRows(output); });
   const bool is_due = ++num_kept_ >= kMaxKeptRows ||
                       std::chrono::steady_clock::now() - last_flush_ >= kFlushInterval;
   if (is_due) Flush();
 }
 
-void RunWriter::WriteRows(const Output& output, std::optional<Trust> trust) {
+void RunWriter::WriteRows(const Output& output) {
   if (const auto* notice = std::get_if<Notice>(&output)) {
     notices_.Write(fmt::format("{}\t{}\t{}\n", StampText(notice->stamp),
                                kSeverityNames.at(static_cast<std::size_t>(notice->severity)),
@@ -137,8 +137,8 @@ void RunWriter::WriteRows(const Output& output, std::optional<Trust> trust) {
     if (segment_) segment_->Finish();
     segment_.emplace(FolderOf(++num_segments_), has_base_, turns_map_);
   }
-  whole_.Write(output, trust);
-  if (segment_) segment_->Write(output, trust);
+  whole_.Write(output, num_segments_);
+  if (segment_) segment_->Write(output, num_segments_);
 }
 
 void RunWriter::Summarize(const Output& output) {

@@ -33,17 +33,16 @@ void AddValues(const Vector3& value, const FilterReport& filter, Eigen::Index at
 }  // namespace
 
 std::string StateHeader() {
-  std::string header = "t_s,status,trust";
+  std::string header = "t_s,segment,status,trust";
   AddNames("velocity", "mps", header);
   AddNames("gyro_bias", "radps", header);
   AddNames("accel_bias", "mps2", header);
   return header + ",clock_offset_s,clock_offset_std_s,nis,nis_dof\n";
 }
 
-std::string StateRow(const FilterReport& filter, std::optional<Trust> trust) {
-  std::string row =
-      fmt::format("{},{},{}", StampText(filter.nav.stamp), static_cast<int>(filter.nav.status),
-                  trust ? static_cast<int>(*trust) : -1);
+std::string StateRow(int segment, const FilterReport& filter, Trust trust) {
+  std::string row = fmt::format("{},{},{},{}", StampText(filter.nav.stamp), segment,
+                                static_cast<int>(filter.nav.status), static_cast<int>(trust));
   AddValues(filter.nav.v_world_imu_mps, filter, kVelocityAt, row);
   AddValues(filter.gyro_bias_radps, filter, kGyroBiasAt, row);
   AddValues(filter.accel_bias_mps2, filter, kAccelBiasAt, row);

@@ -3,7 +3,6 @@
 // Writes the rows of states.csv: what the filter says of itself after each scan, beside the pose.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "lio/pipeline/outputs.hpp"
@@ -12,7 +11,7 @@
 namespace lio {
 
 [[nodiscard]] std::string StateHeader();
-// `trust` is empty where nobody asked for it while the run went on: the row then has -1.
-[[nodiscard]] std::string StateRow(const FilterReport& filter, std::optional<Trust> trust);
+// `segment`: 1, and one more each time the clock went back.
+[[nodiscard]] std::string StateRow(int segment, const FilterReport& filter, Trust trust);
 
 }  // namespace lio

@@ -234,7 +234,8 @@ void LidarOnly::Publish(const MatchOutcome& outcome, const ScanReport& report) {
                               .clocks = context_.clocks,
                               .extrinsic = context_.extrinsic,
                               .yaw_doubt = handover_.yaw_doubt};
-  context_.outputs.Add(ScanOutput{MakeFilterReport(at_end, report, context), report});
+  context_.outputs.Add(
+      ScanOutput{MakeFilterReport(at_end, report, context), report, context_.examiner.trust()});
 }
 
 Transition LidarOnly::RestartWhenLost(Timestamp sweep_end) const {

@@ -224,10 +224,6 @@ Verdict Odometry::Judge() const {
   return impl_->examiner.Judge(impl_->counters, std::move(suspected));
 }
 
-Trust Odometry::trust() const {
-  return impl_->examiner.trust();
-}
-
 FoundSensors Odometry::found_sensors() const {
   const ExtrinsicFollower& extrinsic = impl_->extrinsic;
   return {impl_->stream.imu().convention(), extrinsic.corrected(),

@@ -207,7 +207,7 @@ void Tracking::Publish(const MatchedScan& scan, ScanReport report, const Estimat
   if (const auto news = context_.imu_rate.Add(context_.stream.imu().samples(), end)) {
     context_.outputs.Notify(end, Notice::Severity::kInfo, *news);
   }
-  context_.outputs.Add(ScanOutput{std::move(filter), report});
+  context_.outputs.Add(ScanOutput{std::move(filter), report, context_.examiner.trust()});
   context_.EndSweep(report.fused || scan.starts_map());
   KeepHistoryForQueue();
 }

@@ -78,7 +78,7 @@ void OdometryRun::Match() {
 
 void OdometryRun::TakeOutputs() {
   for (const Output& output : odometry_.TakeOutputs()) {
-    if (writer_) writer_->Write(output, odometry_.trust());
+    if (writer_) writer_->Write(output);
     if (const auto* notice = std::get_if<Notice>(&output)) {
       if (notice->severity == Notice::Severity::kError) refusal_ = notice->text;
       notices_.push_back(*notice);

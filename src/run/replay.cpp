@@ -98,7 +98,7 @@ bool Replay::StartMatch() {
 
 void Replay::TakeOutputs() {
   for (const Output& output : odometry_.TakeOutputs()) {
-    writer_.Write(output, odometry_.trust());
+    writer_.Write(output);
     TellFailure();
     if (const auto* notice = std::get_if<Notice>(&output)) {
       if (notice->severity == Notice::Severity::kError) {

@@ -11,7 +11,7 @@ import support
 DURATION_S = "6"
 # These files of a run hold no computing times.
 EXACT = ("trajectory.tum", "trajectory_imu_rate.tum", "covariance.csv",
-         "trajectory_world.tum", "covariance_world.csv", "options.yaml", "map.pcd")
+         "trajectory_world.tum", "covariance_world.csv", "states.csv", "options.yaml", "map.pcd")
 
 
 class Repeatability(unittest.TestCase):
@@ -53,7 +53,7 @@ class Repeatability(unittest.TestCase):
                      "num_chunks_missing"):
             self.assertEqual(live[name], replayed[name], f"{name}: messages were lost")
         self.check_same(folder, ("trajectory.tum", "covariance.csv", "trajectory_world.tum",
-                                 "covariance_world.csv"))
+                                 "covariance_world.csv", "states.csv"))
 
 
 if __name__ == "__main__":

@@ -176,6 +176,12 @@ TEST_F(RunWriterTest, RowsAfterAClockThatWentBackStandInASegmentBesides) {
     EXPECT_EQ(num_rows(folder, "covariance_world.csv"), 4u) << folder;
   }
   EXPECT_EQ(num_rows("", "registration.csv"), 7u) << "every scan";
+  std::vector<std::string> segments;
+  for (const std::string& row : LinesOfFile(out_ / "states.csv")) {
+    segments.push_back(row.substr(row.find(',') + 1, 2));
+  }
+  EXPECT_THAT(segments, ElementsAre("se", "1,", "1,", "2,", "2,", "2,"))
+      << "every scan with a pose";
   EXPECT_EQ(num_rows("segment_2", "registration.csv"), 4u);
   EXPECT_EQ(num_rows("segment_3", "trajectory.tum"), 0u);
   EXPECT_EQ(num_rows("segment_3", "registration.csv"), 2u) << "a scan without a pose";
@@ -305,14 +311,16 @@ TEST_F(RunWriterTest, OptionsAreThoseThatWereUsed) {
 
 TEST_F(RunWriterTest, StatesAndNoticesAreTablesOfTheirOwn) {
   RunWriter writer(out_, Options{});
-  writer.Write(Scan(kRowStamp), Trust::kNo);
+  ScanOutput distrusted = Scan(kRowStamp);
+  distrusted.trust = Trust::kNo;
+  writer.Write(distrusted);
   writer.Write(Scan(kRowStamp + Duration{1}));
   writer.Write(Notice{kRowStamp, Notice::Severity::kWarning, "look out"});
   writer.Finish({});
   const auto states = LinesOfFile(out_ / "states.csv");
   ASSERT_EQ(states.size(), 3u);
-  EXPECT_THAT(states[1], StartsWith("1700000000.000000007,0,2,"));
-  EXPECT_THAT(states[2], StartsWith("1700000000.000000008,0,-1,"));
+  EXPECT_THAT(states[1], StartsWith("1700000000.000000007,1,0,2,"));
+  EXPECT_THAT(states[2], StartsWith("1700000000.000000008,1,0,0,"));
   EXPECT_THAT(LinesOfFile(out_ / "notices.tsv"),
               ElementsAre("t_s\tseverity\ttext", "1700000000.000000007\twarning\tlook out"));
 }

@@ -24,23 +24,23 @@ FilterReport CoastingReport() {
 
 TEST(StateRows, EachRowHasAsManyColumnsAsTheHeader) {
   const std::string header = StateHeader();
-  const std::string row = StateRow(CoastingReport(), Trust::kDoubtful);
+  const std::string row = StateRow(2, CoastingReport(), Trust::kDoubtful);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
-  EXPECT_TRUE(header.starts_with("t_s,status,trust,velocity_x_mps,velocity_y_mps,"));
+  EXPECT_TRUE(header.starts_with("t_s,segment,status,trust,velocity_x_mps,velocity_y_mps,"));
   EXPECT_TRUE(header.ends_with(",nis,nis_dof\n"));
 }
 
 TEST(StateRows, ValuesComeBeforeTheirStandardDeviations) {
-  const std::string row = StateRow(CoastingReport(), Trust::kDoubtful);
+  const std::string row = StateRow(2, CoastingReport(), Trust::kDoubtful);
   EXPECT_TRUE(row.starts_with(
-      "1700000000.000000007,3,1,1.500000e+00,0.000000e+00,0.000000e+00,2.000000e-01,"));
+      "1700000000.000000007,2,3,1,1.500000e+00,0.000000e+00,0.000000e+00,2.000000e-01,"));
   EXPECT_NE(row.find(",-2.500000e-01,0.000000e+00,0.000000e+00,1.000000e-01,"), std::string::npos);
 }
 
-TEST(StateRows, UnknownTrustAndASmallCovarianceAreRowsToo) {
+TEST(StateRows, ASmallCovarianceIsARowToo) {
   FilterReport filter = CoastingReport();
   filter.cov = {};
-  EXPECT_TRUE(StateRow(filter, std::nullopt).starts_with("1700000000.000000007,3,-1,"));
+  EXPECT_TRUE(StateRow(1, filter, Trust::kYes).starts_with("1700000000.000000007,1,3,0,"));
 }
 
 }  // namespace

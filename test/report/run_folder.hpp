@@ -39,7 +39,8 @@ class RunFolder : public ::testing::Test {
       filter.map_as_world_cov = filter.nav.pose_cov;
       filter.g_world_mps2 = Vector3(0, 0, -9.8);
       filter.cov = Eigen::MatrixXd::Identity(21, 21);
-      writer.Write(output, Trust::kDoubtful);
+      output.trust = Trust::kDoubtful;
+      writer.Write(output);
     }
     writer.Write(Notice{ScanStamp(3), Notice::Severity::kWarning, "a <b> & \"c\""});
     writer.WriteMap(std::vector<Eigen::Vector3f>{{0, 0, 0}, {1, 1, 1}});

@@ -14,7 +14,6 @@
 #include "lio/io/output_file.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/sensor/stamped_pose.hpp"
-#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -25,9 +24,9 @@ class RowFiles {
   // full. For `turns_map` see LevelTrack.
   RowFiles(const std::filesystem::path& folder, bool has_base, bool turns_map = true);
 
-  // A row that is not later than the one before is left out and counted. `trust` is that of the run
-  // so far, where the caller knows it.
-  void Write(const Output& output, std::optional<Trust> trust);
+  // A pose that is not later than the one before is left out and counted. `segment`: 1, and one
+  // more each time the clock went back; a new one's first rows of states.csv may be earlier.
+  void Write(const Output& output, int segment);
   [[nodiscard]] Quaternion R_level_map() const { return level_.R_level_map(); }
   [[nodiscard]] std::int64_t num_rows_not_later() const { return num_rows_not_later_; }
   // Rows are kept until then: all files end with the rows of the same scan.
@@ -44,7 +43,8 @@ class RowFiles {
                                        const std::string& frame);
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
   [[nodiscard]] std::vector<OutputFile*> files();
-  void WriteScan(const ScanOutput& output, std::optional<Trust> trust);
+  void WriteScan(const ScanOutput& output, int segment);
+  void WriteState(const ScanOutput& output, int segment);
   void WriteImuRate(const NavOutput& nav);
 
   Track in_map_;
@@ -56,6 +56,11 @@ class RowFiles {
   OutputFile registration_;
   std::optional<Timestamp> last_scan_;
   std::optional<Timestamp> last_imu_rate_;
+  struct LastState {
+    int segment;
+    Timestamp stamp;
+  };
+  std::optional<LastState> last_state_;
   std::int64_t num_rows_not_later_ = 0;
 };
 

@@ -11,11 +11,11 @@
 //     level by the last estimate (level_track.hpp); written at the end when gravity is felt
 //   trajectory_base.tum: the poses of base in map, when rig.T_base_imu is given
 //   trajectory_imu_rate.tum: one row per inertial sample, the pose of imu in map
-//   states.csv: one row per scan: status (as in status_t), trust so far (0 yes, 1 doubtful, 2 no,
-//   -1
-//     not asked), velocity in world, biases with standard deviations, clock offset, NIS
+//   states.csv: one row per scan: segment, status (as in status_t), trust so far (0 yes, 1
+//     doubtful, 2 no), velocity in world, biases with standard deviations, clock offset, NIS
 //   notices.tsv: what was told to people: stamp, severity, text
-//   registration.csv: one row per scan: points, residual, information, status, matched points by
+//   registration.csv: one row per scan: segment, points, residual, information, status, matched
+//   points by
 //     the size of cell (matched_level_i: LevelCounts in match_status.hpp), stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig, how large
 //   the errors of the lidar's beams are (root mean square over the rings)
@@ -28,9 +28,10 @@
 //
 // A run that starts in a map saved before has all in the frame of that map: nothing is turned.
 //
-// When the clock goes back, as when a log is played again to a running daemon, these files go on
-// where the time that they have is passed. All rows from the step on stand in segment_2/ besides,
-// those from the next one on in segment_3/ and so on, under the same names.
+// When the clock goes back, as when a log is played again to a running daemon, a segment begins:
+// states.csv and registration.csv go on and count it in their column `segment`; the other files go
+// on where the time that they have is passed. All rows from the step on stand in segment_2/
+// besides, those from the next one on in segment_3/ and so on, under the same names.
 // Rows are whole, and all files are written together: every half second of host time or after 100
 // rows, whichever is sooner. So all files of a run that was killed end with the same scan, but for
 // what is being written in that instant. For the same input all but the computing times is the
@@ -78,9 +79,8 @@ class RunWriter {
             StartIn start_in = StartIn::kNewMap);
 
   // A row that is not later than the one before is left out and counted in stats.json; one that
-  // steps back by more than 0.1 s begins a segment. `trust` is that of the run so far, where
-  // the caller knows it. After a failure no more rows are written.
-  void Write(const Output& output, std::optional<Trust> trust = std::nullopt);
+  // steps back by more than 0.1 s begins a segment. After a failure no more rows are written.
+  void Write(const Output& output);
   // Writes the rows that are kept, for callers to whom no row comes for a while.
   void Flush();
   // Says which file could not be written first, and why, e.g. on a full disk; nothing when all is
@@ -103,7 +103,7 @@ class RunWriter {
   // Keeps the message of the first exception.
   template <typename Action>
   void Try(Action&& action);
-  void WriteRows(const Output& output, std::optional<Trust> trust);
+  void WriteRows(const Output& output);
   void Summarize(const Output& output);
   void WriteStats(const RunStats& stats);
   void WriteCloud(std::span<const Eigen::Vector3f> points_map, const std::filesystem::path& file);

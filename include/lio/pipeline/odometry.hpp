@@ -44,6 +44,7 @@ struct FoundSensors;  // found_sensors.hpp
 struct ScanOutput {
   std::optional<FilterReport> filter;
   ScanReport scan;
+  Trust trust = Trust::kYes;  // in the result so far, at the last look at the rig
 };
 
 using Output = std::variant<ScanOutput, NavOutput, Notice>;
@@ -99,9 +100,6 @@ class Odometry {
   // May the result so far be trusted, and if not, why? Counts the outputs that TakeOutputs() has
   // given. Costs some ten milliseconds.
   [[nodiscard]] Verdict Judge() const;
-  // The trust that the last of the looks at the rig left, which come ever more seldom; costs
-  // nothing.
-  [[nodiscard]] Trust trust() const;
   // Returns what the messages so far tell of the sensors, for another pass over them.
   [[nodiscard]] FoundSensors found_sensors() const;
 
