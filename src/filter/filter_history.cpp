@@ -211,6 +211,22 @@ EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, Upd
   return update.fused ? EventOutcome::kApplied : EventOutcome::kGated;
 }
 
+void FilterHistory::TellShare(Timestamp stamp, const Matrix6& share_of_last_scan) {
+  for (std::size_t at = FirstAfter(stamp); at > 1; --at) {
+    Node& node = nodes_[at - 1];
+    if (node.kind == Kind::kRebase) return;  // the map began there, with no error
+    PoseMeasurement& measurement = node.pose.measurement;
+    const bool has_grown_map = node.kind == Kind::kPose && node.stamp < stamp &&
+                               node.update.fused && measurement.new_content_share > 0.0;
+    if (!has_grown_map) continue;
+    if (measurement.knows_directions) return;
+    measurement.knows_directions = true;
+    measurement.share_by_direction = share_of_last_scan;
+    Replay(at - 1);
+    return;
+  }
+}
+
 EventOutcome FilterHistory::AddZeroVelocity(Timestamp stamp, double variance) {
   if (const auto refused = Refuse(stamp, Kind::kZeroVelocity)) return *refused;
   Node node;

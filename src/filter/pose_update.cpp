@@ -3,6 +3,8 @@
 #include "lio/filter/pose_update.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include "lio/filter/map_bend.hpp"
 
@@ -69,14 +71,31 @@ UpdateResult FuseZeroVelocity(Estimate& estimate, double variance, double nis_li
 }
 
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
-  const double keep = 1.0 - measurement.new_content_share;
   ErrorMatrix& P = estimate.cov;
-  P.middleRows<6>(kMapPose) *= keep;
-  P.middleCols<6>(kMapPose) *= keep;
+  if (measurement.knows_directions) {
+    const Matrix6 keep = Matrix6::Identity() - measurement.share_by_direction;
+    P.middleRows<6>(kMapPose) = (keep * P.middleRows<6>(kMapPose)).eval();
+    P.middleCols<6>(kMapPose) = (P.middleCols<6>(kMapPose) * keep.transpose()).eval();
+  } else {
+    const double keep = 1.0 - measurement.new_content_share;
+    P.middleRows<6>(kMapPose) *= keep;
+    P.middleCols<6>(kMapPose) *= keep;
+  }
   P.block<6, 6>(kMapPose, kMapPose) += measurement.new_content_share * measurement.blend_cov;
   if (measurement.is_level) {
     estimate.state.T_map_imu = LevelMapPose(estimate.state, measurement.new_content_share);
   }
+}
+
+// cov (I - M)^-1 = cov + odds cov with odds = (I - M)^-1 M, whose symmetric part may be negative
+// along a direction, since the two do not commute: that part adds nothing.
+Matrix6 CovWithoutLastScan(const Matrix6& cov, const Matrix6& share_of_last_scan) {
+  const Matrix6 odds =
+      (Matrix6::Identity() - share_of_last_scan).partialPivLu().solve(share_of_last_scan);
+  const Matrix6 added = odds * cov;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(0.5 * (added + added.transpose()));
+  const Matrix6& axes = eigen.eigenvectors();
+  return cov + axes * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * axes.transpose();
 }
 
 void FuseLinear(Estimate& estimate, const Eigen::MatrixXd& H, const Eigen::VectorXd& residual,

@@ -68,6 +68,12 @@ void GaussianMap::FindAll(std::span<const Vector3> points_map, std::span<Hit> hi
   }
 }
 
+float GaussianMap::ShareOfLastScan(std::int32_t cell) const {
+  const Sums& sums = voxels_.Of<Sums>(cell);
+  if (sums.is_kept || sums.touched != scan_number_ || sums.num_points == 0) return 0.f;
+  return 1.f - static_cast<float>(sums.num_before) / static_cast<float>(sums.num_points);
+}
+
 void GaussianMap::Remove(std::int32_t cell) {
   voxels_.Remove(cell);
   voxels_.Of<SurfacePatch>(cell) = {};
@@ -185,6 +191,7 @@ void GaussianMap::AddPoints(const ViewOf& view_of, const SeenBeams& beams) {
     if (sums.touched != scan_number_) {
       if (sums.touched == 0) sums.listed = scan_number_;
       sums.touched = scan_number_;
+      sums.num_before = sums.num_points;
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;

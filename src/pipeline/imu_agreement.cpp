@@ -188,19 +188,19 @@ ImuAgreement::Misfit ImuAgreement::MisfitOf(ImuSensor sensor, std::size_t end, s
 }
 
 std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
+                                                     const ImuAgreementParameters::Run& run,
                                                      const Belief& belief) const {
   const bool is_gyro = sensor == ImuSensor::kGyro;
-  constexpr std::size_t num = kImuAgreement.num_in_row;
   // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
   // bends the path one way for a span, and then the other way.
   const std::size_t step = is_gyro ? span : (span + 1) / 2;
-  const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (num - 1) * step;
+  const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (run.num - 1) * step;
   if (poses_.size() <= num_poses_before) return std::nullopt;
   const std::size_t last = poses_.size() - 1;
-  std::array<Misfit, kImuAgreement.num_in_row> misfits;
+  std::vector<Misfit> misfits;
   Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 0; i < num; ++i) {
-    misfits[i] = MisfitOf(sensor, last - i * step, span, belief);
+  for (std::size_t i = 0; i < run.num; ++i) {
+    misfits.push_back(MisfitOf(sensor, last - i * step, span, belief));
     sum += misfits[i].error;
   }
   const Vector3 direction = sum.normalized();
@@ -208,9 +208,9 @@ std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size
   for (const Misfit& misfit : misfits) {
     const double excess = misfit.Excess(direction);
     if (!(excess > kImuAgreement.min_share)) return std::nullopt;
-    mean_excess += excess / static_cast<double>(num);
+    mean_excess += excess / static_cast<double>(run.num);
   }
-  if (mean_excess < 1.0) return std::nullopt;
+  if (mean_excess < run.min_mean) return std::nullopt;
   const Misfit& misfit = misfits.front();
   const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
   const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
@@ -225,12 +225,16 @@ std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size
 
 std::optional<ImuContradiction> ImuAgreement::Find(const Belief& belief) const {
   if (poses_.size() < 2) return std::nullopt;
-  for (const std::size_t span : kImuAgreement.spans) {
-    if (auto found = FindIn(ImuSensor::kGyro, span, belief)) return found;
-  }
+  if (auto found = FindIn(ImuSensor::kGyro, belief)) return found;
   if (belief.g_map.isZero()) return std::nullopt;
+  return FindIn(ImuSensor::kAccelerometer, belief);
+}
+
+std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, const Belief& belief) const {
   for (const std::size_t span : kImuAgreement.spans) {
-    if (auto found = FindIn(ImuSensor::kAccelerometer, span, belief)) return found;
+    for (const ImuAgreementParameters::Run& run : kImuAgreement.runs) {
+      if (auto found = FindIn(sensor, span, run, belief)) return found;
+    }
   }
   return std::nullopt;
 }

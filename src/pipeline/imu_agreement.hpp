@@ -11,8 +11,9 @@
 //          velocity enters.
 //
 // A sensor is contradicted when the difference exceeds what noise, the rig and the clocks may leave
-// three times in a row, in the same direction: a match that is wrong by itself moves one pose, and
-// the next difference points the other way. Nothing throws.
+// four times in a row, or three times where it is twice as large, in the same direction: a match
+// that is wrong by itself moves one pose, and the next difference points the other way. Nothing
+// throws.
 #pragma once
 
 #include <array>
@@ -34,9 +35,17 @@ struct ImuAgreementParameters {
   // Scans. Chosen: a dead sensor is seen before matching loses the way, within half a second at 10
   // Hz, and one that is off by a little within two.
   std::array<std::size_t, 4> spans{1, 2, 4, 8};
-  std::size_t num_in_row = 3;  // chosen: one wrong match makes two
-  // In their mean they exceed what they may be, and each of them this share of it: an error that
-  // has just begun is growing. Chosen.
+  // So many differences in a row contradict that are so large in their mean, over what they may be.
+  // One wrong match makes two. Three sufficed for a narrow view that slid at the corner of an
+  // office, with 1.0 to 1.4; four were not seen there, nor three twice as large
+  // (docs/experiments/dead_imu.md).
+  struct Run {
+    std::size_t num;
+    double min_mean;
+  };
+  std::array<Run, 2> runs{{{3, 2.0}, {4, 1.0}}};
+  // Each of them exceeds this share of what it may be: an error that has just begun is growing.
+  // Chosen.
   double min_share = 0.5;
   double sigmas = 2.0;  // statistics: noise does this three times in a row once in 80 000
   // These errors are a rig's, not those of a broken sensor. On sound drives differences stay below
@@ -152,7 +161,9 @@ class ImuAgreement {
     [[nodiscard]] double Excess(const Vector3& direction) const;
   };
   std::optional<ImuContradiction> FindIn(ImuSensor sensor, std::size_t span,
+                                         const ImuAgreementParameters::Run& run,
                                          const Belief& belief) const;
+  std::optional<ImuContradiction> FindIn(ImuSensor sensor, const Belief& belief) const;
   Misfit MisfitOf(ImuSensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit TurnMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit BendMisfit(std::size_t end, std::size_t span, const Belief& belief) const;

@@ -62,6 +62,12 @@ FusedMatch FuseMatch(const MatchOutcome& outcome, const MatchJudgement& judgemen
   event.measurement.cov = filter.registration_cov_scale * judgement.match_cov +
                           DeskewCov(*outcome.sweep, history, settings.gyro_density);
   event.measurement.cov *= settings.alike_factor;
+  if (const auto& share = outcome.match.observability.share_of_last_scan) {
+    history.TellShare(outcome.sweep->middle(), *share);
+    if (settings.is_inertial) {  // nothing else tells the motion of a lidar alone
+      event.measurement.cov = CovWithoutLastScan(event.measurement.cov, *share);
+    }
+  }
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;
     event.measurement.blend_cov =

@@ -265,6 +265,26 @@ double NdtMatcher::NewContentShare() const {
   return mean.share();
 }
 
+Matrix6 NdtMatcher::ShareOfLastScan(const MatchSums& sums) const {
+  TermSum of_last;
+  double sum_of_shares = 0.0;
+  for (std::size_t k = 0; k < scores_.size(); ++k) {
+    const auto num_rows = static_cast<std::size_t>(scores_[k].num_rows);
+    if (num_rows == 0) continue;
+    const float share =
+        std::min(NdtParameters::kMaxShareOfLastScan, map_.ShareOfLastScan(pairs_[k].cell));
+    if (share == 0.f) continue;
+    sum_of_shares += static_cast<double>(share);
+    for (std::size_t i = 0; i < num_rows; ++i) {
+      const PointScore::OfRow& row = scores_[k].rows[i];
+      of_last.Add(row.jacobian, share * row.weight);
+    }
+  }
+  const Matrix6 inverse = ObservableInverse(SplitDirections(sums));
+  const Matrix6 blind = Matrix6::Identity() - inverse * sums.information.Full();
+  return inverse * of_last.Full() + sum_of_shares / sums.num_matched * blind;
+}
+
 Matrix6 NdtMatcher::ScoreCovariance(const MatchInput& input) {
   gradients_.Reset(map_.cell_capacity(), input.T_imu_lidar);
   for (PoseScores& per_metre : per_metre_) per_metre.Reset(map_.cell_capacity());
@@ -338,6 +358,7 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
     result.beam_pull.unknown_cov = input.calibration->ScoreCov();
   }
   TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
+  result.observability.share_of_last_scan = ShareOfLastScan(sums);
   gradients_.Complete(sums.curvature_ratio(), result);
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());

@@ -234,6 +234,40 @@ TEST(PoseUpdate, BlendShrinksTheMapPoseErrorByTheShareOfNewContent) {
   EXPECT_EQ(BoxMinus(estimate.state, before.state).norm(), 0.0);
 }
 
+TEST(PoseUpdate, AShareByDirectionShrinksTheErrorAlongItAlone) {
+  std::mt19937_64 random(10);
+  Estimate estimate = RandomEstimate(random, 0.1);
+  const Estimate before = estimate;
+  PoseMeasurement measurement;
+  measurement.new_content_share = 0.25;
+  measurement.knows_directions = true;
+  measurement.share_by_direction(1, 1) = 0.9;
+  BlendMapPose(estimate, measurement);
+  const Matrix6 keep = Matrix6::Identity() - measurement.share_by_direction;
+  const Matrix6 expected = keep * before.cov.block<6, 6>(kMapPose, kMapPose) * keep.transpose();
+  EXPECT_LT((estimate.cov.block<6, 6>(kMapPose, kMapPose) - expected).norm(), 1e-15);
+  const auto cross = estimate.cov.block<15, 6>(0, kMapPose);
+  EXPECT_LT((cross - before.cov.block<15, 6>(0, kMapPose) * keep.transpose()).norm(), 1e-15);
+  EXPECT_LT((cross.col(0) - before.cov.block<15, 1>(0, kMapPose)).norm(), 1e-15);
+}
+
+TEST(PoseUpdate, AMatchWithoutTheLastScanTellsSoMuchLess) {
+  std::mt19937_64 random(13);
+  const Matrix6 cov = test::RandomCovariance<6>(random, 0.1);
+  EXPECT_EQ(CovWithoutLastScan(cov, Matrix6::Zero()), cov);
+  const Matrix6 four_times = CovWithoutLastScan(cov, 0.75 * Matrix6::Identity());
+  EXPECT_LT((four_times - 4.0 * cov).norm(), 1e-12 * cov.norm());
+  // M = H^-1 L with 0 <= L < H: nothing becomes better known, whatever the axes.
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 of_last = test::RandomCovariance<6>(random, 0.1);
+    const Matrix6 all = of_last + test::RandomCovariance<6>(random, 0.1);
+    const Matrix6 less = CovWithoutLastScan(cov, all.inverse() * of_last);
+    EXPECT_LT((less - less.transpose()).norm(), 1e-12 * less.norm());
+    const Eigen::SelfAdjointEigenSolver<Matrix6> added(less - cov);
+    EXPECT_GT(added.eigenvalues().minCoeff(), -1e-9 * less.norm());
+  }
+}
+
 TEST(PoseUpdate, WhollyNewMapForgetsTheMapPoseError) {
   std::mt19937_64 random(11);
   Estimate estimate = RandomEstimate(random, 0.1);

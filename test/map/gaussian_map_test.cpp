@@ -53,6 +53,35 @@ TEST(GaussianMap, FindingAllIsFindingEach) {
   }
 }
 
+TEST(GaussianMap, KnowsWhatTheLastScanBrought) {
+  const Vector3 here = CentreOf(0, 0, 0);
+  const Vector3 elsewhere = CentreOf(5, 0, 0);
+  const Vector3 sensor(0.5, 0.5, 5.0);
+  GaussianMap map(TestOptions());
+  const auto share = [&](const Vector3& point) {
+    return map.ShareOfLastScan(map.Find(point).cell);
+  };
+  map.Insert(PlanePoints(here, {0, 0, 1}, 20), sensor);
+  EXPECT_EQ(share(here), 1.f) << "there was nothing before";
+  map.Insert(PlanePoints(here, {0, 0, 1}, 10, 2), sensor);
+  EXPECT_FLOAT_EQ(share(here), 1.f / 3.f);
+  map.Insert(PlanePoints(elsewhere, {0, 0, 1}, 10, 3), sensor);
+  EXPECT_EQ(share(here), 0.f);
+  EXPECT_EQ(share(elsewhere), 1.f);
+}
+
+TEST(GaussianMap, NoScanBroughtWhatIsFullOrWasSavedBefore) {
+  const Vector3 here = CentreOf(0, 0, 0);
+  GaussianMap full(TestOptions());
+  full.Insert(PlanePoints(here, {0, 0, 1}, 100), Vector3(0.5, 0.5, 5.0));
+  full.Insert(PlanePoints(here, {0, 0, 1}, 10, 2), Vector3(0.5, 0.5, 5.0));
+  EXPECT_EQ(full.ShareOfLastScan(full.Find(here).cell), 0.f);
+  GaussianMap saved(TestOptions());
+  const std::vector<Vector3> points = PlanePoints(here, {0, 0, 1}, 20);
+  saved.InsertKept(points, std::vector<Eigen::Vector3f>(points.size(), Eigen::Vector3f::UnitZ()));
+  EXPECT_EQ(saved.ShareOfLastScan(saved.Find(here).cell), 0.f);
+}
+
 TEST(GaussianMap, MoreThreadsMakeTheSameMap) {
   GaussianMap alone(TestOptions());
   GaussianMap together(TestOptions());

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "support/smooth_motion.hpp"
 
@@ -132,6 +134,27 @@ TEST(ImuAgreement, AMatchThatIsWrongContradictsNothing) {
     EXPECT_FALSE(b.Scan({}, Vector3(0, jump_m, 0))) << jump_m;
     EXPECT_FALSE(b.Scans(50)) << jump_m;
   }
+}
+
+// A narrow view can slide three times in a row.
+TEST(ImuAgreement, ThreeDifferencesContradictWhereTheyAreLargeAndFourWhereNot) {
+  std::vector<int> num_scans;
+  for (const double off_radps : {0.03, 0.04, 0.045, 0.05, 0.055, 0.06, 0.1}) {
+    Bench b;
+    b.belief.clock_error_s = 0.0;
+    ASSERT_FALSE(b.Scans(50));
+    const int broken_at = b.num_scans;
+    // The samples of a scan reach back to the one before.
+    const auto turn = [&](ImuSample& sample) {
+      if (sample.stamp > StampFromZero(0.1 * (broken_at - 1))) sample.w_imu_radps.z() += off_radps;
+    };
+    ASSERT_TRUE(b.Scans(20, turn)) << off_radps;
+    num_scans.push_back(b.num_scans - broken_at);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(num_scans, std::greater<>()));
+  EXPECT_GT(num_scans.front(), 3);
+  EXPECT_TRUE(std::ranges::find(num_scans, 4) != num_scans.end());
+  EXPECT_EQ(num_scans.back(), 3);
 }
 
 TEST(ImuAgreement, AJumpOfThePosesIsTold) {

@@ -248,6 +248,20 @@ TEST(FuseMatch, AScanThatGrowsTheMapBringsItsOwnErrorIn) {
   }
 }
 
+// Samples tell the motion since the last scan, which a match against what it brought does not.
+TEST(FuseMatch, WhatTheLastScanBroughtTellsAnInertialFilterNothing) {
+  for (const bool is_inertial : {false, true}) {
+    FilterHistory history = DrivenAlongX({});
+    (void)history.AddRebase(StampAt(1.0) - Duration{1});
+    MatchOutcome outcome = Matched(Along(1, 1e-4));
+    const double nis = 1e-8 / outcome.match.cov(1, 1);
+    outcome.match.observability.share_of_last_scan = 0.75 * Matrix6::Identity();
+    FusionSettings settings;
+    settings.is_inertial = is_inertial;
+    EXPECT_NEAR(Fuse(outcome, history, settings).nis, is_inertial ? 0.25 * nis : nis, 0.02 * nis);
+  }
+}
+
 TEST(FuseMatch, AGrowingMapIsBentByTheErrorsThatMoveWithTheSensor) {
   for (const bool grows_map : {false, true}) {
     FilterHistory history = DrivenAlongX({Vector3(1.0, 1.0, 1.0)});

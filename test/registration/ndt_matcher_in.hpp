@@ -35,6 +35,9 @@ class NdtMatcherIn {
 
   Points See(const Pose& T_world_imu) { return CastStill(scene_, lidar_, T_world_imu, random_); }
   void InsertFrom(const Pose& T_world_imu) { matcher_.Insert({See(T_world_imu)}, T_world_imu); }
+  void Insert(const Points& points, const Pose& T_world_imu) {
+    matcher_.Insert({points}, T_world_imu);
+  }
   void InsertRoad(double from_m, double to_m) {
     for (double x = from_m; x <= to_m; x += 1.0) InsertFrom(OnRoad(x));
   }

@@ -210,6 +210,41 @@ TEST(NdtMatcher, NewContentShareFallsAsTheMapFills) {
   EXPECT_LT(last_share, 0.2);
 }
 
+TEST(NdtMatcher, TheLastScanHoldsAllOfAMatchAgainstAMapOfItself) {
+  NdtMatcherIn street(test::Street());
+  street.InsertFrom(OnRoad(0.0));
+  const MatchResult alone = street.MatchFrom(OnRoad(0.3), Vector6::Zero(), 0.05);
+  ASSERT_TRUE(alone.observability.share_of_last_scan);
+  const Matrix6 most = NdtParameters::kMaxShareOfLastScan * Matrix6::Identity();
+  EXPECT_LT((*alone.observability.share_of_last_scan - most).cwiseAbs().maxCoeff(), 1e-3);
+  for (int i = 0; i < 12; ++i) street.InsertFrom(OnRoad(0.02 * i));
+  const MatchResult among_more = street.MatchFrom(OnRoad(0.3), Vector6::Zero(), 0.05);
+  ASSERT_TRUE(among_more.observability.share_of_last_scan);
+  const Vector6 shares = among_more.observability.share_of_last_scan->diagonal();
+  EXPECT_GT(shares.minCoeff(), 0.0);
+  EXPECT_LT(shares.maxCoeff(), 0.3) << "thirteen scans are in the map";
+}
+
+// Two walls beside the road are old, and one across it was seen by the last scan alone: it holds
+// the way along the road, and nothing else.
+TEST(NdtMatcher, ADirectionIsTheLastScansWhereThatAloneHoldsIt) {
+  const std::vector<test::Box> sides = {{{0, 6, 0}, {30, 0.5, 4}}, {{0, -6, 0}, {30, 0.5, 4}}};
+  std::vector<test::Box> with_end = sides;
+  with_end.push_back({{8, 0, 0}, {0.5, 6, 4}});
+  const test::Scene before(-1.2, sides);
+  const test::Scene now(-1.2, with_end);
+  test::NdtMatcherIn place(now);
+  test::NdtMatcherIn old(before);
+  const auto at = [](double x_m) { return Pose{Quaternion::Identity(), Vector3(x_m, 0.0, 0.0)}; };
+  for (int i = 0; i < 12; ++i) place.Insert(old.See(at(0.02 * i)), at(0.02 * i));
+  place.InsertFrom(at(0.3));
+  const MatchResult result = place.MatchFrom(at(0.3), Vector6::Zero(), 0.02);
+  ASSERT_TRUE(result.observability.share_of_last_scan);
+  EXPECT_GT((*result.observability.share_of_last_scan)(0, 0), 0.8);
+  EXPECT_LT((*result.observability.share_of_last_scan)(1, 1), 0.3);
+  EXPECT_LT((*result.observability.share_of_last_scan)(2, 2), 0.3);
+}
+
 // A room whose walls are 1.5 m away fills its cells within a few scans. They hold the errors of
 // these few, so the next scans are no independent measurements of the place.
 TEST(NdtMatcher, AFewScansOfANarrowPlaceDoNotFreezeTheMap) {

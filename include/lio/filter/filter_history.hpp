@@ -58,6 +58,10 @@ class FilterHistory {
   // `result`, when given, is filled under kApplied and kGated.
   [[nodiscard]] EventOutcome AddPose(Timestamp stamp, const PoseEvent& event,
                                      UpdateResult* result = nullptr);
+  // The match of `stamp` has told which share of the map the last scan before has brought, along
+  // each direction. Counts once for each scan that was fused and grew the map; for others, and for
+  // one that has left the window, it changes nothing.
+  void TellShare(Timestamp stamp, const Matrix6& share_of_last_scan);
   // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. It is gated like
   // poses.
   [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);

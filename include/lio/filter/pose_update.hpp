@@ -9,7 +9,8 @@
 // arXiv 1711.02508, section 6.3).
 // After the scan is inserted, the map consists in part of this very scan: the error of the map pose
 // shrinks by the share of new content, and that share's own error is added (docs/filter.md, After
-// insertion). Nothing throws; a measurement beyond the gate leaves the estimate as it is.
+// insertion). A match against what the scan before has just brought tells little of the motion
+// since. Nothing throws; a measurement beyond the gate leaves the estimate as it is.
 #pragma once
 
 #include "lio/filter/nav_state.hpp"
@@ -18,8 +19,12 @@ namespace lio {
 
 struct PoseMeasurement {
   Pose T_map_imu;
-  Matrix6 cov = Matrix6::Zero();        // right error [m; rad]; large in degenerate directions
-  double new_content_share = 0.0;       // 0..1, share of the matched map that this scan brings
+  Matrix6 cov = Matrix6::Zero();   // right error [m; rad]; large in degenerate directions
+  double new_content_share = 0.0;  // 0..1, share of the matched map that this scan brings
+  // The same along each direction, once the next match has told (FilterHistory::TellShare). Until
+  // then the share above stands for it.
+  bool knows_directions = false;
+  Matrix6 share_by_direction = Matrix6::Zero();
   Matrix6 blend_cov = Matrix6::Zero();  // covariance added per share of new content
   bool is_level = false;                // the scan is inserted at LevelMapPose (map_bend.hpp)
 };
@@ -43,6 +48,10 @@ struct UpdateResult {
 // or at LevelMapPose of it when measurement.is_level; the map pose then takes its share of the
 // turn.
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
+
+// Returns the covariance of a match that counts only for what it is held by besides the last scan:
+// cov (I - M)^-1, made symmetric. M: Observability::share_of_last_scan, eigenvalues below one.
+[[nodiscard]] Matrix6 CovWithoutLastScan(const Matrix6& cov, const Matrix6& share_of_last_scan);
 
 // Fuses a general linear measurement, for the initialization: residual = H error + noise of
 // covariance `R`. `H` is n x kStateDim, `R` n x n, `residual` n. It uses the Joseph form, injection

@@ -66,6 +66,10 @@ class GaussianMap {
            patch(cell).num_points >= static_cast<float>(options_.max_cell_points);
   }
 
+  // Returns the share of the cell's points that the last scan brought; zero where it brought none,
+  // and in cells that stay for good.
+  [[nodiscard]] float ShareOfLastScan(std::int32_t cell) const;
+
   // Sets the vertical's direction in the map's frame, of any length.
   void SetUp(const Vector3& up_map) { up_map_ = up_map.normalized(); }
 
@@ -101,10 +105,11 @@ class GaussianMap {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
-    std::int32_t fitted_at = 0;  // num_points when the patch was last computed
-    std::uint32_t touched = 0;   // number of the last scan that added to it
-    std::uint32_t listed = 0;    // ... when the cell was put last in the order of age
-    bool is_known = false;       // the points show a plane or a vertical structure
+    std::int32_t fitted_at = 0;   // num_points when the patch was last computed
+    std::uint32_t touched = 0;    // number of the last scan that added to it
+    std::int32_t num_before = 0;  // points before that scan
+    std::uint32_t listed = 0;     // ... when the cell was put last in the order of age
+    bool is_known = false;        // the points show a plane or a vertical structure
     bool is_kept = false;
   };
 

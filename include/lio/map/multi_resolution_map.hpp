@@ -42,6 +42,10 @@ class MultiResolutionMap {
   const CellBeams& beams(std::int32_t cell) const {
     return levels_[LevelOf(cell)].beams(InLevel(cell));
   }
+  // Tells of the last scan that went into the cell's level.
+  [[nodiscard]] float ShareOfLastScan(std::int32_t cell) const {
+    return levels_[LevelOf(cell)].ShareOfLastScan(InLevel(cell));
+  }
   [[nodiscard]] bool IsFrozen(std::int32_t cell) const {
     return levels_[LevelOf(cell)].IsFrozen(InLevel(cell));
   }

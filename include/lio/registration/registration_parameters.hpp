@@ -110,6 +110,9 @@ struct NdtParameters {
   // The counts of points by cell hold while no point within CorrespondenceParameters::kLever_m has
   // moved farther [m]. Chosen: 5 % of a cell's edge; they set weights alone.
   static constexpr double kCountsHold_m = 0.05;
+  // A cell that the last scan alone has made counts as if this share were of it: a match against a
+  // map of one scan still tells something, with a covariance 20 times as large. Chosen.
+  static constexpr float kMaxShareOfLastScan = 0.95f;
   // The map's axes are turned by this rotation [rad, rotation vector] and translation [m] against
   // the voxel grid's. Chosen: any odd ones do, so that no floor or wall lies on a voxel face, where
   // noise would split it.

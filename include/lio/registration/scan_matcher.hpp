@@ -87,12 +87,17 @@ struct BlindDirection {
   Matrix6 cov = Matrix6::Zero();
 };
 
-// The information that counts for SplitDirections(), and that which noise alone induces.
+// The information that counts for SplitDirections(), that which noise alone induces, and what holds
+// the match.
 struct Observability {
   Matrix6 counted = Matrix6::Zero();
   Matrix6 noise = Matrix6::Zero();
+  // M = H^-1 sum_c s_c H_c, with H_c the information of the points in cell c of the map, H their
+  // sum and s_c the share of the cell that the last inserted scan brought: so much of a shift of
+  // that scan (right error) shifts this match. Given where the method tells.
+  std::optional<Matrix6> share_of_last_scan;
 
-  // Returns their ratio along an increment.
+  // Returns the ratio of counted to noise along an increment.
   [[nodiscard]] double Ratio(const Vector6& shift) const {
     return shift.dot(counted * shift) / shift.dot(noise * shift);
   }
