@@ -177,11 +177,11 @@ void FilterHistory::Replay(std::size_t from) {
   for (std::size_t at = from; at < nodes_.size(); ++at) Step(at);
 }
 
-std::size_t FilterHistory::Insert(Node node) {
+std::size_t FilterHistory::Insert(Node node, std::size_t from) {
   std::size_t at = FirstAfter(node.stamp);
   while (at > 1 && nodes_[at - 1].stamp == node.stamp && nodes_[at - 1].kind > node.kind) --at;
+  from = std::min(from, at);
   // Events just before a new sample used the sample before them, held; now they can interpolate.
-  std::size_t from = at;
   if (node.kind == Kind::kImu) {
     while (from > 1 && nodes_[from - 1].kind != Kind::kImu) --from;
   }
@@ -200,31 +200,37 @@ EventOutcome FilterHistory::AddImu(const ImuSample& sample) {
   return EventOutcome::kApplied;
 }
 
-EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result) {
+std::optional<std::size_t> FilterHistory::LastGrowingScan(Timestamp stamp) const {
+  for (std::size_t at = FirstAfter(stamp); at > 1; --at) {
+    const Node& node = nodes_[at - 1];
+    if (node.kind == Kind::kRebase) return std::nullopt;
+    const PoseMeasurement& measurement = node.pose.measurement;
+    const bool has_grown_map = node.kind == Kind::kPose && node.stamp < stamp &&
+                               node.update.fused && measurement.new_content_share > 0.0;
+    if (has_grown_map) return at - 1;
+  }
+  return std::nullopt;
+}
+
+EventOutcome FilterHistory::AddPose(Timestamp stamp, const PoseEvent& event, UpdateResult* result,
+                                    const std::optional<Matrix6>& share_of_last_scan) {
   if (const auto refused = Refuse(stamp, Kind::kPose)) return *refused;
   Node node;
   node.stamp = stamp;
   node.kind = Kind::kPose;
   node.pose = event;
-  const UpdateResult update = nodes_[Insert(std::move(node))].update;
+  std::size_t from = nodes_.size();
+  if (const auto last = share_of_last_scan ? LastGrowingScan(stamp) : std::nullopt) {
+    PoseMeasurement& measurement = nodes_[*last].pose.measurement;
+    if (!measurement.knows_directions) {
+      measurement.knows_directions = true;
+      measurement.share_by_direction = *share_of_last_scan;
+      from = *last;
+    }
+  }
+  const UpdateResult update = nodes_[Insert(std::move(node), from)].update;
   if (result != nullptr) *result = update;
   return update.fused ? EventOutcome::kApplied : EventOutcome::kGated;
-}
-
-void FilterHistory::TellShare(Timestamp stamp, const Matrix6& share_of_last_scan) {
-  for (std::size_t at = FirstAfter(stamp); at > 1; --at) {
-    Node& node = nodes_[at - 1];
-    if (node.kind == Kind::kRebase) return;  // the map began there, with no error
-    PoseMeasurement& measurement = node.pose.measurement;
-    const bool has_grown_map = node.kind == Kind::kPose && node.stamp < stamp &&
-                               node.update.fused && measurement.new_content_share > 0.0;
-    if (!has_grown_map) continue;
-    if (measurement.knows_directions) return;
-    measurement.knows_directions = true;
-    measurement.share_by_direction = share_of_last_scan;
-    Replay(at - 1);
-    return;
-  }
 }
 
 EventOutcome FilterHistory::AddZeroVelocity(Timestamp stamp, double variance) {

@@ -72,23 +72,18 @@ UpdateResult FuseZeroVelocity(Estimate& estimate, double variance, double nis_li
 
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement) {
   ErrorMatrix& P = estimate.cov;
-  if (measurement.knows_directions) {
-    const Matrix6 keep = Matrix6::Identity() - measurement.share_by_direction;
-    P.middleRows<6>(kMapPose) = (keep * P.middleRows<6>(kMapPose)).eval();
-    P.middleCols<6>(kMapPose) = (P.middleCols<6>(kMapPose) * keep.transpose()).eval();
-  } else {
-    const double keep = 1.0 - measurement.new_content_share;
-    P.middleRows<6>(kMapPose) *= keep;
-    P.middleCols<6>(kMapPose) *= keep;
-  }
+  Matrix6 keep = (1.0 - measurement.new_content_share) * Matrix6::Identity();
+  if (measurement.knows_directions) keep = Matrix6::Identity() - measurement.share_by_direction;
+  P.middleRows<6>(kMapPose) = (keep * P.middleRows<6>(kMapPose)).eval();
+  P.middleCols<6>(kMapPose) = (P.middleCols<6>(kMapPose) * keep.transpose()).eval();
   P.block<6, 6>(kMapPose, kMapPose) += measurement.new_content_share * measurement.blend_cov;
   if (measurement.is_level) {
     estimate.state.T_map_imu = LevelMapPose(estimate.state, measurement.new_content_share);
   }
 }
 
-// cov (I - M)^-1 = cov + odds cov with odds = (I - M)^-1 M, whose symmetric part may be negative
-// along a direction, since the two do not commute: that part adds nothing.
+// cov (I - Phi)^-1 = cov + odds cov with odds = (I - Phi)^-1 Phi, whose symmetric part may be
+// negative along a direction, since the two do not commute: that part adds nothing.
 Matrix6 CovWithoutLastScan(const Matrix6& cov, const Matrix6& share_of_last_scan) {
   const Matrix6 odds =
       (Matrix6::Identity() - share_of_last_scan).partialPivLu().solve(share_of_last_scan);

@@ -187,54 +187,60 @@ ImuAgreement::Misfit ImuAgreement::MisfitOf(ImuSensor sensor, std::size_t end, s
   return sensor == ImuSensor::kGyro ? TurnMisfit(end, span, belief) : BendMisfit(end, span, belief);
 }
 
-std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
-                                                     const ImuAgreementParameters::Run& run,
-                                                     const Belief& belief) const {
-  const bool is_gyro = sensor == ImuSensor::kGyro;
-  // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
-  // bends the path one way for a span, and then the other way.
-  const std::size_t step = is_gyro ? span : (span + 1) / 2;
-  const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (run.num - 1) * step;
-  if (poses_.size() <= num_poses_before) return std::nullopt;
-  const std::size_t last = poses_.size() - 1;
-  std::vector<Misfit> misfits;
+// Returns the direction along which all the differences lie, if they are large enough.
+std::optional<Vector3> ImuAgreement::CommonDirection(std::span<const Misfit> misfits,
+                                                     double min_mean) {
   Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 0; i < run.num; ++i) {
-    misfits.push_back(MisfitOf(sensor, last - i * step, span, belief));
-    sum += misfits[i].error;
-  }
+  for (const Misfit& misfit : misfits) sum += misfit.error;
   const Vector3 direction = sum.normalized();
   double mean_excess = 0.0;
   for (const Misfit& misfit : misfits) {
     const double excess = misfit.Excess(direction);
     if (!(excess > kImuAgreement.min_share)) return std::nullopt;
-    mean_excess += excess / static_cast<double>(run.num);
+    mean_excess += excess / static_cast<double>(misfits.size());
   }
-  if (mean_excess < run.min_mean) return std::nullopt;
-  const Misfit& misfit = misfits.front();
-  const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
-  const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
-  return ImuContradiction{
-      .sensor = sensor,
-      .since = pose(last - num_poses_before).stamp,
-      .axis_imu = misfit.R_imu_axes * direction,
-      .seen = std::abs(misfit.seen.dot(direction)),
-      .evidence = is_gyro ? fmt::format("the gyro is {:.2f} rad/s off", off)
-                          : fmt::format("the accelerometer is {:.1f} m/s^2 off", off)};
+  if (mean_excess < min_mean) return std::nullopt;
+  return direction;
+}
+
+std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
+                                                     const Belief& belief) const {
+  const bool is_gyro = sensor == ImuSensor::kGyro;
+  // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
+  // bends the path one way for a span, and then the other way.
+  const std::size_t step = is_gyro ? span : (span + 1) / 2;
+  const std::size_t last = poses_.size() - 1;
+  std::vector<Misfit> misfits;  // the newest first
+  for (const ImuAgreementParameters::Run& run : kImuAgreement.runs) {
+    const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (run.num - 1) * step;
+    if (last < num_poses_before) break;
+    while (misfits.size() < run.num) {
+      misfits.push_back(MisfitOf(sensor, last - misfits.size() * step, span, belief));
+    }
+    const std::optional<Vector3> direction = CommonDirection(misfits, run.min_mean);
+    if (!direction) continue;
+    const Misfit& misfit = misfits.front();
+    const double span_s = SecondsBetween(pose(last - span).stamp, pose(last).stamp);
+    const double off = misfit.error.norm() / (is_gyro ? span_s : span_s * span_s);
+    return ImuContradiction{
+        .sensor = sensor,
+        .since = pose(last - num_poses_before).stamp,
+        .axis_imu = misfit.R_imu_axes * *direction,
+        .seen = std::abs(misfit.seen.dot(*direction)),
+        .evidence = is_gyro ? fmt::format("the gyro is {:.2f} rad/s off", off)
+                            : fmt::format("the accelerometer is {:.1f} m/s^2 off", off)};
+  }
+  return std::nullopt;
 }
 
 std::optional<ImuContradiction> ImuAgreement::Find(const Belief& belief) const {
   if (poses_.size() < 2) return std::nullopt;
-  if (auto found = FindIn(ImuSensor::kGyro, belief)) return found;
-  if (belief.g_map.isZero()) return std::nullopt;
-  return FindIn(ImuSensor::kAccelerometer, belief);
-}
-
-std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, const Belief& belief) const {
   for (const std::size_t span : kImuAgreement.spans) {
-    for (const ImuAgreementParameters::Run& run : kImuAgreement.runs) {
-      if (auto found = FindIn(sensor, span, run, belief)) return found;
-    }
+    if (auto found = FindIn(ImuSensor::kGyro, span, belief)) return found;
+  }
+  if (belief.g_map.isZero()) return std::nullopt;
+  for (const std::size_t span : kImuAgreement.spans) {
+    if (auto found = FindIn(ImuSensor::kAccelerometer, span, belief)) return found;
   }
   return std::nullopt;
 }

@@ -43,7 +43,7 @@ struct ImuAgreementParameters {
     std::size_t num;
     double min_mean;
   };
-  std::array<Run, 2> runs{{{3, 2.0}, {4, 1.0}}};
+  std::array<Run, 2> runs{{{3, 2.0}, {4, 1.0}}};  // longer ones last
   // Each of them exceeds this share of what it may be: an error that has just begun is growing.
   // Chosen.
   double min_share = 0.5;
@@ -161,9 +161,8 @@ class ImuAgreement {
     [[nodiscard]] double Excess(const Vector3& direction) const;
   };
   std::optional<ImuContradiction> FindIn(ImuSensor sensor, std::size_t span,
-                                         const ImuAgreementParameters::Run& run,
                                          const Belief& belief) const;
-  std::optional<ImuContradiction> FindIn(ImuSensor sensor, const Belief& belief) const;
+  static std::optional<Vector3> CommonDirection(std::span<const Misfit> misfits, double min_mean);
   Misfit MisfitOf(ImuSensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit TurnMisfit(std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit BendMisfit(std::size_t end, std::size_t span, const Belief& belief) const;

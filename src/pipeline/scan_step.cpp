@@ -62,11 +62,9 @@ FusedMatch FuseMatch(const MatchOutcome& outcome, const MatchJudgement& judgemen
   event.measurement.cov = filter.registration_cov_scale * judgement.match_cov +
                           DeskewCov(*outcome.sweep, history, settings.gyro_density);
   event.measurement.cov *= settings.alike_factor;
-  if (const auto& share = outcome.match.observability.share_of_last_scan) {
-    history.TellShare(outcome.sweep->middle(), *share);
-    if (settings.is_inertial) {  // nothing else tells the motion of a lidar alone
-      event.measurement.cov = CovWithoutLastScan(event.measurement.cov, *share);
-    }
+  const std::optional<Matrix6>& share = outcome.match.observability.share_of_last_scan;
+  if (share && settings.is_inertial) {  // nothing else tells the motion of a lidar alone
+    event.measurement.cov = CovWithoutLastScan(event.measurement.cov, *share);
   }
   if (settings.grows_map) {
     event.measurement.new_content_share = outcome.match.new_content_share;
@@ -79,7 +77,7 @@ FusedMatch FuseMatch(const MatchOutcome& outcome, const MatchJudgement& judgemen
   if (outcome.is_clock_set) event.motion = PredictedMotion::kTakenBack;
   if (settings.replaces_motion) event.motion = PredictedMotion::kReplaced;
   UpdateResult update;
-  const EventOutcome fused = history.AddPose(outcome.sweep->middle(), event, &update);
+  const EventOutcome fused = history.AddPose(outcome.sweep->middle(), event, &update, share);
   return {fused, update.nis};
 }
 

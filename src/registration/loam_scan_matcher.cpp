@@ -129,7 +129,7 @@ void LoamScanMatcher::Finish(const MatchInput& input, std::span<const float> swe
     }
   }
   const MatchSums sums = terms_->Linearize(points, T_last_imu, &scores_);
-  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result);
+  const Vector6 last_step = Summarise(sums, scores_.Covariance(), result).last_step;
   if (sweep_ratios.empty()) TakeLastStep(last_step, result);
 }
 

@@ -56,7 +56,7 @@ DirectionSplit SplitDirections(const MatchSums& sums) {
                          sums.sure_information.Full());
 }
 
-Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
+SolvedSums Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& result) {
   result.information = sums.information.Full();
   result.observability.counted =
       CountedInformation(result.information, sums.sure_information.Full());
@@ -75,7 +75,7 @@ Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov, MatchResult& 
   if (split.degenerate_mask != 0 && result.status == MatchStatus::kConverged) {
     result.status = MatchStatus::kDegenerate;
   }
-  return -inverse * sums.gradient;
+  return {inverse, -inverse * sums.gradient};
 }
 
 void TakeLastStep(const Vector6& step, MatchResult& result) {
@@ -114,7 +114,7 @@ void FinishMatch(const MatchSums& sums, MatchScores& scores, bool has_enough, Ma
     result.status = MatchStatus::kTooFewPoints;
     return;
   }
-  TakeLastStep(Summarise(sums, scores.Covariance(), result), result);
+  TakeLastStep(Summarise(sums, scores.Covariance(), result).last_step, result);
   scores.Complete(sums.curvature_ratio(), result);
 }
 

@@ -265,7 +265,7 @@ double NdtMatcher::NewContentShare() const {
   return mean.share();
 }
 
-Matrix6 NdtMatcher::ShareOfLastScan(const MatchSums& sums) const {
+Matrix6 NdtMatcher::ShareOfLastScan(const MatchSums& sums, const Matrix6& inverse) const {
   TermSum of_last;
   double sum_of_shares = 0.0;
   for (std::size_t k = 0; k < scores_.size(); ++k) {
@@ -280,7 +280,6 @@ Matrix6 NdtMatcher::ShareOfLastScan(const MatchSums& sums) const {
       of_last.Add(row.jacobian, share * row.weight);
     }
   }
-  const Matrix6 inverse = ObservableInverse(SplitDirections(sums));
   const Matrix6 blind = Matrix6::Identity() - inverse * sums.information.Full();
   return inverse * of_last.Full() + sum_of_shares / sums.num_matched * blind;
 }
@@ -357,8 +356,9 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
     Teach(input, T_grid_imu);
     result.beam_pull.unknown_cov = input.calibration->ScoreCov();
   }
-  TakeLastStep(Summarise(sums, ScoreCovariance(input), result), result);
-  result.observability.share_of_last_scan = ShareOfLastScan(sums);
+  const SolvedSums solved = Summarise(sums, ScoreCovariance(input), result);
+  TakeLastStep(solved.last_step, result);
+  result.observability.share_of_last_scan = ShareOfLastScan(sums, solved.inverse);
   gradients_.Complete(sums.curvature_ratio(), result);
   if (!input.from_mid_sweep_s.empty()) {
     result.turn_rate_error = TurnRateError(input.from_mid_sweep_s, sums.curvature_ratio());

@@ -338,56 +338,6 @@ TEST(FilterHistory, NoiseThatTheSensorShowsCountsFromItsStampOn) {
   EXPECT_EQ(late.AddNoise(StampAt(-0.1), shaken), EventOutcome::kBeforeStart);
 }
 
-PoseEvent GrowingPoseAt(double t_s) {
-  PoseEvent event = PoseAt(t_s, Vector6::Constant(0.01));
-  event.measurement.new_content_share = 0.1;
-  event.measurement.blend_cov = 1e-4 * Matrix6::Identity();
-  return event;
-}
-
-Matrix6 HalfOfEach() {
-  return 0.5 * Matrix6::Identity();
-}
-
-TEST(FilterHistory, AShareThatIsToldLaterCountsAsIfItHadBeenKnown) {
-  FilterHistory told = StartedHistory();
-  FilterHistory known = StartedHistory();
-  PoseEvent event = GrowingPoseAt(0.5);
-  for (FilterHistory* history : {&told, &known}) {
-    AddImuUpTo(*history, 0.5);
-    if (history == &known) {
-      event.measurement.knows_directions = true;
-      event.measurement.share_by_direction = HalfOfEach();
-    }
-    EXPECT_EQ(history->AddPose(StampAt(0.5), event), EventOutcome::kApplied);
-    AddImuUpTo(*history, 1.0);
-  }
-  EXPECT_GT((told.head().cov - known.head().cov).norm(), 1e-6);
-  told.TellShare(StampAt(0.6), HalfOfEach());
-  EXPECT_EQ(told.head().cov, known.head().cov);
-  told.TellShare(StampAt(0.7), 0.9 * HalfOfEach());
-  EXPECT_EQ(told.head().cov, known.head().cov) << "once for each scan";
-}
-
-TEST(FilterHistory, AShareIsThatOfAScanBeforeWhichGrewTheMap) {
-  FilterHistory history = StartedHistory();
-  history.TellShare(StampAt(-0.5), HalfOfEach());
-  AddImuUpTo(history, 0.5);
-  history.TellShare(StampAt(0.5), HalfOfEach());
-  EXPECT_EQ(history.AddPose(StampAt(0.5), PoseAt(0.5)), EventOutcome::kApplied);
-  AddImuUpTo(history, 1.0);
-  EXPECT_EQ(history.AddPose(StampAt(1.0), GrowingPoseAt(1.0)), EventOutcome::kApplied);
-  AddImuUpTo(history, 1.5);
-  const Estimate before = history.head();
-  history.TellShare(StampAt(0.9), HalfOfEach());  // the scan before it added nothing
-  history.TellShare(StampAt(1.0), HalfOfEach());  // its own match tells of the one before
-  EXPECT_EQ(history.head().cov, before.cov);
-  EXPECT_EQ(history.AddRebase(StampAt(1.2)), EventOutcome::kApplied);
-  const Estimate rebased = history.head();
-  history.TellShare(StampAt(1.4), HalfOfEach());
-  EXPECT_EQ(history.head().cov, rebased.cov) << "the map began anew since";
-}
-
 TEST(FilterHistory, CovarianceStaysPositiveOverALongRun) {
   FilterHistory history = StartedHistory();
   std::mt19937_64 random(7);

@@ -105,7 +105,7 @@ TEST(Summarise, CovarianceIsTheSandwichWhereAllIsObservable) {
   MatchResult result;
   result.status = MatchStatus::kConverged;
   const Matrix6 score_cov = 3.0 * sums.information.Full();
-  const Vector6 step = Summarise(sums, score_cov, result);
+  const Vector6 step = Summarise(sums, score_cov, result).last_step;
   EXPECT_EQ(result.information, sums.information.Full());
   const Matrix6 inverse = sums.information.Full().inverse();
   EXPECT_LT((result.cov - 3.0 * inverse).norm(), 1e-9 * result.cov.norm() + 1e-15);
@@ -137,7 +137,7 @@ TEST(Summarise, ADirectionThatNothingConstrainsIsDegenerate) {
   const MatchSums sums = HeldSums(2, 0.02f);
   MatchResult result;
   result.status = MatchStatus::kConverged;
-  const Vector6 step = Summarise(sums, sums.information.Full(), result);
+  const Vector6 step = Summarise(sums, sums.information.Full(), result).last_step;
   EXPECT_EQ(result.degenerate_mask, 1u);
   EXPECT_EQ(result.status, MatchStatus::kDegenerate);
   EXPECT_NEAR(std::sqrt(result.cov(2, 2)), 100.0, 0.1);
@@ -177,7 +177,7 @@ TEST(FinishMatch, EnoughTermsGiveTheSummaryAndTheLastStep) {
   FinishMatch(sums, scores, true, result);
   MatchResult expected;
   expected.status = MatchStatus::kConverged;
-  TakeLastStep(Summarise(sums, scores.Covariance(), expected), expected);
+  TakeLastStep(Summarise(sums, scores.Covariance(), expected).last_step, expected);
   EXPECT_EQ(result.status, MatchStatus::kConverged);
   EXPECT_EQ(result.cov, expected.cov);
   EXPECT_GT(result.T_map_imu.translation.norm(), 0.0);

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -55,13 +56,13 @@ class FilterHistory {
   FilterHistory(const HistoryOptions& options, const Estimate& start, const ImuSample& sample);
 
   [[nodiscard]] EventOutcome AddImu(const ImuSample& sample);
-  // `result`, when given, is filled under kApplied and kGated.
-  [[nodiscard]] EventOutcome AddPose(Timestamp stamp, const PoseEvent& event,
-                                     UpdateResult* result = nullptr);
-  // The match of `stamp` has told which share of the map the last scan before has brought, along
-  // each direction. Counts once for each scan that was fused and grew the map; for others, and for
-  // one that has left the window, it changes nothing.
-  void TellShare(Timestamp stamp, const Matrix6& share_of_last_scan);
+  // `result`, when given, is filled under kApplied and kGated. `share_of_last_scan`
+  // (Observability): the match tells it of the last scan before that was fused and grew the map. It
+  // counts once for each such scan; of one that has left the window, or from before the map began
+  // anew, it changes nothing.
+  [[nodiscard]] EventOutcome AddPose(
+      Timestamp stamp, const PoseEvent& event, UpdateResult* result = nullptr,
+      const std::optional<Matrix6>& share_of_last_scan = std::nullopt);
   // Zero-velocity update: v_world_imu is zero with `variance` per axis, (m/s)^2. It is gated like
   // poses.
   [[nodiscard]] EventOutcome AddZeroVelocity(Timestamp stamp, double variance);
@@ -118,7 +119,12 @@ class FilterHistory {
   };
 
   std::optional<EventOutcome> Refuse(Timestamp stamp, Kind kind) const;
-  std::size_t Insert(Node node);  // inserts and replays; returns the node's index
+  // Inserts the node and replays from there, or from `from` where that is earlier; returns the
+  // node's index.
+  std::size_t Insert(Node node, std::size_t from = std::numeric_limits<std::size_t>::max());
+  // Returns the index of the last scan before `stamp` that was fused and grew the map; nothing
+  // where the map has begun anew since.
+  std::optional<std::size_t> LastGrowingScan(Timestamp stamp) const;
   void Replay(std::size_t from);
   void Step(std::size_t at);
   static void FuseIn(Node& node, const HistoryOptions& options);

@@ -21,8 +21,8 @@ struct PoseMeasurement {
   Pose T_map_imu;
   Matrix6 cov = Matrix6::Zero();   // right error [m; rad]; large in degenerate directions
   double new_content_share = 0.0;  // 0..1, share of the matched map that this scan brings
-  // The same along each direction, once the next match has told (FilterHistory::TellShare). Until
-  // then the share above stands for it.
+  // The same along each direction, once the next match has told it (FilterHistory::AddPose); the
+  // share above stands for it until then.
   bool knows_directions = false;
   Matrix6 share_by_direction = Matrix6::Zero();
   Matrix6 blend_cov = Matrix6::Zero();  // covariance added per share of new content
@@ -50,7 +50,7 @@ struct UpdateResult {
 void BlendMapPose(Estimate& estimate, const PoseMeasurement& measurement);
 
 // Returns the covariance of a match that counts only for what it is held by besides the last scan:
-// cov (I - M)^-1, made symmetric. M: Observability::share_of_last_scan, eigenvalues below one.
+// cov (I - Phi)^-1, made symmetric. Phi: Observability::share_of_last_scan, eigenvalues below one.
 [[nodiscard]] Matrix6 CovWithoutLastScan(const Matrix6& cov, const Matrix6& share_of_last_scan);
 
 // Fuses a general linear measurement, for the initialization: residual = H error + noise of

@@ -39,6 +39,11 @@ class RowFiles {
     OutputFile poses, covariances;
   };
 
+  struct LastState {
+    int segment = 1;
+    Timestamp stamp;
+  };
+
   [[nodiscard]] static Track OpenTrack(const std::filesystem::path& folder,
                                        const std::string& frame);
   static void WriteRow(const StampedPose& pose, const Matrix6& cov, Track& track);
@@ -56,10 +61,6 @@ class RowFiles {
   OutputFile registration_;
   std::optional<Timestamp> last_scan_;
   std::optional<Timestamp> last_imu_rate_;
-  struct LastState {
-    int segment;
-    Timestamp stamp;
-  };
   std::optional<LastState> last_state_;
   std::int64_t num_rows_not_later_ = 0;
 };

@@ -15,8 +15,7 @@
 //     doubtful, 2 no), velocity in world, biases with standard deviations, clock offset, NIS
 //   notices.tsv: what was told to people: stamp, severity, text
 //   registration.csv: one row per scan: segment, points, residual, information, status, matched
-//   points by
-//     the size of cell (matched_level_i: LevelCounts in match_status.hpp), stage times
+//     points by the size of cell (matched_level_i: LevelCounts in match_status.hpp), stage times
 //   stats.json: counts, speed, memory, stage times, the IMU's noise over that of the rig, how large
 //   the errors of the lidar's beams are (root mean square over the rings)
 //   verdict.json: whether the result may be trusted, and if not, why (verdict_report.hpp)

@@ -119,15 +119,19 @@ class MatchScores {
   std::vector<ScoredRow> rows_;
 };
 
+struct SolvedSums {
+  Matrix6 inverse;    // ObservableInverse() of the information
+  Vector6 last_step;  // Gauss-Newton's, left at the solution, within the observable directions
+};
+
 // Fills the result's information, covariances, eigenvalues, degenerate directions and residual, and
 // turns kConverged into kDegenerate where a direction is degenerate. `score_cov` is the covariance
-// of the whole gradient (ClusterScores::Covariance). Returns the Gauss-Newton step that is left at
-// the solution, within the observable directions.
-[[nodiscard]] Vector6 Summarise(const MatchSums& sums, const Matrix6& score_cov,
-                                MatchResult& result);
+// of the whole gradient (ClusterScores::Covariance).
+[[nodiscard]] SolvedSums Summarise(const MatchSums& sums, const Matrix6& score_cov,
+                                   MatchResult& result);
 
-// Moves the result's pose by the step that Summarise() returned, unless it is longer than 5 mm or
-// mrad: iterations stop at a step of finite length, and this one costs nothing.
+// Moves the result's pose by the last step that Summarise() returned, unless it is longer than 5 mm
+// or mrad: iterations stop at a step of finite length, and this one costs nothing.
 void TakeLastStep(const Vector6& step, MatchResult& result);
 
 // The end of a match whose parts are told by `scores`: the result, at whose pose the sums were

@@ -104,8 +104,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
                       PointScore* score);
   [[nodiscard]] Support UprightSupport() const;
   double NewContentShare() const;
-  // Along degenerate directions it is that of the mean point.
-  [[nodiscard]] Matrix6 ShareOfLastScan(const MatchSums& sums) const;
+  // Along degenerate directions it is that of the mean point. `inverse`: SolvedSums.
+  [[nodiscard]] Matrix6 ShareOfLastScan(const MatchSums& sums, const Matrix6& inverse) const;
   Matrix6 ScoreCovariance(const MatchInput& input);
   TurnRate TurnRateError(std::span<const float> from_mid_sweep_s, double curvature_ratio);
   // Tells what each beam saw, for the map to remember.

@@ -92,9 +92,9 @@ struct BlindDirection {
 struct Observability {
   Matrix6 counted = Matrix6::Zero();
   Matrix6 noise = Matrix6::Zero();
-  // M = H^-1 sum_c s_c H_c, with H_c the information of the points in cell c of the map, H their
-  // sum and s_c the share of the cell that the last inserted scan brought: so much of a shift of
-  // that scan (right error) shifts this match. Given where the method tells.
+  // Phi = H^-1 sum_c phi_c H_c, with H_c the information of the points in cell c of the map, H
+  // their sum and phi_c the share of the cell that the last inserted scan brought: so much of a
+  // shift of that scan (right error) shifts this match. Given where the method tells.
   std::optional<Matrix6> share_of_last_scan;
 
   // Returns the ratio of counted to noise along an increment.
