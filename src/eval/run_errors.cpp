@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -19,13 +20,28 @@ namespace {
 constexpr double kMinScaledEigenvalue =
     1e-12;  // below this the inverse of a covariance is numerical noise
 
-std::vector<Matrix6> ReadCovariances(const std::filesystem::path& file,
-                                     const StampedPoses& estimate) {
-  const StampedTable table = ReadStampedCsv(file);
+// Leaves out the rows beyond those of the shorter table, and says so: a kill between the writes of
+// two files leaves them.
+void CutToShorter(const std::filesystem::path& file, StampedTable& table, StampedPoses& estimate) {
+  if (table.rows.size() == estimate.size()) return;
+  fmt::print(stderr,
+             "{}: has {} rows, its trajectory has {}: the run was killed, and the last rows of the "
+             "longer one are left out\n",
+             file.string(), table.rows.size(), estimate.size());
+  const std::size_t num = std::min(table.rows.size(), estimate.size());
+  table.stamps.resize(num);
+  table.rows.resize(num);
+  estimate.resize(num);
+}
+
+std::vector<Matrix6> ReadCovariances(const std::filesystem::path& file, bool is_complete,
+                                     StampedPoses& estimate) {
+  StampedTable table = ReadStampedCsv(file);
   if (table.columns.size() != 36) {
     throw std::runtime_error(fmt::format("{}:1: has {} columns after t_s, not the 36 of a 6x6",
                                          file.string(), table.columns.size()));
   }
+  if (!is_complete) CutToShorter(file, table, estimate);
   if (table.stamps.size() != estimate.size()) {
     throw std::runtime_error(fmt::format("{}: has {} rows, its trajectory has {}", file.string(),
                                          table.stamps.size(), estimate.size()));
@@ -93,9 +109,10 @@ RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& 
                                : frame == RunFrame::kLevel ? "_level"
                                                            : "";
   run.estimate = ReadStamped(dir / ("trajectory" + of_frame + ".tum"));
-  run.covariances = ReadCovariances(dir / ("covariance" + of_frame + ".csv"), run.estimate);
-  run.is_level = !std::filesystem::exists(dir / "stats.json") ||
-                 std::filesystem::exists(dir / "trajectory_level.tum");
+  const bool is_complete = std::filesystem::exists(dir / "stats.json");
+  run.covariances =
+      ReadCovariances(dir / ("covariance" + of_frame + ".csv"), is_complete, run.estimate);
+  run.is_level = !is_complete || std::filesystem::exists(dir / "trajectory_level.tum");
   const std::filesystem::path registration = dir / "registration.csv";
   run.has_registration = std::filesystem::exists(registration);
   if (!run.has_registration) return run;

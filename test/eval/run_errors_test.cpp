@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "eval/paths.hpp"
 #include "support/temp_dir.hpp"
 
@@ -185,8 +187,18 @@ TEST_F(LoadRunFiles, ARunsOwnTruthGoesFirst) {
   EXPECT_THROW((void)LoadRun(dir_.path() / "a", "nowhere.tum"), std::runtime_error);
 }
 
+TEST_F(LoadRunFiles, AKilledRunMayLackTheLastRowsOfOneTable) {
+  for (const int num : {2, 3, 4, 5}) {
+    WriteCovariances(num, 0);
+    const RunFiles run = Load();
+    EXPECT_EQ(run.estimate.size(), std::min(num, 4));
+    EXPECT_EQ(run.covariances.size(), run.estimate.size());
+  }
+}
+
 TEST_F(LoadRunFiles, TablesThatDoNotMatchAreRefused) {
   WriteCovariances(3, 0);
+  dir_.Write("a/stats.json", "{}");
   EXPECT_THAT([&] { Load(); }, ThrowsMessage<std::runtime_error>(HasSubstr("has 3 rows")));
   WriteCovariances(4, 1);
   EXPECT_THAT([&] { Load(); },

@@ -16,6 +16,10 @@ FILES_OF_SCANS = ("trajectory.tum", "trajectory_world.tum", "covariance.csv",
 FILE_OF_SAMPLES = "trajectory_imu_rate.tum"
 MAX_APART_S = 1.0
 MAX_LOST_S = 1.0
+# The files are written one after the other: a kill between two of them leaves the last rows of one
+# alone. The writes of all files are over so long after the first one is seen, also where the
+# scheduler puts another process between them; the next ones come half a second after the first.
+WRITES_ARE_OVER_S = 0.1
 # A network of its own, a daemon, somebody who hears its odometry, a player; then kill -9.
 SCRIPT = """
 set -e
@@ -45,6 +49,7 @@ def killed_replay():
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         while process.poll() is None and not (rows.exists() and rows.stat().st_size > 8000):
             time.sleep(0.001)
+        time.sleep(WRITES_ARE_OVER_S)
         process.kill()
     return out
 
@@ -95,6 +100,9 @@ class KilledRun(unittest.TestCase):
         out = killed_replay()
         self.check_rows(out)
         truth = drive() / "truth.tum"
+        # A kill while the files are written leaves rows in the first that the last has not.
+        rows = (out / "covariance.csv").read_text().splitlines(keepends=True)
+        (out / "covariance.csv").write_text("".join(rows[:-3]))
         # A system that goes down may cut a row all the same.
         with open(out / "trajectory.tum", "a", encoding="ascii") as stream:
             stream.write("2000000000.5 1.0 2.")

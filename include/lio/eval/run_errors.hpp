@@ -38,7 +38,8 @@ struct RunFiles {
 
 // Reads DIR's two files of `frame` and, when it exists, DIR/registration.csv. The truth is
 // DIR/`truth` when that exists, else the file `truth`. Throws std::runtime_error that names file
-// and line, also when the two tables' stamps differ.
+// and line, also when the two tables' stamps differ. Rows that only one of the two has at its end
+// are left out where there is no stats.json, which a killed run lacks; stderr says so.
 [[nodiscard]] RunFiles LoadRun(const std::filesystem::path& dir, const std::filesystem::path& truth,
                                RunFrame frame = RunFrame::kMap);
 
