@@ -121,6 +121,7 @@ void GaussianMap::Insert(std::span<const Vector3> points_map, const Vector3& sen
     return (points_map[i] - sensor_map).cast<float>().normalized();
   };
   Add(points_map, view_of, workers, beams);
+  DropPassedCells(points_map, sensor_map);
   DropOldCells();
   DropFarCells(sensor_map);
 }

@@ -79,8 +79,8 @@ class GaussianMap {
   // Returns the beams that the points of a plane came from.
   const CellBeams& beams(std::int32_t cell) const { return voxels_.Of<CellBeams>(cell); }
 
-  // Adds a scan taken from `sensor_map`; then drops cells that are too far from there and, beyond
-  // max_cells, those without new points for longest.
+  // Adds a scan taken from `sensor_map`; then drops cells through whose surface its rays pass,
+  // those that are too far from there and, beyond max_cells, those without new points for longest.
   void Insert(std::span<const Vector3> points_map, const Vector3& sensor_map,
               const Workers& workers = Workers(1), const SeenBeams& beams = {});
 
@@ -105,11 +105,13 @@ class GaussianMap {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
-    std::int32_t fitted_at = 0;   // num_points when the patch was last computed
-    std::uint32_t touched = 0;    // number of the last scan that added to it
-    std::int32_t num_before = 0;  // points before that scan
-    std::uint32_t listed = 0;     // ... when the cell was put last in the order of age
-    bool is_known = false;        // the points show a plane or a vertical structure
+    std::int32_t fitted_at = 0;      // num_points when the patch was last computed
+    std::uint32_t touched = 0;       // number of the last scan that added to it
+    std::int32_t num_before = 0;     // points before that scan
+    std::uint32_t listed = 0;        // ... when the cell was put last in the order of age
+    std::uint32_t passed_since = 0;  // `touched` when rays began to pass through
+    std::int32_t num_passed = 0;     // rays since then
+    bool is_known = false;           // the points show a plane or a vertical structure
     bool is_kept = false;
   };
 
@@ -129,6 +131,11 @@ class GaussianMap {
   void DropFarCells(const Vector3& sensor_map);
   Vector3 CentreOf(VoxelKey key) const;
 
+  // These are in gaussian_map_rays.cpp.
+  void DropPassedCells(std::span<const Vector3> points_map, const Vector3& sensor_map);
+  void NoteRay(const Vector3& sensor_map, const Vector3& point_map);
+  void NotePass(std::int32_t cell);
+
   // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
@@ -145,6 +152,8 @@ class GaussianMap {
   std::vector<Place> places_;
   std::vector<std::int32_t> cells_;  // one per place
   std::vector<std::int32_t> touched_cells_;
+  std::vector<Vector3> on_ray_map_;  // places along a ray, and what is there
+  std::vector<Hit> on_ray_;
   std::size_t num_kept_ = 0;
   std::size_t sweep_position_ = 0;  // next cell of the walk that looks for far ones
   std::uint32_t scan_number_ = 0;

@@ -59,6 +59,17 @@ struct GaussianMapParameters {
   // The search for cells beyond the map's range passes over all cells in this many scans. Chosen:
   // it spreads the cost, and cells stay a few seconds longer than they must.
   static constexpr std::size_t kFarCellsWalk_scans = 64;
+  // One point in so many has its ray followed, and for so many voxels. Chosen for the time that it
+  // takes: docs/experiments/passed_cells.md. A prime, so that a scan's rays are of all its beams.
+  static constexpr std::size_t kRaySampling = 127;
+  static constexpr int kMaxRay_voxels = 40;
+  // So many rays pass through the middle of a surface until it is gone. Chosen: one of them may be
+  // wrong.
+  static constexpr int kMinPasses = 2;
+  // The cosine of the angle between a ray and the normal is at least so large where a ray passes
+  // through a surface. Chosen: at 73 deg and more a small error of the pose moves the ray to the
+  // other side of it.
+  static constexpr float kMinPassCosine = 0.3f;
 };
 
 // Bounds the levels, each with cells of half the size.
