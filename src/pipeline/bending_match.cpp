@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A scan whose motion nobody has measured bends along with the pose that is found.
+// A scan whose motion nobody has measured, or somebody wrongly, bends along with the pose that is
+// found.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "lio/relocalization/candidate.hpp"
+#include "pipeline/health.hpp"
 #include "pipeline/scan_in_work.hpp"
 
 namespace lio {
@@ -16,8 +18,27 @@ struct TurnSearchParameters {
   double step_rad = 0.05;     // chosen: matching converges over 1 m, at 20 m
   double range_sigmas = 3.0;  // searched, of the prior's; statistics: 99.7 %
   double max_turn_rad = 0.6;  // ... at most; chosen by cost: 25 coarse matches
+  // A scan that is bent has so many times the support of one that is not, where the motion was
+  // measured wrongly. Measured on sound drives: 1.003 at most where they contradict each other
+  // (docs/experiments/dead_imu.md).
+  double min_support_ratio = 1.03;
 };
 constexpr TurnSearchParameters kTurnSearch;
+
+// Is it likely that the measured motion has laid the scan where little of the map is?
+bool MayBeMeasuredWrongly(const MatchResult& match, const MatchJob& job, std::size_t num_points) {
+  const bool is_near = !IsUnseen(job) && job.map_action == MapAction::kKeep &&
+                       match.status != MatchStatus::kEmptyMap;
+  const bool lies_badly = match.support_at_guess ? !match.HasSlid() : !match.IsUsable();
+  return is_near && lies_badly && !job.refines_deskew &&
+         num_points >= static_cast<std::size_t>(kHealth.min_points);
+}
+
+MotionPrior WithUnknownTurn(MotionPrior prior) {
+  constexpr double kStd_rad = kTurnSearch.max_turn_rad / kTurnSearch.range_sigmas;
+  prior.cov.bottomRightCorner<3, 3>() += kStd_rad * kStd_rad * Matrix3::Identity();
+  return prior;
+}
 
 std::vector<float> SharesOfPriorError(const std::vector<float>& from_mid_sweep_s,
                                       const MatchJob& job) {
@@ -44,6 +65,21 @@ std::vector<Pose> Turned(const MotionPrior& prior) {
 }
 
 }  // namespace
+
+// A gyro that has just broken lays the scan where few points match. Then it is matched once more as
+// if nobody had measured how it turned. A scan in doubt teaches the calibration nothing.
+MatchResult RegistrationWorker::MatchAsMeasured(const MotionPrior& prior, ScanInWork& scan) {
+  const MatchResult match = MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
+  if (!MayBeMeasuredWrongly(match, scan.job, scan.to_match.size())) return match;
+  const MatchResult bent = MatchBending(WithUnknownTurn(prior), scan);
+  calibration_.ForgetScan();
+  if (bent.IsUsable() && SupportOf(bent) > kTurnSearch.min_support_ratio * SupportOf(match)) {
+    return bent;
+  }
+  scan.motion = scan.job.T_any_imu;
+  DeskewAgain(scan);
+  return match;
+}
 
 // The motion within the sweep is a guess as the prior is, so the scan stays as it was bent where it
 // was found. A body that begins or ends a quick turn is far from the prior by its direction alone.

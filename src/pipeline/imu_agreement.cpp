@@ -204,14 +204,14 @@ std::optional<Vector3> ImuAgreement::CommonDirection(std::span<const Misfit> mis
 }
 
 std::optional<ImuContradiction> ImuAgreement::FindIn(ImuSensor sensor, std::size_t span,
-                                                     const Belief& belief) const {
+                                                     const Belief& belief, Runs runs) const {
   const bool is_gyro = sensor == ImuSensor::kGyro;
   // Turns follow each other. Bends overlap, and end within a span and a half: a jump of the poses
   // bends the path one way for a span, and then the other way.
   const std::size_t step = is_gyro ? span : (span + 1) / 2;
   const std::size_t last = poses_.size() - 1;
   std::vector<Misfit> misfits;  // the newest first
-  for (const ImuAgreementParameters::Run& run : kImuAgreement.runs) {
+  for (const ImuAgreementParameters::Run& run : runs) {
     const std::size_t num_poses_before = (is_gyro ? span : 2 * span) + (run.num - 1) * step;
     if (last < num_poses_before) break;
     while (misfits.size() < run.num) {
@@ -243,6 +243,11 @@ std::optional<ImuContradiction> ImuAgreement::Find(const Belief& belief) const {
     if (auto found = FindIn(ImuSensor::kAccelerometer, span, belief)) return found;
   }
   return std::nullopt;
+}
+
+std::optional<ImuContradiction> ImuAgreement::FindAfterJump(const Belief& belief) const {
+  if (poses_.size() < 2) return std::nullopt;
+  return FindIn(ImuSensor::kGyro, 1, belief, kImuAgreement.runs_after_jump);
 }
 
 bool ImuAgreement::HasShownAlike(const ImuContradiction& earlier, Timestamp from) const {

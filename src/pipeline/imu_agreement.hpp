@@ -44,6 +44,9 @@ struct ImuAgreementParameters {
     double min_mean;
   };
   std::array<Run, 2> runs{{{3, 2.0}, {4, 1.0}}};  // longer ones last
+  // The same for turns from scan to scan after the poses have jumped, since a gyro that jumps makes
+  // the next match a bad one. Chosen: twice as many as without a jump.
+  std::array<Run, 1> runs_after_jump{{{8, 2.0}}};
   // Each of them exceeds this share of what it may be: an error that has just begun is growing.
   // Chosen.
   double min_share = 0.5;
@@ -73,10 +76,6 @@ struct ImuAgreementParameters {
   // which the noise of poses is small.
   double shown_share = 0.5;
   std::size_t shown_span = 4;
-  // A scan whose support where the samples predict it is this share of that at its match accuses
-  // nobody: it has slid along what it sees. Measured on simulated drives: .98 where a narrow view
-  // slid in an office, .89 and less where a gyro was off (docs/experiments/dead_imu.md).
-  double max_support_at_guess = 0.95;
 };
 
 inline constexpr ImuAgreementParameters kImuAgreement;
@@ -127,6 +126,8 @@ class ImuAgreement {
 
   // Does the newest pose contradict the samples?
   [[nodiscard]] std::optional<ImuContradiction> Find(const Belief& belief) const;
+  // Does it contradict the gyro, though the poses have jumped before?
+  [[nodiscard]] std::optional<ImuContradiction> FindAfterJump(const Belief& belief) const;
   // Have scans shown a motion since `from` that would have been contradicted as that one was, if
   // the sensor still were as it was then?
   [[nodiscard]] bool HasShownAlike(const ImuContradiction& earlier, Timestamp from) const;
@@ -160,8 +161,9 @@ class ImuAgreement {
     // The error along the direction, in the size that it may have.
     [[nodiscard]] double Excess(const Vector3& direction) const;
   };
-  std::optional<ImuContradiction> FindIn(ImuSensor sensor, std::size_t span,
-                                         const Belief& belief) const;
+  using Runs = std::span<const ImuAgreementParameters::Run>;
+  std::optional<ImuContradiction> FindIn(ImuSensor sensor, std::size_t span, const Belief& belief,
+                                         Runs runs = kImuAgreement.runs) const;
   static std::optional<Vector3> CommonDirection(std::span<const Misfit> misfits, double min_mean);
   Misfit MisfitOf(ImuSensor sensor, std::size_t end, std::size_t span, const Belief& belief) const;
   Misfit TurnMisfit(std::size_t end, std::size_t span, const Belief& belief) const;

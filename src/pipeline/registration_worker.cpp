@@ -114,9 +114,7 @@ void RegistrationWorker::MatchFromPrior(const Track& task, const SearchRequest* 
   scan.beams_to_match = Pick(scan.reduced.points, scan.reduced.to_match);
   const DeskewedScan deskewed{job.sweep->middle(), scan.to_match};
   const MotionPrior prior = task.aligns_prior ? relocalizer_.Align(deskewed, job.prior) : job.prior;
-  scan.outcome.match = job.bends_scan
-                           ? MatchBending(prior, scan)
-                           : MatchFully(scan.InputFrom(prior.T_map_imu, prior.cov), scan);
+  scan.outcome.match = job.bends_scan ? MatchBending(prior, scan) : MatchAsMeasured(prior, scan);
   if (search != nullptr) Search(*search, scan);
   AddTime(Stage::kMatch, begin, scan.outcome);
 }

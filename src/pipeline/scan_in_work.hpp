@@ -43,10 +43,14 @@ inline StampedPoses BentTo(const Pose& found, const MatchJob& job) {
   return Bent(job, LogSe3(job.prior.T_map_imu.Inverse() * found));
 }
 
-inline int MaxMatches(const MatchJob& job) {
+// Has the body moved unseen, so that the scan may be anywhere?
+inline bool IsUnseen(const MatchJob& job) {
   const auto* task = std::get_if<Relocalize>(&job.task);
-  const bool is_unseen = task != nullptr && task->search.region == SearchRegion::kObservable;
-  return is_unseen ? kRelocalization.max_matches_unseen : kRelocalization.max_matches_per_scan;
+  return task != nullptr && task->search.region == SearchRegion::kObservable;
+}
+
+inline int MaxMatches(const MatchJob& job) {
+  return IsUnseen(job) ? kRelocalization.max_matches_unseen : kRelocalization.max_matches_per_scan;
 }
 
 struct RegistrationWorker::ScanInWork {

@@ -93,7 +93,11 @@ void Tracking::AddSweep(const Sweep& sweep) {
 MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   MatchJob job = MakeTrackingJob(sweep, history_, handover_.last_located);
   job.bends_scan = job.refines_deskew;
-  if (job.bends_scan) CorrectPrior(trend_.Expected(), job);
+  if (job.bends_scan) {
+    CorrectPrior(trend_.Expected(), job);
+  } else {
+    GuessFromGated(job);
+  }
   if (is_first_scan_) job.map_action = MapAction::kClear;
   const NavState& predicted = history_.At(sweep->middle()).state;
   job.prior.up_map = InMap(predicted, Vector3::UnitZ());
@@ -106,6 +110,16 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
     job.task = Relocalize{std::get<Track>(job.task), {SearchRegion::kTracked, {}}};
   }
   return job;
+}
+
+// It may be right and the gyro wrong: then the error has grown since the last scan that was fused.
+void Tracking::GuessFromGated(MatchJob& job) const {
+  if (!gated_by_ || outage_.is_running() || !handover_.last_located || !last_middle_) return;
+  const double until_gated_s = SecondsBetween(*handover_.last_located, *last_middle_);
+  if (until_gated_s < kScanStep.min_since_last_fix_s) return;
+  const double growth = job.prior.since_last_fix_s / until_gated_s;
+  if (growth > 1.0 && growth <= kScanStep.max_growth_of_gated)
+    CorrectPrior(growth * *gated_by_, job);
 }
 
 std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
@@ -175,7 +189,21 @@ ScanReport Tracking::FuseWithTrend(const MatchedScan& scan) {
   if (report.fused && !scan.outcome.is_relocalized) {
     trend_.Add(T_map_imu_predicted, history_.At(scan.middle()).state.T_map_imu);
   }
+  NoteIfGated(scan, report);
   return report;
+}
+
+void Tracking::NoteIfGated(const MatchedScan& scan, const ScanReport& report) {
+  gated_by_.reset();
+  const MatchResult& match = scan.outcome.match;
+  const bool is_gated = !report.fused && report.nis > 0.0;
+  if (!is_gated || match.HasSlid()) return;
+  const Estimate predicted = history_.At(scan.middle());
+  const Vector6 by = LogSe3(predicted.state.T_map_imu.Inverse() * match.T_map_imu);
+  const Matrix3 turn_cov =
+      predicted.cov.block<3, 3>(kMapPose + 3, kMapPose + 3) + match.cov.bottomRightCorner<3, 3>();
+  const Vector3 turn = by.tail<3>();
+  if (turn.dot(turn_cov.ldlt().solve(turn)) > context_.nis_limit) gated_by_ = by;
 }
 
 void Tracking::RememberForHandover(const MatchedScan& scan, bool is_fused) {

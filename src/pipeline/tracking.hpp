@@ -77,6 +77,9 @@ class Tracking {
   // Takes one that shows something new, while the place is known or sought.
   [[nodiscard]] std::optional<Transition> TakeScan(const MatchedScan& scan, InsertTask& insert,
                                                    std::int64_t begin_ns);
+  // Takes a last match into account that was beyond the gate since it has turned otherwise.
+  void GuessFromGated(MatchJob& job) const;
+  void NoteIfGated(const MatchedScan& scan, const ScanReport& report);
   ScanReport FuseWithTrend(const MatchedScan& scan);
   ScanReport Fuse(const MatchedScan& scan);
   void Examine(const MatchOutcome& outcome) const;
@@ -104,6 +107,7 @@ class Tracking {
                                        const Vector3& w_imu_radps) const;
 
   // These are in tracking_imu.cpp.
+  [[nodiscard]] bool has_followed() const { return followed_s_ >= kImuAgreement.min_followed_s; }
   [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
   [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
   [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
@@ -154,7 +158,11 @@ class Tracking {
   ImuAgreement imu_agreement_;
   std::optional<Timestamp> last_middle_;  // the scan before has it
   bool is_stale_told_ = false;
-  double followed_s_ = 0.0;      // time of scans that showed a motion which the samples followed
+  double followed_s_ = 0.0;  // time of scans that showed a motion which the samples followed
+  bool has_jumped_ = false;  // the poses did, and the samples had followed them before
+  // The last match was beyond the gate by this turn and shift, a right increment from its
+  // prediction.
+  std::optional<Vector6> gated_by_;
   bool is_first_scan_;           // the map is still empty
   bool is_map_rebased_ = false;  // and no scan has matched it yet
 };

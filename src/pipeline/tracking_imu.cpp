@@ -26,15 +26,18 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      context_.stream.imu(), belief);
   auto found = imu_agreement_.Find(belief);
-  if (outcome.match.support_at_guess > kImuAgreement.max_support_at_guess) found.reset();
-  if (imu_agreement_.HasJumped(belief)) followed_s_ = 0.0;
-  const bool was_right = followed_s_ >= kImuAgreement.min_followed_s;
-  const bool has_moved = imu_agreement_.HasMoved();
-  if (!was_right) {
-    followed_s_ =
-        found ? 0.0 : followed_s_ + (has_moved ? SecondsBetween(last, scan.middle()) : 0.0);
+  if (outcome.match.HasSlid()) found.reset();
+  if (imu_agreement_.HasJumped(belief)) {
+    has_jumped_ = has_jumped_ || has_followed();
+    followed_s_ = 0.0;
   }
-  return was_right ? std::move(found) : std::nullopt;
+  if (has_followed()) {
+    has_jumped_ = false;
+    return found;
+  }
+  const bool has_moved = imu_agreement_.HasMoved();
+  followed_s_ = found ? 0.0 : followed_s_ + (has_moved ? SecondsBetween(last, scan.middle()) : 0.0);
+  return found && has_jumped_ ? imu_agreement_.FindAfterJump(belief) : std::nullopt;
 }
 
 std::optional<Transition> Tracking::DoubtImu(const MatchedScan& scan) {

@@ -83,6 +83,13 @@ class Recovery(unittest.TestCase):
         self.assertEqual(stats["num_scans_without_imu"], 0)
         self.assertLess(ape_m, 0.1, "was 9.6 m")
 
+    def test_a_gyro_that_jumps_leaves_the_way_to_the_lidar(self):
+        for scenario, was in (("garage", "15 m"), ("street", "11 m")):
+            with self.subTest(scenario=scenario):
+                ape_m, stats = self.run_with("imu_offset:start=20,gyro=0.3,accel=0", "5", scenario)
+                self.assertEqual(stats["num_imu_contradicted"], 1)
+                self.assertLess(ape_m, 0.05, f"was {was}")
+
     def test_a_gyro_that_clips_is_helped_by_the_scans(self):
         ape_m, stats = self.run_with("gyro_saturation:limit=0.1,start=10,duration=8")
         self.assertGreater(stats["num_imu_clipped"], 100)

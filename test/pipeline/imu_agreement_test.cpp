@@ -167,6 +167,29 @@ TEST(ImuAgreement, AJumpOfThePosesIsTold) {
   EXPECT_TRUE(b.agreement.HasJumped(b.belief));
 }
 
+TEST(ImuAgreement, AGyroThatIsOffAfterAJumpIsFoundByEightTurnsAndAForceIsNot) {
+  Bench b;
+  ASSERT_FALSE(b.Scans(50));
+  const int broken_at = b.num_scans;
+  const auto turn = [&](ImuSample& sample) {
+    if (sample.stamp > StampFromZero(0.1 * (broken_at - 1))) sample.w_imu_radps.z() += 0.3;
+  };
+  const Vector3 jump(0.3, 0, 0);
+  for (int i = 1; i < 8; ++i) {
+    (void)b.Scan(turn, jump);
+    EXPECT_FALSE(b.agreement.FindAfterJump(b.belief)) << i;
+  }
+  (void)b.Scan(turn, jump);
+  const auto found = b.agreement.FindAfterJump(b.belief);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->sensor, ImuSensor::kGyro);
+
+  Bench force;
+  ASSERT_FALSE(force.Scans(50));
+  ASSERT_TRUE(force.Scans(50, ShiftForce));
+  EXPECT_FALSE(force.agreement.FindAfterJump(force.belief));
+}
+
 TEST(ImuAgreement, MapThatIsLeftForAnotherPlaceContradictsNothing) {
   Bench b;
   ASSERT_FALSE(b.Scans(50));

@@ -59,6 +59,9 @@ void StopYaw(ImuSample& sample) {
 void ShiftRate(ImuSample& sample) {
   sample.w_imu_radps.z() += 0.06;
 }
+void MakeRateJump(ImuSample& sample) {
+  sample.w_imu_radps.z() += 0.3;
+}
 void ShiftForce(ImuSample& sample) {
   sample.f_imu_mps2.x() += 1.0;
 }
@@ -107,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"Both", KillBoth, "reads the same all the time"},
                     Fault{"YawRate", StopYaw, "an axis of the gyro reads the same all the time"},
                     Fault{"RateOff", ShiftRate, "the gyro is 0.0"},
+                    Fault{"RateJumps", MakeRateJump, "the gyro is 0."},
                     Fault{"ForceOff", ShiftForce, "the accelerometer is "}),
     [](const auto& test) { return std::string(test.param.name); });
 

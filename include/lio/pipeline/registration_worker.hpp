@@ -63,6 +63,7 @@ class RegistrationWorker {
   // Matches with a few of the points; this ranks guesses and teaches the calibration nothing.
   MatchResult MatchCoarsely(MatchInput input, ScanInWork& scan);
   void MatchFromPrior(const Track& task, const SearchRequest* search, ScanInWork& scan);
+  MatchResult MatchAsMeasured(const MotionPrior& prior, ScanInWork& scan);
   MatchResult MatchBending(const MotionPrior& prior, ScanInWork& scan);
   MatchResult MatchBentFrom(const Pose& T_map_imu_guess, const Matrix6& cov, ScanInWork& scan);
   // Turns the prior about the vertical until most of the scan lies on the map, if any of it does.

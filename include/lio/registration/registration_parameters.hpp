@@ -71,6 +71,10 @@ struct MatchParameters {
   // A pose contradicts its guess where their distance is beyond what so many of a hundred have by
   // chance. Statistics.
   static constexpr double kAgreementProbability = 0.99;
+  // A scan whose support at its guess is more than this share of that at its match has slid along
+  // what it sees. Measured on simulated drives: .98 where a narrow view slid in an office, .89 and
+  // less where a gyro was off (docs/experiments/dead_imu.md).
+  static constexpr double kMaxSupportAtGuess = 0.95;
 };
 
 // Trunks, bushes and edges look different from each side.

@@ -16,6 +16,7 @@
 #include "lio/base/pose.hpp"
 #include "lio/registration/beam_calibration.hpp"
 #include "lio/registration/match_status.hpp"
+#include "lio/registration/registration_parameters.hpp"
 #include "lio/scan/feature_tag.hpp"
 #include "lio/scan/reduced_scan.hpp"
 
@@ -150,6 +151,10 @@ struct [[nodiscard]] MatchResult {
   // well at either. Given where the two contradict each other and the method tells.
   std::optional<double> support_at_guess;
 
+  // The two contradict each other, and the scan lies as well at the guess: it has slid.
+  [[nodiscard]] bool HasSlid() const {
+    return support_at_guess > MatchParameters::kMaxSupportAtGuess;
+  }
   [[nodiscard]] bool IsUsable() const {
     return status == MatchStatus::kConverged || status == MatchStatus::kDegenerate;
   }
