@@ -18,14 +18,15 @@ WorldEstimate InPublishedWorld(const Estimate& estimate, const Vector3& g_world)
   return g_world.isZero() ? WithMapAsWorld(estimate) : InWorld(estimate);
 }
 
-WorldEstimate WithDoubt(WorldEstimate estimate, const ReportContext& context) {
+WorldEstimate WithDoubt(WorldEstimate estimate, Timestamp stamp, const ReportContext& context) {
+  if (context.gate_doubt) AddGateDoubt(*context.gate_doubt, stamp, estimate);
   context.yaw_doubt.AddTo(estimate);
   if (const auto& std = context.extrinsic.std()) AddExtrinsicDoubt(*std, estimate);
   return estimate;
 }
 
 WorldEstimate Published(const Estimate& estimate, const ReportContext& context) {
-  return WithDoubt(InPublishedWorld(estimate, context.g_world), context);
+  return WithDoubt(InPublishedWorld(estimate, context.g_world), estimate.stamp, context);
 }
 
 // Returns the variance of the noise in the published rate: white noise as the gyro shows it, and no
@@ -62,6 +63,7 @@ NavOutput MakeNav(const Estimate& estimate, const ReportContext& context) {
   if (const auto& std = context.extrinsic.std()) {
     nav.map_pose_cov += ExtrinsicDoubtInMap(*std, nav.T_map_imu);
   }
+  if (context.gate_doubt) nav.map_pose_cov += GateDoubtInMap(*context.gate_doubt, nav.stamp);
   if (const auto& T_base_imu = context.options.rig.T_base_imu) {
     nav.base = MoveToBase(nav, published.cov, RateVariance(nav.stamp, context), *T_base_imu);
   }
@@ -75,7 +77,8 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
   const MapVelocity velocity = VelocityInMap(estimate);
   filter.v_map_imu_mps = velocity.v_map_imu;
   filter.map_velocity_cov = velocity.cov;
-  filter.map_as_world_cov = WithDoubt(WithMapAsWorld(estimate), context).cov.topLeftCorner<6, 6>();
+  filter.map_as_world_cov =
+      WithDoubt(WithMapAsWorld(estimate), estimate.stamp, context).cov.topLeftCorner<6, 6>();
   filter.gyro_bias_radps = estimate.state.gyro_bias;
   filter.accel_bias_mps2 = estimate.state.accel_bias;
   filter.g_world_mps2 = context.g_world;

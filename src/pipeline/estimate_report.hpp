@@ -12,6 +12,7 @@
 #include "lio/verdict/run_tally.hpp"
 #include "pipeline/clock_offset_follower.hpp"
 #include "pipeline/extrinsic_follower.hpp"
+#include "pipeline/gate_doubt.hpp"
 #include "pipeline/yaw_doubt.hpp"
 
 namespace lio {
@@ -26,6 +27,7 @@ struct ReportContext {
   const ClockOffsetFollower& clocks;
   const ExtrinsicFollower& extrinsic;
   const YawDoubt& yaw_doubt;
+  std::optional<GateDoubt> gate_doubt = {};
 };
 
 [[nodiscard]] NavOutput MakeNav(const Estimate& estimate, const ReportContext& context);

@@ -83,7 +83,8 @@ ReportContext Tracking::MakeReportContext() const {
           .imu = &context_.stream.imu(),
           .clocks = context_.clocks,
           .extrinsic = context_.extrinsic,
-          .yaw_doubt = handover_.yaw_doubt};
+          .yaw_doubt = handover_.yaw_doubt,
+          .gate_doubt = gate_doubt_};
 }
 
 void Tracking::AddSweep(const Sweep& sweep) {
@@ -112,14 +113,10 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   return job;
 }
 
-// It may be right and the gyro wrong: then the error has grown since the last scan that was fused.
 void Tracking::GuessFromGated(MatchJob& job) const {
-  if (!gated_by_ || outage_.is_running() || !handover_.last_located || !last_middle_) return;
-  const double until_gated_s = SecondsBetween(*handover_.last_located, *last_middle_);
-  if (until_gated_s < kScanStep.min_since_last_fix_s) return;
-  const double growth = job.prior.since_last_fix_s / until_gated_s;
-  if (growth > 1.0 && growth <= kScanStep.max_growth_of_gated)
-    CorrectPrior(growth * *gated_by_, job);
+  if (gate_doubt_ && !outage_.is_running()) {
+    CorrectPrior(gate_doubt_->At(job.sweep->middle()), job);
+  }
 }
 
 std::optional<Transition> Tracking::FinishJob(const MatchOutcome& outcome, InsertTask& insert) {
@@ -194,16 +191,17 @@ ScanReport Tracking::FuseWithTrend(const MatchedScan& scan) {
 }
 
 void Tracking::NoteIfGated(const MatchedScan& scan, const ScanReport& report) {
-  gated_by_.reset();
+  gate_doubt_.reset();
   const MatchResult& match = scan.outcome.match;
   const bool is_gated = !report.fused && report.nis > 0.0;
-  if (!is_gated || match.HasSlid()) return;
+  if (!is_gated || match.HasSlid() || !handover_.last_located) return;
   const Estimate predicted = history_.At(scan.middle());
   const Vector6 by = LogSe3(predicted.state.T_map_imu.Inverse() * match.T_map_imu);
   const Matrix3 turn_cov =
       predicted.cov.block<3, 3>(kMapPose + 3, kMapPose + 3) + match.cov.bottomRightCorner<3, 3>();
   const Vector3 turn = by.tail<3>();
-  if (turn.dot(turn_cov.ldlt().solve(turn)) > context_.nis_limit) gated_by_ = by;
+  if (turn.dot(turn_cov.ldlt().solve(turn)) <= context_.nis_limit) return;
+  gate_doubt_ = GateDoubt{by, scan.middle(), *handover_.last_located};
 }
 
 void Tracking::RememberForHandover(const MatchedScan& scan, bool is_fused) {

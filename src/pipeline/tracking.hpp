@@ -77,7 +77,7 @@ class Tracking {
   // Takes one that shows something new, while the place is known or sought.
   [[nodiscard]] std::optional<Transition> TakeScan(const MatchedScan& scan, InsertTask& insert,
                                                    std::int64_t begin_ns);
-  // Takes a last match into account that was beyond the gate since it has turned otherwise.
+  // Takes a last match into account that was beyond the gate.
   void GuessFromGated(MatchJob& job) const;
   void NoteIfGated(const MatchedScan& scan, const ScanReport& report);
   ScanReport FuseWithTrend(const MatchedScan& scan);
@@ -160,11 +160,9 @@ class Tracking {
   bool is_stale_told_ = false;
   double followed_s_ = 0.0;  // time of scans that showed a motion which the samples followed
   bool has_jumped_ = false;  // the poses did, and the samples had followed them before
-  // The last match was beyond the gate by this turn and shift, a right increment from its
-  // prediction.
-  std::optional<Vector6> gated_by_;
-  bool is_first_scan_;           // the map is still empty
-  bool is_map_rebased_ = false;  // and no scan has matched it yet
+  std::optional<GateDoubt> gate_doubt_;  // by the last match, where it was beyond the gate
+  bool is_first_scan_;                   // the map is still empty
+  bool is_map_rebased_ = false;          // and no scan has matched it yet
 };
 
 }  // namespace lio

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The liod authors
+// SPDX-License-Identifier: MIT
+#include "pipeline/gate_doubt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/tracking_bench.hpp"
+
+namespace lio {
+namespace {
+
+using test::SecondsOf;
+
+GateDoubt Doubt() {
+  GateDoubt doubt;
+  doubt.by << 0.1, 0.2, 0.0, 0.0, 0.0, 0.03;
+  doubt.stamp = test::StampAt(10.1);
+  doubt.last_fix = test::StampAt(10.0);
+  return doubt;
+}
+
+TEST(GateDoubt, GrowsWithTheTimeSinceTheLastFixButNotForEver) {
+  const GateDoubt doubt = Doubt();
+  EXPECT_LT(doubt.At(test::StampAt(10.0)).norm(), 1e-9);
+  EXPECT_LT((doubt.At(doubt.stamp) - doubt.by).norm(), 1e-6);
+  EXPECT_LT((doubt.At(test::StampAt(10.2)) - 2.0 * doubt.by).norm(), 1e-6);
+  EXPECT_LT(doubt.At(test::StampAt(11.0)).norm(), 2.5 * doubt.by.norm());
+}
+
+TEST(GateDoubt, WhatIsPublishedHoldsEitherPose) {
+  const GateDoubt doubt = Doubt();
+  WorldEstimate estimate;
+  estimate.T_world_imu = {ExpSo3({0.1, 0.2, 1.0}), {3, 4, 5}};
+  estimate.cov.setZero();
+  AddGateDoubt(doubt, doubt.stamp, estimate);
+  const Pose other = estimate.T_world_imu * ExpSe3(doubt.by);
+  const Vector3 shift = other.translation - estimate.T_world_imu.translation;
+  EXPECT_LT((estimate.cov.block<3, 3>(kPos, kPos) - shift * shift.transpose()).norm(), 2e-3);
+  EXPECT_NEAR(estimate.cov(kRot + 2, kRot + 2), 0.03 * 0.03, 1e-9);
+  EXPECT_LT((GateDoubtInMap(doubt, doubt.stamp) - doubt.by * doubt.by.transpose()).norm(), 1e-9);
+}
+
+struct GatedMatches : test::TrackingBench {
+  static constexpr double kFrom_s = 4.0;
+
+  GatedMatches() : TrackingBench(test::Straight(test::kSpeed_mps)) {
+    while (sweep_start_s < kFrom_s) (void)Finish(bench.Matched(NextJob(), motion));
+  }
+  // Returns what is published of a scan that is matched off by this.
+  ScanOutput Take(const Vector6& by) {
+    MatchOutcome outcome = bench.Matched(NextJob(), motion);
+    outcome.match.T_map_imu = outcome.match.T_map_imu * ExpSe3(by);
+    (void)Finish(outcome);
+    return bench.Take<ScanOutput>().back();
+  }
+};
+
+Vector6 Turn(double angle_rad) {
+  Vector6 by = Vector6::Zero();
+  by[5] = angle_rad;
+  return by;
+}
+
+TEST(GateDoubt, AScanThatIsGatedForItsTurnForetellsTheNextOne) {
+  GatedMatches drive;
+  const ScanOutput output = drive.Take(Turn(0.05));
+  ASSERT_FALSE(output.scan.fused);
+  EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.05);
+  const MatchJob job = drive.NextJob();
+  const Pose T_map_imu = test::StateOf(drive.motion, SecondsOf(job.sweep->middle())).T_world_imu;
+  const Vector3 turn = LogSo3(T_map_imu.rotation.conjugate() * job.prior.T_map_imu.rotation);
+  EXPECT_NEAR(turn.z(), 0.1, 0.01);
+}
+
+TEST(GateDoubt, AScanThatIsGatedForItsPlaceForetellsNothing) {
+  GatedMatches drive;
+  Vector6 aside = Vector6::Zero();
+  aside[1] = 1.0;
+  const ScanOutput output = drive.Take(aside);
+  ASSERT_FALSE(output.scan.fused);
+  EXPECT_LT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.01);
+  const MatchJob job = drive.NextJob();
+  const Pose T_map_imu = test::StateOf(drive.motion, SecondsOf(job.sweep->middle())).T_world_imu;
+  EXPECT_LT((T_map_imu.translation - job.prior.T_map_imu.translation).norm(), 0.1);
+}
+
+}  // namespace
+}  // namespace lio
