@@ -30,7 +30,7 @@ bool MayBeMeasuredWrongly(const MatchResult& match, const MatchJob& job, std::si
   const bool is_near = !IsUnseen(job) && job.map_action == MapAction::kKeep &&
                        match.status != MatchStatus::kEmptyMap;
   const bool lies_badly = match.support_at_guess ? !match.HasSlid() : !match.IsUsable();
-  return is_near && lies_badly && !job.refines_deskew &&
+  return job.doubts_gyro && is_near && lies_badly &&
          num_points >= static_cast<std::size_t>(kHealth.min_points);
 }
 

@@ -96,7 +96,8 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
   job.bends_scan = job.refines_deskew;
   if (job.bends_scan) {
     CorrectPrior(trend_.Expected(), job);
-  } else {
+  } else if (IsRigKnown()) {
+    job.doubts_gyro = true;
     GuessFromGated(job);
   }
   if (is_first_scan_) job.map_action = MapAction::kClear;
@@ -111,6 +112,13 @@ MatchJob Tracking::MakeJob(const SweepPtr& sweep) const {
     job.task = Relocalize{std::get<Track>(job.task), {SearchRegion::kTracked, {}}};
   }
   return job;
+}
+
+// Until the drive has shown the rig, a scan that has turned otherwise than the gyro says may tell
+// of a wrong extrinsic or of another convention, which are found elsewhere.
+bool Tracking::IsRigKnown() const {
+  const std::optional<RigBounds>& bounds = context_.examiner.bounds();
+  return bounds && bounds->rotation_rad.norm() < kImuAgreement.rotation_error_rad;
 }
 
 void Tracking::GuessFromGated(MatchJob& job) const {

@@ -78,6 +78,7 @@ class Tracking {
   [[nodiscard]] std::optional<Transition> TakeScan(const MatchedScan& scan, InsertTask& insert,
                                                    std::int64_t begin_ns);
   // Takes a last match into account that was beyond the gate.
+  bool IsRigKnown() const;
   void GuessFromGated(MatchJob& job) const;
   void NoteIfGated(const MatchedScan& scan, const ScanReport& report);
   ScanReport FuseWithTrend(const MatchedScan& scan);

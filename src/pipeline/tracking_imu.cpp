@@ -37,7 +37,8 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   }
   const bool has_moved = imu_agreement_.HasMoved();
   followed_s_ = found ? 0.0 : followed_s_ + (has_moved ? SecondsBetween(last, scan.middle()) : 0.0);
-  return found && has_jumped_ ? imu_agreement_.FindAfterJump(belief) : std::nullopt;
+  if (!found || !has_jumped_ || !IsRigKnown()) return std::nullopt;
+  return imu_agreement_.FindAfterJump(belief);
 }
 
 std::optional<Transition> Tracking::DoubtImu(const MatchedScan& scan) {

@@ -59,6 +59,9 @@ struct MatchJob {
   // True bends the scan along with the pose that is found, as nothing else measured the motion
   // within it.
   bool bends_scan = false;
+  // True matches the scan once more, bent by a turn that nobody has measured, where it lies badly
+  // along the trajectory: the gyro may be wrong.
+  bool doubts_gyro = false;
   // The extrinsic that trajectory and prior are of. Absent: the rig has it.
   std::optional<Pose> T_imu_lidar = std::nullopt;
   bool seeks_place = false;  // seek the map's place in the initial map besides
