@@ -102,7 +102,7 @@ TEST_P(DeadImu, IsBelievedAgainOnceItFollowsTheScans) {
   EXPECT_GT(SecondsOf(run.navs.back().stamp), kLongEnd_s - 0.5);
 }
 
-// So large a jump bends the scans. By then the drive has shown the rig, which might be wrong else.
+// So large a jump bends the scans. The drive has shown by then that the rig is right.
 TEST(DeadImuLater, AGyroThatJumpsFarIsFoundBeforeTheWayIsLost) {
   const RunResult run =
       RunOdometry(Broken(JumpRate, kLongEnd_s, kLongEnd_s - 4.0), test::DriveRig());
