@@ -55,11 +55,12 @@ void GaussianMap::NoteRay(const Vector3& sensor_map, const Vector3& point_map) {
   for (int i = 1; i < end_steps; ++i) on_ray_map_.push_back(sensor_map + i * step_m * direction);
   on_ray_.resize(on_ray_map_.size());
   FindAll(on_ray_map_, on_ray_);
+  const Eigen::Vector3f along = direction.cast<float>();
+  const auto voxel_m = static_cast<float>(step_m);
   for (std::size_t i = 0; i < on_ray_.size(); ++i) {
     const auto& [cell, local] = on_ray_[i];
     if (cell == kNoCell || patch(cell).thickness_var == 0.f) continue;
-    const std::optional<float> further = DistanceToMiddle(
-        patch(cell), local, direction.cast<float>(), static_cast<float>(options_.voxel_m));
+    const std::optional<float> further = DistanceToMiddle(patch(cell), local, along, voxel_m);
     if (further && static_cast<double>(i + 1) * step_m + *further < end_m) NotePass(cell);
   }
 }

@@ -23,8 +23,8 @@ struct ScanStepParameters {
   // A prior counts as having run free for this time at least, so that rates by it stay finite.
   // Chosen: a tenth of a sweep at 10 Hz.
   double min_since_last_fix_s = 0.01;
-  // The distance of a gated match from its prediction foretells that of the next one if it grows by
-  // this factor at most. Chosen: the first scan that is gated is about one sweep after the last
+  // The distance of a gated match from its prediction foretells that of the next one, grown by this
+  // factor at most. Chosen: the first scan that is gated is about one sweep after the last
   // fix, and the next one two.
   double max_growth_of_gated = 2.2;
 };

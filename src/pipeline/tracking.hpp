@@ -77,8 +77,8 @@ class Tracking {
   // Takes one that shows something new, while the place is known or sought.
   [[nodiscard]] std::optional<Transition> TakeScan(const MatchedScan& scan, InsertTask& insert,
                                                    std::int64_t begin_ns);
-  // Takes a last match into account that was beyond the gate.
   bool IsRigKnown() const;
+  // Takes a last match into account that was beyond the gate.
   void GuessFromGated(MatchJob& job) const;
   void NoteIfGated(const MatchedScan& scan, const ScanReport& report);
   ScanReport FuseWithTrend(const MatchedScan& scan);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "pipeline/tracking_bench.hpp"
-#include "verdict/rig_drive.hpp"
+#include "verdict/known_rig.hpp"
 
 namespace lio {
 namespace {
@@ -49,15 +49,7 @@ struct GatedMatches : test::TrackingBench {
   GatedMatches() : TrackingBench(test::Straight(test::kSpeed_mps)) {
     while (sweep_start_s < kFrom_s) (void)Finish(bench.Matched(NextJob(), motion));
   }
-  // A drive before has shown that the rig is right within centimetres.
-  void KnowTheRig() {
-    using test::ExamplePose;
-    bench.examiner.record() =
-        test::RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()});
-    (void)bench.examiner.Look(test::StampAt(0.0));
-    (void)bench.examiner.Look(test::StampAt(40.0));
-    ASSERT_TRUE(bench.examiner.bounds());
-  }
+  static Pose Turned() { return {ExpSo3({0, 0, 0.05}), Vector3::Zero()}; }
   // Returns how far the next scan is believed to have turned from the truth, rad.
   double TurnOfNext() {
     const MatchJob job = NextJob();
@@ -65,24 +57,18 @@ struct GatedMatches : test::TrackingBench {
     return LogSo3(truth.rotation.conjugate() * job.prior.T_map_imu.rotation).z();
   }
   // Returns what is published of a scan that is matched off by this.
-  ScanOutput Take(const Vector6& by) {
+  ScanOutput Take(const Pose& by) {
     MatchOutcome outcome = bench.Matched(NextJob(), motion);
-    outcome.match.T_map_imu = outcome.match.T_map_imu * ExpSe3(by);
+    outcome.match.T_map_imu = outcome.match.T_map_imu * by;
     (void)Finish(outcome);
     return bench.Take<ScanOutput>().back();
   }
 };
 
-Vector6 Turn(double angle_rad) {
-  Vector6 by = Vector6::Zero();
-  by[5] = angle_rad;
-  return by;
-}
-
 TEST(GateDoubt, AScanThatIsGatedForItsTurnForetellsTheNextOne) {
   GatedMatches drive;
-  drive.KnowTheRig();
-  const ScanOutput output = drive.Take(Turn(0.05));
+  test::KnowTheRig(drive.bench.examiner);
+  const ScanOutput output = drive.Take(GatedMatches::Turned());
   ASSERT_FALSE(output.scan.fused);
   EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.05);
   EXPECT_NEAR(drive.TurnOfNext(), 0.1, 0.01);
@@ -90,17 +76,15 @@ TEST(GateDoubt, AScanThatIsGatedForItsTurnForetellsTheNextOne) {
 
 TEST(GateDoubt, BeforeTheRigIsKnownItMayBeTheRigAndIsPublishedOnly) {
   GatedMatches drive;
-  const ScanOutput output = drive.Take(Turn(0.05));
+  const ScanOutput output = drive.Take(GatedMatches::Turned());
   EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.05);
   EXPECT_NEAR(drive.TurnOfNext(), 0.0, 0.01);
 }
 
 TEST(GateDoubt, AScanThatIsGatedForItsPlaceForetellsNothing) {
   GatedMatches drive;
-  drive.KnowTheRig();
-  Vector6 aside = Vector6::Zero();
-  aside[1] = 1.0;
-  const ScanOutput output = drive.Take(aside);
+  test::KnowTheRig(drive.bench.examiner);
+  const ScanOutput output = drive.Take({Quaternion::Identity(), {0, 1, 0}});
   ASSERT_FALSE(output.scan.fused);
   EXPECT_LT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.01);
   const MatchJob job = drive.NextJob();

@@ -8,7 +8,7 @@
 
 #include "lio/base/chi_square.hpp"
 #include "pipeline/mode_bench.hpp"
-#include "verdict/rig_drive.hpp"
+#include "verdict/known_rig.hpp"
 
 namespace lio {
 namespace {
@@ -41,14 +41,7 @@ class ScanFusionTest : public testing::Test {
     (void)bench_.FeedImu(test::Straight(0.0), from_s, to_s);
   }
   // A drive before has shown that the rig is right within centimetres.
-  void KnowTheRig() {
-    using test::ExamplePose;
-    bench_.examiner.record() =
-        test::RecordDrive({.T_imu_lidar = ExamplePose(), .T_configured = ExamplePose()});
-    (void)bench_.examiner.Look(StampAt(0.0));
-    (void)bench_.examiner.Look(StampAt(40.0));
-    ASSERT_TRUE(bench_.examiner.bounds());
-  }
+  void KnowTheRig() { test::KnowTheRig(bench_.examiner); }
   // Returns the next scan, matched so far away from the truth.
   MatchOutcome MatchedAt(double x_m) {
     auto sweep = std::make_shared<Sweep>();
