@@ -49,6 +49,16 @@ function(lio_unite target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
+# lio_inline_eigen(TARGET): a sanitizer's checks make functions too large for clang to inline, and
+# Eigen calls dozens of them for one sum; with this the estimator runs at three times the speed. Only
+# for optimized sources: at -O0 the compiler takes gigabytes.
+function(lio_inline_eigen target)
+  if(LIO_SANITIZE)
+    target_compile_definitions(${target} PRIVATE
+      "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+  endif()
+endfunction()
+
 # lio_library(NAME MODULE...): a static library of every source in src/<MODULE>/, one folder a module.
 function(lio_library name)
   set(sources "")
@@ -65,6 +75,7 @@ function(lio_library name)
   # compiler inlines as in a program.
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${name} PRIVATE -fno-semantic-interposition)
+  lio_inline_eigen(${name})
   # Fuzzers see which branches an input takes in what reads bytes; the estimator would only be slowed.
   if(LIO_FUZZ AND name MATCHES "^lio_(io|convert|eval|report)$")
     target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)
@@ -125,8 +136,8 @@ function(lio_test name)
   endif()
   add_executable(${name} ${sources})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/test ${CMAKE_SOURCE_DIR}/src)
-  target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS} GTest::gtest GTest::gmock
-    GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE lio_warnings ${arg_LIBS} lio_build_paths
+    GTest::gtest GTest::gmock GTest::gtest_main)
   lio_unite(${name})
   lio_test_options(${name} ${arg_LIBS})
   set(mode POST_BUILD)

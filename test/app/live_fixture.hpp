@@ -19,11 +19,12 @@
 #include "app/live_runner.hpp"
 #include "lio/io/event_log.hpp"
 #include "lio/io/options_yaml.hpp"
+#include "support/build_paths.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
 
-inline const std::filesystem::path kScene = LIO_SCENE_DIR;
+inline const std::filesystem::path kScene = test::SceneDir();
 
 inline Options SceneOptions() {
   LoadResult loaded = LoadOptions({kScene / "config.yaml"}, {"pipeline.max_queued_scans=50"});

@@ -10,6 +10,7 @@
 #include "convert/numbered_messages.hpp"
 #include "lio/convert/ros_cursor.hpp"
 #include "lio/io/input_error.hpp"
+#include "support/build_paths.hpp"
 #include "support/mcap_writer.hpp"
 #include "support/temp_dir.hpp"
 
@@ -173,7 +174,7 @@ TEST_P(McapReaderTest, ADamagedSummaryIsNotBelieved) {
 
 // The file was written by @mcap/core 2.2.2 of npm with test/convert/data/mcap_core.mjs.
 TEST(McapOfOthers, FromTheFormatsOwnLibraryIsRead) {
-  const auto bag = OpenMcap(std::string(LIO_SOURCE_DIR) + "/test/convert/data/mcap_core.mcap");
+  const auto bag = OpenMcap(test::SourceDir() + "/test/convert/data/mcap_core.mcap");
   EXPECT_TRUE(bag->knows_all_topics());
   ASSERT_EQ(bag->topics().size(), 2u);
   EXPECT_EQ(bag->topics()[1].type, "std_msgs/UInt16");

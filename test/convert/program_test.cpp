@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "support/build_paths.hpp"
 #include "support/mcap_writer.hpp"
 #include "support/run_program.hpp"
 #include "support/spinning_lidar.hpp"
@@ -21,7 +22,7 @@ constexpr Timestamp kLogBegin{1'500'000'000'000'000'000};
 class ConvertProgram : public testing::Test {
  protected:
   ProgramResult Run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), LIO_CONVERT_PROGRAM);
+    arguments.insert(arguments.begin(), test::Program("lio-convert"));
     return test::RunProgram(arguments);
   }
   // Expects one line on stderr that begins with the program's name.
@@ -240,7 +241,7 @@ TEST_F(ConvertProgram, ACutMcapIsConvertedUpToTheCutAndIs5) {
 TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
   const auto peak_kb = [&](int num_clouds) {
     const std::string bag = WriteBag({"/points"}, num_clouds, {.compression = "lz4"});
-    return test::PeakMemoryKb({LIO_CONVERT_PROGRAM, "rosbag", bag, Path("o.lcm")});
+    return test::PeakMemoryKb({test::Program("lio-convert"), "rosbag", bag, Path("o.lcm")});
   };
   const std::int64_t of_short = peak_kb(100);
   const std::int64_t of_long = peak_kb(400);
@@ -252,7 +253,7 @@ TEST_F(ConvertProgram, MemoryDoesNotGrowWithTheBag) {
 TEST_F(ConvertProgram, MemoryDoesNotGrowWithAnMcapFile) {
   const auto peak_kb = [&](int num_clouds) {
     const std::string mcap = WriteMcap(num_clouds, "zstd");
-    return test::PeakMemoryKb({LIO_CONVERT_PROGRAM, "rosbag", mcap, Path("o.lcm")});
+    return test::PeakMemoryKb({test::Program("lio-convert"), "rosbag", mcap, Path("o.lcm")});
   };
   const std::int64_t of_short = peak_kb(100);
   EXPECT_GT(of_short, 0);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "eval/paths.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -59,7 +60,7 @@ class ConsistencyCommand : public ::testing::Test {
   }
 
   test::ProgramResult Run(const std::vector<std::string>& arguments) {
-    std::vector<std::string> command = {LIO_EVAL_PROGRAM, "consistency"};
+    std::vector<std::string> command = {test::Program("lio-eval"), "consistency"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return test::RunProgram(command);
   }

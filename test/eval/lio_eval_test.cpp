@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/paths.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -28,7 +29,7 @@ class LioEval : public ::testing::Test {
 
   test::ProgramResult Run(std::vector<std::string> arguments,
                           const std::vector<std::string>& environment = {}) {
-    arguments.insert(arguments.begin(), LIO_EVAL_PROGRAM);
+    arguments.insert(arguments.begin(), test::Program("lio-eval"));
     return test::RunProgram(arguments, environment);
   }
   // Expects one line on stderr that holds `part`.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/targets.hpp"
+#include "support/build_paths.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -19,7 +20,7 @@ namespace {
 class FuzzCorpus : public ::testing::TestWithParam<fuzz::Target> {};
 
 TEST_P(FuzzCorpus, EveryInputIsReadOrRefused) {
-  const std::filesystem::path folder = LIO_SOURCE_DIR "/test/fuzz/corpus";
+  const std::filesystem::path folder = test::SourceDir() + "/test/fuzz/corpus";
   std::vector<std::filesystem::path> inputs;
   for (const auto& entry : std::filesystem::directory_iterator(folder / GetParam().name)) {
     inputs.push_back(entry.path());

@@ -14,6 +14,7 @@
 #include "lio/reply_t.hpp"
 #include "lio/scan_t.hpp"
 #include "lio/status_t.hpp"
+#include "support/build_paths.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -26,7 +27,7 @@ std::string Row(const std::string& name) {
 }
 
 TEST(MessagesDoc, FingerprintsAndSizesAreThoseOfTheTypes) {
-  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::filesystem::path source = test::SourceDir();
   const std::string doc = test::ReadText(source / "docs" / "messages.md");
   for (const std::string& row :
        {Row<imu_t>("imu_t"), Row<scan_t>("scan_t"), Row<odometry_t>("odometry_t"),
@@ -37,7 +38,7 @@ TEST(MessagesDoc, FingerprintsAndSizesAreThoseOfTheTypes) {
 }
 
 TEST(MessagesDoc, EveryTypeIsListed) {
-  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::filesystem::path source = test::SourceDir();
   const std::string doc = test::ReadText(source / "docs" / "messages.md");
   for (const auto& entry : std::filesystem::directory_iterator(source / "lcmtypes")) {
     const std::string stem = entry.path().stem().string();  // lio_imu_t
@@ -46,7 +47,7 @@ TEST(MessagesDoc, EveryTypeIsListed) {
 }
 
 TEST(MessagesDoc, EveryCounterIsListedWithItsMeaning) {
-  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::filesystem::path source = test::SourceDir();
   const std::string doc = test::ReadText(source / "docs" / "messages.md");
   for (const CounterField& field : kCounterFields) {
     EXPECT_THAT(doc, ::testing::HasSubstr(fmt::format("| `{}` | {} |", field.name, field.meaning)));

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "support/beams.hpp"
+#include "support/build_paths.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -231,7 +232,7 @@ TEST_F(OptionsYaml, PrintedOptionsLoadAsTheSameValues) {
 // --- the files in config/ ---
 
 std::filesystem::path Config(const std::string& name) {
-  return std::filesystem::path(LIO_SOURCE_DIR) / "config" / name;
+  return std::filesystem::path(test::SourceDir()) / "config" / name;
 }
 
 TEST(ConfigFiles, DefaultYamlIsWhatTheStructsSay) {

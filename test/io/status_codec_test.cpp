@@ -11,6 +11,7 @@
 #include "lio/base/counters_fields.hpp"
 #include "lio/io/status_report.hpp"
 #include "lio/status_t.hpp"
+#include "support/build_paths.hpp"
 #include "support/temp_dir.hpp"
 
 namespace lio {
@@ -70,7 +71,7 @@ TEST(StatusCodec, EveryCountOfTheEstimatorArrives) {
 
 // Returns the names of the type's int64 fields, in their order.
 std::vector<std::string> CountsOfTheType() {
-  const std::filesystem::path source = LIO_SOURCE_DIR;
+  const std::filesystem::path source = test::SourceDir();
   const std::string type = test::ReadText(source / "lcmtypes" / "lio_status_t.lcm");
   const std::regex field("int64_t (\\w+);");
   std::vector<std::string> names;

@@ -9,12 +9,14 @@
 #include <sstream>
 #include <string>
 
+#include "support/build_paths.hpp"
+
 namespace lio {
 namespace {
 
 // Returns the lines with an arrow between the marks of docs/design.md, without indentation.
 std::multiset<std::string> DrawnTransitions() {
-  std::ifstream page(LIO_SOURCE_DIR "/docs/design.md");
+  std::ifstream page(test::SourceDir() + "/docs/design.md");
   std::multiset<std::string> drawn;
   bool is_inside = false;
   for (std::string line; std::getline(page, line);) {

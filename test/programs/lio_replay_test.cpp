@@ -9,6 +9,7 @@
 
 #include "lio/io/event_log.hpp"
 #include "programs/scene_folder.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -23,12 +24,8 @@ class LioReplayTest : public ::testing::Test {
  protected:
   test::ProgramResult Replay(const std::string& log, const std::string& out,
                              const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {std::string(LIO_BIN_DIR) + "/lio-replay",
-                                        "--config",
-                                        kScene + "/config.yaml",
-                                        log,
-                                        "--out",
-                                        Path(out)};
+    std::vector<std::string> command = {
+        test::Program("lio-replay"), "--config", kScene + "/config.yaml", log, "--out", Path(out)};
     command.insert(command.end(), more.begin(), more.end());
     return test::RunProgram(command);
   }
@@ -167,7 +164,7 @@ TEST_F(LioReplayTest, LidarOnlyGivesATrajectoryToo) {
 }
 
 TEST_F(LioReplayTest, WrongArgumentsAreUsageErrorsInOneLine) {
-  const std::string program = std::string(LIO_BIN_DIR) + "/lio-replay";
+  const std::string program = test::Program("lio-replay");
   for (const auto& arguments : std::vector<std::vector<std::string>>{
            {}, {"log.lcm"}, {"--threads", "0", "log.lcm", "--out", "x"}, {"--nonsense"}}) {
     std::vector<std::string> command = {program};
@@ -181,7 +178,7 @@ TEST_F(LioReplayTest, WrongArgumentsAreUsageErrorsInOneLine) {
 }
 
 TEST_F(LioReplayTest, HelpTeachesAndVersionTells) {
-  const std::string program = std::string(LIO_BIN_DIR) + "/lio-replay";
+  const std::string program = test::Program("lio-replay");
   const auto help = test::RunProgram({program, "--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.out, HasSubstr("Examples:"));

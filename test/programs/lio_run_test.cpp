@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "programs/scene_folder.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -20,7 +21,7 @@ using ::testing::Not;
 class LioRunTest : public ::testing::Test {
  protected:
   test::ProgramResult Run(const std::vector<std::string>& words) {
-    std::vector<std::string> command = {std::string(LIO_BIN_DIR) + "/lio-run"};
+    std::vector<std::string> command = {test::Program("lio-run")};
     command.insert(command.end(), words.begin(), words.end());
     return test::RunProgram(command);
   }

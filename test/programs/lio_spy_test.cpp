@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -11,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kSpy = std::string(LIO_BIN_DIR) + "/lio-spy";
+const std::string kSpy = test::Program("lio-spy");
 
 TEST(LioSpy, HelpTeachesAndVersionTells) {
   const auto help = test::RunProgram({kSpy, "--help"});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "programs/scene_folder.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
@@ -16,7 +17,7 @@ using test::kScene;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kBin = LIO_BIN_DIR;
+const std::string kBin = test::BinDir();
 constexpr const char* kUp = "ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; ";
 
 // Runs a shell script in a network namespace of its own, without others' multicast; needs no root.

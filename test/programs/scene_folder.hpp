@@ -5,8 +5,10 @@
 
 #include <string>
 
+#include "support/build_paths.hpp"
+
 namespace lio::test {
 
-inline const std::string kScene = LIO_SCENE_DIR;
+inline const std::string kScene = SceneDir();
 
 }  // namespace lio::test

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "lio/sim/scenario.hpp"
+#include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio::sim {
 namespace {
 
 test::ProgramResult Simulate(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), LIO_SIM_PROGRAM);
+  arguments.insert(arguments.begin(), test::Program("lio-sim"));
   return test::RunProgram(arguments);
 }
 
@@ -66,7 +67,7 @@ TEST(LioSim, ALinkAmongItsFilesIsReplacedAndNotWrittenThrough) {
 TEST(LioSim, ItsMemoryDoesNotGrowWithTheDuration) {
   const test::TempDir dir;
   const auto peak_kb = [&](const std::string& duration) {
-    return test::PeakMemoryKb({LIO_SIM_PROGRAM, "--scenario", "hall", "--lidar", "vlp16",
+    return test::PeakMemoryKb({test::Program("lio-sim"), "--scenario", "hall", "--lidar", "vlp16",
                                "--duration", duration, "--out", dir.path().string()});
   };
   const std::int64_t of_short_kb = peak_kb("4");

@@ -14,11 +14,13 @@
 #include <filesystem>
 #include <string>
 
+#include "support/build_paths.hpp"
+
 namespace lio::test {
 
 inline std::filesystem::path SharedDataFolder() {
   if (const char* given = std::getenv("LIO_DATA")) return given;
-  return std::filesystem::path(LIO_SOURCE_DIR).parent_path() / "shared" / "data";
+  return std::filesystem::path(SourceDir()).parent_path() / "shared" / "data";
 }
 
 // Unpacks "x.bag.xz" to the file x.bag, and "x.tar.xz" to a folder with the archive's content, once
@@ -29,7 +31,7 @@ inline std::filesystem::path UnpackSharedData(const std::string& archive) {
   if (!fs::exists(source)) return {};
   const bool is_tar = archive.ends_with(".tar.xz");
   const fs::path target =
-      fs::path(LIO_TEST_DATA_DIR) / archive.substr(0, archive.size() - (is_tar ? 7 : 3));
+      fs::path(TestDataDir()) / archive.substr(0, archive.size() - (is_tar ? 7 : 3));
   if (fs::exists(target)) return target;
   // Tests run in parallel: each unpacks for itself, and the first to finish names the result.
   const fs::path own = target.string() + "." + std::to_string(getpid());
