@@ -10,7 +10,7 @@ namespace lio::test {
 
 std::string SourceDir();    // the source tree
 std::string BinDir();       // the programs of this build
-std::string TestDataDir();  // where the shared data are unpacked, once per build folder
+std::string TestDataDir();  // the shared data, unpacked once per build folder
 std::string SceneDir();     // a short simulated drive that the tests of whole programs share
 
 // The path of the named program of this build, such as "lio-eval".

@@ -41,8 +41,9 @@ struct PipelineOptions {
   // loses late chunks, more delays each scan with a lost one.
   double incomplete_sweep_wait_s = 0.05;
   bool map_locked = false;  // the initial map stays as it is; chosen: places change
-  // Live only: more waiting scans than this, and the oldest is dropped. Chosen: half a second late
-  // at 10 Hz; more is old news to whoever steers by it.
+  // Live, more waiting scans than this, and the oldest is dropped. Live and replayed alike, a clock
+  // offset that is found moves the scans that come so many + 3 later: a live scan may wait so long
+  // for its match. Chosen: half a second late at 10 Hz; more is old news to whoever steers by it.
   int max_queued_scans = 5;
   bool publish_features = false;  // live only, method loam only: each scan's edge and surface sets
 };

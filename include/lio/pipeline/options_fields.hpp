@@ -159,7 +159,9 @@ void VisitFields(Visitor& visit, MaybeConst<PipelineOptions> auto& o) {
         "an incomplete sweep is closed when the IMU is this far past its end [s]", Range{0, 1});
   visit("map_locked", o.map_locked, "with --initial-map: scans leave that map as it is");
   visit("max_queued_scans", o.max_queued_scans,
-        "live only: with more waiting scans the oldest is dropped", Range{1, 1000});
+        "live: with more waiting scans the oldest is dropped; live and replayed alike, a clock "
+        "offset that is found moves the scans that come so many + 3 later",
+        Range{1, 1000});
   visit("publish_features", o.publish_features,
         "live, method loam: LIO_CORNER_SHARP and the other sets of each scan");
 }
