@@ -8,24 +8,27 @@
 #include <nlohmann/json.hpp>
 
 #include "lio/io/event_log.hpp"
-#include "programs/scene_folder.hpp"
 #include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
-using test::kScene;
+using test::SceneDir;
 using ::testing::HasSubstr;
 
-const std::string kLog = kScene + "/log.lcm";
+const std::string kLog = SceneDir() + "/log.lcm";
 
 class LioReplayTest : public ::testing::Test {
  protected:
   test::ProgramResult Replay(const std::string& log, const std::string& out,
                              const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {
-        test::Program("lio-replay"), "--config", kScene + "/config.yaml", log, "--out", Path(out)};
+    std::vector<std::string> command = {test::Program("lio-replay"),
+                                        "--config",
+                                        SceneDir() + "/config.yaml",
+                                        log,
+                                        "--out",
+                                        Path(out)};
     command.insert(command.end(), more.begin(), more.end());
     return test::RunProgram(command);
   }

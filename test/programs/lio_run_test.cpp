@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "programs/scene_folder.hpp"
 #include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
-using test::kScene;
+using test::SceneDir;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -32,7 +31,7 @@ class LioRunTest : public ::testing::Test {
 };
 
 TEST_F(LioRunTest, ASimulatedDriveIsRunScoredAndReported) {
-  const auto result = Run({kScene, "--out", Path("out")});
+  const auto result = Run({SceneDir(), "--out", Path("out")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* name :
        {"trajectory_level.tum", "verdict.json", "stats.json", "options.yaml", "states.csv",
@@ -46,7 +45,7 @@ TEST_F(LioRunTest, ASimulatedDriveIsRunScoredAndReported) {
 }
 
 TEST_F(LioRunTest, ALoneLogIsRunWithADraftedRigThatCanBeGivenBack) {
-  std::filesystem::copy(kScene + "/log.lcm", folder_.path() / "drive.lcm");
+  std::filesystem::copy(SceneDir() + "/log.lcm", folder_.path() / "drive.lcm");
   const auto drafted = Run({Path("drive.lcm"), "--out", Path("out")});
   EXPECT_THAT(drafted.err, Not(HasSubstr("configuration")));
   EXPECT_THAT(drafted.out, HasSubstr("ASSUMED"));
@@ -60,15 +59,15 @@ TEST_F(LioRunTest, ALoneLogIsRunWithADraftedRigThatCanBeGivenBack) {
 
 TEST_F(LioRunTest, AFolderWithSomethingInItIsOnlyOverwrittenWhenAskedTo) {
   folder_.Write("out/precious.txt", "");
-  const auto refused = Run({kScene, "--out", Path("out")});
+  const auto refused = Run({SceneDir(), "--out", Path("out")});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
-  EXPECT_EQ(Run({kScene, "--out", Path("out"), "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(Run({SceneDir(), "--out", Path("out"), "--overwrite"}).exit_code, 0);
   EXPECT_TRUE(Has("out/precious.txt"));
 }
 
 TEST_F(LioRunTest, TheFolderOfTheInputIsNeverWrittenInto) {
-  std::filesystem::copy(kScene, folder_.path() / "sim");
+  std::filesystem::copy(SceneDir(), folder_.path() / "sim");
   const std::string truth = test::ReadText(Path("sim/truth.tum"));
   for (const char* input : {"sim", "sim/", "sim/log.lcm"}) {
     const auto result = Run({Path(input), "--out", Path("sim"), "--overwrite"});
@@ -79,37 +78,39 @@ TEST_F(LioRunTest, TheFolderOfTheInputIsNeverWrittenInto) {
 }
 
 TEST_F(LioRunTest, AFinishedRunGetsItsReportAnew) {
-  ASSERT_EQ(Run({kScene, "--out", Path("out")}).exit_code, 0);
+  ASSERT_EQ(Run({SceneDir(), "--out", Path("out")}).exit_code, 0);
   std::filesystem::remove(Path("out/report.html"));
-  const auto result = Run({Path("out"), "--truth", kScene + "/truth.tum"});
+  const auto result = Run({Path("out"), "--truth", SceneDir() + "/truth.tum"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(Has("out/report.html"));
   EXPECT_THAT(result.out, HasSubstr("position error"));
 }
 
 TEST_F(LioRunTest, AReportMadeAnewKeepsTheTruthThatTheRunWasScoredWith) {
-  ASSERT_EQ(Run({kScene, "--out", Path("out"), "--truth", kScene + "/truth.tum"}).exit_code, 0);
+  ASSERT_EQ(Run({SceneDir(), "--out", Path("out"), "--truth", SceneDir() + "/truth.tum"}).exit_code,
+            0);
   const auto result = Run({Path("out")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("position error"));
 }
 
 TEST_F(LioRunTest, SeveralRunsMakeOnePageAndAllMustBeRuns) {
-  ASSERT_EQ(Run({kScene, "--out", Path("a")}).exit_code, 0);
-  ASSERT_EQ(Run({kScene, "--out", Path("b"), "--set", "pipeline.use_imu=false"}).exit_code, 0);
+  ASSERT_EQ(Run({SceneDir(), "--out", Path("a")}).exit_code, 0);
+  ASSERT_EQ(Run({SceneDir(), "--out", Path("b"), "--set", "pipeline.use_imu=false"}).exit_code, 0);
   const auto compared = Run({Path("a"), Path("b"), "--out", Path("both")});
   EXPECT_EQ(compared.exit_code, 0) << compared.err;
   EXPECT_THAT(test::ReadText(Path("both/report.html")), HasSubstr("\"runs\":[{"));
   const auto again = Run({Path("a"), Path("b"), "--out", Path("both")});
   EXPECT_EQ(again.exit_code, 2) << "a page is only replaced when asked to";
   EXPECT_THAT(again.err, HasSubstr("--overwrite"));
-  EXPECT_THAT(Run({Path("a"), kScene, "--out", Path("both")}).err, HasSubstr("is no folder of"));
+  EXPECT_THAT(Run({Path("a"), SceneDir(), "--out", Path("both")}).err,
+              HasSubstr("is no folder of"));
   EXPECT_THAT(Run({Path("a"), Path("b")}).err, HasSubstr("--out is required"));
   EXPECT_THAT(Run({Path("a"), Path("b"), "--out", Path("a")}).err, HasSubstr("of its own"));
 }
 
 TEST_F(LioRunTest, AResultWithoutTrustEndsWithSix) {
-  const auto result = Run({kScene, "--out", Path("out"), "--duration", "1"});
+  const auto result = Run({SceneDir(), "--out", Path("out"), "--duration", "1"});
   EXPECT_EQ(result.exit_code, 6) << result.err;
   EXPECT_TRUE(Has("out/report.html")) << "also a run without a pose has its page";
   EXPECT_THAT(result.out, HasSubstr("trust: no"));
@@ -123,15 +124,17 @@ TEST_F(LioRunTest, WrongInputsEndInOneLineThatNamesTheFix) {
   };
   const std::string out = Path("never");
   const std::string rig = folder_.Write("rig.yaml", "rig: {lidar: {modell: vlp16}}\n").string();
-  for (const Case& wrong : std::vector<Case>{
-           {{}, 2, "INPUT"},
-           {{kScene}, 2, "--out"},
-           {{kScene, "--out", out, "--nonsense"}, 2, "--nonsense"},
-           {{kScene, "--out", rig}, 2, "--out"},
-           {{"/no/such.bag", "--out", out}, 5, "/no/such.bag"},
-           {{rig, "--out", out}, 5, "is no ROS bag"},
-           {{kScene, "--out", out, "--truth", "/no/such.tum"}, 2, "--truth"},
-           {{kScene, "--out", out, "--overwrite", "--set", "rig.lidar.modell=x"}, 3, "model?"}}) {
+  for (const Case& wrong :
+       std::vector<Case>{{{}, 2, "INPUT"},
+                         {{SceneDir()}, 2, "--out"},
+                         {{SceneDir(), "--out", out, "--nonsense"}, 2, "--nonsense"},
+                         {{SceneDir(), "--out", rig}, 2, "--out"},
+                         {{"/no/such.bag", "--out", out}, 5, "/no/such.bag"},
+                         {{rig, "--out", out}, 5, "is no ROS bag"},
+                         {{SceneDir(), "--out", out, "--truth", "/no/such.tum"}, 2, "--truth"},
+                         {{SceneDir(), "--out", out, "--overwrite", "--set", "rig.lidar.modell=x"},
+                          3,
+                          "model?"}}) {
     const auto result = Run(wrong.words);
     EXPECT_EQ(result.exit_code, wrong.exit_code) << result.err;
     EXPECT_THAT(result.err, HasSubstr(wrong.says));

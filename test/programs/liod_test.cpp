@@ -6,14 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "programs/scene_folder.hpp"
 #include "support/build_paths.hpp"
 #include "support/run_program.hpp"
 
 namespace lio {
 namespace {
 
-using test::kScene;
+using test::SceneDir;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -40,7 +39,7 @@ class LiodTest : public ::testing::Test {
   // Starts liod and waits until it listens; its process id is in $liod.
   std::string Start(const std::string& arguments) const {
     // The output of an earlier daemon must not be taken for this one's.
-    return "rm -f " + Out("said") + "; " + kBin + "/liod --config " + kScene + "/config.yaml " +
+    return "rm -f " + Out("said") + "; " + kBin + "/liod --config " + SceneDir() + "/config.yaml " +
            arguments + " 2>" + Out("said") + " & liod=$!; while ! grep -qs listening " +
            Out("said") + "; do sleep 0.05; done; ";
   }
@@ -64,12 +63,13 @@ class LiodTest : public ::testing::Test {
 };
 
 TEST_F(LiodTest, FedByLogPlayerItWritesReplaysFiles) {
-  const auto live =
-      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene + "/log.lcm; " + End());
+  const auto live = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + SceneDir() +
+                             "/log.lcm; " + End());
   ASSERT_EQ(live.exit_code, 0) << live.err;
   EXPECT_LT(std::stoi(File("ended")), 1000);
-  const auto replay = test::RunProgram({kBin + "/lio-replay", "--config", kScene + "/config.yaml",
-                                        kScene + "/log.lcm", "--out", Out("replay")});
+  const auto replay =
+      test::RunProgram({kBin + "/lio-replay", "--config", SceneDir() + "/config.yaml",
+                        SceneDir() + "/log.lcm", "--out", Out("replay")});
   ASSERT_EQ(replay.exit_code, 0) << replay.err;
   const auto stats = Stats("live");
   const int num_lost = stats["num_kernel_dropped"].get<int>() +
@@ -87,7 +87,7 @@ TEST_F(LiodTest, FedByLogPlayerItWritesReplaysFiles) {
 }
 
 TEST_F(LiodTest, GarbageIsCountedAndSurvived) {
-  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + SceneDir() +
                                "/log.lcm & player=$!; sleep 1; " + kBin +
                                "/lio_attack; wait $player; kill -0 $liod || exit 99; " + End());
   ASSERT_EQ(result.exit_code, 0) << result.err << File("said");
@@ -120,7 +120,7 @@ TEST_F(LiodTest, WhatTheConfigurationSaysWronglyOfTheImuIsRefusedWithTheFix) {
   for (const auto& [statement, fix] : cases) {
     constexpr int kExitNoTrust = 6;
     PlayHearingStatus("--out " + Out("live") + " --overwrite --set " + statement,
-                      kScene + "/log.lcm", kExitNoTrust);
+                      SceneDir() + "/log.lcm", kExitNoTrust);
     EXPECT_THAT(File("said"), HasSubstr(fix));
     EXPECT_THAT(File("status.lcm"), HasSubstr(fix));
     EXPECT_EQ(File("live/trajectory.tum"), "") << statement;
@@ -153,7 +153,7 @@ TEST_F(LiodTest, ARestartKeepsTheFilesOfTheRunBefore) {
 
 TEST_F(LiodTest, CommandsAreAnsweredOverLcm) {
   const std::string ask = kBin + "/lio_ask ";
-  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+  const auto result = RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + SceneDir() +
                                "/log.lcm & player=$!; sleep 2; " + ask + "6 1; " + ask + "2 2; " +
                                ask + "77 3; " + ask + "4 4 map.pcd; wait $player; " + End());
   EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
@@ -170,7 +170,7 @@ TEST_F(LiodTest, SighupCompletesTheFilesAndGoesOnInTheNextFolder) {
     return "while ! grep -q '" + words + "' " + Out("said") + "; do sleep 0.05; done; ";
   };
   const auto result =
-      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + kScene +
+      RunAlone(Start("--out " + Out("live")) + "lcm-logplayer " + SceneDir() +
                "/log.lcm & player=$!; sleep 3; kill -HUP $liod; " + wait("files go on in") +
                "test -s " + Out("live/verdict.json") +
                " || exit 98; wait $player; kill -HUP $liod; " + wait("live-3") + End());
@@ -217,7 +217,7 @@ TEST_F(LiodTest, ChannelsFollowThePrefix) {
 
 TEST_F(LiodTest, WithoutAMulticastRouteItSaysWhatToTypeAndEndsWithFour) {
   const auto result =
-      test::RunProgram({"unshare", "-rn", kBin + "/liod", "--config", kScene + "/config.yaml"});
+      test::RunProgram({"unshare", "-rn", kBin + "/liod", "--config", SceneDir() + "/config.yaml"});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_THAT(result.err, HasSubstr("sudo ip route add 224.0.0.0/4 dev lo"));
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -229,7 +229,7 @@ TEST_F(LiodTest, WrongArgumentsAndConfigurationsHaveTheirExitCodes) {
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_THAT(missing.err, HasSubstr("missing.yaml"));
   const auto unknown = test::RunProgram(
-      {kBin + "/liod", "--config", kScene + "/config.yaml", "--set", "ndt.voxel=1"});
+      {kBin + "/liod", "--config", SceneDir() + "/config.yaml", "--set", "ndt.voxel=1"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_THAT(unknown.err, HasSubstr("voxel_m"));
   EXPECT_EQ(test::RunProgram({kBin + "/liod", "--version"}).exit_code, 0);
@@ -244,7 +244,7 @@ TEST_F(LiodTest, SilenceIsSaidOnceAndAgainAfterItHadPassed) {
   const auto result =
       RunAlone(Start("") + "lcm-logger -q -f -c LIO_STATUS " + Out("status.lcm") +
                " & logger=$!; sleep 0.2; " + wait_for("liod: nothing comes on", 1) +
-               "sleep 1.5; lcm-logplayer " + kScene + "/log.lcm; " +
+               "sleep 1.5; lcm-logplayer " + SceneDir() + "/log.lcm; " +
                wait_for("liod: nothing comes on", 2) + "kill $logger; wait $logger; " + End());
   EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
   const std::string said = File("said");
@@ -263,7 +263,7 @@ TEST_F(LiodTest, SilenceIsSaidOnceAndAgainAfterItHadPassed) {
 // Whatever a busy machine loses: all that liod knows of has a fate.
 TEST_F(LiodTest, TheAccountOfARecordingCloses) {
   const auto result = RunAlone("lcm-logger -q -f " + Out("all.lcm") + " & logger=$!; sleep 0.3; " +
-                               Start("") + "lcm-logplayer " + kScene +
+                               Start("") + "lcm-logplayer " + SceneDir() +
                                "/log.lcm; kill -TERM $liod; wait $liod; rc=$?; sleep 0.5; "
                                "kill $logger; wait $logger; exit $rc");
   ASSERT_EQ(result.exit_code, 0) << result.err << File("said");
@@ -276,7 +276,7 @@ TEST_F(LiodTest, TheAccountOfARecordingCloses) {
 TEST_F(LiodTest, ASensorThatIsMissingIsSaid) {
   // The channel filter of lcm-logplayer is an expression of what is played.
   const auto result =
-      RunAlone(Start("") + "lcm-logplayer -e LIO_SCAN " + kScene +
+      RunAlone(Start("") + "lcm-logplayer -e LIO_SCAN " + SceneDir() +
                "/log.lcm; i=0; while ! grep -q 'no inertial samples' " + Out("said") +
                " && [ $i -lt 100 ]; do sleep 0.1; i=$((i+1)); done; " + End());
   EXPECT_EQ(result.exit_code, 0) << result.err << File("said");
@@ -286,13 +286,14 @@ TEST_F(LiodTest, ASensorThatIsMissingIsSaid) {
 // A network namespace whose loopback is down: a start would end with 4 there.
 TEST_F(LiodTest, CheckValidatesAllAndOpensNoNetwork) {
   const auto check = [this](const std::string& more) {
-    return test::RunProgram({"unshare", "-rn", "sh", "-c",
-                             kBin + "/liod --check --config " + kScene + "/config.yaml " + more});
+    return test::RunProgram(
+        {"unshare", "-rn", "sh", "-c",
+         kBin + "/liod --check --config " + SceneDir() + "/config.yaml " + more});
   };
   const auto good = check("--out " + Out("live"));
   EXPECT_EQ(good.exit_code, 0) << good.err;
   EXPECT_THAT(good.out, HasSubstr("LIO_IMU, LIO_SCAN and LIO_CMD"));
-  EXPECT_THAT(good.out, HasSubstr(kScene + "/config.yaml"));
+  EXPECT_THAT(good.out, HasSubstr(SceneDir() + "/config.yaml"));
   EXPECT_FALSE(std::filesystem::exists(Out("live")));
   const auto bad = check("--set ndt.voxel=1 --set rig.imu.gyro=2 --lcm-url nonsense");
   EXPECT_EQ(bad.exit_code, 3);
@@ -307,15 +308,15 @@ TEST_F(LiodTest, CheckValidatesAllAndOpensNoNetwork) {
 
 TEST_F(LiodTest, AFolderThatCannotBeMadeIsAUsageError) {
   const auto file = folder_.Write("file", "");
-  const auto result =
-      RunAlone(kBin + "/liod --config " + kScene + "/config.yaml --out " + file.string() + "/out");
+  const auto result = RunAlone(kBin + "/liod --config " + SceneDir() + "/config.yaml --out " +
+                               file.string() + "/out");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr(file.string()));
 }
 
 TEST_F(LiodTest, ASecondDaemonOnTheSameChannelsIsNoticedByBoth) {
   const std::string second =
-      kBin + "/liod --config " + kScene + "/config.yaml 2>" + Out("second") + " & second=$!; ";
+      kBin + "/liod --config " + SceneDir() + "/config.yaml 2>" + Out("second") + " & second=$!; ";
   const auto result =
       RunAlone(Start("") + second + "sleep 5; kill $second; wait $second; sleep 8; " + End());
   EXPECT_EQ(result.exit_code, 0) << result.err;
