@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-// A match that the gate refused since it has turned otherwise than the gyro says: one of both is
-// wrong, and no single scan tells which. The next scan is sought where the match leads, and what is
-// published holds either.
+// A match that the gate refused since it has turned otherwise than the gyro says, or has moved
+// otherwise than the accelerometer says: one of both is wrong, and no single scan tells which. The
+// next scan is sought where the match leads, and what is published holds either. A match that is
+// farther off than any force leads is wrong itself, and foretells nothing.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +25,11 @@ struct GateDoubt {
         std::max(kScanStep.min_since_last_fix_s, SecondsBetween(last_fix, stamp));
     const double growth = SecondsBetween(last_fix, instant) / until_gated_s;
     return std::clamp(growth, 0.0, kScanStep.max_growth_of_gated) * by;
+  }
+  // Can an accelerometer that is off have led the prediction away by the shift?
+  [[nodiscard]] bool IsWithinReachOfForces() const {
+    const double since_s = SecondsBetween(last_fix, stamp);
+    return by.head<3>().norm() <= 0.5 * kScanStep.max_force_error_mps2 * since_s * since_s;
   }
 };
 

@@ -27,6 +27,9 @@ struct ScanStepParameters {
   // factor at most. Chosen: the first scan that is gated is about one sweep after the last
   // fix, and the next one two.
   double max_growth_of_gated = 2.2;
+  // An accelerometer is off by no more than this. Data sheets: the ranges of units for vehicles
+  // begin at 2 to 3 g.
+  double max_force_error_mps2 = 30.0;
 };
 
 inline constexpr ScanStepParameters kScanStep;

@@ -208,8 +208,9 @@ void Tracking::NoteIfGated(const MatchedScan& scan, const ScanReport& report) {
   const Matrix3 turn_cov =
       predicted.cov.block<3, 3>(kMapPose + 3, kMapPose + 3) + match.cov.bottomRightCorner<3, 3>();
   const Vector3 turn = by.tail<3>();
-  if (turn.dot(turn_cov.ldlt().solve(turn)) <= context_.nis_limit) return;
-  gate_doubt_ = GateDoubt{by, scan.middle(), *handover_.last_located};
+  const bool has_turned = turn.dot(turn_cov.ldlt().solve(turn)) > context_.nis_limit;
+  const GateDoubt doubt{by, scan.middle(), *handover_.last_located};
+  if (has_turned || doubt.IsWithinReachOfForces()) gate_doubt_ = doubt;
 }
 
 void Tracking::RememberForHandover(const MatchedScan& scan, bool is_fused) {
