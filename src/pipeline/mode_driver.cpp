@@ -76,7 +76,9 @@ void ModeDriver::TakePlace(const MatchOutcome& outcome) {
   if (tracking == nullptr) return;
   if (!outcome.place) {
     context_.outputs.NotifyWaiting(outcome.sweep->end,
-                                   "the place in the initial map is being sought");
+                                   "the place in the initial map is being sought; if it is not "
+                                   "found while the body moves, check that the map is of this "
+                                   "place with z up, or say where to seek by --initial-pose");
     return;
   }
   place_.SetFound();

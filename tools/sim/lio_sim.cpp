@@ -131,7 +131,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--picture", arguments.picture,
       "draw the place from above and the path into this PPM file; works alone or with --out");
-  app.add_option("--duration", arguments.duration_s, "length of the log [s]");
+  app.add_option("--duration", arguments.duration_s, "length of the log [s], and of the place");
   app.add_option("--seed", arguments.seed, "seed of the world and of the noise")
       ->check(WholeNumberFromZero())
       ->capture_default_str();
