@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // A match that the gate refused since it has turned otherwise than the gyro says, or has moved
 // otherwise than the accelerometer says: one of both is wrong, and no single scan tells which. The
-// next scan is sought where the match leads, and what is published holds either. A match that is
-// farther off than any force leads is wrong itself, and foretells nothing.
+// next scan is sought where the match leads, and what is published holds either. A match that has
+// not turned, and is farther off than a force leads, is wrong itself and foretells nothing.
 #pragma once
 
 #include <algorithm>

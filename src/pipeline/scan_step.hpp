@@ -27,8 +27,9 @@ struct ScanStepParameters {
   // factor at most. Chosen: the first scan that is gated is about one sweep after the last
   // fix, and the next one two.
   double max_growth_of_gated = 2.2;
-  // An accelerometer is off by no more than this. Data sheets: the ranges of units for vehicles
-  // begin at 2 to 3 g.
+  // An accelerometer that is off by more is not told from a wrong match. Chosen: 3 g, near the
+  // smallest ranges of accelerometers; with half of it a simulated warehouse is lost
+  // (docs/experiments/dead_imu.md).
   double max_force_error_mps2 = 30.0;
 };
 

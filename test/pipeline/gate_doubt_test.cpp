@@ -50,17 +50,11 @@ struct GatedMatches : test::TrackingBench {
     while (sweep_start_s < kFrom_s) (void)Finish(bench.Matched(NextJob(), motion));
   }
   static Pose Turned() { return {ExpSo3({0, 0, 0.05}), Vector3::Zero()}; }
-  // Returns how far the next scan is believed to have turned from the truth, rad.
-  double TurnOfNext() {
+  // Returns where the next scan is believed to be, from where it is.
+  Pose ErrorOfNext() {
     const MatchJob job = NextJob();
     const Pose truth = test::StateOf(motion, SecondsOf(job.sweep->middle())).T_world_imu;
-    return LogSo3(truth.rotation.conjugate() * job.prior.T_map_imu.rotation).z();
-  }
-  // Returns how far the next scan is believed to be from the truth, in map, m.
-  Vector3 ShiftOfNext() {
-    const MatchJob job = NextJob();
-    const Pose truth = test::StateOf(motion, SecondsOf(job.sweep->middle())).T_world_imu;
-    return job.prior.T_map_imu.translation - truth.translation;
+    return truth.Inverse() * job.prior.T_map_imu;
   }
   // Returns what is published of a scan that is matched off by this.
   ScanOutput Take(const Pose& by) {
@@ -71,39 +65,40 @@ struct GatedMatches : test::TrackingBench {
   }
 };
 
+struct GatedMatchesOfAKnownRig : GatedMatches {
+  GatedMatchesOfAKnownRig() { test::KnowTheRig(bench.examiner); }
+};
+
 TEST(GateDoubt, AScanThatIsGatedForItsTurnForetellsTheNextOne) {
-  GatedMatches drive;
-  test::KnowTheRig(drive.bench.examiner);
+  GatedMatchesOfAKnownRig drive;
   const ScanOutput output = drive.Take(GatedMatches::Turned());
   ASSERT_FALSE(output.scan.fused);
   EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.05);
-  EXPECT_NEAR(drive.TurnOfNext(), 0.1, 0.01);
+  EXPECT_NEAR(LogSo3(drive.ErrorOfNext().rotation).z(), 0.1, 0.01);
 }
 
 TEST(GateDoubt, BeforeTheRigIsKnownItMayBeTheRigAndIsPublishedOnly) {
   GatedMatches drive;
   const ScanOutput output = drive.Take(GatedMatches::Turned());
   EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.05);
-  EXPECT_NEAR(drive.TurnOfNext(), 0.0, 0.01);
+  EXPECT_NEAR(LogSo3(drive.ErrorOfNext().rotation).z(), 0.0, 0.01);
 }
 
 // The body moves along x, and the scan is off across it.
 TEST(GateDoubt, AScanThatAForceMayHaveLedAwayForetellsTheNextOne) {
-  GatedMatches drive;
-  test::KnowTheRig(drive.bench.examiner);
+  GatedMatchesOfAKnownRig drive;
   const ScanOutput output = drive.Take({Quaternion::Identity(), {0, 0.12, 0}});
   ASSERT_FALSE(output.scan.fused);
   EXPECT_GT(std::sqrt(output.filter->nav.pose_cov(1, 1)), 0.12);
-  EXPECT_NEAR(drive.ShiftOfNext().y(), 0.24, 0.02);
+  EXPECT_NEAR(drive.ErrorOfNext().translation.y(), 0.24, 0.02);
 }
 
 TEST(GateDoubt, AScanThatIsFartherOffThanAnyForceLeadsForetellsNothing) {
-  GatedMatches drive;
-  test::KnowTheRig(drive.bench.examiner);
+  GatedMatchesOfAKnownRig drive;
   const ScanOutput output = drive.Take({Quaternion::Identity(), {0, 1, 0}});
   ASSERT_FALSE(output.scan.fused);
   EXPECT_LT(std::sqrt(output.filter->nav.pose_cov(5, 5)), 0.01);
-  EXPECT_LT(drive.ShiftOfNext().norm(), 0.1);
+  EXPECT_LT(drive.ErrorOfNext().translation.norm(), 0.1);
 }
 
 }  // namespace
