@@ -28,7 +28,7 @@ MatchWorker::MatchWorker(const Options& options, ClockNs clock, bool collects_ma
 void MatchWorker::Begin() {
   worker_.emplace(options_, clock_, BeamElevations(options_.rig.lidar.model), initial_map_);
   map_cloud_ = MapCloud();
-  if (collects_map_ && initial_map_) map_cloud_.Add(initial_map_->points, Pose::Identity());
+  if (collects_map_ && initial_map_) map_cloud_.AddSaved(initial_map_->points);
 }
 
 MatchWorker::~MatchWorker() {

@@ -26,7 +26,8 @@ std::optional<FoundPlace> InitialMapEntry::Seek(const LocatedScan& scan,
     return waiting_->Match({.points_imu = points,
                             .T_map_imu_guess = guess,
                             .guess_cov = cov,
-                            .T_imu_lidar = T_imu_lidar});
+                            .T_imu_lidar = T_imu_lidar,
+                            .solves_degenerate = true});
   };
   const PlaceMatching matching{
       [&](std::span<const Eigen::Vector3f> points, const Pose& guess, const Matrix6& cov) {

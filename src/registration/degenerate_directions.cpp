@@ -23,15 +23,19 @@ struct Subspaces {
   Matrix6 basis = Matrix6::Identity();
 };
 
+Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> RatiosOf(const Matrix6& information,
+                                                           const Matrix6& noise) {
+  const double floor = DegeneracyParameters::kRegularization * information.trace();
+  return {information, noise + floor * Matrix6::Identity()};
+}
+
 Subspaces FindSubspaces(const Matrix6& information, const Matrix6& noise) {
   Subspaces found;
   if (!(information.trace() > 0.0)) {
     found.num_degenerate = 6;
     return found;
   }
-  const double floor = DegeneracyParameters::kRegularization * information.trace();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> ratios(
-      information, noise + floor * Matrix6::Identity());
+  const auto ratios = RatiosOf(information, noise);
   while (found.num_degenerate < 6 && !(ratios.eigenvalues()[found.num_degenerate] >
                                        DegeneracyParameters::kMinInformationRatio)) {
     ++found.num_degenerate;
@@ -78,6 +82,11 @@ DirectionSplit SplitDirections(const Matrix6& information, const Matrix6& noise_
   return split;
 }
 
+double LeastInformationRatio(const Matrix6& information, const Matrix6& noise_information) {
+  if (!(information.trace() > 0.0)) return 0.0;
+  return RatiosOf(information, noise_information).eigenvalues()[0];
+}
+
 Matrix6 CountedInformation(const Matrix6& information, const Matrix6& sure_information) {
   return information + kMoreForSure * sure_information;
 }
@@ -95,6 +104,14 @@ Matrix6 ObservableInverse(const DirectionSplit& split) {
 
 Vector6 StepInObservableDirections(const DirectionSplit& split, const Vector6& gradient) {
   return -ObservableInverse(split) * gradient;
+}
+
+Vector6 StepTowardsGuess(const Matrix6& information, const Vector6& gradient,
+                         const FromGuess& from_guess) {
+  const Matrix6 prior = from_guess.guess_cov.inverse();
+  return -(information + prior)
+              .ldlt()
+              .solve(gradient + prior * LogSe3(from_guess.T_guess_imu));
 }
 
 Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step) {

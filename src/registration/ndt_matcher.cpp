@@ -382,6 +382,10 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
     Associate(bent, pose, radius.std_m());
     const MatchSums sums = Linearize(bent, pose, radius.variance(), {});
     if (sums.num_matched < MatchParameters::kMinMatched) return std::nullopt;
+    if (input.solves_degenerate) {
+      return StepTowardsGuess(sums.information.Full(), sums.gradient,
+                              {T_grid_guess.Inverse() * pose, input.guess_cov});
+    }
     return StepInObservableDirections(SplitDirections(sums), sums.gradient);
   };
   const StopRule rule{options_.max_iterations, options_.converged_step_m,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lio/registration/degenerate_directions.hpp"
 #include "lio/relocalization/candidate.hpp"
 #include "lio/relocalization/parameters.hpp"
 #include "lio/relocalization/tried_places.hpp"
@@ -16,13 +17,13 @@ namespace {
 
 constexpr PlaceContestParameters kContest = kRelocalization.contest;
 
-// Says how well the scan fits the saved map there: the share of points that nothing contradicts,
-// over that in its own new map; less where the saved map shows little.
-double FitOf(const MatchResult& there, const MatchResult& in_new_map) {
-  if (!there.IsUsable()) return 0.0;
-  const double number = static_cast<double>(there.num_matched) / in_new_map.num_matched;
-  return std::min(1.0, ShareOf(there) / ShareOf(in_new_map)) *
-         std::min(1.0, number / kContest.min_number_ratio);
+PlaceFit FitOf(const MatchResult& there, const MatchResult& in_new_map) {
+  if (!there.IsUsable()) return {0.0, 0.0};
+  const double num = in_new_map.num_matched;
+  const double num_against = there.num_in_map - there.num_matched;
+  return {std::min(1.0, ShareOf(there) / ShareOf(in_new_map)) *
+              std::min(1.0, there.num_matched / num / kContest.min_number_ratio),
+          (there.num_matched - kContest.weight_against * num_against) / num};
 }
 
 Matrix6 SettledCov() {
@@ -30,6 +31,12 @@ Matrix6 SettledCov() {
   cov.diagonal() << Vector3::Constant(kContest.settled_std_m * kContest.settled_std_m),
       Vector3::Constant(kContest.settled_std_rad * kContest.settled_std_rad);
   return cov;
+}
+
+// A match that solves degenerate directions, too, knows them as well as the places of scans agree.
+Matrix6 CovOf(const MatchResult& match) {
+  constexpr double kShare = kContest.settled_std_m / DegeneracyParameters::kDegenerateStd_m;
+  return match.observable_cov + kShare * kShare * (match.cov - match.observable_cov);
 }
 
 bool HasStayed(const Pose& before, const Pose& after) {
@@ -45,8 +52,27 @@ PlaceContest::PlaceContest(CloudSample sample, const std::vector<Pose>& T_initia
   for (const Pose& place : T_initial_map) contenders_.push_back({.T_initial_map = place});
 }
 
+bool PlaceContest::Contender::is_good() const { return num_good_in_a_row >= kContest.num_checks; }
+
+bool PlaceContest::Contender::is_observable() const {
+  return LeastInformationRatio(information, noise) >= DegeneracyParameters::kMinInformationRatio;
+}
+
+PlaceFit PlaceContest::Contender::fit() const {
+  if (last_fits.empty()) return {};
+  PlaceFit sum{0.0, 0.0};
+  for (const PlaceFit& fit : last_fits) {
+    sum.share += fit.share;
+    sum.score += fit.score;
+  }
+  const auto num = static_cast<double>(last_fits.size());
+  return {sum.share / num, sum.score / num};
+}
+
 bool PlaceContest::is_over() const {
-  return contenders_.empty() || num_scans_ >= kContest.max_scans;
+  if (contenders_.empty()) return true;
+  return num_scans_ >=
+         (contenders_.front().is_good() ? kContest.max_scans_of_good : kContest.max_scans);
 }
 
 bool PlaceContest::Rank(const MatchInInitial& match) {
@@ -91,42 +117,63 @@ void PlaceContest::MergeSame() {
 }
 
 void PlaceContest::CheckAt(Contender& contender, const LocatedScan& scan,
-                           const MatchInInitial& match) {
+                           const MatchInInitial& match) const {
   const Pose& T_map_imu = scan.match.T_map_imu;
   const bool is_settled = contender.num_checks > 0;
   const MatchResult there = match(scan.points_imu, contender.T_initial_map * T_map_imu,
                                   is_settled ? SettledCov() : CandidateCov());
   const Pose T_initial_map = there.T_map_imu * T_map_imu.Inverse();
-  const double fit = FitOf(there, scan.match);
+  const PlaceFit fit = FitOf(there, scan.match);
   const bool has_stayed =
       !is_settled || HasStayed(contender.T_initial_map * T_map_imu, there.T_map_imu);
-  const bool is_good = fit >= kContest.min_fit && there.degenerate_mask == 0 && has_stayed;
+  const bool is_good = there.IsUsable() && fit.share >= kContest.min_fit && has_stayed;
   ++contender.num_checks;
   contender.num_good_in_a_row = is_good ? contender.num_good_in_a_row + 1 : 0;
-  contender.fit_sum += fit;
+  if (!is_good) contender.information = contender.noise = Matrix6::Zero();
+  contender.last_fits.push_back(fit);
+  if (contender.last_fits.size() > std::size_t{kContest.num_checks}) contender.last_fits.pop_front();
   if (!there.IsUsable()) return;
   contender.T_initial_map = T_initial_map;
-  contender.cov = there.cov;
+  contender.cov = CovOf(there);
+  if (is_good) CountInformation(contender, T_map_imu, there.observability);
+}
+
+void PlaceContest::CountInformation(Contender& contender, const Pose& T_map_imu,
+                                    const Observability& observability) const {
+  const Pose T_map_sample{Quaternion::Identity(), sample_.centre_map};
+  const Matrix6 of_sample = AdjointSe3(T_map_imu.Inverse() * T_map_sample);
+  contender.information += of_sample.transpose() * observability.counted * of_sample;
+  contender.noise += of_sample.transpose() * observability.noise * of_sample;
 }
 
 void PlaceContest::OrderByFit() {
   std::stable_sort(contenders_.begin(), contenders_.end(),
-                   [](const auto& a, const auto& b) { return a.fit() > b.fit(); });
+                   [](const auto& a, const auto& b) { return a.fit().share > b.fit().share; });
+}
+
+bool PlaceContest::IsBeatenByLeader(const Contender& rival) const {
+  if (rival.num_checks < kContest.num_rival_checks) return false;
+  const PlaceFit of_rival = rival.fit();
+  const PlaceFit of_leader = contenders_.front().fit();
+  const bool is_far_behind = of_rival.score < kContest.max_score_ratio * of_leader.score;
+  return IsBeaten(1.0 - of_rival.share, 1.0 - of_leader.share, kContest.least_residual) ||
+         (path_m_ > kContest.moved_on_m && is_far_behind);
 }
 
 bool PlaceContest::HasWinner() const {
   const Contender& leader = contenders_.front();
-  if (leader.num_good_in_a_row < kContest.num_checks) return false;
-  return std::all_of(contenders_.begin() + 1, contenders_.end(), [&](const Contender& rival) {
-    return rival.num_checks >= kContest.num_rival_checks &&
-           IsBeaten(1.0 - rival.fit(), 1.0 - leader.fit());
-  });
+  return leader.is_good() && leader.is_observable() &&
+         std::all_of(contenders_.begin() + 1, contenders_.end(),
+                     [&](const Contender& rival) { return IsBeatenByLeader(rival); });
 }
 
 std::optional<FoundPlace> PlaceContest::Check(const LocatedScan& scan, const MatchInInitial& match,
                                               int max_matches) {
   if (is_over() || max_matches <= 0 || !scan.match.IsUsable()) return {};
   ++num_scans_;
+  const Vector3& position_map = scan.match.T_map_imu.translation;
+  path_m_ += (position_map - last_position_map_.value_or(position_map)).norm();
+  last_position_map_ = position_map;
   CheckAt(contenders_.front(), scan, match);
   if (max_matches > 1 && contenders_.size() > 1) {
     const auto rival =

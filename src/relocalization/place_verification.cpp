@@ -46,9 +46,9 @@ double ShareOf(const MatchResult& match) {
   return match.num_in_map == 0 ? 0.0 : static_cast<double>(match.num_matched) / match.num_in_map;
 }
 
-bool IsBeaten(double rival_residual, double residual) {
-  constexpr PlaceContestParameters kRivals = kRelocalization.contest;
-  return rival_residual >= kRivals.min_residual_ratio * std::max(residual, kRivals.least_residual);
+bool IsBeaten(double rival_residual, double residual, double least_residual) {
+  return rival_residual >=
+         kRelocalization.contest.min_residual_ratio * std::max(residual, least_residual);
 }
 
 bool IsVerified(const MatchResult& match, const MatchResult& last) {
@@ -91,7 +91,8 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
 }
 
 bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
-  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other));
+  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other),
+                  kRelocalization.contest.least_residual);
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {

@@ -12,8 +12,9 @@ namespace lio {
 // does.
 [[nodiscard]] double ShareOf(const MatchResult& match);
 
-// Does the map contradict a clearly larger share of the points at a rival than at the place?
-[[nodiscard]] bool IsBeaten(double rival_residual, double residual);
+// Does the map contradict a clearly larger share of the points at a rival than at the place, of
+// which so many are taken to be contradicted at least?
+[[nodiscard]] bool IsBeaten(double rival_residual, double residual, double least_residual);
 
 // Does the scan lie on the map's surfaces there? Steps that oscillate around a pose count as a
 // match.

@@ -28,7 +28,7 @@ Replay::Replay(const Options& options, const ReplaySettings& settings, RunWriter
     num_passes_ = 2;
   }
   if (settings_.writes_map && settings_.initial_map) {
-    map_.Add(settings_.initial_map->points, Pose::Identity());
+    map_.AddSaved(settings_.initial_map->points);
   }
 }
 

@@ -155,5 +155,26 @@ TEST(DegenerateDirections, UnitOfRotationsDoesNotMatter) {
   EXPECT_LT((a.eigenvalues - b.eigenvalues).norm(), 1e-9 * a.eigenvalues.norm());
 }
 
+TEST(DegenerateDirections, LeastRatioIsThatOfTheDirectionThatIsShownLeast) {
+  std::mt19937_64 random(21);
+  const Matrix6 H = FullInformation(random);
+  EXPECT_EQ(LeastInformationRatio(Matrix6::Zero(), SmallNoise()), 0.0);
+  EXPECT_NEAR(LeastInformationRatio(3.0 * H, H), 3.0, 1e-6);
+  EXPECT_LT(LeastInformationRatio(Without(H, Vector6::Unit(2)), H), 1e-6);
+}
+
+// The step leads to the least of cost and prior in one, since both are quadratic.
+TEST(DegenerateDirections, StepTowardsTheGuessMinimisesCostAndPrior) {
+  std::mt19937_64 random(22);
+  const Matrix6 H = Without(FullInformation(random), Vector6::Unit(0));
+  const Vector6 g = H * Vector6::Constant(0.01);
+  const Matrix6 guess_cov = test::RandomCovariance<6>(random, 0.1);
+  const Vector6 off = 1e-4 * test::RandomVector<6>(random);
+  const Vector6 step = StepTowardsGuess(H, g, {ExpSe3(off), guess_cov});
+  const Vector6 gradient_after = g + H * step + guess_cov.ldlt().solve(off + step);
+  EXPECT_LT(gradient_after.norm(), 1e-6 * g.norm());
+  EXPECT_TRUE(step.allFinite());
+}
+
 }  // namespace
 }  // namespace lio

@@ -21,7 +21,7 @@ struct Scenery {
   Pose there = At(-40.0);
   int num_matched_here = 950;
   int num_matched_there = 600;
-  unsigned degenerate_mask = 0;
+  double information_ratio = 20.0;  // of the least shown direction
   int num_calls = 0;
 
   MatchInInitial Matcher() {
@@ -37,7 +37,9 @@ struct Scenery {
         result.T_map_imu = place;
         result.num_matched = num;
         result.num_in_map = 1000;
-        result.degenerate_mask = degenerate_mask;
+        result.observability.noise = Matrix6::Identity();
+        result.observability.counted = 20.0 * Matrix6::Identity();
+        result.observability.counted(0, 0) = information_ratio;
       }
       return result;
     };
@@ -94,9 +96,54 @@ TEST(PlaceContest, OnlyPlaceThatFitsBadlyDoesNotWin) {
 
 TEST(PlaceContest, DegenerateMatchesDoNotTellThePlace) {
   Scenery scenery;
-  scenery.degenerate_mask = 1;
+  scenery.information_ratio = 0.5 * DegeneracyParameters::kMinInformationRatio;
   PlaceContest contest(CloudSample{}, {At(31.0)});
   EXPECT_FALSE(Decide(contest, scenery));
+}
+
+TEST(PlaceContest, ScansOfWhichEachShowsOtherDirectionsTellThePlaceTogether) {
+  Scenery scenery;
+  scenery.information_ratio = 0.0;
+  PlaceContest contest(CloudSample{}, {At(31.0)});
+  const MatchInInitial match = scenery.Matcher();
+  ASSERT_TRUE(contest.Rank(match));
+  std::optional<FoundPlace> found;
+  MatchResult in_new_map = InNewMap();
+  for (int i = 0; !contest.is_over() && !found; ++i) {
+    const bool is_turned = i % 2 == 1;  // the blind direction of the body is another one of the map
+    in_new_map.T_map_imu.rotation = ExpSo3(Vector3(0, 0, is_turned ? std::acos(-1.0) / 2 : 0.0));
+    scenery.here = Pose{in_new_map.T_map_imu.rotation, scenery.here.translation};
+    found = contest.Check({{}, in_new_map}, match, 2);
+  }
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->T_initial_map.translation.x(), 30.0, 1e-9);
+}
+
+// Has two places that look alike: no more contradicts the wrong one than a thing that was moved,
+// and fewer points come to its surfaces.
+std::optional<FoundPlace> DecideBetweenStoreys(double step_m) {
+  Scenery scenery;
+  scenery.num_matched_here = 995;
+  scenery.num_matched_there = 985;
+  PlaceContest contest(CloudSample{}, kThree);
+  const MatchInInitial match = scenery.Matcher();
+  while (!contest.Rank(match)) {
+  }
+  MatchResult in_new_map = InNewMap();
+  while (!contest.is_over()) {
+    if (const auto found = contest.Check({{}, in_new_map}, match, 2)) return found;
+    in_new_map.T_map_imu.translation.x() += step_m;
+    scenery.here.translation.x() += step_m;
+    scenery.there.translation.x() += step_m;
+  }
+  return {};
+}
+
+TEST(PlaceContest, PlacesThatLookNearlyAlikeAreToldOnTheWay) {
+  EXPECT_FALSE(DecideBetweenStoreys(0.0));
+  const auto found = DecideBetweenStoreys(0.1);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->T_initial_map.translation.x(), 30.0, 1e-9);
 }
 
 TEST(PlaceContest, PlaceThatWandersDoesNotWin) {

@@ -34,6 +34,8 @@ MatchResult Located(const Pose& T_map_imu = Pose::Identity()) {
   match.T_map_imu = T_map_imu;
   match.num_matched = 1000;
   match.num_in_map = 1000;
+  match.observability.noise = Matrix6::Identity();
+  match.observability.counted = 20.0 * Matrix6::Identity();
   return match;
 }
 

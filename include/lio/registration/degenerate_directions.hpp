@@ -43,6 +43,10 @@ struct DirectionSplit {
                                              const Matrix6& noise_information,
                                              const Matrix6& sure_information = Matrix6::Zero());
 
+// Returns the least ratio, over all directions, of information to that which noise induces.
+[[nodiscard]] double LeastInformationRatio(const Matrix6& information,
+                                           const Matrix6& noise_information);
+
 // Returns the information that is compared with that which noise induces: the sure part counts as
 // many times as the threshold says.
 [[nodiscard]] Matrix6 CountedInformation(const Matrix6& information,
@@ -51,6 +55,17 @@ struct DirectionSplit {
 // Returns the Gauss-Newton step -H^-1 g within the observable directions, [translation; rotation].
 [[nodiscard]] Vector6 StepInObservableDirections(const DirectionSplit& split,
                                                  const Vector6& gradient);
+
+// Tells where a pose is, seen from its guess, whose covariance is positive definite (right error).
+struct FromGuess {
+  Pose T_guess_imu;
+  Matrix6 guess_cov;
+};
+
+// Returns the Gauss-Newton step in all directions of the cost and a Gaussian prior at the guess,
+// which holds what the cost leaves open, [translation; rotation]. Angles from the guess are small.
+[[nodiscard]] Vector6 StepTowardsGuess(const Matrix6& information, const Vector6& gradient,
+                                       const FromGuess& from_guess);
 
 // Returns a step without its part along the degenerate directions, [translation; rotation].
 [[nodiscard]] Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step);

@@ -63,6 +63,9 @@ struct MatchInput {
   // ndt teaches it.
   BeamCalibration* calibration = nullptr;
   std::span<const ScanPoint> beam_points = {};
+  // Degenerate directions are solved, too, held by the guess with its covariance; only the method
+  // ndt does so.
+  bool solves_degenerate = false;
 };
 
 // The whole scan is inserted, of which a part, evenly spread, is matched: so many points go into

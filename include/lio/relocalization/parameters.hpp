@@ -193,8 +193,18 @@ struct PlaceContestParameters {
   // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
   // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
   double min_residual_ratio = 1.5;
-  double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things
-  int max_scans = 30;            // then the search begins anew; chosen: three seconds at 10 Hz
+  double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things ...
+  // ... that stay behind: on a way of so many metres a rival is beaten, too, when its points on
+  // surfaces, less those against it by this weight, are fewer than this share of the winner's.
+  // Chosen: other things are in view then; places of other storeys come to 0.86 at most where the
+  // right one is known (docs/experiments/start_in_a_map.md).
+  double moved_on_m = 2.0;
+  double weight_against = 10.0;
+  double max_score_ratio = 0.9;
+  // After so many scans the search begins anew, or after so many if the leader fits. Chosen: three
+  // and ten seconds at 10 Hz.
+  int max_scans = 30;
+  int max_scans_of_good = 100;
 };
 
 struct PlaceSeekerParameters {

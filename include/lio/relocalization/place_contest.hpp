@@ -3,13 +3,15 @@
 // The contest tells which of several places in a saved map is the right one. Coarse matches of the
 // gathered cloud rank them all; the best few are then followed: every scan is matched at the
 // leading place and at one of its rivals, and compared with how well it fits the new map that it
-// belongs to. A place wins when several scans in a row fit it and clearly more points contradict
-// every rival. None wins among places that look alike, and a search over more of the way has to
-// tell.
+// belongs to. A place wins when several scans in a row fit it, they show every direction together,
+// and clearly more points contradict every rival. Places that look nearly alike are
+// followed for a part of the way, since a thing that was moved stays behind there. None wins among
+// places that look alike, and a search over more of the way has to tell.
 //
 // Frames: `map` is the new map, `initial` the saved one.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -29,6 +31,16 @@ using MatchInInitial = std::function<MatchResult(std::span<const Eigen::Vector3f
 struct LocatedScan {
   std::span<const Eigen::Vector3f> points_imu;  // to match
   const MatchResult& match;                     // in the new map
+};
+
+// Says how well a scan fits the saved map at a place, against its new map.
+struct PlaceFit {
+  // The share of points that nothing contradicts, over that in the new map; less where the saved
+  // map shows little.
+  double share = 1.0;
+  // Points on surfaces, less those that are contradicted by their weight, over the points on
+  // surfaces of the new map.
+  double score = 1.0;
 };
 
 struct FoundPlace {
@@ -55,22 +67,33 @@ class PlaceContest {
     double support = 0.0;  // SupportOf() the coarse match
     int num_checks = 0;
     int num_good_in_a_row = 0;
-    double fit_sum = 0.0;  // sum over scans: 1 where one fits as well as its new map
+    std::deque<PlaceFit> last_fits = {};
+    // Sums over the good checks in a row, about the sample's centre.
+    Matrix6 information = Matrix6::Zero();
+    Matrix6 noise = Matrix6::Zero();
     Matrix6 cov = Matrix6::Zero();
 
-    [[nodiscard]] double fit() const { return num_checks == 0 ? 1.0 : fit_sum / num_checks; }
+    [[nodiscard]] bool is_good() const;
+    // Their scans together show every direction.
+    [[nodiscard]] bool is_observable() const;
+    [[nodiscard]] PlaceFit fit() const;  // the mean of the last ones
   };
 
   void KeepTheBest();
-  static void CheckAt(Contender& contender, const LocatedScan& scan, const MatchInInitial& match);
+  void CheckAt(Contender& contender, const LocatedScan& scan, const MatchInInitial& match) const;
+  void CountInformation(Contender& contender, const Pose& T_map_imu,
+                        const Observability& observability) const;
   void OrderByFit();
   void MergeSame();
   [[nodiscard]] bool HasWinner() const;
+  [[nodiscard]] bool IsBeatenByLeader(const Contender& rival) const;
 
   CloudSample sample_;
   std::vector<Contender> contenders_;  // the leader first, once all are ranked
   std::size_t num_ranked_ = 0;
   int num_scans_ = 0;  // checked
+  double path_m_ = 0.0;  // of the body, over them
+  std::optional<Vector3> last_position_map_;
 };
 
 }  // namespace lio
