@@ -20,14 +20,22 @@ bool IsHeld(const MatchResult& match, const Vector6& weight) {
 
 }  // namespace
 
-BlindAxis::Answer BlindAxis::Judge(const MatchResult& match) {
+Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov) {
+  Matrix6 cov = match.cov;
+  for (const BlindDirection& blind : match.blind_directions) {
+    cov += blind.weight.dot(prior_cov * blind.weight) * blind.cov;
+  }
+  return cov;
+}
+
+BlindAxis::Answer BlindAxis::Judge(const MatchResult& match, const Matrix6& prior_cov) {
   Transport(match.T_map_imu);
   const bool is_blind = match.degenerate_mask != 0;
   blind_share_ += kBlindAxis.share_rate * ((is_blind ? 1.0 : 0.0) - blind_share_);
   if (!is_blind && IsBlindByChance(match)) return {match.cov + BlindCov(), true};
   if (match.blind_directions.size() != 1 || match.blind_directions.front().cov.isZero(0.0)) {
     if (is_blind || blind_share_ < 0.5) mean_.reset();
-    return {match.cov, is_blind};
+    return {WithBlindErrors(match, prior_cov), is_blind};
   }
   const BlindDirection& measured = match.blind_directions.front();
   Take(measured, match.observability.Ratio(measured.shift));

@@ -41,6 +41,11 @@ struct BlindAxisParameters {
 };
 inline constexpr BlindAxisParameters kBlindAxis;
 
+// Returns the match's covariance, and what the errors of its blind directions add to it: a motion
+// along one, unseen and as uncertain as the prior, is taken for one across by as much as the
+// direction is turned. Covariances are of right errors [m; rad].
+[[nodiscard]] Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov);
+
 class BlindAxis {
  public:
   struct Answer {
@@ -48,9 +53,9 @@ class BlindAxis {
     bool is_blind;  // along one direction at least
   };
   // Takes a match into the mean, and returns its covariance with that direction in place of its
-  // own. It is the match's where none or several directions are blind, or its method does not tell
-  // how they vary.
-  [[nodiscard]] Answer Judge(const MatchResult& match);
+  // own. Where several directions are blind it is WithBlindErrors(), and the match's where none is
+  // or its method does not tell how they vary. `prior_cov` is that of the pose before the match.
+  [[nodiscard]] Answer Judge(const MatchResult& match, const Matrix6& prior_cov);
 
   // The matches to come are in another map, of another body, or somewhere else.
   void Reset() { *this = {}; }

@@ -9,6 +9,7 @@
 
 #include "lio/filter/estimate_change.hpp"
 #include "lio/scan/sweep.hpp"
+#include "pipeline/blind_axis.hpp"
 
 namespace lio {
 namespace {
@@ -153,7 +154,8 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
   if (match.IsUsable()) {
     PoseEvent event;
     event.measurement.T_map_imu = match.T_map_imu;
-    event.measurement.cov = match.cov;
+    event.measurement.cov =
+        WithBlindErrors(match, history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
     event.force = true;
     return history_.AddPose(middle, event) == EventOutcome::kApplied;
   }

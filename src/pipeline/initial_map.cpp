@@ -10,7 +10,8 @@ namespace lio {
 namespace {
 
 constexpr MapSearchParameters kSearch = kRelocalization.map_search;
-constexpr float kMaxExtent_m = kSearch.cell_m * kSearch.max_cells_per_side - 2.f * kSearch.margin_m;
+constexpr MapSearchScale kScale = MapSearchParameters::kFromAbove;
+constexpr float kMaxExtent_m = kScale.cell_m * kSearch.max_cells_per_side - 2.f * kScale.margin_m;
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
+#include "pipeline/blind_axis.hpp"
 #include "pipeline/coarse_tracking.hpp"
 
 namespace lio {
@@ -93,6 +94,8 @@ void Initializing::FinishVelocitySearch(const MatchOutcome& outcome) {
 
 void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();
+  const Matrix6 prior_cov =
+      tracker_->history().At(middle).cov.block<6, 6>(kMapPose, kMapPose);
   const bool is_fused = tracker_->AddMatch(middle, outcome.match);
   const bool is_matched = is_fused && outcome.match.IsUsable();
   const Estimate estimate = tracker_->history().At(middle);
@@ -101,7 +104,8 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
     insert.T_map_imu = state.T_map_imu;
   }
   scans_.push_back(
-      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, outcome.match.cov},
+      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu,
+        WithBlindErrors(outcome.match, prior_cov)},
        is_matched});
   if (is_matched && HasImu()) {
     context_.convention.AddPose({middle, outcome.match.T_map_imu});

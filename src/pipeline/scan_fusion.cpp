@@ -54,10 +54,19 @@ bool IsForced(const MatchOutcome& outcome, bool is_blind, const FusionSettings& 
   return is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
 }
 
+// The covariance of the pose before the match. By the lidar alone it follows the match's own, and
+// is taken for sure (docs/experiments/starts_in_motion.md).
+Matrix6 PriorCov(const MatchOutcome& outcome, const FusionSettings& settings,
+                 const FilterHistory& history) {
+  if (!settings.is_inertial || outcome.match.blind_directions.empty()) return Matrix6::Zero();
+  return history.At(outcome.sweep->middle()).cov.block<6, 6>(kMapPose, kMapPose);
+}
+
 MatchJudgement Judge(const MatchOutcome& outcome, const FusionSettings& settings,
                      const ModeContext& context, const FilterHistory& history,
                      const Health& health) {
-  const auto [match_cov, is_blind] = context.blind_axis.Judge(outcome.match);
+  const auto [match_cov, is_blind] =
+      context.blind_axis.Judge(outcome.match, PriorCov(outcome, settings, history));
   MatchJudgement judgement{
       .match_cov = match_cov,
       .sensor_error_cov = context.sensor_errors.CovPerReplacement(outcome.match),

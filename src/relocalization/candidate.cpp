@@ -7,17 +7,23 @@
 
 namespace lio {
 
-Matrix6 CandidateCov() {
-  constexpr PlaceCandidateParameters kCandidate = kRelocalization.candidate;
+Matrix6 CandidateCov(double std_m, double std_rad) {
   Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(kCandidate.std_m * kCandidate.std_m),
-      Vector3::Constant(kCandidate.std_rad * kCandidate.std_rad);
+  cov.diagonal() << Vector3::Constant(std_m * std_m), Vector3::Constant(std_rad * std_rad);
   return cov;
 }
 
+Matrix6 CandidateCov() {
+  constexpr PlaceCandidateParameters kCandidate = kRelocalization.candidate;
+  return CandidateCov(kCandidate.std_m, kCandidate.std_rad);
+}
+
+bool MayBeThere(const MatchResult& match) {
+  return match.IsUsable() || match.status == MatchStatus::kMaxIterations;
+}
+
 double SupportOf(const MatchResult& match) {
-  const bool may_be_there = match.IsUsable() || match.status == MatchStatus::kMaxIterations;
-  if (!may_be_there) return 0.0;
+  if (!MayBeThere(match)) return 0.0;
   const double share = match.num_in_map == 0 ? 1.0 : ShareOf(match);
   return share * match.num_matched;
 }

@@ -35,7 +35,7 @@ CloudSample GatheredCloud::SampleAround(const Vector3& centre_map) const {
   CloudSample sample;
   sample.centre_map = centre_map;
   sample.structures =
-      SpreadEvenly(ColumnMeans(StandingPoints(near)), kRelocalization.map_search.max_structures);
+      SpreadEvenly(ColumnMeans(StandingPoints(near)), MapSearchParameters::kFromAbove.max_num);
   const std::size_t num = std::min(near.size(), kGathered.max_sample);
   for (std::size_t i = 0; i < num; ++i) {
     sample.points.emplace_back(near[i * near.size() / num] - centre);

@@ -18,20 +18,14 @@ namespace {
 constexpr PlaceContestParameters kContest = kRelocalization.contest;
 
 PlaceFit FitOf(const MatchResult& there, const MatchResult& in_new_map) {
-  if (!there.IsUsable()) return {0.0, 0.0};
+  if (!MayBeThere(there)) return {0.0, 0.0, 0.0};
   const double num = in_new_map.num_matched;
   const double num_against = there.num_in_map - there.num_matched;
-  return {std::min(1.0, ShareOf(there) / ShareOf(in_new_map)) *
-              std::min(1.0, there.num_matched / num / kContest.min_number_ratio),
+  return {std::min(1.0, ShareOf(there) / ShareOf(in_new_map)), there.num_matched / num,
           (there.num_matched - kContest.weight_against * num_against) / num};
 }
 
-Matrix6 SettledCov() {
-  Matrix6 cov = Matrix6::Zero();
-  cov.diagonal() << Vector3::Constant(kContest.settled_std_m * kContest.settled_std_m),
-      Vector3::Constant(kContest.settled_std_rad * kContest.settled_std_rad);
-  return cov;
-}
+Matrix6 SettledCov() { return CandidateCov(kContest.settled_std_m, kContest.settled_std_rad); }
 
 // A match that solves degenerate directions, too, knows them as well as the places of scans agree.
 Matrix6 CovOf(const MatchResult& match) {
@@ -47,32 +41,46 @@ bool HasStayed(const Pose& before, const Pose& after) {
 
 }  // namespace
 
-PlaceContest::PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map)
-    : sample_(std::move(sample)) {
+PlaceContest::PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map,
+                           const Matrix6& cov)
+    : sample_(std::move(sample)), place_cov_(cov) {
   for (const Pose& place : T_initial_map) contenders_.push_back({.T_initial_map = place});
 }
 
 bool PlaceContest::Contender::is_good() const { return num_good_in_a_row >= kContest.num_checks; }
 
 bool PlaceContest::Contender::is_observable() const {
-  return LeastInformationRatio(information, noise) >= DegeneracyParameters::kMinInformationRatio;
+  return LeastInformationRatio(information, noise) >= kContest.min_information_ratio;
 }
 
 PlaceFit PlaceContest::Contender::fit() const {
   if (last_fits.empty()) return {};
-  PlaceFit sum{0.0, 0.0};
+  PlaceFit sum{0.0, 0.0, 0.0};
   for (const PlaceFit& fit : last_fits) {
     sum.share += fit.share;
+    sum.number += fit.number;
     sum.score += fit.score;
   }
   const auto num = static_cast<double>(last_fits.size());
-  return {sum.share / num, sum.score / num};
+  return {sum.share / num, sum.number / num, sum.score / num};
+}
+
+// Each at its best: a place that matches come to only at the second time is there all the same.
+PlaceFit PlaceContest::Contender::best_fit() const {
+  PlaceFit best{0.0, 0.0, 0.0};
+  for (const PlaceFit& fit : last_fits) {
+    best.share = std::max(best.share, fit.share);
+    best.number = std::max(best.number, fit.number);
+    best.score = std::max(best.score, fit.score);
+  }
+  return best;
 }
 
 bool PlaceContest::is_over() const {
   if (contenders_.empty()) return true;
-  return num_scans_ >=
-         (contenders_.front().is_good() ? kContest.max_scans_of_good : kContest.max_scans);
+  const Contender& leader = contenders_.front();
+  const bool may_win = leader.is_good() && leader.is_observable();
+  return num_scans_ >= (may_win ? kContest.max_scans_of_good : kContest.max_scans);
 }
 
 bool PlaceContest::Rank(const MatchInInitial& match) {
@@ -80,7 +88,7 @@ bool PlaceContest::Rank(const MatchInInitial& match) {
   for (int i = 0; i < kContest.max_coarse_per_scan && num_ranked_ < contenders_.size(); ++i) {
     Contender& contender = contenders_[num_ranked_++];
     const MatchResult there =
-        match(sample_.points, contender.T_initial_map * T_map_sample, CandidateCov());
+        match(sample_.points, contender.T_initial_map * T_map_sample, place_cov_);
     contender.support = SupportOf(there);
     if (contender.support > 0.0) {
       contender.T_initial_map = there.T_map_imu * T_map_sample.Inverse();
@@ -121,12 +129,13 @@ void PlaceContest::CheckAt(Contender& contender, const LocatedScan& scan,
   const Pose& T_map_imu = scan.match.T_map_imu;
   const bool is_settled = contender.num_checks > 0;
   const MatchResult there = match(scan.points_imu, contender.T_initial_map * T_map_imu,
-                                  is_settled ? SettledCov() : CandidateCov());
+                                  is_settled ? SettledCov() : place_cov_);
   const Pose T_initial_map = there.T_map_imu * T_map_imu.Inverse();
   const PlaceFit fit = FitOf(there, scan.match);
   const bool has_stayed =
       !is_settled || HasStayed(contender.T_initial_map * T_map_imu, there.T_map_imu);
-  const bool is_good = there.IsUsable() && fit.share >= kContest.min_fit && has_stayed;
+  const bool is_good = there.IsUsable() && has_stayed &&
+                       fit.ShareWith(kContest.min_number_ratio) >= kContest.min_fit;
   ++contender.num_checks;
   contender.num_good_in_a_row = is_good ? contender.num_good_in_a_row + 1 : 0;
   if (!is_good) contender.information = contender.noise = Matrix6::Zero();
@@ -148,16 +157,23 @@ void PlaceContest::CountInformation(Contender& contender, const Pose& T_map_imu,
 
 void PlaceContest::OrderByFit() {
   std::stable_sort(contenders_.begin(), contenders_.end(),
-                   [](const auto& a, const auto& b) { return a.fit().share > b.fit().share; });
+                   [](const auto& a, const auto& b) {
+                     return a.fit().ShareWith(kContest.min_number_ratio) >
+                            b.fit().ShareWith(kContest.min_number_ratio);
+                   });
 }
 
 bool PlaceContest::IsBeatenByLeader(const Contender& rival) const {
   if (rival.num_checks < kContest.num_rival_checks) return false;
-  const PlaceFit of_rival = rival.fit();
+  const PlaceFit of_rival = rival.best_fit();
   const PlaceFit of_leader = contenders_.front().fit();
-  const bool is_far_behind = of_rival.score < kContest.max_score_ratio * of_leader.score;
-  return IsBeaten(1.0 - of_rival.share, 1.0 - of_leader.share, kContest.least_residual) ||
-         (path_m_ > kContest.moved_on_m && is_far_behind);
+  const auto is_beaten = [&](double least_residual) {
+    const double share = of_rival.ShareWith(kContest.min_number_ratio * of_leader.number);
+    return IsBeaten(1.0 - share, 1.0 - of_leader.share, least_residual);
+  };
+  const bool is_behind = of_rival.score < kContest.max_score_ratio * of_leader.score;
+  return is_beaten(kContest.least_residual) ||
+         (path_m_ > kContest.moved_on_m && is_beaten(kContest.least_residual_moved_on) && is_behind);
 }
 
 bool PlaceContest::HasWinner() const {

@@ -6,116 +6,152 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lio/relocalization/parameters.hpp"
-
 namespace lio {
 namespace {
 
-using Grid = std::vector<std::uint8_t>;
+constexpr MapSearchParameters kSearch = kRelocalization.map_search;
 
-std::size_t IndexOf(int x, int y, const Eigen::Vector2i& size) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x()) +
-         static_cast<std::size_t>(x);
+// Holds the box around the points.
+struct Box {
+  Eigen::Vector3f low = Eigen::Vector3f::Zero();
+  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+
+  explicit Box(std::span<const Eigen::Vector3f> points) {
+    if (!points.empty()) low = high = points.front();
+    for (const Eigen::Vector3f& point : points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  }
+  void Widen(const Eigen::Vector3f& margin_m) {
+    low -= margin_m;
+    high += margin_m;
+  }
+  [[nodiscard]] Eigen::Vector3f NumCells(float cell_m) const {
+    return ((high - low) / cell_m).array().ceil() + 1.f;
+  }
+};
+
+}  // namespace
+
+StructurePyramid StructurePyramid::FromAbove(std::span<const Eigen::Vector2f> things) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(things.size());
+  for (const Eigen::Vector2f& thing : things) points.emplace_back(thing.x(), thing.y(), 0.f);
+  return {points, MapSearchParameters::kFromAbove, true};
 }
 
-// Returns half as many cells along x and y; each is marked where any of its four is.
-Grid Halved(const Grid& grid, const Eigen::Vector2i& size, const Eigen::Vector2i& half) {
-  Grid halved(IndexOf(0, half.y(), half), 0);
-  for (int y = 0; y < size.y(); ++y) {
-    for (int x = 0; x < size.x(); ++x) {
-      if (grid[IndexOf(x, y, size)] != 0) halved[IndexOf(x / 2, y / 2, half)] = 1;
+StructurePyramid StructurePyramid::InBuilding(std::span<const Eigen::Vector3f> points) {
+  return {points, MapSearchParameters::kInBuilding, false};
+}
+
+bool StructurePyramid::IsOfBuilding(std::span<const Eigen::Vector3f> points) {
+  constexpr MapSearchScale kScale = MapSearchParameters::kInBuilding;
+  Box box(points);
+  box.Widen(Eigen::Vector3f::Constant(kScale.margin_m));
+  return box.NumCells(kScale.cell_m).cast<double>().prod() < kSearch.max_cells_of_building;
+}
+
+StructurePyramid::StructurePyramid(std::span<const Eigen::Vector3f> points,
+                                   const MapSearchScale& scale, bool is_flat)
+    : scale_(scale), is_flat_(is_flat) {
+  Box box(points);
+  box.Widen(Eigen::Vector3f(scale.margin_m, scale.margin_m, is_flat ? 0.f : scale.margin_m));
+  const Eigen::Vector3f num_cells = box.NumCells(scale.cell_m);
+  if (!(num_cells.maxCoeff() < static_cast<float>(kSearch.max_cells_per_side))) {
+    throw std::invalid_argument("StructurePyramid: the points spread too far");
+  }
+  corner_m_ = box.low;
+  if (is_flat) corner_m_.z() = -0.5f * scale.cell_m;
+  size_ = num_cells.cast<int>();
+  BuildLevels(MarkPoints(points));
+}
+
+StructurePyramid::Grid StructurePyramid::MarkPoints(
+    std::span<const Eigen::Vector3f> points) const {
+  Grid marked(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), 0);
+  Eigen::Vector3f reach_m = Eigen::Vector3f::Constant(scale_.reach_cells * scale_.cell_m);
+  if (is_flat_) reach_m.z() = 0.f;
+  const Eigen::Vector3i last = size_.array() - 1;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3i low = CellOf(point - reach_m).cwiseMax(0);
+    const Eigen::Vector3i high = CellOf(point + reach_m).cwiseMin(last);
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) {
+          std::uint8_t& cell = marked[IndexOf(x, y, z, size_)];
+          cell = std::max(cell, kNear);
+        }
+      }
+    }
+    const Eigen::Vector3i at = CellOf(point);
+    marked[IndexOf(at.x(), at.y(), at.z(), size_)] = kThing;
+  }
+  return marked;
+}
+
+StructurePyramid::Grid StructurePyramid::Halved(const Grid& grid, const Eigen::Vector3i& size,
+                                                const Eigen::Vector3i& half) {
+  Grid halved(static_cast<std::size_t>(half.x()) * half.y() * half.z(), 0);
+  std::size_t i = 0;
+  for (int z = 0; z < size.z(); ++z) {
+    for (int y = 0; y < size.y(); ++y) {
+      for (int x = 0; x < size.x(); ++x) {
+        if (grid[i++] != 0) halved[IndexOf(x / 2, y / 2, z / 2, half)] = 1;
+      }
     }
   }
   return halved;
 }
 
-// Marks the cells up to `tolerance` before each marked one, along x and y; the result begins as
-// many cells before the grid.
-Grid Widened(const Grid& grid, const Eigen::Vector2i& size, int tolerance) {
-  const Eigen::Vector2i wide(size.x() + tolerance, size.y());
-  const Eigen::Vector2i result_size(size.x() + tolerance, size.y() + tolerance);
-  Grid along_x(IndexOf(0, wide.y(), wide), 0);
-  for (int y = 0; y < size.y(); ++y) {
-    for (int x = 0; x < size.x(); ++x) {
-      if (grid[IndexOf(x, y, size)] == 0) continue;
-      for (int by = 0; by <= tolerance; ++by) along_x[IndexOf(x + by, y, wide)] = 1;
+StructurePyramid::Grid StructurePyramid::Widened(const Grid& grid, Eigen::Vector3i& size, int axis,
+                                                 int tolerance) {
+  Eigen::Vector3i wide = size;
+  wide[axis] += tolerance;
+  const std::size_t stride = IndexOf(axis == 0, axis == 1, axis == 2, wide);
+  Grid result(static_cast<std::size_t>(wide.x()) * wide.y() * wide.z(), 0);
+  std::size_t i = 0;
+  for (int z = 0; z < size.z(); ++z) {
+    for (int y = 0; y < size.y(); ++y) {
+      for (int x = 0; x < size.x(); ++x) {
+        if (grid[i++] == 0) continue;
+        std::size_t at = IndexOf(x, y, z, wide);
+        for (int by = 0; by <= tolerance; ++by, at += stride) result[at] = 1;
+      }
     }
   }
-  Grid result(IndexOf(0, result_size.y(), result_size), 0);
-  for (int y = 0; y < wide.y(); ++y) {
-    for (int x = 0; x < wide.x(); ++x) {
-      if (along_x[IndexOf(x, y, wide)] == 0) continue;
-      for (int by = 0; by <= tolerance; ++by) result[IndexOf(x, y + by, result_size)] = 1;
-    }
-  }
+  size = wide;
   return result;
 }
 
-}  // namespace
-
-StructurePyramid::StructurePyramid(std::span<const Eigen::Vector2f> points) {
-  Frame(points);
-  BuildLevels(MarkThings(points));
-}
-
-void StructurePyramid::Frame(std::span<const Eigen::Vector2f> points) {
-  Eigen::Vector2f low = Eigen::Vector2f::Zero();
-  Eigen::Vector2f high = Eigen::Vector2f::Zero();
-  if (!points.empty()) low = high = points.front();
-  for (const Eigen::Vector2f& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const Eigen::Vector2f extent_m =
-      high - low + Eigen::Vector2f::Constant(2.f * kRelocalization.map_search.margin_m);
-  if (!(extent_m.maxCoeff() <
-        kRelocalization.map_search.cell_m * kRelocalization.map_search.max_cells_per_side)) {
-    throw std::invalid_argument("StructurePyramid: the points spread over more than 4 km");
-  }
-  corner_m_ = low - Eigen::Vector2f::Constant(kRelocalization.map_search.margin_m);
-  size_ = (extent_m / kRelocalization.map_search.cell_m).array().ceil().cast<int>() + 1;
-}
-
-StructurePyramid::Grid StructurePyramid::MarkThings(std::span<const Eigen::Vector2f> points) const {
-  Grid marked(IndexOf(0, size_.y(), size_), 0);
-  for (const Eigen::Vector2f& point : points) {
-    const Eigen::Vector2i at = CellOf(point);
-    for (int y = at.y() - 1; y <= at.y() + 1; ++y) {
-      for (int x = at.x() - 1; x <= at.x() + 1; ++x) {
-        std::uint8_t& cell = marked[IndexOf(x, y, size_)];
-        cell = std::max(cell, kNear);
-      }
-    }
-    marked[IndexOf(at.x(), at.y(), size_)] = kThing;
-  }
-  return marked;
-}
-
 void StructurePyramid::BuildLevels(Grid marked) {
-  constexpr int kLog2Cells = kRelocalization.map_search.log2_cells_per_block;
-  Eigen::Vector2i marked_size = size_;
-  for (int level = 0; level < kRelocalization.map_search.num_levels; ++level) {
+  constexpr int kLog2Cells = kSearch.log2_cells_per_block;
+  Eigen::Vector3i marked_size = size_;
+  for (int level = 0; level < scale_.num_levels; ++level) {
     Level& added = levels_.emplace_back();
     added.shift = std::max(0, level - kLog2Cells);
     if (added.shift > 0) {
-      const Eigen::Vector2i half = (marked_size.array() + 1) / 2;
+      const Eigen::Vector3i half = (marked_size.array() + 1) / 2;
       marked = Halved(marked, marked_size, half);
       marked_size = half;
     }
     // A block begins anywhere in a cell, so that it may touch one more than it is wide.
     added.tolerance = added.shift > 0 ? 1 << kLog2Cells : (1 << level) - 1;
-    added.size = marked_size.array() + added.tolerance;
-    added.grid = added.tolerance == 0 ? marked : Widened(marked, marked_size, added.tolerance);
+    added.size = marked_size;
+    added.grid = marked;
+    if (added.tolerance == 0) continue;
+    for (int axis = 0; axis < (is_flat_ ? 2 : 3); ++axis) {
+      added.grid = Widened(added.grid, added.size, axis, added.tolerance);
+    }
   }
 }
 
-Eigen::Vector2i StructurePyramid::CellOf(const Eigen::Vector2f& point) const {
-  return ((point - corner_m_) / kRelocalization.map_search.cell_m).array().floor().cast<int>();
+Eigen::Vector3i StructurePyramid::CellOf(const Eigen::Vector3f& point) const {
+  return ((point - corner_m_) / scale_.cell_m).array().floor().cast<int>();
 }
 
-Eigen::Vector2f StructurePyramid::CentreOf(const Eigen::Vector2i& cell) const {
-  return corner_m_ +
-         kRelocalization.map_search.cell_m * (cell.cast<float>().array() + 0.5f).matrix();
+Eigen::Vector3f StructurePyramid::CentreOf(const Eigen::Vector3i& cell) const {
+  return corner_m_ + scale_.cell_m * (cell.cast<float>().array() + 0.5f).matrix();
 }
 
 }  // namespace lio

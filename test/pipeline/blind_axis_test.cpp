@@ -17,6 +17,7 @@ constexpr double kBlindStd_m = 100.0;
 constexpr double kPoseStd = 1e-3;       // m, rad, across the axis
 constexpr double kRatio = 7.0;          // the information over that of noise, along the axis
 constexpr double kDirectionStd = 1e-3;  // m, rad per metre along the axis
+const Matrix6 kSure = Matrix6::Zero();     // of the pose before a match
 
 // Returns a match at a pose that sees all but a metre along `shift`, where rotations count as
 // metres.
@@ -82,7 +83,7 @@ TEST(BlindAxis, NoisyDirectionsOfATunnelDoNotTellThePlaceAlongIt) {
   BlindAxis axis;
   const double own_m = StdAlongTunnel(400, [](const MatchResult& match) { return match.cov; });
   const double mean_m =
-      StdAlongTunnel(400, [&](const MatchResult& match) { return axis.Judge(match).cov; });
+      StdAlongTunnel(400, [&](const MatchResult& match) { return axis.Judge(match, kSure).cov; });
   EXPECT_LT(own_m, 0.05);
   EXPECT_GT(mean_m, 4.0 * own_m);
 }
@@ -107,7 +108,7 @@ TEST(BlindAxis, TheMeanIsNearerToTheTruthThanItsMatchesAlongACircleToo) {
     const Pose pose{ExpSo3(Vector3(0, 0, angle_rad)),
                     kRadius_m * Vector3(std::sin(angle_rad), 1.0 - std::cos(angle_rad), 0.0)};
     const MatchResult match = BlindAlong(WithNoise(truth, random), pose);
-    const Vector6 mean = BlindDirectionOf(axis.Judge(match).cov);
+    const Vector6 mean = BlindDirectionOf(axis.Judge(match, kSure).cov);
     if (i < 50) continue;
     of_matches += (match.blind_directions.front().shift - truth).squaredNorm();
     of_mean += (mean - truth).squaredNorm();
@@ -122,30 +123,48 @@ TEST(BlindAxis, AnotherTunnelBeginsAnew) {
   Vector6 other = TunnelAxisAt(at_rest);
   other[1] = 0.1;
   for (int i = 0; i < 30; ++i) {
-    (void)axis.Judge(BlindAlong(WithNoise(TunnelAxisAt(at_rest), random), at_rest));
+    (void)axis.Judge(BlindAlong(WithNoise(TunnelAxisAt(at_rest), random), at_rest), kSure);
   }
   const MatchResult match = BlindAlong(other, at_rest);
-  EXPECT_LT((axis.Judge(match).cov - match.cov).norm(), 1e-9 * match.cov.norm());
+  EXPECT_LT((axis.Judge(match, kSure).cov - match.cov).norm(), 1e-9 * match.cov.norm());
 }
 
-TEST(BlindAxis, MatchesThatSeeAllOrTwoDirectionsLessStayAsTheyAre) {
-  BlindAxis axis;
+MatchResult BlindAlongXAndY() {
   MatchResult match = BlindAlong(Vector6::UnitX(), {});
   match.blind_directions.push_back(BlindAlong(Vector6::UnitY(), {}).blind_directions.front());
-  EXPECT_EQ(axis.Judge(match).cov, match.cov);
+  return match;
+}
+
+TEST(BlindAxis, MatchesThatSeeAllOrTwoDirectionsLessStayAsTheyAreWhereThePriorIsSure) {
+  BlindAxis axis;
+  MatchResult match = BlindAlongXAndY();
+  EXPECT_EQ(axis.Judge(match, kSure).cov, match.cov);
   match.blind_directions.clear();
-  EXPECT_EQ(axis.Judge(match).cov, match.cov);
+  EXPECT_EQ(axis.Judge(match, Matrix6::Identity()).cov, match.cov);
+}
+
+// A direction that is turned by its standard deviation shows a prior's standard deviation of 2 m
+// along it as this times 2 m across.
+TEST(BlindAxis, ErrorsOfTwoBlindDirectionsGrowWithThePrior) {
+  BlindAxis axis;
+  const MatchResult match = BlindAlongXAndY();
+  Matrix6 prior_cov = Matrix6::Zero();
+  prior_cov(0, 0) = 4.0;
+  const Matrix6 added = axis.Judge(match, prior_cov).cov - match.cov;
+  const Matrix6& of_x = match.blind_directions.front().cov;
+  ASSERT_GT(of_x(2, 2), 0.0);
+  EXPECT_LT((added - 4.0 * of_x).norm(), 1e-9 * added.norm());
 }
 
 BlindAxis AfterBlindMatches(int num) {
   BlindAxis axis;
-  for (int i = 0; i < num; ++i) (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}));
+  for (int i = 0; i < num; ++i) (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}), kSure);
   return axis;
 }
 
 TEST(BlindAxis, AMatchThatTellsNoMoreThanBlindOnesIsBlind) {
   BlindAxis axis = AfterBlindMatches(10);
-  const BlindAxis::Answer answer = axis.Judge(SeeingAll(1.2));
+  const BlindAxis::Answer answer = axis.Judge(SeeingAll(1.2), kSure);
   EXPECT_TRUE(answer.is_blind);
   EXPECT_GT(answer.cov(0, 0), 0.9 * kBlindStd_m * kBlindStd_m);
   EXPECT_NEAR(answer.cov(1, 1), kPoseStd * kPoseStd, 1e-9);
@@ -153,45 +172,45 @@ TEST(BlindAxis, AMatchThatTellsNoMoreThanBlindOnesIsBlind) {
 
 TEST(BlindAxis, AMatchThatTellsClearlyMoreIsBelieved) {
   BlindAxis axis = AfterBlindMatches(10);
-  const BlindAxis::Answer answer = axis.Judge(SeeingAll(3.0));
+  const BlindAxis::Answer answer = axis.Judge(SeeingAll(3.0), kSure);
   EXPECT_FALSE(answer.is_blind);
   EXPECT_EQ(answer.cov, SeeingAll(3.0).cov);
 }
 
 TEST(BlindAxis, OneBlindMatchAmongManyChangesNoOther) {
   BlindAxis axis;
-  for (int i = 0; i < 20; ++i) EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
-  EXPECT_TRUE(axis.Judge(BlindAlong(Vector6::UnitX(), {})).is_blind);
-  EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(axis.Judge(SeeingAll(1.2), kSure).is_blind);
+  EXPECT_TRUE(axis.Judge(BlindAlong(Vector6::UnitX(), {}), kSure).is_blind);
+  EXPECT_FALSE(axis.Judge(SeeingAll(1.2), kSure).is_blind);
 }
 
 TEST(BlindAxis, MatchesThatGoOnSeeingAreBelieved) {
   BlindAxis axis = AfterBlindMatches(100);
   int num_blind = 0;
-  for (int i = 0; i < 20; ++i) num_blind += axis.Judge(SeeingAll(1.2)).is_blind ? 1 : 0;
+  for (int i = 0; i < 20; ++i) num_blind += axis.Judge(SeeingAll(1.2), kSure).is_blind ? 1 : 0;
   EXPECT_LT(num_blind, 8);
 }
 
 TEST(BlindAxis, ResetForgetsTheAxis) {
   BlindAxis axis = AfterBlindMatches(100);
   axis.Reset();
-  EXPECT_FALSE(axis.Judge(SeeingAll(1.2)).is_blind);
+  EXPECT_FALSE(axis.Judge(SeeingAll(1.2), kSure).is_blind);
 }
 
 TEST(BlindAxis, AMethodThatDoesNotTellHowWellItKnowsTheDirectionIsBelieved) {
   BlindAxis axis;
-  (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}));
+  (void)axis.Judge(BlindAlong(Vector6::UnitX(), {}), kSure);
   std::mt19937_64 random(4);
   MatchResult match = BlindAlong(WithNoise(Vector6::UnitX(), random), {});
   match.blind_directions.front().cov.setZero();
-  EXPECT_EQ(axis.Judge(match).cov, match.cov);
+  EXPECT_EQ(axis.Judge(match, kSure).cov, match.cov);
 }
 
 TEST(BlindAxis, ADirectionThatIsHeldOtherwiseStaysHeld) {
   BlindAxis axis;
   MatchResult match = BlindAlong(Vector6::UnitX(), {});
   match.cov(0, 0) = 0.01;
-  EXPECT_EQ(axis.Judge(match).cov, match.cov);
+  EXPECT_EQ(axis.Judge(match, kSure).cov, match.cov);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lio/relocalization/candidate.hpp"
 #include "lio/relocalization/parameters.hpp"
 
 namespace lio {
@@ -72,7 +73,7 @@ const std::vector<Pose> kThree{At(-39.0), At(31.0), At(90.0)};
 
 TEST(PlaceContest, ThePlaceThatScansFitWins) {
   Scenery scenery;
-  PlaceContest contest(CloudSample{}, kThree);
+  PlaceContest contest(CloudSample{}, kThree, CandidateCov());
   int num_scans = 0;
   const auto found = Decide(contest, scenery, &num_scans);
   ASSERT_TRUE(found);
@@ -83,28 +84,28 @@ TEST(PlaceContest, ThePlaceThatScansFitWins) {
 TEST(PlaceContest, NoneOfTwoPlacesThatLookAlikeWins) {
   Scenery scenery;
   scenery.num_matched_there = 940;
-  PlaceContest contest(CloudSample{}, kThree);
+  PlaceContest contest(CloudSample{}, kThree, CandidateCov());
   EXPECT_FALSE(Decide(contest, scenery));
 }
 
 TEST(PlaceContest, OnlyPlaceThatFitsBadlyDoesNotWin) {
   Scenery scenery;
   scenery.num_matched_here = 800;  // 1000 come to a surface
-  PlaceContest contest(CloudSample{}, {At(31.0)});
+  PlaceContest contest(CloudSample{}, {At(31.0)}, CandidateCov());
   EXPECT_FALSE(Decide(contest, scenery));
 }
 
 TEST(PlaceContest, DegenerateMatchesDoNotTellThePlace) {
   Scenery scenery;
-  scenery.information_ratio = 0.5 * DegeneracyParameters::kMinInformationRatio;
-  PlaceContest contest(CloudSample{}, {At(31.0)});
+  scenery.information_ratio = 0.5 * kContest.min_information_ratio;
+  PlaceContest contest(CloudSample{}, {At(31.0)}, CandidateCov());
   EXPECT_FALSE(Decide(contest, scenery));
 }
 
 TEST(PlaceContest, ScansOfWhichEachShowsOtherDirectionsTellThePlaceTogether) {
   Scenery scenery;
   scenery.information_ratio = 0.0;
-  PlaceContest contest(CloudSample{}, {At(31.0)});
+  PlaceContest contest(CloudSample{}, {At(31.0)}, CandidateCov());
   const MatchInInitial match = scenery.Matcher();
   ASSERT_TRUE(contest.Rank(match));
   std::optional<FoundPlace> found;
@@ -120,12 +121,12 @@ TEST(PlaceContest, ScansOfWhichEachShowsOtherDirectionsTellThePlaceTogether) {
 }
 
 // Has two places that look alike: no more contradicts the wrong one than a thing that was moved,
-// and fewer points come to its surfaces.
+// and fewer lie on its surfaces.
 std::optional<FoundPlace> DecideBetweenStoreys(double step_m) {
   Scenery scenery;
-  scenery.num_matched_here = 995;
-  scenery.num_matched_there = 985;
-  PlaceContest contest(CloudSample{}, kThree);
+  scenery.num_matched_here = 999;
+  scenery.num_matched_there = 975;
+  PlaceContest contest(CloudSample{}, kThree, CandidateCov());
   const MatchInInitial match = scenery.Matcher();
   while (!contest.Rank(match)) {
   }
@@ -148,7 +149,7 @@ TEST(PlaceContest, PlacesThatLookNearlyAlikeAreToldOnTheWay) {
 
 TEST(PlaceContest, PlaceThatWandersDoesNotWin) {
   Scenery scenery;
-  PlaceContest contest(CloudSample{}, {At(31.0)});
+  PlaceContest contest(CloudSample{}, {At(31.0)}, CandidateCov());
   const MatchInInitial match = scenery.Matcher();
   ASSERT_TRUE(contest.Rank(match));
   const MatchResult in_new_map = InNewMap();
@@ -164,7 +165,7 @@ TEST(PlaceContest, MatchesOfAScanAreBounded) {
   std::vector<Pose> many;
   for (int i = 0; i < 50; ++i) many.push_back(At(29.0 + 0.05 * i));
   many.push_back(At(-40.0));
-  PlaceContest contest(CloudSample{}, many);
+  PlaceContest contest(CloudSample{}, many, CandidateCov());
   const MatchInInitial match = scenery.Matcher();
   EXPECT_FALSE(contest.Rank(match));
   EXPECT_EQ(scenery.num_calls, kContest.max_coarse_per_scan);
@@ -180,7 +181,7 @@ TEST(PlaceContest, MatchesOfAScanAreBounded) {
 
 TEST(PlaceContest, WithoutPlacesItIsOverAtOnce) {
   Scenery scenery;
-  PlaceContest contest(CloudSample{}, {});
+  PlaceContest contest(CloudSample{}, {}, CandidateCov());
   EXPECT_TRUE(contest.Rank(scenery.Matcher()));
   EXPECT_TRUE(contest.is_over());
 }

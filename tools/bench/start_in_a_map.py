@@ -130,7 +130,7 @@ def main():
         if given.verbose:
             for row in rows:
                 worst = f"{max(row['errors_m']):.2f} m" if row["errors_m"] else "not found"
-                print(f"  {row['start_s']:.1f} s: {row['found_after_s']} {worst}")
+                print(f"  {row['start_s']:.3f} s: {row['found_after_s']} {worst}")
         print(summary(scenario, rows), flush=True)
 
 

@@ -10,6 +10,10 @@ namespace lio {
 
 // Returns the covariance of a candidate's error, right error [translation (m); rotation (rad)].
 [[nodiscard]] Matrix6 CandidateCov();
+[[nodiscard]] Matrix6 CandidateCov(double std_m, double std_rad);
+
+// Did the match come to an end near a place, or oscillate about one?
+[[nodiscard]] bool MayBeThere(const MatchResult& match);
 
 // Returns how much speaks for a match: the number of points on surfaces times their share of those
 // that come to one. Ground gives many points anywhere, so that the number alone does not tell.

@@ -123,35 +123,72 @@ struct StandingPointsParameters {
   float column_m = BirdsEyeViewParameters{}.column_m;  // edge; a column gives one structure
 };
 
+// How finely a map is searched.
+struct MapSearchScale {
+  float cell_m;         // edge of the finest cells: matching converges from there
+  float reach_cells;    // a point marks the cells that are within so many cells of it
+  int num_levels;       // each level's blocks are twice as wide as the last one's
+  float step_rad;       // of the turn: a cell at half of the range or more
+  float max_range_m;    // of the points that are sought
+  float margin_m;       // a body may be so far beyond the map's points
+  float same_m;         // places nearer than this are the same
+  double std_m;         // standard deviations of a place that is found
+  double std_rad;
+  std::size_t max_num;  // points that are sought; bounds the cost
+};
+
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  float cell_m = 0.5f;  // edge of the finest cells; chosen: matching converges from there
-  int num_levels = 7;   // chosen: cells of 0.5 to 32 m, a few of which cover a map
-  // A block of shifts is two to this power cells wide in its grid. Chosen: all
-  // grids take three times the memory of the finest then; fewer bound a score looser.
+  // What stands up in a large map is sought from above. Chosen: cells of 0.5 to 32 m, a few of
+  // which cover a map, a margin of some lanes, and places two coarse steps apart.
+  static constexpr MapSearchScale kFromAbove{.cell_m = 0.5f,
+                                             .reach_cells = 1.f,
+                                             .num_levels = 7,
+                                             .step_rad = 0.0175f,
+                                             .max_range_m = 40.f,
+                                             .margin_m = 10.f,
+                                             .same_m = 2.f,
+                                             .std_m = PlaceCandidateParameters{}.std_m,
+                                             .std_rad = PlaceCandidateParameters{}.std_rad,
+                                             .max_num = 120};
+  // All points are sought in a building, in three dimensions: seen from above, its storeys lie over
+  // each other, and its stairs stand everywhere. Measured in an office: 0.99 of the points lie in
+  // marked cells at the right pose, and at one of 10 000 others 0.84; with cells of 0.5 m these
+  // were 1.00 and 0.99 (docs/experiments/start_in_a_map.md). From 0.5 m off, matches slide along
+  // stairs: standard deviations are those of a cell and a step.
+  static constexpr MapSearchScale kInBuilding{.cell_m = 0.25f,
+                                              .reach_cells = 0.5f,
+                                              .num_levels = 5,
+                                              .step_rad = 0.0167f,
+                                              .max_range_m = 15.f,
+                                              .margin_m = 2.f,
+                                              .same_m = 1.f,
+                                              .std_m = 0.15,
+                                              .std_rad = 0.015,
+                                              .max_num = 200};
+  // A map of fewer cells is one of a building. Chosen by memory: 100 m by 60 m by 20 m, 25 MB.
+  double max_cells_of_building = 8e6;
+  // A block of shifts is two to this power cells wide in its grid. Chosen: all grids take three
+  // times the memory of the finest then; fewer bound a score looser.
   int log2_cells_per_block = 2;
   int max_cells_per_side = 8192;    // chosen by memory: 4 km, whose grids take 220 MB
   float max_coordinate_m = 100e3f;  // bound on a map's points; arithmetic: a float holds 8 mm there
-  float step_rad = 0.0175f;         // chosen: a cell at 30 m
-  // A place is refined by so many fine steps to each side, over which its score is the same.
-  // Arithmetic: four of PlaceSearchParameters::fine_step_m are two cells, and a cell beside counts
-  // as well.
+  // A place seen from above is refined by so many fine steps to each side, over which its score is
+  // the same. Arithmetic: four of PlaceSearchParameters::fine_step_m are two cells, and a cell
+  // beside counts as well.
   int num_refine_steps = 4;
-  float margin_m = 10.f;  // a body may be so far beyond the map's points; chosen: some lanes
-  std::size_t max_structures = 120;  // chosen: bounds the cost
-  float max_range_m = 40.f;  // range of structures; chosen: a step of the turn is 0.7 m there
-  double min_share = 0.4;    // share of structures in the map; chosen: scans see new things, too
+  double min_share = 0.4;  // share of what is sought in the map; chosen: scans see new things, too
   double min_score_ratio = VelocitySearchParameters{}.flat_top;  // share of the best score
   std::size_t max_places = 16;        // chosen by cost: four scans of coarse matches
-  std::size_t max_nodes = 4'000'000;  // nodes that wait; chosen by memory: 48 MB
+  std::size_t max_nodes = 4'000'000;  // nodes that wait; chosen by memory: 64 MB
   // One scan pays for so many look-ups in a grid. Chosen by time: about 20 ms; a search of a street
   // of 440 m takes 10 to 12 scans of them (docs/experiments/start_in_a_map.md).
   std::int64_t max_lookups_per_scan = 4'000'000;
 };
 
 struct HeightVotesParameters {
-  float column_m = MapSearchParameters{}.cell_m;  // edge of a column of the map
+  float column_m = MapSearchParameters::kFromAbove.cell_m;  // edge of a column of the map
   float bin_m = 0.25f;           // height of a bin; chosen: matching converges from half a metre
   std::size_t max_points = 400;  // voters; chosen: bounds the cost
   double min_vote_ratio = 0.6;   // share of the best height's; chosen: storeys look nearly alike
@@ -161,7 +198,7 @@ struct HeightVotesParameters {
 
 struct GatheredCloudParameters {
   float thin_m = 0.25f;  // the cloud has a point in each such voxel; as map.pcd, nearly
-  float max_range_m = MapSearchParameters{}.max_range_m;  // from the body, of what is sought
+  float max_range_m = MapSearchParameters::kFromAbove.max_range_m;  // from the body, of what is sought
   std::size_t max_points = 400'000;  // then it begins anew; chosen: some hundred metres of a street
   std::size_t max_sample = 2000;     // points that stand for the cloud: as many as of a scan
 };
@@ -181,24 +218,31 @@ struct PlaceContestParameters {
   // own new map. Measured: 0.96 and more at right places, 0.94 at most one storey off
   // (docs/experiments/start_in_a_map.md).
   double min_fit = 0.95;
-  // So many points must lie on surfaces, over those in the scan's own new map; with fewer the fit
-  // is worse. Chosen: a saved map has fewer points on near things than the last scans have.
+  // So many points must lie on surfaces, over those in the scan's own new map, or for a rival at
+  // the leader; with fewer the fit is worse. Chosen: a saved map has fewer points on near things
+  // than the last scans have.
   double min_number_ratio = 0.6;
   // A right place stays where it is from scan to scan. Chosen: three settled_std_m, and two of the
   // turn.
   double max_step_m = 0.3;
   double max_step_rad = 0.02;
   int num_checks = 5;        // scans in a row that must say so; chosen: half a second
+  // They show every direction together, with so many times the information that noise induces.
+  // Chosen: the axis of a corridor has 1.6 at most (DegeneracyParameters::kMinInformationRatio), and
+  // that the scans agree on a place says more than one match does.
+  double min_information_ratio = 4.0;
   int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
   // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
   // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
   double min_residual_ratio = 1.5;
   double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things ...
-  // ... that stay behind: on a way of so many metres a rival is beaten, too, when its points on
-  // surfaces, less those against it by this weight, are fewer than this share of the winner's.
-  // Chosen: other things are in view then; places of other storeys come to 0.86 at most where the
-  // right one is known (docs/experiments/start_in_a_map.md).
+  // ... that stay behind: on a way of so many metres a rival is beaten by this many, too, if its
+  // points on surfaces, less those against it by this weight, are fewer than this share of the
+  // winner's. Chosen: other things are in view then. In an office 0.01 to 0.03 of the points are
+  // against places of other storeys, 0.001 against the right one, and flights of stairs are alike
+  // (docs/experiments/start_in_a_map.md).
   double moved_on_m = 2.0;
+  double least_residual_moved_on = 0.005;
   double weight_against = 10.0;
   double max_score_ratio = 0.9;
   // After so many scans the search begins anew, or after so many if the leader fits. Chosen: three

@@ -11,6 +11,7 @@
 // Frames: `map` is the new map, `initial` the saved one.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -35,12 +36,16 @@ struct LocatedScan {
 
 // Says how well a scan fits the saved map at a place, against its new map.
 struct PlaceFit {
-  // The share of points that nothing contradicts, over that in the new map; less where the saved
-  // map shows little.
-  double share = 1.0;
+  double share = 1.0;   // of points that nothing contradicts, over that in the new map
+  double number = 1.0;  // of points on surfaces, over that in the new map
   // Points on surfaces, less those that are contradicted by their weight, over the points on
   // surfaces of the new map.
   double score = 1.0;
+
+  // Returns the share, less where there are fewer points than so many.
+  [[nodiscard]] double ShareWith(double least_number) const {
+    return share * std::min(1.0, number / least_number);
+  }
 };
 
 struct FoundPlace {
@@ -50,7 +55,8 @@ struct FoundPlace {
 
 class PlaceContest {
  public:
-  PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map);
+  // The places have this covariance, right error at the sample's centre.
+  PlaceContest(CloudSample sample, const std::vector<Pose>& T_initial_map, const Matrix6& cov);
 
   // Ranks some more places. Returns true when all are ranked.
   [[nodiscard]] bool Rank(const MatchInInitial& match);
@@ -77,6 +83,7 @@ class PlaceContest {
     // Their scans together show every direction.
     [[nodiscard]] bool is_observable() const;
     [[nodiscard]] PlaceFit fit() const;  // the mean of the last ones
+    [[nodiscard]] PlaceFit best_fit() const;
   };
 
   void KeepTheBest();
@@ -89,6 +96,7 @@ class PlaceContest {
   [[nodiscard]] bool IsBeatenByLeader(const Contender& rival) const;
 
   CloudSample sample_;
+  Matrix6 place_cov_;
   std::vector<Contender> contenders_;  // the leader first, once all are ranked
   std::size_t num_ranked_ = 0;
   int num_scans_ = 0;  // checked

@@ -4,7 +4,8 @@
 // so that the pose of one map in the other is sought, which stays the same while the body moves:
 //
 //   gather    half a second of scans
-//   search    standing things of both clouds, at all places and turns (MapSearch), then heights
+//   search    both clouds at all places and turns (MapSearch): in a building their points, in a
+//             larger map the things that stand in them, and then heights
 //   contest   matches rank the places, and the next scans tell which one is right (PlaceContest)
 //
 // Each stage takes a bounded time a scan and as many scans as it needs. A search that ends without
@@ -29,7 +30,7 @@ struct PlaceIndex {
   explicit PlaceIndex(std::span<const Eigen::Vector3f> points_map);
 
   StructurePyramid structures;
-  HeightVotes heights;
+  std::optional<HeightVotes> heights;  // where the structures are flat
 };
 
 // Holds a rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.
@@ -61,6 +62,9 @@ class PlaceSeeker {
   [[nodiscard]] bool IsSearchDue(const Vector3& position_map) const;
   void BeginSearch(const Vector3& position_map);
   void BeginContest();
+  // Returns what is sought of the sample, in the new map.
+  [[nodiscard]] std::vector<Eigen::Vector3f> Sought() const;
+  [[nodiscard]] std::vector<Pose> PlacesOf(const ScoredPlace& found) const;
   void GiveUp();
 
   const PlaceIndex* index_;
