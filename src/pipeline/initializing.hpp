@@ -35,6 +35,11 @@ struct InitializingParameters {
   // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
   // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
+  // A scan leaves a level direction open whose standard deviation is larger, and the way is unseen
+  // where more than this share of scans does. Chosen: a degenerate direction within 45 deg of level
+  // has 70 m (DegeneracyParameters::kDegenerateStd_m), one that a bird's-eye view holds 0.2 m; half.
+  double open_std_m = 70.0;
+  double max_open_share = 0.5;
   // s. The gyro tells how far the body has turned since the last pose, back to this before a new
   // start. Chosen: a way is lost for half of it before a start begins anew. The buffer holds more
   // even while sweeps wait, so that latency does not show.
@@ -120,6 +125,7 @@ class Initializing {
   [[nodiscard]] std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartInMotion(Timestamp stamp);
+  [[nodiscard]] bool IsWayUnseen() const;
   [[nodiscard]] std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
   [[nodiscard]] MovingStart Align(Timestamp begin, Timestamp stamp, bool has_gravity) const;
   void TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const;

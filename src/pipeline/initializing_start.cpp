@@ -4,6 +4,7 @@
 // mean (initializing_convention.cpp).
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -134,7 +135,32 @@ MovingStart Initializing::Align(Timestamp begin, Timestamp stamp, bool has_gravi
   return jumped;
 }
 
+// Most scans leave the way along a level direction open, as in a tunnel. The noise of that direction
+// tells a speed there, which is none.
+bool Initializing::IsWayUnseen() const {
+  const Vector3 up = up_map_.normalized();
+  const Matrix3 level = Matrix3::Identity() - up * up.transpose();
+  int num_matched = 0;
+  int num_open = 0;
+  for (const Scan& scan : scans_) {
+    if (!scan.is_matched) continue;
+    ++num_matched;
+    const Matrix3 to_level = level * scan.pose.T_any_imu.rotation.toRotationMatrix();
+    const Matrix3 cov = to_level * scan.pose.cov.topLeftCorner<3, 3>() * to_level.transpose();
+    const double largest_var = Eigen::SelfAdjointEigenSolver<Matrix3>(cov).eigenvalues()[2];
+    if (largest_var > kInitializing.open_std_m * kInitializing.open_std_m) ++num_open;
+  }
+  return num_open > kInitializing.max_open_share * num_matched;
+}
+
 std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp stamp) {
+  if (IsWayUnseen()) {
+    context_.outputs.NotifyWaiting(stamp,
+                                   "no start in motion yet: the scans do not show how fast the "
+                                   "body moves along one level direction (a tunnel?); it waits "
+                                   "until they do, or for a stop");
+    return std::nullopt;
+  }
   const Vector3 mean_f_mps2 = Summarise(context_.stream.imu().Between(begin, stamp)).mean_f_mps2;
   const std::optional<bool> has_gravity = context_.convention.GravityInMotion(mean_f_mps2);
   const std::string seen = fmt::format("{:.2f} m/s^2 in the mean", mean_f_mps2.norm());
