@@ -53,7 +53,7 @@ class BlindAxis {
     bool is_blind;  // along one direction at least
   };
   // Takes a match into the mean, and returns its covariance with that direction in place of its
-  // own. Where several directions are blind it is WithBlindErrors(), and the match's where none is
+  // own. It is WithBlindErrors() where several directions are blind, and the match's where none is
   // or its method does not tell how they vary. `prior_cov` is that of the pose before the match.
   [[nodiscard]] Answer Judge(const MatchResult& match, const Matrix6& prior_cov);
 

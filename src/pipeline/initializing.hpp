@@ -37,7 +37,8 @@ struct InitializingParameters {
   double max_window_s = 3.5;
   // A scan leaves a level direction open whose standard deviation is larger, and the way is unseen
   // where more than this share of scans does. Chosen: a degenerate direction within 45 deg of level
-  // has 70 m (DegeneracyParameters::kDegenerateStd_m), one that a bird's-eye view holds 0.2 m; half.
+  // has 70 m (DegeneracyParameters::kDegenerateStd_m), one that a bird's-eye view holds 0.2 m;
+  // half.
   double open_std_m = 70.0;
   double max_open_share = 0.5;
   // s. The gyro tells how far the body has turned since the last pose, back to this before a new

@@ -135,8 +135,8 @@ MovingStart Initializing::Align(Timestamp begin, Timestamp stamp, bool has_gravi
   return jumped;
 }
 
-// Most scans leave the way along a level direction open, as in a tunnel. The noise of that direction
-// tells a speed there, which is none.
+// Most scans leave the way along a level direction open, as in a tunnel. The noise of that
+// direction tells a speed there, which is none.
 bool Initializing::IsWayUnseen() const {
   const Vector3 up = up_map_.normalized();
   const Matrix3 level = Matrix3::Identity() - up * up.transpose();

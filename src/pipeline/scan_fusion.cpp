@@ -54,8 +54,8 @@ bool IsForced(const MatchOutcome& outcome, bool is_blind, const FusionSettings& 
   return is_contradicted_by_guess || outcome.is_relocalized || is_insisted_on;
 }
 
-// The covariance of the pose before the match. By the lidar alone it follows the match's own, and
-// is taken for sure (docs/experiments/starts_in_motion.md).
+// Returns the covariance of the pose before the match. If the lidar is alone it follows from the
+// matches themselves, and the pose is taken for sure (docs/experiments/starts_in_motion.md).
 Matrix6 PriorCov(const MatchOutcome& outcome, const FusionSettings& settings,
                  const FilterHistory& history) {
   if (!settings.is_inertial || outcome.match.blind_directions.empty()) return Matrix6::Zero();

@@ -109,9 +109,7 @@ Vector6 StepInObservableDirections(const DirectionSplit& split, const Vector6& g
 Vector6 StepTowardsGuess(const Matrix6& information, const Vector6& gradient,
                          const FromGuess& from_guess) {
   const Matrix6 prior = from_guess.guess_cov.inverse();
-  return -(information + prior)
-              .ldlt()
-              .solve(gradient + prior * LogSe3(from_guess.T_guess_imu));
+  return -(information + prior).ldlt().solve(gradient + prior * LogSe3(from_guess.T_guess_imu));
 }
 
 Vector6 KeepObservableDirections(const DirectionSplit& split, const Vector6& step) {

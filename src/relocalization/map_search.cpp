@@ -124,8 +124,8 @@ bool MapSearch::IsInRange(const Node& node) const {
   if (TurnBetween(TurnOf(node), around_->middle.turn_rad) > range.turn_rad) return false;
   const Eigen::Vector3f from_wanted =
       pyramid_->CentreOf(node.cell()) - CentreAt(around_->middle, around_->height_m);
-  const float up_m = pyramid_->is_flat() ? std::numeric_limits<float>::infinity()
-                                         : around_->range_up_m;
+  const float up_m =
+      pyramid_->is_flat() ? std::numeric_limits<float>::infinity() : around_->range_up_m;
   const Eigen::Vector3f range_m(range.shift_m.x(), range.shift_m.y(), up_m);
   return (from_wanted.array() <= range_m.array()).all() &&
          (-from_wanted.array() <= (range_m + WidthOf(node)).array()).all();

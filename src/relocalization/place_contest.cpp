@@ -16,16 +16,19 @@ namespace lio {
 namespace {
 
 constexpr PlaceContestParameters kContest = kRelocalization.contest;
+constexpr RivalParameters kRival = kRelocalization.rival;
 
 PlaceFit FitOf(const MatchResult& there, const MatchResult& in_new_map) {
   if (!MayBeThere(there)) return {0.0, 0.0, 0.0};
   const double num = in_new_map.num_matched;
   const double num_against = there.num_in_map - there.num_matched;
   return {std::min(1.0, ShareOf(there) / ShareOf(in_new_map)), there.num_matched / num,
-          (there.num_matched - kContest.weight_against * num_against) / num};
+          (there.num_matched - kRival.weight_against * num_against) / num};
 }
 
-Matrix6 SettledCov() { return CandidateCov(kContest.settled_std_m, kContest.settled_std_rad); }
+Matrix6 SettledCov() {
+  return CandidateCov(kContest.settled_std_m, kContest.settled_std_rad);
+}
 
 // A match that solves degenerate directions, too, knows them as well as the places of scans agree.
 Matrix6 CovOf(const MatchResult& match) {
@@ -47,7 +50,9 @@ PlaceContest::PlaceContest(CloudSample sample, const std::vector<Pose>& T_initia
   for (const Pose& place : T_initial_map) contenders_.push_back({.T_initial_map = place});
 }
 
-bool PlaceContest::Contender::is_good() const { return num_good_in_a_row >= kContest.num_checks; }
+bool PlaceContest::Contender::is_good() const {
+  return num_good_in_a_row >= kContest.num_checks;
+}
 
 bool PlaceContest::Contender::is_observable() const {
   return LeastInformationRatio(information, noise) >= kContest.min_information_ratio;
@@ -140,7 +145,8 @@ void PlaceContest::CheckAt(Contender& contender, const LocatedScan& scan,
   contender.num_good_in_a_row = is_good ? contender.num_good_in_a_row + 1 : 0;
   if (!is_good) contender.information = contender.noise = Matrix6::Zero();
   contender.last_fits.push_back(fit);
-  if (contender.last_fits.size() > std::size_t{kContest.num_checks}) contender.last_fits.pop_front();
+  if (contender.last_fits.size() > std::size_t{kContest.num_checks})
+    contender.last_fits.pop_front();
   if (!there.IsUsable()) return;
   contender.T_initial_map = T_initial_map;
   contender.cov = CovOf(there);
@@ -156,24 +162,23 @@ void PlaceContest::CountInformation(Contender& contender, const Pose& T_map_imu,
 }
 
 void PlaceContest::OrderByFit() {
-  std::stable_sort(contenders_.begin(), contenders_.end(),
-                   [](const auto& a, const auto& b) {
-                     return a.fit().ShareWith(kContest.min_number_ratio) >
-                            b.fit().ShareWith(kContest.min_number_ratio);
-                   });
+  std::stable_sort(contenders_.begin(), contenders_.end(), [](const auto& a, const auto& b) {
+    return a.fit().ShareWith(kContest.min_number_ratio) >
+           b.fit().ShareWith(kContest.min_number_ratio);
+  });
 }
 
 bool PlaceContest::IsBeatenByLeader(const Contender& rival) const {
-  if (rival.num_checks < kContest.num_rival_checks) return false;
+  if (rival.num_checks < kRival.num_checks) return false;
   const PlaceFit of_rival = rival.best_fit();
   const PlaceFit of_leader = contenders_.front().fit();
   const auto is_beaten = [&](double least_residual) {
     const double share = of_rival.ShareWith(kContest.min_number_ratio * of_leader.number);
     return IsBeaten(1.0 - share, 1.0 - of_leader.share, least_residual);
   };
-  const bool is_behind = of_rival.score < kContest.max_score_ratio * of_leader.score;
-  return is_beaten(kContest.least_residual) ||
-         (path_m_ > kContest.moved_on_m && is_beaten(kContest.least_residual_moved_on) && is_behind);
+  const bool is_behind = of_rival.score < kRival.max_score_ratio * of_leader.score;
+  return is_beaten(kRival.least_residual) ||
+         (path_m_ > kRival.moved_on_m && is_beaten(kRival.least_residual_moved_on) && is_behind);
 }
 
 bool PlaceContest::HasWinner() const {

@@ -48,7 +48,7 @@ double ShareOf(const MatchResult& match) {
 
 bool IsBeaten(double rival_residual, double residual, double least_residual) {
   return rival_residual >=
-         kRelocalization.contest.min_residual_ratio * std::max(residual, least_residual);
+         kRelocalization.rival.min_residual_ratio * std::max(residual, least_residual);
 }
 
 bool IsVerified(const MatchResult& match, const MatchResult& last) {
@@ -91,8 +91,7 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
 }
 
 bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
-  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other),
-                  kRelocalization.contest.least_residual);
+  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other), kRelocalization.rival.least_residual);
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {

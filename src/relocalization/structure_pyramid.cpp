@@ -67,8 +67,7 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector3f> points,
   BuildLevels(MarkPoints(points));
 }
 
-StructurePyramid::Grid StructurePyramid::MarkPoints(
-    std::span<const Eigen::Vector3f> points) const {
+StructurePyramid::Grid StructurePyramid::MarkPoints(std::span<const Eigen::Vector3f> points) const {
   Grid marked(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), 0);
   Eigen::Vector3f reach_m = Eigen::Vector3f::Constant(scale_.reach_cells * scale_.cell_m);
   if (is_flat_) reach_m.z() = 0.f;

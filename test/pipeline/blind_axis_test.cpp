@@ -17,7 +17,7 @@ constexpr double kBlindStd_m = 100.0;
 constexpr double kPoseStd = 1e-3;       // m, rad, across the axis
 constexpr double kRatio = 7.0;          // the information over that of noise, along the axis
 constexpr double kDirectionStd = 1e-3;  // m, rad per metre along the axis
-const Matrix6 kSure = Matrix6::Zero();     // of the pose before a match
+const Matrix6 kSure = Matrix6::Zero();  // the prior's covariance
 
 // Returns a match at a pose that sees all but a metre along `shift`, where rotations count as
 // metres.

@@ -29,7 +29,9 @@ struct InitializingBench {
     while (mode->next_sweep() < bench.sweeps.size()) {
       const MatchJob job = mode->MakeJob(bench.sweeps[mode->next_sweep()]);
       InsertTask insert;
-      if (auto transition = mode->FinishJob(bench.Matched(job, motion), insert)) return transition;
+      MatchOutcome outcome = bench.Matched(job, motion);
+      outcome.match.cov += unseen_cov;
+      if (auto transition = mode->FinishJob(outcome, insert)) return transition;
     }
     return std::nullopt;
   }
@@ -45,6 +47,7 @@ struct InitializingBench {
     return std::nullopt;
   }
 
+  Matrix6 unseen_cov = Matrix6::Zero();  // adds to the matches', right error
   ModeBench bench;
   std::unique_ptr<Initializing> mode;
 };

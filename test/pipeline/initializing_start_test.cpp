@@ -76,6 +76,25 @@ TEST(InitializingStart, DriveGivesAStateInMotion) {
   EXPECT_NEAR((UpOf(estimate.state.T_world_imu) - UpOf(truth.T_world_imu)).norm(), 0.0, 0.02);
 }
 
+// As in a tunnel: matches say where the body is across a direction, and nothing along it.
+TEST(InitializingStart, NoStateIsMadeInMotionWhereTheWayIsUnseen) {
+  constexpr double kVar_m2 =
+      DegeneracyParameters::kDegenerateStd_m * DegeneracyParameters::kDegenerateStd_m;
+  InitializingBench level;
+  level.unseen_cov(0, 0) = kVar_m2;
+  EXPECT_FALSE(level.Drive(Straight(8.0), kDriveFrom_s, kDriveFrom_s + 8.0));
+  EXPECT_TRUE(level.bench.HasNotified(Notice::Severity::kInfo));
+  level.unseen_cov.setZero();  // the tunnel ends
+  const auto transition = level.Drive(Straight(8.0), kDriveFrom_s + 8.0, kDriveFrom_s + 12.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  InitializingBench upward;
+  upward.unseen_cov(2, 2) = kVar_m2;
+  const auto started = upward.Drive(Straight(8.0), kDriveFrom_s, kDriveFrom_s + 4.0);
+  ASSERT_TRUE(started);
+  EXPECT_EQ(started->trigger, Trigger::kStarted);
+}
+
 TEST(InitializingStart, StateInMotionIsForTheFirstSweepOfTwoSeconds) {
   InitializingBench b;
   const auto transition = b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.5);

@@ -117,8 +117,7 @@ TEST(MapSearch, GivesEachOfTwoPlacesThatLookAlike) {
 }
 
 TEST(MapSearch, FindsNothingForThingsThatAreNotInTheMap) {
-  const StructurePyramid pyramid =
-      StructurePyramid::FromAbove(Points2{{0.f, 0.f}, {50.f, 20.f}});
+  const StructurePyramid pyramid = StructurePyramid::FromAbove(Points2{{0.f, 0.f}, {50.f, 20.f}});
   MapSearch search(pyramid, SeenFrom({{0.f, 0.f}, 0.f}, ThingsOfAWood()), {0.f, 0.f, 0.f}, {});
   EXPECT_TRUE(search.GoOn(kUnlimited));
   EXPECT_TRUE(search.places().empty());

@@ -22,7 +22,7 @@ struct Scenery {
   Pose there = At(-40.0);
   int num_matched_here = 950;
   int num_matched_there = 600;
-  double information_ratio = 20.0;  // of the least shown direction
+  double information_ratio = 20.0;  // along the direction shown least
   int num_calls = 0;
 
   MatchInInitial Matcher() {

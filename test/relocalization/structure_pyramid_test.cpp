@@ -30,7 +30,9 @@ StructurePyramid OfTown() {
   return StructurePyramid::FromAbove(things);
 }
 
-StructurePyramid OfBuilding() { return StructurePyramid::InBuilding(SomePoints({12.f, 9.f, 4.f})); }
+StructurePyramid OfBuilding() {
+  return StructurePyramid::InBuilding(SomePoints({12.f, 9.f, 4.f}));
+}
 
 TEST(StructurePyramid, ThingsStandWhereThePointsAre) {
   const StructurePyramid town = OfTown();

@@ -78,7 +78,8 @@ void AddArguments(CLI::App& app, ReplayArguments& arguments) {
                  "Instead of pipeline.num_threads; 2 or more also read and decode the log ahead")
       ->type_name("N")
       ->check(CLI::Range(1, 64));
-  app.add_flag("--map", arguments.writes_map, "Write map.pcd with one point per voxel of 0.2 m");
+  app.add_flag("--map", arguments.writes_map,
+               "Write map.pcd with one point per voxel of 0.2 m, in narrow places of 0.05 m");
   app.add_flag("--report", arguments.writes_report,
                "Write report.html, a page with plots; with --map the path lies on the map");
   app.add_option("--map-format", arguments.map_format,

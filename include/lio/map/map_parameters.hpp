@@ -92,6 +92,20 @@ struct GrazingIncidenceParameters {
 };
 
 // Tells the two sheets of slabs and walls apart in a cloud without viewpoints.
+struct PlaceWidthParameters {
+  // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
+  // first, and wide again where it lies in more than the second. Measured: walks in offices lie in
+  // 27 to 31 cells of 1 m with views of 70 to 120 deg and in about 100 all around; a mine in 350, a
+  // street in 1400 (docs/experiments/narrow_views.md).
+  static constexpr double kNarrowBelow = 150.0;
+  static constexpr double kWideAbove = 220.0;
+  // A new scan has this share in the mean. Chosen: ten scans; views change within a second.
+  static constexpr double kRate = 0.1;
+  // More cells than this count as so many, and scans of fewer points tell nothing. Chosen: it is
+  // far above both limits, and counting costs little in a wide place.
+  static constexpr std::size_t kMaxCounted = 500;
+};
+
 struct SurfaceSidesParameters {
   // Neighbours of a point count up to there [m]. Chosen: floors of buildings are 0.2 to 0.4 m
   // thick.

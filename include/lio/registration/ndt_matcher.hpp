@@ -28,10 +28,10 @@
 #include "lio/base/parallel.hpp"
 #include "lio/map/multi_resolution_map.hpp"
 #include "lio/map/ndt_options.hpp"
+#include "lio/map/place_width.hpp"
 #include "lio/registration/intra_sweep_rate_estimator.hpp"
 #include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
-#include "lio/registration/place_width.hpp"
 #include "lio/registration/scan_matcher.hpp"
 
 namespace lio {

@@ -85,20 +85,6 @@ struct WellConstrainedTranslationParameters {
 };
 
 // Tells when a place is narrow (place_width.hpp).
-struct PlaceWidthParameters {
-  // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
-  // first, and wide again where it lies in more than the second. Measured: walks in offices lie in
-  // 27 to 31 cells of 1 m with views of 70 to 120 deg and in about 100 all around; a mine in 350, a
-  // street in 1400 (docs/experiments/narrow_views.md).
-  static constexpr double kNarrowBelow = 150.0;
-  static constexpr double kWideAbove = 220.0;
-  // A new scan has this share in the mean. Chosen: ten scans; views change within a second.
-  static constexpr double kRate = 0.1;
-  // More cells than this count as so many, and scans of fewer points tell nothing. Chosen: it is
-  // far above both limits, and counting costs little in a wide place.
-  static constexpr std::size_t kMaxCounted = 500;
-};
-
 struct NdtParameters {
   // All points of a vertical structure share an error of this standard deviation [m], since the
   // visible part of a trunk depends on the side. Chosen: about half a trunk's width; used in

@@ -21,9 +21,9 @@
 namespace lio {
 
 struct ScoredPlace {
-  PlanarPose pose;      // the cloud's axes in those of the map
-  float height_m = 0.f;  // of the axes; 0 with a flat pyramid
-  int score = 0;        // points that lie on one of the map, or within reach
+  PlanarPose pose;       // the cloud's axes in those of the map
+  float height_m = 0.f;  // the axes'; 0 with a flat pyramid
+  int score = 0;         // points that lie on one of the map, or within reach
 };
 
 class MapSearch {
@@ -33,7 +33,7 @@ class MapSearch {
   struct Around {
     PlanarPose middle;
     PlanarRange range;
-    float height_m = 0.f;  // of the axes; not asked with a flat pyramid
+    float height_m = 0.f;  // the axes'; not asked with a flat pyramid
     float range_up_m = std::numeric_limits<float>::infinity();
   };
   MapSearch(const StructurePyramid& pyramid, std::span<const Eigen::Vector3f> points,

@@ -125,14 +125,14 @@ struct StandingPointsParameters {
 
 // How finely a map is searched.
 struct MapSearchScale {
-  float cell_m;         // edge of the finest cells: matching converges from there
-  float reach_cells;    // a point marks the cells that are within so many cells of it
-  int num_levels;       // each level's blocks are twice as wide as the last one's
-  float step_rad;       // of the turn: a cell at half of the range or more
-  float max_range_m;    // of the points that are sought
-  float margin_m;       // a body may be so far beyond the map's points
-  float same_m;         // places nearer than this are the same
-  double std_m;         // standard deviations of a place that is found
+  float cell_m;       // edge of the finest cells: matching converges from there
+  float reach_cells;  // a point marks the cells that are within so many cells of it
+  int num_levels;     // each level's blocks are twice as wide as the last one's
+  float step_rad;     // step of the turn: a cell at half of the range or more
+  float max_range_m;  // bound on the range of points that are sought
+  float margin_m;     // a body may be so far beyond the map's points
+  float same_m;       // places nearer than this are the same
+  double std_m;       // standard deviations of a place that is found
   double std_rad;
   std::size_t max_num;  // points that are sought; bounds the cost
 };
@@ -140,8 +140,8 @@ struct MapSearchScale {
 // After W. Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016: branch and bound over
 // a pyramid of grids.
 struct MapSearchParameters {
-  // What stands up in a large map is sought from above. Chosen: cells of 0.5 to 32 m, a few of
-  // which cover a map, a margin of some lanes, and places two coarse steps apart.
+  // Things that stand up in a large map are sought from above. Chosen: cells of 0.5 to 32 m, a few
+  // of which cover a map, a margin of some lanes, and places two coarse steps apart.
   static constexpr MapSearchScale kFromAbove{.cell_m = 0.5f,
                                              .reach_cells = 1.f,
                                              .num_levels = 7,
@@ -198,9 +198,28 @@ struct HeightVotesParameters {
 
 struct GatheredCloudParameters {
   float thin_m = 0.25f;  // the cloud has a point in each such voxel; as map.pcd, nearly
-  float max_range_m = MapSearchParameters::kFromAbove.max_range_m;  // from the body, of what is sought
+  float max_range_m =
+      MapSearchParameters::kFromAbove.max_range_m;  // from the body, of what is sought
   std::size_t max_points = 400'000;  // then it begins anew; chosen: some hundred metres of a street
   std::size_t max_sample = 2000;     // points that stand for the cloud: as many as of a scan
+};
+
+// When the rival of a place is beaten by it.
+struct RivalParameters {
+  int num_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
+  // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
+  // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
+  double min_residual_ratio = 1.5;
+  double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things ...
+  // ... that stay behind: on a way of so many metres a rival is beaten by this many, too, if its
+  // points on surfaces, less those against it by this weight, are fewer than this share of the
+  // winner's. Chosen: other things are in view then. In an office 0.01 to 0.03 of the points are
+  // against places of other storeys, 0.001 against the right one, and flights of stairs are alike
+  // (docs/experiments/start_in_a_map.md).
+  double moved_on_m = 2.0;
+  double least_residual_moved_on = 0.005;
+  double weight_against = 10.0;
+  double max_score_ratio = 0.9;
 };
 
 struct PlaceContestParameters {
@@ -226,25 +245,11 @@ struct PlaceContestParameters {
   // turn.
   double max_step_m = 0.3;
   double max_step_rad = 0.02;
-  int num_checks = 5;        // scans in a row that must say so; chosen: half a second
+  int num_checks = 5;  // scans in a row that must say so; chosen: half a second
   // They show every direction together, with so many times the information that noise induces.
-  // Chosen: the axis of a corridor has 1.6 at most (DegeneracyParameters::kMinInformationRatio), and
-  // that the scans agree on a place says more than one match does.
+  // Chosen: the axis of a corridor has 1.6 at most (DegeneracyParameters::kMinInformationRatio),
+  // and that the scans agree on a place says more than one match does.
   double min_information_ratio = 4.0;
-  int num_rival_checks = 2;  // matches of a rival before it counts as beaten; chosen: one may fail
-  // A rival is beaten when its share of points that contradict it, over the winner's, is this, ...
-  // Chosen; no wrong place won by it (docs/experiments/start_in_a_map.md).
-  double min_residual_ratio = 1.5;
-  double least_residual = 0.02;  // ... which is taken to be no less; chosen: moved things ...
-  // ... that stay behind: on a way of so many metres a rival is beaten by this many, too, if its
-  // points on surfaces, less those against it by this weight, are fewer than this share of the
-  // winner's. Chosen: other things are in view then. In an office 0.01 to 0.03 of the points are
-  // against places of other storeys, 0.001 against the right one, and flights of stairs are alike
-  // (docs/experiments/start_in_a_map.md).
-  double moved_on_m = 2.0;
-  double least_residual_moved_on = 0.005;
-  double weight_against = 10.0;
-  double max_score_ratio = 0.9;
   // After so many scans the search begins anew, or after so many if the leader fits. Chosen: three
   // and ten seconds at 10 Hz.
   int max_scans = 30;
@@ -276,6 +281,7 @@ struct RelocalizationParameters {
   MapSearchParameters map_search;
   HeightVotesParameters height;
   GatheredCloudParameters gathered;
+  RivalParameters rival;
   PlaceContestParameters contest;
   PlaceSeekerParameters seeker;
   double aligned_std_m = 0.5;  // an aligned prior's; chosen: 5 m/s over a sweep

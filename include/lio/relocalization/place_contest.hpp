@@ -36,8 +36,8 @@ struct LocatedScan {
 
 // Says how well a scan fits the saved map at a place, against its new map.
 struct PlaceFit {
-  double share = 1.0;   // of points that nothing contradicts, over that in the new map
-  double number = 1.0;  // of points on surfaces, over that in the new map
+  double share = 1.0;   // points that nothing contradicts, over the share in the new map
+  double number = 1.0;  // points on surfaces, over those in the new map
   // Points on surfaces, less those that are contradicted by their weight, over the points on
   // surfaces of the new map.
   double score = 1.0;
@@ -99,8 +99,8 @@ class PlaceContest {
   Matrix6 place_cov_;
   std::vector<Contender> contenders_;  // the leader first, once all are ranked
   std::size_t num_ranked_ = 0;
-  int num_scans_ = 0;  // checked
-  double path_m_ = 0.0;  // of the body, over them
+  int num_scans_ = 0;    // checked
+  double path_m_ = 0.0;  // way of the body over them
   std::optional<Vector3> last_position_map_;
 };
 

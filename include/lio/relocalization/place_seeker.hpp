@@ -30,7 +30,7 @@ struct PlaceIndex {
   explicit PlaceIndex(std::span<const Eigen::Vector3f> points_map);
 
   StructurePyramid structures;
-  std::optional<HeightVotes> heights;  // where the structures are flat
+  std::optional<HeightVotes> heights;  // absent unless the structures are flat
 };
 
 // Holds a rough pose of the body at the start: within 10 m, 1.5 m of height and 30 deg.

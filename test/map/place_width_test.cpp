@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/place_width.hpp"
+#include "lio/map/place_width.hpp"
 
 #include <gtest/gtest.h>
 

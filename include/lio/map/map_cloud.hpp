@@ -15,7 +15,7 @@
 #include "lio/base/pose.hpp"
 #include "lio/base/voxel_key.hpp"
 #include "lio/base/voxel_set.hpp"
-#include "lio/registration/place_width.hpp"
+#include "lio/map/place_width.hpp"
 
 namespace lio {
 
@@ -48,11 +48,11 @@ class MapCloud {
   void Coarsen();
 
   std::size_t max_points_;
-  double widening_ = 1.0;  // of both kinds of voxels
+  double widening_ = 1.0;  // voxels of both kinds are so many times as wide
   std::vector<Eigen::Vector3f> points_map_;
-  std::vector<bool> is_dense_;  // of each point: it was thinned by small voxels
-  VoxelSet voxels_;             // of all points
-  VoxelSet narrow_voxels_;      // of dense points
+  std::vector<bool> is_dense_;  // each point: it was thinned by small voxels
+  VoxelSet voxels_;             // all points have one
+  VoxelSet narrow_voxels_;      // dense points have one
   PlaceWidth width_;
 };
 

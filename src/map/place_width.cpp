@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/registration/place_width.hpp"
+#include "lio/map/place_width.hpp"
 
 #include "lio/base/voxel_set.hpp"
-#include "lio/registration/registration_parameters.hpp"
+#include "lio/map/map_parameters.hpp"
 
 namespace lio {
 namespace {

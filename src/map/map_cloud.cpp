@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/io/map_cloud.hpp"
+#include "lio/map/map_cloud.hpp"
 
 #include <fmt/format.h>
 
@@ -76,6 +76,8 @@ std::string MapCloud::thinned() const {
                      max_points_ / 1'000'000, voxel_m());
 }
 
-void MapCloud::Clear() { *this = MapCloud(max_points_); }
+void MapCloud::Clear() {
+  *this = MapCloud(max_points_);
+}
 
 }  // namespace lio
