@@ -13,8 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "lio/io/map_cloud.hpp"
 #include "lio/io/worker_thread.hpp"
-#include "lio/map/map_cloud.hpp"
 #include "lio/pipeline/initial_map.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 

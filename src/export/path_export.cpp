@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Writes the path as TUM, and the map's points as PLY.
 #include "export/output_reader.hpp"
+#include "lio/io/map_cloud.hpp"
 #include "lio/io/ply_file.hpp"
 #include "lio/io/trajectory_file.hpp"
-#include "lio/map/map_cloud.hpp"
 
 namespace lio {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "lio/io/lidar_check.hpp"
+#include "lio/io/map_cloud.hpp"
 #include "lio/io/run_writer.hpp"
-#include "lio/map/map_cloud.hpp"
 #include "lio/pipeline/odometry.hpp"
 #include "lio/pipeline/registration_worker.hpp"
 #include "python/estimate.hpp"

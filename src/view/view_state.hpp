@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "lio/io/map_cloud.hpp"
 #include "lio/io/status_report.hpp"
-#include "lio/map/map_cloud.hpp"
 #include "lio/sensor/scan_chunk.hpp"
 #include "view/growing_rows.hpp"
 #include "view/rate_meter.hpp"

@@ -8,8 +8,8 @@
 
 #include "lio/io/lidar_check.hpp"
 #include "lio/io/log_input.hpp"
+#include "lio/io/map_cloud.hpp"
 #include "lio/io/run_writer.hpp"
-#include "lio/map/map_cloud.hpp"
 #include "lio/pipeline/found_sensors.hpp"
 #include "lio/pipeline/initial_map.hpp"
 #include "lio/pipeline/odometry.hpp"

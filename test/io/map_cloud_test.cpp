@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
-#include "lio/map/map_cloud.hpp"
+#include "lio/io/map_cloud.hpp"
 
 #include <gtest/gtest.h>
 
