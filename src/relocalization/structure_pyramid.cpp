@@ -69,24 +69,27 @@ StructurePyramid::StructurePyramid(std::span<const Eigen::Vector3f> points,
 
 StructurePyramid::Grid StructurePyramid::MarkPoints(std::span<const Eigen::Vector3f> points) const {
   Grid marked(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), 0);
-  Eigen::Vector3f reach_m = Eigen::Vector3f::Constant(scale_.reach_cells * scale_.cell_m);
-  if (is_flat_) reach_m.z() = 0.f;
-  const Eigen::Vector3i last = size_.array() - 1;
   for (const Eigen::Vector3f& point : points) {
-    const Eigen::Vector3i low = CellOf(point - reach_m).cwiseMax(0);
-    const Eigen::Vector3i high = CellOf(point + reach_m).cwiseMin(last);
-    for (int z = low.z(); z <= high.z(); ++z) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) {
-          std::uint8_t& cell = marked[IndexOf(x, y, z, size_)];
-          cell = std::max(cell, kNear);
-        }
-      }
-    }
+    MarkAround(point, marked);
     const Eigen::Vector3i at = CellOf(point);
     marked[IndexOf(at.x(), at.y(), at.z(), size_)] = kThing;
   }
   return marked;
+}
+
+void StructurePyramid::MarkAround(const Eigen::Vector3f& point, Grid& marked) const {
+  Eigen::Vector3f reach_m = Eigen::Vector3f::Constant(scale_.reach_cells * scale_.cell_m);
+  if (is_flat_) reach_m.z() = 0.f;
+  const Eigen::Vector3i low = CellOf(point - reach_m).cwiseMax(0);
+  const Eigen::Vector3i high = CellOf(point + reach_m).cwiseMin((size_.array() - 1).matrix());
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        std::uint8_t& cell = marked[IndexOf(x, y, z, size_)];
+        cell = std::max(cell, kNear);
+      }
+    }
+  }
 }
 
 StructurePyramid::Grid StructurePyramid::Halved(const Grid& grid, const Eigen::Vector3i& size,

@@ -71,6 +71,8 @@ class StructurePyramid {
   }
   // Returns the finest grid, with the cells of the points and those within reach.
   [[nodiscard]] Grid MarkPoints(std::span<const Eigen::Vector3f> points) const;
+  // Marks the cells within reach of a point.
+  void MarkAround(const Eigen::Vector3f& point, Grid& marked) const;
   void BuildLevels(Grid marked);
   // Returns half as many cells along each axis; each is marked where any of its eight is.
   [[nodiscard]] static Grid Halved(const Grid& grid, const Eigen::Vector3i& size,
