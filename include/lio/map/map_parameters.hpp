@@ -91,7 +91,7 @@ struct GrazingIncidenceParameters {
   static constexpr float kMinSine = 0.06f;
 };
 
-// Tells the two sheets of slabs and walls apart in a cloud without viewpoints.
+// Tells when a place is narrow (place_width.hpp).
 struct PlaceWidthParameters {
   // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
   // first, and wide again where it lies in more than the second. Measured: walks in offices lie in
@@ -106,6 +106,7 @@ struct PlaceWidthParameters {
   static constexpr std::size_t kMaxCounted = 500;
 };
 
+// Tells the two sheets of slabs and walls apart in a cloud without viewpoints.
 struct SurfaceSidesParameters {
   // Neighbours of a point count up to there [m]. Chosen: floors of buildings are 0.2 to 0.4 m
   // thick.

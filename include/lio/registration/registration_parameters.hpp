@@ -84,7 +84,6 @@ struct WellConstrainedTranslationParameters {
   static constexpr double kMaxStd_m = 0.02;
 };
 
-// Tells when a place is narrow (place_width.hpp).
 struct NdtParameters {
   // All points of a vertical structure share an error of this standard deviation [m], since the
   // visible part of a trunk depends on the side. Chosen: about half a trunk's width; used in
