@@ -154,13 +154,16 @@ bool ConstantVelocityTracker::AddMatch(Timestamp middle, const MatchResult& matc
   if (match.IsUsable()) {
     PoseEvent event;
     event.measurement.T_map_imu = match.T_map_imu;
-    event.measurement.cov =
-        WithBlindErrors(match, history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
+    event.measurement.cov = MatchCov(middle, match);
     event.force = true;
     return history_.AddPose(middle, event) == EventOutcome::kApplied;
   }
   return match.status == MatchStatus::kEmptyMap &&
          history_.AddRebase(middle) == EventOutcome::kApplied;
+}
+
+Matrix6 ConstantVelocityTracker::MatchCov(Timestamp middle, const MatchResult& match) const {
+  return WithBlindErrors(match, history_.At(middle).cov.block<6, 6>(kMapPose, kMapPose));
 }
 
 void ConstantVelocityTracker::NoteTurnError(double error_rad, double since_s) {

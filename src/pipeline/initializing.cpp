@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
-#include "pipeline/blind_axis.hpp"
 #include "pipeline/coarse_tracking.hpp"
 
 namespace lio {
@@ -94,7 +93,7 @@ void Initializing::FinishVelocitySearch(const MatchOutcome& outcome) {
 
 void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   const Timestamp middle = outcome.sweep->middle();
-  const Matrix6 prior_cov = tracker_->history().At(middle).cov.block<6, 6>(kMapPose, kMapPose);
+  const Matrix6 match_cov = tracker_->MatchCov(middle, outcome.match);
   const bool is_fused = tracker_->AddMatch(middle, outcome.match);
   const bool is_matched = is_fused && outcome.match.IsUsable();
   const Estimate estimate = tracker_->history().At(middle);
@@ -102,9 +101,8 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   if (LargestStd(estimate, kMapPose) < kInitializing.max_insert_std_m) {
     insert.T_map_imu = state.T_map_imu;
   }
-  scans_.push_back({{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu,
-                     WithBlindErrors(outcome.match, prior_cov)},
-                    is_matched});
+  scans_.push_back(
+      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, match_cov}, is_matched});
   if (is_matched && HasImu()) {
     context_.convention.AddPose({middle, outcome.match.T_map_imu});
   }

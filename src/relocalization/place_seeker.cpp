@@ -83,13 +83,10 @@ void PlaceSeeker::BeginSearch(const Vector3& position_map) {
   search_.emplace(index_->structures, sought, centre, around);
 }
 
-std::vector<Pose> PlaceSeeker::PlacesOf(const ScoredPlace& found) const {
-  std::vector<float> heights_m{found.height_m};
-  if (index_->heights) {
-    std::vector<Eigen::Vector3f> points_map = sample_.points;
-    for (Eigen::Vector3f& point : points_map) point += sample_.centre_map.cast<float>();
-    heights_m = index_->heights->Find(points_map, found.pose);
-  }
+std::vector<Pose> PlaceSeeker::PlacesOf(const ScoredPlace& found,
+                                        std::span<const Eigen::Vector3f> points_map) const {
+  const std::vector<float> heights_m =
+      index_->heights ? index_->heights->Find(points_map, found.pose) : std::vector{found.height_m};
   const Quaternion turn = ExpSo3(Vector3(0, 0, static_cast<double>(found.pose.turn_rad)));
   std::vector<Pose> places;
   for (const float height_m : heights_m) {
@@ -101,9 +98,11 @@ std::vector<Pose> PlaceSeeker::PlacesOf(const ScoredPlace& found) const {
 }
 
 void PlaceSeeker::BeginContest() {
+  std::vector<Eigen::Vector3f> points_map = sample_.points;
+  for (Eigen::Vector3f& point : points_map) point += sample_.centre_map.cast<float>();
   std::vector<Pose> places;
   for (const ScoredPlace& found : search_->places()) {
-    for (const Pose& place : PlacesOf(found)) places.push_back(place);
+    for (const Pose& place : PlacesOf(found, points_map)) places.push_back(place);
   }
   const MapSearchScale& scale = index_->structures.scale();
   search_.reset();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lio/relocalization/structure_pyramid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,26 +12,18 @@ namespace {
 
 constexpr MapSearchParameters kSearch = kRelocalization.map_search;
 
-// Holds the box around the points.
-struct Box {
-  Eigen::Vector3f low = Eigen::Vector3f::Zero();
-  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+// Returns the box around the points, or around the origin without any, with a margin.
+Eigen::AlignedBox3f BoxAround(std::span<const Eigen::Vector3f> points,
+                              const Eigen::Vector3f& margin_m) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : points) box.extend(point);
+  if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
+  return {box.min() - margin_m, box.max() + margin_m};
+}
 
-  explicit Box(std::span<const Eigen::Vector3f> points) {
-    if (!points.empty()) low = high = points.front();
-    for (const Eigen::Vector3f& point : points) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
-  }
-  void Widen(const Eigen::Vector3f& margin_m) {
-    low -= margin_m;
-    high += margin_m;
-  }
-  [[nodiscard]] Eigen::Vector3f NumCells(float cell_m) const {
-    return ((high - low) / cell_m).array().ceil() + 1.f;
-  }
-};
+Eigen::Vector3f NumCells(const Eigen::AlignedBox3f& box, float cell_m) {
+  return (box.sizes() / cell_m).array().ceil() + 1.f;
+}
 
 }  // namespace
 
@@ -47,21 +40,20 @@ StructurePyramid StructurePyramid::InBuilding(std::span<const Eigen::Vector3f> p
 
 bool StructurePyramid::IsOfBuilding(std::span<const Eigen::Vector3f> points) {
   constexpr MapSearchScale kScale = MapSearchParameters::kInBuilding;
-  Box box(points);
-  box.Widen(Eigen::Vector3f::Constant(kScale.margin_m));
-  return box.NumCells(kScale.cell_m).cast<double>().prod() < kSearch.max_cells_of_building;
+  const auto box = BoxAround(points, Eigen::Vector3f::Constant(kScale.margin_m));
+  return NumCells(box, kScale.cell_m).cast<double>().prod() < kSearch.max_cells_of_building;
 }
 
 StructurePyramid::StructurePyramid(std::span<const Eigen::Vector3f> points,
                                    const MapSearchScale& scale, bool is_flat)
     : scale_(scale), is_flat_(is_flat) {
-  Box box(points);
-  box.Widen(Eigen::Vector3f(scale.margin_m, scale.margin_m, is_flat ? 0.f : scale.margin_m));
-  const Eigen::Vector3f num_cells = box.NumCells(scale.cell_m);
-  if (!(num_cells.maxCoeff() < static_cast<float>(kSearch.max_cells_per_side))) {
+  const auto box =
+      BoxAround(points, {scale.margin_m, scale.margin_m, is_flat ? 0.f : scale.margin_m});
+  const Eigen::Vector3f num_cells = NumCells(box, scale.cell_m);
+  if (!(num_cells.maxCoeff() <= static_cast<float>(kSearch.max_cells_per_side + 1))) {
     throw std::invalid_argument("StructurePyramid: the points spread too far");
   }
-  corner_m_ = box.low;
+  corner_m_ = box.min();
   if (is_flat) corner_m_.z() = -0.5f * scale.cell_m;
   size_ = num_cells.cast<int>();
   BuildLevels(MarkPoints(points));

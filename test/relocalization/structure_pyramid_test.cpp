@@ -107,6 +107,16 @@ TEST(StructurePyramid, RefusesPointsFartherApartThanItsGridsReach) {
   EXPECT_THROW((void)StructurePyramid::FromAbove(apart), std::invalid_argument);
 }
 
+// The program says beforehand that wider maps are unusable (pipeline/initial_map.cpp).
+TEST(StructurePyramid, TakesPointsAsFarApartAsAMapMayBe) {
+  constexpr MapSearchScale kScale = MapSearchParameters::kFromAbove;
+  const float most_m =
+      kScale.cell_m * static_cast<float>(kRelocalization.map_search.max_cells_per_side) -
+      2.f * kScale.margin_m;
+  const std::vector<Eigen::Vector2f> apart{{0.f, 0.f}, {0.f, most_m - 0.01f}};
+  EXPECT_NO_THROW((void)StructurePyramid::FromAbove(apart));
+}
+
 TEST(StructurePyramid, AStreetIsNoBuilding) {
   EXPECT_TRUE(StructurePyramid::IsOfBuilding(SomePoints({20.f, 15.f, 5.f})));
   EXPECT_FALSE(StructurePyramid::IsOfBuilding(SomePoints({300.f, 50.f, 10.f})));

@@ -98,6 +98,9 @@ class ConstantVelocityTracker {
   // estimate; an empty map begins at the estimate. Returns false when the match tells nothing, and
   // when its time lies before the history, which then stays as it is.
   [[nodiscard]] bool AddMatch(Timestamp middle, const MatchResult& match);
+  // Returns the covariance that AddMatch() would fuse the match with: its own, and what the errors
+  // of its blind directions make of a motion that the estimate does not know.
+  [[nodiscard]] Matrix6 MatchCov(Timestamp middle, const MatchResult& match) const;
   // The turn of a scan was predicted with this error, so long after the last one that was located.
   void NoteTurnError(double error_rad, double since_s);
   // The estimate at the end of a sweep whose middle is the newest match's, by the turn rate that

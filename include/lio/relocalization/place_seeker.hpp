@@ -64,7 +64,9 @@ class PlaceSeeker {
   void BeginContest();
   // Returns what is sought of the sample, in the new map.
   [[nodiscard]] std::vector<Eigen::Vector3f> Sought() const;
-  [[nodiscard]] std::vector<Pose> PlacesOf(const ScoredPlace& found) const;
+  // Returns the poses of a found place, of which `points_map` of the sample vote for the heights.
+  [[nodiscard]] std::vector<Pose> PlacesOf(const ScoredPlace& found,
+                                           std::span<const Eigen::Vector3f> points_map) const;
   void GiveUp();
 
   const PlaceIndex* index_;
