@@ -48,8 +48,9 @@ MatchJob ModeDriver::MakeJob(const SweepPtr& sweep) {
 
 InsertTask ModeDriver::FinishJob(const MatchOutcome& outcome) {
   InsertTask insert;
+  const bool has_sought = place_.is_seeking() && kind() == ModeKind::kTracking;
   GoOn(std::visit([&](auto& mode) { return FinishJobOf(mode, outcome, insert); }, *mode_));
-  if (place_.is_seeking()) TakePlace(outcome);
+  if (has_sought) TakePlace(outcome);
   if (place_.is_map_locked()) insert.T_map_imu.reset();
   return insert;
 }

@@ -221,6 +221,7 @@ Verdict Odometry::Judge() const {
         "likeliest: " +
             Describe(*convention));
   }
+  if (auto cause = impl_->place.Doubt()) suspected.push_back(*std::move(cause));
   return impl_->examiner.Judge(impl_->counters, std::move(suspected));
 }
 

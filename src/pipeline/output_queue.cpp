@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/output_queue.hpp"
 
+#include <algorithm>
+
 namespace lio {
 
 void OutputQueue::Add(Output output) {
@@ -17,10 +19,17 @@ void OutputQueue::Notify(Timestamp stamp, Notice::Severity severity, std::string
 }
 
 void OutputQueue::NotifyWaiting(Timestamp stamp, std::string text) {
-  const double since_s = SecondsBetween(last_waiting_, stamp);
-  const bool was_clock_set_back = since_s < 0.0;
-  if (!was_clock_set_back && since_s < kOutputQueue.waiting_every_s) return;
-  last_waiting_ = stamp;
+  const double unasked_s = wait_ ? SecondsBetween(wait_->asked, stamp) : 0.0;
+  const bool was_clock_set_back = unasked_s < 0.0;
+  if (was_clock_set_back || unasked_s > kOutputQueue.waiting_ends_s) wait_.reset();
+  if (!wait_) {
+    wait_ = Wait{.asked = stamp, .told = stamp};
+  } else {
+    wait_->asked = stamp;
+    if (SecondsBetween(wait_->told, stamp) < wait_->next_s) return;
+    wait_->told = stamp;
+    wait_->next_s = std::min(2.0 * wait_->next_s, kOutputQueue.max_waiting_s);
+  }
   Notify(stamp, Notice::Severity::kInfo, std::move(text));
 }
 

@@ -11,8 +11,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lio/pipeline/match_job.hpp"
+#include "lio/verdict/verdict.hpp"
 
 namespace lio {
 
@@ -40,11 +42,25 @@ class PlaceKnowledge {
       job.map_action = MapAction::kEnter;
     } else if (state_ == State::kSeeking) {
       job.seeks_place = may_find;
+      has_sought_ |= may_find;
     }
   }
   void SetFound() {
     state_ = State::kFound;
     was_inside_ = true;
+  }
+
+  // Returns why the result is not to be trusted, where the run ends while the place is sought.
+  [[nodiscard]] std::optional<Cause> Doubt() const {
+    if (!is_seeking() || !has_sought_) return std::nullopt;
+    if (was_inside_) {
+      return Cause{CauseKind::kPlaceUnknown, Trust::kDoubtful, 0.0,
+                   "the place in the initial map was lost, and not found again", ""};
+    }
+    return Cause{CauseKind::kPlaceUnknown, Trust::kNo, 0.0,
+                 "the place in the initial map was not found, so there is no pose: is the map of "
+                 "this place, with z up, and did the body move? --initial-pose says where to seek",
+                 ""};
   }
 
  private:
@@ -53,6 +69,7 @@ class PlaceKnowledge {
   State state_;
   bool is_map_locked_;
   bool was_inside_ = false;
+  bool has_sought_ = false;
 };
 
 }  // namespace lio

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: MIT
 """Tests a start in a map saved before, by another recording of the drive that made the map."""
 import bisect
+import json
 import unittest
 
 import support
@@ -70,6 +71,10 @@ class InitialMap(unittest.TestCase):
                            "--overwrite")
         self.assertEqual(done.returncode, 6, done.stderr)  # no pose: no trust
         self.assertEqual((run / "trajectory.tum").read_text(), "")
+        verdict = json.loads((run / "verdict.json").read_text())
+        self.assertEqual(["place_unknown"], [cause["kind"] for cause in verdict["causes"]])
+        waits = (run / "notices.tsv").read_text().count("the place in the initial map is being")
+        self.assertLessEqual(waits, 4)  # in 8 s, ever more rarely
 
     def test_unusable_maps_end_the_programs_before_they_start(self):
         drive = support.simulated(*DRIVE, "--sensor-seed", "105")

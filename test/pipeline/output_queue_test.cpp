@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/output_queue.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/motion.hpp"
@@ -10,6 +11,9 @@ namespace lio {
 namespace {
 
 using test::StampAt;
+using testing::DoubleNear;
+using testing::Pointwise;
+using testing::SizeIs;
 
 std::vector<std::string> TextsOf(const std::vector<Output>& outputs) {
   std::vector<std::string> texts;
@@ -46,16 +50,26 @@ TEST(OutputQueue, GivesEachOutputOnce) {
   EXPECT_EQ(TextsOf(queue.Take()), std::vector<std::string>{"b"});
 }
 
-TEST(OutputQueue, WaitingIsToldOnceASecond) {
+// Asks ten times a second and returns when it was told, s.
+std::vector<double> ToldAt(OutputQueue& queue, int begin_ds, int end_ds) {
+  std::vector<double> told_s;
+  for (int at_ds = begin_ds; at_ds < end_ds; ++at_ds) {
+    queue.NotifyWaiting(StampAt(0.1 * at_ds), "waiting");
+    if (!queue.Take().empty()) told_s.push_back(0.1 * at_ds);
+  }
+  return told_s;
+}
+
+TEST(OutputQueue, WaitingIsToldLessOftenTheLongerItLasts) {
   OutputQueue queue;
-  queue.NotifyWaiting(StampAt(0.0), "at once");
-  queue.NotifyWaiting(StampAt(0.5), "too soon");
-  queue.NotifyWaiting(StampAt(0.999), "too soon for another reason");
-  queue.NotifyWaiting(StampAt(1.0), "a second later");
-  queue.NotifyWaiting(StampAt(1.5), "too soon after that");
-  queue.NotifyWaiting(StampAt(2.0), "two seconds later");
-  EXPECT_EQ(TextsOf(queue.Take()),
-            (std::vector<std::string>{"at once", "a second later", "two seconds later"}));
+  EXPECT_THAT(ToldAt(queue, 0, 1000),
+              Pointwise(DoubleNear(0.1), {0.0, 1.0, 3.0, 7.0, 15.0, 31.0, 63.0, 95.0}));
+}
+
+TEST(OutputQueue, AnotherWaitIsToldAtOnce) {
+  OutputQueue queue;
+  EXPECT_THAT(ToldAt(queue, 0, 100), SizeIs(4));
+  EXPECT_THAT(ToldAt(queue, 120, 140), Pointwise(DoubleNear(0.1), {12.0, 13.0}));
 }
 
 TEST(OutputQueue, WaitingIsToldAfterTheClockWasSetBack) {

@@ -58,5 +58,28 @@ TEST(PlaceKnowledge, NewMapIsSoughtInTheInitialOneAgain) {
   EXPECT_TRUE(place.was_inside());
 }
 
+TEST(PlaceKnowledge, ARunThatEndsWhileThePlaceIsSoughtIsInDoubt) {
+  PlaceKnowledge place(true, false);
+  EXPECT_FALSE(place.Doubt());  // nothing was sought yet: the cause is another one
+  MatchJob job = JobWith(MapAction::kKeep);
+  place.Prepare(true, job);
+  ASSERT_TRUE(place.Doubt());
+  EXPECT_EQ(place.Doubt()->kind, CauseKind::kPlaceUnknown);
+  EXPECT_EQ(place.Doubt()->leaves, Trust::kNo);
+  place.SetFound();
+  EXPECT_FALSE(place.Doubt());
+  job = JobWith(MapAction::kClear);
+  place.Prepare(true, job);
+  ASSERT_TRUE(place.Doubt());
+  EXPECT_EQ(place.Doubt()->leaves, Trust::kDoubtful);
+}
+
+TEST(PlaceKnowledge, ARunWithoutAnInitialMapIsInNoDoubt) {
+  PlaceKnowledge place(false, false);
+  MatchJob job = JobWith(MapAction::kKeep);
+  place.Prepare(true, job);
+  EXPECT_FALSE(place.Doubt());
+}
+
 }  // namespace
 }  // namespace lio
