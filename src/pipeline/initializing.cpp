@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lio/filter/sample_lookup.hpp"
+#include "lio/imu/initialization_parameters.hpp"
 #include "pipeline/coarse_tracking.hpp"
 
 namespace lio {
@@ -129,11 +130,16 @@ bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
          LogSo3(motion.rotation).norm() > kRest.at_start.max_turn_rad;
 }
 
+// A body that turns steadily does not shake either, but its rate is beyond a gyro's bias.
 bool Initializing::IsVeryCalm(Timestamp stamp) const {
+  const ImuRig& imu = context_.options.rig.imu;
   const Timestamp begin = stamp - Duration::FromSeconds(context_.options.start.rest_s);
   const ImuStatistics statistics = Summarise(context_.stream.imu().Between(begin, stamp));
+  const double max_rate_radps =
+      kInitializationParameters.in_motion.max_bias_sigmas * imu.gyro_bias_std_radps;
   return statistics.num_samples >= kInitializing.min_samples_at_rest &&
-         IsCalm(statistics, context_.options.rig.imu, kRest.at_start.calm);
+         statistics.mean_w_radps.cwiseAbs().maxCoeff() < max_rate_radps &&
+         IsCalm(statistics, imu, kRest.at_start.calm);
 }
 
 void Initializing::ForgetOldestScan() {
