@@ -17,6 +17,17 @@ double LargestStd(const Estimate& estimate, int at) {
   return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
 }
 
+// Is a shift between two scans more than their errors? Where they leave its direction open it is
+// noise. The covariances are of the poses' right errors.
+bool IsShiftShown(const Pose& motion, const Matrix6& then_cov, const Matrix6& now_cov) {
+  const Vector3 along = motion.translation.normalized();
+  const Vector3 along_now = motion.rotation.conjugate() * along;
+  const double var = along.dot(then_cov.topLeftCorner<3, 3>() * along) +
+                     along_now.dot(now_cov.topLeftCorner<3, 3>() * along_now);
+  return motion.translation.squaredNorm() >
+         kRest.at_start.min_shift_sigmas * kRest.at_start.min_shift_sigmas * var;
+}
+
 }  // namespace
 
 Initializing::Initializing(const ModeContext& context, Handover handover,
@@ -123,9 +134,13 @@ bool Initializing::IsLastScan() const {
 }
 
 bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
-  const Pose motion = scans_[first].pose.T_any_imu.Inverse() * scans_.back().pose.T_any_imu;
+  const MatchedPose& then = scans_[first].pose;
+  const MatchedPose& now = scans_.back().pose;
+  const Pose motion = then.T_any_imu.Inverse() * now.T_any_imu;
   const double distance_m = motion.translation.norm();
-  if (is_calm) return distance_m > kRest.at_start.max_shift_calm_m;
+  if (is_calm) {
+    return distance_m > kRest.at_start.max_shift_calm_m && IsShiftShown(motion, then.cov, now.cov);
+  }
   return distance_m > kRest.at_start.max_shift_m ||
          LogSo3(motion.rotation).norm() > kRest.at_start.max_turn_rad;
 }

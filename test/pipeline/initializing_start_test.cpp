@@ -12,6 +12,7 @@ namespace {
 using test::InitializingBench;
 using test::kDriveFrom_s;
 using test::kStandardGravity_mps2;
+using test::kSweepSpan_s;
 using test::Leaning;
 using test::Motion;
 using test::SecondsOf;
@@ -23,11 +24,18 @@ Vector3 UpOf(const Pose& T_world_imu) {
   return T_world_imu.rotation.conjugate() * Vector3::UnitZ();
 }
 
-// Turns and moves about the origin by some centimetres, as on a soft suspension: too much for the
-// spread at rest, too little for scans to have moved.
-Motion Shaking() {
-  return [](double t_s) {
-    return Pose{Quaternion::Identity(), Vector3(0, 0, 0.002 * std::sin(30.0 * t_s))};
+// Drives straight ahead and moves up and down by some millimetres, as on a soft suspension: too
+// much for the spread at rest, too little for scans to have moved.
+Motion Shaking(double speed_mps) {
+  return [speed_mps](double t_s) {
+    return Pose{Quaternion::Identity(), Vector3(speed_mps * t_s, 0, 0.002 * std::sin(30.0 * t_s))};
+  };
+}
+
+// Turns at the origin about the vertical without shaking, as a drone does that hovers.
+Motion Turning(double rate_radps) {
+  return [rate_radps](double t_s) {
+    return Pose{ExpSo3(Vector3(0, 0, rate_radps * t_s)), Vector3::Zero()};
   };
 }
 
@@ -56,11 +64,38 @@ TEST(InitializingStart, RestTakesASecondAndEndsWithTheLastSweepOnly) {
 
 TEST(InitializingStart, ShakenRestIsAwaitedForFourTenthsMore) {
   InitializingBench b;
-  const auto transition = b.Drive(Shaking(), 0.0, 3.0);
+  const auto transition = b.Drive(Shaking(0.0), 0.0, 3.0);
   ASSERT_TRUE(transition);
   EXPECT_EQ(transition->trigger, Trigger::kStarted);
   EXPECT_TRUE(transition->is_at_rest);
   EXPECT_NEAR(SecondsOf(b.bench.sweeps.back()->end), 1.4, 0.1 + 1e-6);
+}
+
+TEST(InitializingStart, SteadyTurnIsNoRest) {
+  InitializingBench b;
+  const auto transition = b.Drive(Turning(0.1), 0.0, 3.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_FALSE(transition->is_at_rest);
+  EXPECT_NEAR(transition->start->estimate.state.gyro_bias.norm(), 0.0, 1e-3);
+}
+
+// On bare ground matches say little of a level direction, and wander along it.
+TEST(InitializingStart, RestIsFeltWhereScansWanderAlongAnOpenDirection) {
+  constexpr double kStd_m = DegeneracyParameters::kDegenerateStd_m;
+  const Motion wandering = Straight(2.0);
+  InitializingBench b;
+  b.unseen_cov(0, 0) = kStd_m * kStd_m;
+  b.bench.FeedImu(Straight(0.0), 0.0, 2.0);
+  std::optional<Transition> transition;
+  for (int i = 0; i < 18 && !transition; ++i) {
+    b.bench.AddSweep(kSweepSpan_s * i);
+    transition = b.MatchWaiting(wandering);
+  }
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_TRUE(transition->is_at_rest);
+  EXPECT_NEAR(transition->start->estimate.state.v_world_imu.norm(), 0.0, 1e-3);
 }
 
 TEST(InitializingStart, DriveGivesAStateInMotion) {
@@ -82,15 +117,15 @@ TEST(InitializingStart, NoStateIsMadeInMotionWhereTheWayIsUnseen) {
       DegeneracyParameters::kDegenerateStd_m * DegeneracyParameters::kDegenerateStd_m;
   InitializingBench level;
   level.unseen_cov(0, 0) = kVar_m2;
-  EXPECT_FALSE(level.Drive(Straight(8.0), kDriveFrom_s, kDriveFrom_s + 8.0));
+  EXPECT_FALSE(level.Drive(Shaking(8.0), kDriveFrom_s, kDriveFrom_s + 8.0));
   EXPECT_TRUE(level.bench.HasNotified(Notice::Severity::kInfo));
   level.unseen_cov.setZero();  // the tunnel ends
-  const auto transition = level.Drive(Straight(8.0), kDriveFrom_s + 8.0, kDriveFrom_s + 12.0);
+  const auto transition = level.Drive(Shaking(8.0), kDriveFrom_s + 8.0, kDriveFrom_s + 12.0);
   ASSERT_TRUE(transition);
   EXPECT_EQ(transition->trigger, Trigger::kStarted);
   InitializingBench upward;
   upward.unseen_cov(2, 2) = kVar_m2;
-  const auto started = upward.Drive(Straight(8.0), kDriveFrom_s, kDriveFrom_s + 4.0);
+  const auto started = upward.Drive(Shaking(8.0), kDriveFrom_s, kDriveFrom_s + 4.0);
   ASSERT_TRUE(started);
   EXPECT_EQ(started->trigger, Trigger::kStarted);
 }
