@@ -17,8 +17,8 @@ double LargestStd(const Estimate& estimate, int at) {
   return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
 }
 
-// Is a shift between two scans more than their errors? Where they leave its direction open it is
-// noise. The covariances are of the poses' right errors.
+// Is a shift between two scans more than their errors? It may be the noise of a direction that they
+// leave open. The covariances are of the poses' right errors.
 bool IsShiftShown(const Pose& motion, const Matrix6& then_cov, const Matrix6& now_cov) {
   const Vector3 along = motion.translation.normalized();
   const Vector3 along_now = motion.rotation.conjugate() * along;
