@@ -141,14 +141,19 @@ bool GravityPresent(const ImuStatistics& statistics, const Rig& rig) {
   return statistics.mean_f_mps2.norm() > kRestStart.min_gravity_share * rig.gravity_mps2;
 }
 
-StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig) {
+StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, const Rig& rig,
+                       const ShownMotion& shown) {
   if (samples.empty()) throw std::invalid_argument("StartAtRest: no inertial samples");
   const ImuStatistics statistics = Summarise(samples);
   const bool has_gravity = GravityPresent(statistics, rig);
   StartState start;
-  start.estimate = PriorEstimate(stamp, rig, kRestStart.velocity_std_mps);
+  const double span_s = std::max(statistics.span_s, 1e-3);
+  const double turn_std_radps = shown.turn_rad / span_s;
+  start.estimate =
+      PriorEstimate(stamp, rig, std::hypot(kRestStart.velocity_std_mps, shown.shift_m / span_s));
   FuseMeanRate(start.estimate, statistics.mean_w_radps,
-               MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics));
+               MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics) +
+                   turn_std_radps * turn_std_radps);
   const double force_var =
       MeanVariance(rig.imu.accel_noise_density, statistics.accel_std_mps2, statistics);
   if (has_gravity) {

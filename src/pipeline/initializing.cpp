@@ -17,17 +17,6 @@ double LargestStd(const Estimate& estimate, int at) {
   return std::sqrt(estimate.cov.diagonal().segment<3>(at).maxCoeff());
 }
 
-// Is a shift between two scans more than their errors? It may be the noise of a direction that they
-// leave open. The covariances are of the poses' right errors.
-bool IsShiftShown(const Pose& motion, const Matrix6& then_cov, const Matrix6& now_cov) {
-  const Vector3 along = motion.translation.normalized();
-  const Vector3 along_now = motion.rotation.conjugate() * along;
-  const double var = along.dot(then_cov.topLeftCorner<3, 3>() * along) +
-                     along_now.dot(now_cov.topLeftCorner<3, 3>() * along_now);
-  return motion.translation.squaredNorm() >
-         kRest.at_start.min_shift_sigmas * kRest.at_start.min_shift_sigmas * var;
-}
-
 }  // namespace
 
 Initializing::Initializing(const ModeContext& context, Handover handover,
@@ -113,8 +102,10 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
   if (LargestStd(estimate, kMapPose) < kInitializing.max_insert_std_m) {
     insert.T_map_imu = state.T_map_imu;
   }
-  scans_.push_back(
-      {{middle, is_matched ? outcome.match.T_map_imu : state.T_map_imu, match_cov}, is_matched});
+  const MatchedPose predicted{middle, state.T_map_imu,
+                              estimate.cov.block<6, 6>(kMapPose, kMapPose)};
+  const MatchedPose matched{middle, outcome.match.T_map_imu, match_cov};
+  scans_.push_back({is_matched ? matched : predicted, is_matched});
   if (is_matched && HasImu()) {
     context_.convention.AddPose({middle, outcome.match.T_map_imu});
   }
@@ -136,12 +127,9 @@ bool Initializing::IsLastScan() const {
 bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
   const MatchedPose& then = scans_[first].pose;
   const MatchedPose& now = scans_.back().pose;
+  if (is_calm) return ShownBetween(then, now).shift_m > kRest.at_start.max_shift_calm_m;
   const Pose motion = then.T_any_imu.Inverse() * now.T_any_imu;
-  const double distance_m = motion.translation.norm();
-  if (is_calm) {
-    return distance_m > kRest.at_start.max_shift_calm_m && IsShiftShown(motion, then.cov, now.cov);
-  }
-  return distance_m > kRest.at_start.max_shift_m ||
+  return motion.translation.norm() > kRest.at_start.max_shift_m ||
          LogSo3(motion.rotation).norm() > kRest.at_start.max_turn_rad;
 }
 

@@ -124,7 +124,7 @@ class Initializing {
   // These are in initializing_start.cpp.
   [[nodiscard]] std::optional<Transition> TryStart(Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartAsItMoves(Timestamp stamp);
-  [[nodiscard]] std::optional<Transition> TryStartAtRest(Timestamp begin, Timestamp stamp);
+  [[nodiscard]] std::optional<Transition> TryStartAtRest(std::size_t first, Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartInMotion(Timestamp stamp);
   [[nodiscard]] bool IsWayUnseen() const;
   [[nodiscard]] std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);

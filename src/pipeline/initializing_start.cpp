@@ -59,12 +59,13 @@ std::optional<Transition> Initializing::TryStartAsItMoves(Timestamp stamp) {
   const Timestamp rest_begin = context_.sweeps[first_at_rest]->start;
   if (SecondsBetween(rest_begin, stamp) >= context_.options.start.rest_s &&
       scans_.size() - first_at_rest >= kInitializing.min_scans_at_rest) {
-    return TryStartAtRest(rest_begin, stamp);
+    return TryStartAtRest(first_at_rest, stamp);
   }
   return first_at_rest > 0 ? TryStartInMotion(stamp) : std::nullopt;
 }
 
-std::optional<Transition> Initializing::TryStartAtRest(Timestamp begin, Timestamp stamp) {
+std::optional<Transition> Initializing::TryStartAtRest(std::size_t first, Timestamp stamp) {
+  const Timestamp begin = context_.sweeps[first]->start;
   const std::vector<ImuSample> samples = context_.stream.imu().Between(begin, stamp);
   if (std::ssize(samples) < kInitializing.min_samples_at_rest) return std::nullopt;
   const ImuStatistics statistics = Summarise(samples);
@@ -89,8 +90,9 @@ std::optional<Transition> Initializing::TryStartAtRest(Timestamp begin, Timestam
         found, fmt::format("at rest the gyro's noise is {:.2f}", RateNoise(samples)), stamp);
   }
   const std::size_t last = scans_.size() - 1;
-  return StartFrom(StartAtRest(samples, context_.sweeps[last]->start, context_.options.rig), last,
-                   true);
+  const ShownMotion shown = ShownBetween(scans_[first].pose, scans_[last].pose);
+  return StartFrom(StartAtRest(samples, context_.sweeps[last]->start, context_.options.rig, shown),
+                   last, shown.shift_m < kRest.at_start.max_shift_m);
 }
 
 std::optional<Transition> Initializing::TryStartInMotion(Timestamp stamp) {

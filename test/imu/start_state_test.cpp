@@ -84,6 +84,25 @@ TEST(StartState, RestLevelsTheWorldAndSeedsTheGyroBias) {
   EXPECT_EQ(LogSe3(state.T_map_imu.Inverse() * state.T_world_imu).norm(), 0.0);
 }
 
+TEST(StartState, RestIsUnsureByTheMotionThatScansShowMeanwhile) {
+  std::mt19937_64 random(1);
+  const Rig rig;
+  const std::vector<ImuSample> samples = StandStill({}, rig, random);  // of a second
+  const auto cov_with = [&](const ShownMotion& shown) {
+    return StartAtRest(samples, StampAt(1.0), rig, shown).estimate.cov;
+  };
+  const ErrorMatrix none = cov_with({});
+  const ErrorMatrix shifted = cov_with({.shift_m = 0.3});
+  const ErrorMatrix turned = cov_with({.turn_rad = 0.003});
+  EXPECT_NEAR(std::sqrt(none(kVel, kVel)), 0.01, 1e-4);
+  EXPECT_NEAR(std::sqrt(shifted(kVel, kVel)), 0.3, 0.01);
+  EXPECT_EQ(shifted(kGyroBias, kGyroBias), none(kGyroBias, kGyroBias));
+  EXPECT_GT(turned(kGyroBias, kGyroBias), none(kGyroBias, kGyroBias));
+  // The rig's own 0.005 rad/s and the measured 0.003 together.
+  EXPECT_NEAR(std::sqrt(turned(kGyroBias, kGyroBias)), 0.0026, 3e-4);
+  EXPECT_NEAR(turned(kVel, kVel), none(kVel, kVel), 1e-12);
+}
+
 TEST(StartState, UpsideDownAndOnItsSideAreLevelledToo) {
   std::mt19937_64 random(2);
   const Rig rig;

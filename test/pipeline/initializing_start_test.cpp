@@ -98,6 +98,21 @@ TEST(InitializingStart, RestIsFeltWhereScansWanderAlongAnOpenDirection) {
   EXPECT_NEAR(transition->start->estimate.state.v_world_imu.norm(), 0.0, 1e-3);
 }
 
+// A robot that creeps over a smooth floor is as calm as one that stands.
+TEST(InitializingStart, RestIsUnsureByTheMotionThatScansShow) {
+  InitializingBench standing, creeping;
+  const auto rest = standing.Drive(Straight(0.0), 0.0, 2.0);
+  const auto creep = creeping.Drive(Straight(0.3), 0.0, 2.0);
+  ASSERT_TRUE(rest && creep);
+  EXPECT_TRUE(rest->is_at_rest);
+  EXPECT_FALSE(creep->is_at_rest);
+  const auto velocity_std_mps = [](const Transition& start) {
+    return std::sqrt(start.start->estimate.cov(kVel, kVel));
+  };
+  EXPECT_NEAR(velocity_std_mps(*rest), 0.01, 1e-3);
+  EXPECT_NEAR(velocity_std_mps(*creep), 0.3, 0.05);
+}
+
 TEST(InitializingStart, DriveGivesAStateInMotion) {
   const Motion drive = test::WindingDrive(0.0);
   InitializingBench b;

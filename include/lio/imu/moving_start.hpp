@@ -21,16 +21,10 @@
 #include <string>
 #include <vector>
 
+#include "lio/imu/matched_pose.hpp"
 #include "lio/imu/start_state.hpp"
 
 namespace lio {
-
-// Holds a pose from scan matching, in any one frame that does not move.
-struct MatchedPose {
-  Timestamp stamp;
-  Pose T_any_imu;
-  Matrix6 cov = Matrix6::Zero();  // right error [m; rad], by scan matching
-};
 
 struct MovingStart {
   std::optional<StartState> start;

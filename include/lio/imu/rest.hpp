@@ -40,8 +40,8 @@ struct RestAtStart {
   // (RestOnTheWay::idle), and ten times the shift that traffic on a simulated motorway caused.
   VibrationLevel calm{0.005, 0.05};
   double max_shift_calm_m = 0.5;
-  // ... and the shift is no noise of directions that scans leave open. Statistics: three sigma.
-  double min_shift_sigmas = 3.0;
+  // A motion that scans show is no noise from so many of its own sigmas on. Statistics.
+  double min_sigmas = 3.0;
 };
 
 // On the way. A creep of max_shift_m / window_s that begins without being felt goes undetected.

@@ -13,6 +13,7 @@
 
 #include "lio/filter/nav_state.hpp"
 #include "lio/imu/initialization_parameters.hpp"
+#include "lio/imu/matched_pose.hpp"
 #include "lio/imu/rest.hpp"
 #include "lio/sensor/imu_sample.hpp"
 #include "lio/sensor/rig.hpp"
@@ -30,10 +31,10 @@ struct StartState {
 };
 
 // Returns the state at `stamp`; the vehicle must have stood still during all of `samples`. Tilt
-// comes from the mean force, the gyro bias from the mean rate. Throws std::invalid_argument without
-// samples.
+// comes from the mean force, the gyro bias from the mean rate; velocity and bias are unsure by what
+// scans show of a motion meanwhile. Throws std::invalid_argument without samples.
 [[nodiscard]] StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp,
-                                     const Rig& rig);
+                                     const Rig& rig, const ShownMotion& shown = {});
 
 // Holds the last known position, attitude and velocity of the body.
 struct LastFix {
