@@ -87,7 +87,7 @@ TEST(StartState, RestLevelsTheWorldAndSeedsTheGyroBias) {
 TEST(StartState, RestIsUnsureByTheMotionThatScansShowMeanwhile) {
   std::mt19937_64 random(1);
   const Rig rig;
-  const std::vector<ImuSample> samples = StandStill({}, rig, random);  // of a second
+  const std::vector<ImuSample> samples = StandStill({}, rig, random);
   const auto cov_with = [&](const ShownMotion& shown) {
     return StartAtRest(samples, StampAt(1.0), rig, shown).estimate.cov;
   };
