@@ -20,10 +20,10 @@ bool IsHeld(const MatchResult& match, const Vector6& weight) {
 
 }  // namespace
 
-Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov) {
+Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov, int num_alike) {
   Matrix6 cov = match.cov;
   for (const BlindDirection& blind : match.blind_directions) {
-    cov += blind.weight.dot(prior_cov * blind.weight) * blind.cov;
+    cov += num_alike * blind.weight.dot(prior_cov * blind.weight) * blind.cov;
   }
   return cov;
 }
@@ -32,15 +32,18 @@ BlindAxis::Answer BlindAxis::Judge(const MatchResult& match, const Matrix6& prio
   Transport(match.T_map_imu);
   const bool is_blind = match.degenerate_mask != 0;
   blind_share_ += kBlindAxis.share_rate * ((is_blind ? 1.0 : 0.0) - blind_share_);
+  ++num_blind_;
   if (!is_blind && IsBlindByChance(match)) return {match.cov + BlindCov(), true};
+  if (!is_blind) num_blind_ = 0;
   if (match.blind_directions.size() != 1 || match.blind_directions.front().cov.isZero(0.0)) {
     if (is_blind || blind_share_ < 0.5) mean_.reset();
-    return {WithBlindErrors(match, prior_cov), is_blind};
+    return {WithBlindErrors(match, prior_cov, num_blind_), is_blind};
   }
   const BlindDirection& measured = match.blind_directions.front();
   Take(measured, match.observability.Ratio(measured.shift));
   if (IsHeld(match, measured.weight)) return {match.cov, true};
-  return {match.observable_cov + BlindCov(), true};
+  const double unseen_var = measured.weight.dot(prior_cov * measured.weight);
+  return {match.observable_cov + BlindCov() + num_blind_ * unseen_var * measured.cov, true};
 }
 
 void BlindAxis::Transport(const Pose& T_map_imu) {

@@ -10,6 +10,12 @@
 // long as they agree. It is a twist: one that slides along a straight or a circular tunnel stays
 // the same as the body moves and turns, where Ad(D^-1) takes it along by the motion D.
 //
+// What a direction is off by is the error of the cells around, which many scans share: n blind
+// matches tell no more of it than one. So a match that is the n-th blind one in a row has n times
+// the covariance of its direction, times the variance of the motion that nobody saw. Without that
+// a velocity that is off by metres a second is claimed to 0.1 m/s on rough ground between hedges
+// (docs/experiments/rough_ground.md).
+//
 // In such a place some matches pass the limit below which a direction counts as blind, by chance.
 // A match is believed there, as long as most of the last ones were blind, if it tells clearly more
 // than those (docs/experiments/blind_axis.md).
@@ -43,8 +49,10 @@ inline constexpr BlindAxisParameters kBlindAxis;
 
 // Returns the match's covariance, and what the errors of its blind directions add to it: a motion
 // along one, unseen and as uncertain as the prior, is taken for one across by as much as the
-// direction is turned. Covariances are of right errors [m; rad].
-[[nodiscard]] Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov);
+// direction is turned. `num_alike`: so many matches share the errors of their directions and count
+// as one. Covariances are of right errors [m; rad].
+[[nodiscard]] Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov,
+                                      int num_alike = 1);
 
 class BlindAxis {
  public:
@@ -75,6 +83,7 @@ class BlindAxis {
   };
   std::optional<Mean> mean_;
   double blind_share_ = 0.0;  // mean over the last matches
+  int num_blind_ = 0;         // in a row
   Pose T_map_imu_;            // the last match's
 };
 

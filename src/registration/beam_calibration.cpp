@@ -16,7 +16,8 @@ using Parameters = BeamCalibrationParameters;
 constexpr int kCos = 0;
 constexpr int kSin = 1;
 constexpr int kGrazing = 2;
-constexpr int kFirstRing = 3;
+constexpr int kRelief = 3;
+constexpr int kFirstRing = 4;
 constexpr int kNumPerRing = 3;
 constexpr int RangeOf(int ring) {
   return kFirstRing + kNumPerRing * ring;
@@ -45,7 +46,7 @@ BeamErrors AsBeamErrors(const Eigen::VectorXd& unknowns) {
   return errors;
 }
 
-// The inverse, with 0 for the grazing effect, which BeamErrors do not have.
+// The inverse, with 0 for the grazing effect and the relief, which BeamErrors do not have.
 Eigen::VectorXd AsUnknowns(const BeamErrors& errors) {
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(NumUnknowns(errors.rings.size()));
   unknowns.head<2>() = errors.encoder_rad.cast<double>();
@@ -77,6 +78,7 @@ struct Allowance {
 
 Allowance AllowanceOf(int unknown) {
   if (unknown == kGrazing) return {Parameters::kGrazingStd_m, 0.0};
+  if (unknown == kRelief) return {Parameters::kReliefStd, 0.0};
   if (unknown < kGrazing) return {Parameters::kEncoderStd_rad, Parameters::kEncoderAgeing_rad};
   const bool is_range = (unknown - RangeOf(0)) % kNumPerRing == 0;
   if (is_range) return {Parameters::kRangeStd_m, Parameters::kRangeAgeing_m};
@@ -150,6 +152,7 @@ void BeamCalibration::FindTerms(const BeamRow& row) {
   terms_.push_back({kCos, shift.azimuth * row.axes.cos_azimuth - cell.cos_azimuth});
   terms_.push_back({kSin, shift.azimuth * row.axes.sin_azimuth - cell.sin_azimuth});
   terms_.push_back({kGrazing, GrazingShift(shift.range) - cell.grazing});
+  terms_.push_back({kRelief, row.height_m});
   AddTerms(row.ring, shift, 1.f);
   float num_points = 0.f;
   for (const CellBeams::OfRing& seen : cell.rings) num_points += seen.num_points;
@@ -173,7 +176,8 @@ void BeamCalibration::Add(const BeamRow& row) {
   MakeRoomFor(num_unknowns);
   // The residual without any correction.
   const Eigen::Vector3f correction_m = Displacement(errors_, row.ring, row.axes);
-  const double residual_m = row.residual_m + row.normal.dot(correction_m) - row.cell->correction_m;
+  const double residual_m = row.residual_m + relief_ * row.height_m + row.normal.dot(correction_m) -
+                            row.cell->correction_m;
   Nuisance jacobian;
   jacobian.head<6>() = row.jacobian.cast<double>();
   jacobian.tail<6>() =
@@ -219,7 +223,12 @@ std::optional<Matrix6> BeamCalibration::ScoreCov() const {
 
 void BeamCalibration::Solve() {
   posterior_.compute(information_ + prior_information_);  // reads the lower triangle
-  errors_ = AsBeamErrors(posterior_.solve(score_ + prior_score_));
+  const Eigen::VectorXd unknowns = posterior_.solve(score_ + prior_score_);
+  errors_ = AsBeamErrors(unknowns);
+  const Eigen::VectorXd of_relief =
+      posterior_.solve(Eigen::VectorXd::Unit(unknowns.size(), kRelief));
+  relief_ =
+      static_cast<float>(std::clamp(unknowns[kRelief] - std::sqrt(of_relief[kRelief]), 0.0, 1.0));
 }
 
 BeamKnowledge BeamCalibration::Found() const {

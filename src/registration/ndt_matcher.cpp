@@ -98,6 +98,7 @@ void NdtMatcher::Teach(const MatchInput& input, const Pose& T_grid_imu) const {
                             .cell = &cell,
                             .normal = patch.normal,
                             .residual_m = row.residual_m,
+                            .height_m = pairs_[i].height_m,
                             .weight = row.weight,
                             .jacobian = row.jacobian});
   }
@@ -126,6 +127,7 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
   const std::span<const Eigen::Vector3f> points = input.points_imu;
   const bool with_vertical = !IsTranslationWellConstrained(input);
   const MultiResolutionMap::Levels levels = LevelsFor(input, radius_m);
+  const float relief = input.calibration == nullptr ? 0.f : input.calibration->relief();
   pairs_.resize(points.size());
   paired_at_ = T_grid_imu;
   const Vector3 sensor_grid = T_grid_imu * input.T_imu_lidar.translation;
@@ -140,7 +142,7 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
     map_.FindAll({points_grid.data(), count}, levels, hits);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f view = (points_grid[i] - sensor_grid).cast<float>();
-      pairs_[block.begin + i] = PairOf(hits[i], view, with_vertical);
+      pairs_[block.begin + i] = PairOf(hits[i], view, with_vertical, relief);
     }
   });
   if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
@@ -171,7 +173,7 @@ void NdtMatcher::CountByCell() {
 }
 
 NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view,
-                                    bool with_vertical) const {
+                                    bool with_vertical, float relief) const {
   if (hit.cell == GaussianMap::kNoCell) return {};
   const SurfacePatch& patch = map_.patch(hit.cell);
   if (patch.kind == SurfacePatch::Kind::kVertical) {
@@ -179,7 +181,13 @@ NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, const Eigen::Ve
   } else if (!patch.is_two_sided && IsFromBehind(patch.normal, view)) {
     return {};
   }
-  return {hit.cell, hit.local - patch.mean};
+  Pair pair{hit.cell, hit.local - patch.mean};
+  if (patch.kind == SurfacePatch::Kind::kPlane && !patch.roughness.is_smooth()) {
+    const float range_m = std::max(view.norm(), 1e-6f);
+    pair.height_m = patch.roughness.HeightAt(std::abs(patch.normal.dot(view)) / range_m);
+    pair.from_mean -= relief * pair.height_m * patch.normal;
+  }
+  return pair;
 }
 
 NdtTerm NdtMatcher::TermOf(const Pair& pair, float radius_var) const {

@@ -28,7 +28,7 @@ constexpr std::array<MaterialTraits, kNumMaterials> kTraits = {{
     {"rubber", 0.05, 0.0, {0.12f, 0.12f, 0.12f}},
     {"foliage", 0.45, 0.0, {0.30f, 0.50f, 0.22f}},
     {"bark", 0.30, 0.0, {0.40f, 0.31f, 0.22f}},
-    {"grass", 0.40, 0.0, {0.46f, 0.60f, 0.32f}},
+    {"grass", 0.40, 0.0, {0.46f, 0.60f, 0.32f}, 0.04},
     {"earth", 0.25, 0.0, {0.56f, 0.48f, 0.36f}},
     {"marking", 0.70, 0.0, {0.95f, 0.95f, 0.92f}},
     {"retro", 3.00, 0.0, {0.95f, 0.80f, 0.20f}},
@@ -37,6 +37,8 @@ constexpr std::array<MaterialTraits, kNumMaterials> kTraits = {{
     {"wood", 0.45, 0.0, {0.62f, 0.48f, 0.32f}},
     {"roof_tile", 0.30, 0.0, {0.62f, 0.32f, 0.24f}},
     {"court", 0.50, 0.1, {0.76f, 0.56f, 0.34f}},
+    {"soil", 0.25, 0.0, {0.52f, 0.42f, 0.30f}, 0.07},
+    {"hedge", 0.45, 0.0, {0.26f, 0.44f, 0.20f}, 0.05},
 }};
 
 std::uint32_t AddVertex(Mesh& mesh, const Vector3& p) {

@@ -30,6 +30,7 @@ const std::vector<Effect>& Effects() {
        }},
       {"glass", [](RecordOptions& o) { o.lidar_errors.has_glass = true; }},
       // The beam table errs by 0.02 deg.
+      {"relief", [](RecordOptions& o) { o.lidar_errors.has_relief = true; }},
       {"beam-table", [](RecordOptions& o) { o.lidar_errors.beam_table_std_rad = 3.5e-4; }},
       // The speed varies by 0.1 %.
       {"rotor", [](RecordOptions& o) { o.lidar_errors.rotor.speed_std_ratio = 1e-3; }},

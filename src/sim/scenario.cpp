@@ -32,6 +32,7 @@ const std::vector<Maker>& Makers() {
       {{"warehouse", "aisles between rows of equal racks, people, fork lifts"},
        MakeWarehouse,
        true},
+      {{"hedgerows", "a lane of tilled soil between clipped hedges"}, MakeHedgerows, true},
       {{"parked", "parked at a crossing among traffic"}, MakeParked},
   };
   return makers;

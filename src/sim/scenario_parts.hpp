@@ -46,5 +46,6 @@ void SetBegin(Scenario& scenario, const ScenarioOptions& options, double moving_
 [[nodiscard]] Scenario MakeOffice(const ScenarioOptions& options);
 [[nodiscard]] Scenario MakeMine(const ScenarioOptions& options);
 [[nodiscard]] Scenario MakeWarehouse(const ScenarioOptions& options);
+[[nodiscard]] Scenario MakeHedgerows(const ScenarioOptions& options);
 
 }  // namespace lio::sim

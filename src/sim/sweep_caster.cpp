@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/relief.hpp"
+
 namespace lio::sim {
 namespace {
 
@@ -33,6 +35,7 @@ class Caster {
     for (std::int64_t first = 0; first < columns_.num; first += kTileColumns) CastTile(first);
     if (setup_.lidar.errors.has_footprint) CastRims();
     if (setup_.lidar.errors.has_glass) CastBehind();
+    if (setup_.lidar.errors.has_relief) AddRelief();
     return std::move(sweep_);
   }
 
@@ -46,6 +49,7 @@ class Caster {
   void CastRims();
   bool IsBeyondEdge(const Hit& centre, const Ray& ray, const Hit& hit, const Ray& sub_ray) const;
   void CastBehind();
+  void AddRelief();
 
   const CastSetup& setup_;
   const TurnColumns& columns_;
@@ -201,6 +205,14 @@ void Caster::CastBehind() {
     if (sweep_.hits[polished[k]].material == Material::kGlass) behind.through = hits[2 * k + 1];
     sweep_.behind_of[polished[k]] = static_cast<std::int32_t>(k);
     sweep_.behinds.push_back(behind);
+  }
+}
+
+// The rim of a beam is sought on the smooth mesh, so that no tuft counts as an edge.
+void Caster::AddRelief() {
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    Hit& hit = sweep_.hits[i];
+    if (hit.object == Hit::kFixed) hit.range_m = RangeOnRelief(rays_[i], hit);
   }
 }
 

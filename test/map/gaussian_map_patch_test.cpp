@@ -45,6 +45,46 @@ std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_ra
   return points;
 }
 
+// Returns points of level ground whose heights differ by this standard deviation.
+std::vector<Vector3> Ground(const Vector3& centre, double height_std_m) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> wide(-0.45, 0.45);
+  std::normal_distribution<double> height(0.0, height_std_m);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 80; ++i) {
+    points.push_back(centre + Vector3(wide(random), wide(random), height(random)));
+  }
+  return points;
+}
+
+Roughness RoughnessOfGround(double height_std_m, const Vector3& from_centre) {
+  const Vector3 centre = CentreOf(10, 0, 0);
+  GaussianMap map(TestOptions());
+  map.SetRangeStd(0.02);
+  map.Insert(Ground(centre, height_std_m), centre + from_centre);
+  return PatchAt(map, centre).roughness;
+}
+
+TEST(GaussianMapPatch, GroundIsRoughByWhatTheRangesNoiseDoesNotExplain) {
+  const Vector3 from_afar(-10.0, 0.0, 1.5);
+  const Roughness clods = RoughnessOfGround(0.03, from_afar);
+  ASSERT_FALSE(clods.is_smooth());
+  const float sine = 0.148f;  // the beams come in at it
+  EXPECT_NEAR(clods.HeightAt(sine), 0.f, 0.001f);
+  EXPECT_NEAR(clods.HeightAt(sine / 2.718f), 0.028f, 0.006f) << "its roughness";
+  EXPECT_TRUE(RoughnessOfGround(0.007, from_afar).is_smooth()) << "asphalt";
+  EXPECT_TRUE(RoughnessOfGround(0.02, {0.0, 0.0, 5.0}).is_smooth()) << "the ranges' noise";
+}
+
+TEST(GaussianMapPatch, ASavedMapDoesNotTellHowRoughItIs) {
+  const Vector3 centre = CentreOf(10, 0, 0);
+  const std::vector<Vector3> points = Ground(centre, 0.03);
+  GaussianMap map(TestOptions());
+  map.InsertKept(points, std::vector<Eigen::Vector3f>(points.size(), Eigen::Vector3f::Zero()));
+  ASSERT_GT(PatchAt(map, centre).thickness_var, 0.f);
+  EXPECT_TRUE(PatchAt(map, centre).roughness.is_smooth());
+}
+
 TEST(GaussianMapPatch, ARingThroughACrownIsNoPlane) {
   const Vector3 centre = CentreOf(24, 17, 2);
   const double elevation_rad = std::asin(centre.z() / centre.norm());

@@ -162,6 +162,28 @@ BlindAxis AfterBlindMatches(int num) {
   return axis;
 }
 
+// The cells around have the error, and many scans see the same cells.
+TEST(BlindAxis, ManyBlindMatchesInARowTellNoMoreOfTheDirectionThanOne) {
+  const MatchResult match = BlindAlong(Vector6::UnitX(), {});
+  Matrix6 prior_cov = Matrix6::Zero();
+  prior_cov(0, 0) = 4.0;
+  const double one = 4.0 * kDirectionStd * kDirectionStd;  // m^2, across
+  for (const int num : {1, 10, 100}) {
+    BlindAxis axis = AfterBlindMatches(num - 1);
+    const double across = axis.Judge(match, prior_cov).cov(2, 2) - kPoseStd * kPoseStd;
+    EXPECT_NEAR(across, num * one, 1e-3 * num * one);
+  }
+}
+
+TEST(BlindAxis, AMatchThatSeesAllEndsTheRow) {
+  BlindAxis axis = AfterBlindMatches(50);
+  (void)axis.Judge(SeeingAll(3.0), kSure);
+  Matrix6 prior_cov = Matrix6::Zero();
+  prior_cov(0, 0) = 4.0;
+  const Matrix6 cov = axis.Judge(BlindAlong(Vector6::UnitX(), {}), prior_cov).cov;
+  EXPECT_LT(cov(2, 2), 2.0 * kPoseStd * kPoseStd + 5.0 * kDirectionStd * kDirectionStd);
+}
+
 TEST(BlindAxis, AMatchThatTellsNoMoreThanBlindOnesIsBlind) {
   BlindAxis axis = AfterBlindMatches(10);
   const BlindAxis::Answer answer = axis.Judge(SeeingAll(1.2), kSure);

@@ -248,6 +248,44 @@ TEST(BeamCalibration, FewRowsAreNoMatch) {
   EXPECT_TRUE(calibration.errors().rings.empty());
 }
 
+// Returns what is found on rough ground that looks higher by this share of HeightAt(), in matches
+// that take off what is found.
+float ReliefFoundWhereItIs(float truth, int num_scans) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<float> place(-10.f, 10.f);
+  std::normal_distribution<float> normal;
+  BeamCalibration calibration;
+  const CellBeams cell;
+  for (int scan = 0; scan < num_scans; ++scan) {
+    calibration.BeginScan(static_cast<float>(scan), 1);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3f position(place(random), place(random), -1.f);
+      const float height_m = 0.03f * normal(random);
+      Vector6f jacobian = Vector6f::Zero();
+      jacobian.tail<4>() << 1.f, position.y(), -position.x(), 0.f;
+      calibration.Add(
+          {.ring = 0,
+           .axes = AxesOf(position),
+           .cell = &cell,
+           .normal = Eigen::Vector3f::UnitZ(),
+           .residual_m = (truth - calibration.relief()) * height_m + 0.01f * normal(random),
+           .height_m = height_m,
+           .weight = 1e4f,
+           .jacobian = jacobian});
+    }
+    calibration.Keep(0.5, false);
+  }
+  return calibration.relief();
+}
+
+TEST(BeamCalibration, FindsByHowMuchRoughGroundLooksHigher) {
+  EXPECT_EQ(ReliefFoundWhereItIs(0.5f, 0), 0.f);
+  EXPECT_NEAR(ReliefFoundWhereItIs(0.5f, 60), 0.5f, 0.06f);
+  EXPECT_LT(ReliefFoundWhereItIs(0.5f, 60), 0.5f) << "a standard deviation below what is found";
+  EXPECT_LT(ReliefFoundWhereItIs(0.f, 60), 0.02f);
+  EXPECT_EQ(ReliefFoundWhereItIs(-0.5f, 60), 0.f) << "no ground looks lower the flatter it is seen";
+}
+
 TEST(BeamCalibration, StartsFromWhatIsKnownAndTheTimeSinceMakesItLessSure) {
   const BeamKnowledge known = test::TwoKnownBeams();
   const BeamCalibration calibration(known);

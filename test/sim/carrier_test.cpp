@@ -89,7 +89,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, Carriers,
     ::testing::Values(Ride{"mine", Carrier::kPerson}, Ride{"mine", Carrier::kRobot},
                       Ride{"mine", Carrier::kDrone}, Ride{"warehouse", Carrier::kPerson},
-                      Ride{"warehouse", Carrier::kRobot}, Ride{"warehouse", Carrier::kDrone}));
+                      Ride{"warehouse", Carrier::kRobot}, Ride{"warehouse", Carrier::kDrone},
+                      Ride{"hedgerows", Carrier::kPerson}, Ride{"hedgerows", Carrier::kRobot},
+                      Ride{"hedgerows", Carrier::kDrone}));
 
 }  // namespace
 }  // namespace lio::sim

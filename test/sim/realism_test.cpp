@@ -59,10 +59,11 @@ std::string Described(const RecordOptions& options) {
   std::ostringstream text;
   text << lidar.has_footprint << ' ' << lidar.in_between.reach_m << ' ' << lidar.laser_bias_std_m
        << ' ' << lidar.grazing_bias_m << ' ' << lidar.range_walk.retro_m << ' ' << lidar.has_glass
-       << ' ' << lidar.beam_table_std_rad << ' ' << lidar.rotor.speed_std_ratio << ' '
-       << lidar.rotor.encoder_std_rad << ' ' << clock.imu_jitter_std_s << ' '
-       << clock.drift_std_ratio << ' ' << imu.vibrates << ' ' << imu.has_engine << ' '
-       << imu.rectifies << ' ' << imu.is_g_sensitive << ' ' << imu.warms_up;
+       << ' ' << lidar.has_relief << ' ' << lidar.beam_table_std_rad << ' '
+       << lidar.rotor.speed_std_ratio << ' ' << lidar.rotor.encoder_std_rad << ' '
+       << clock.imu_jitter_std_s << ' ' << clock.drift_std_ratio << ' ' << imu.vibrates << ' '
+       << imu.has_engine << ' ' << imu.rectifies << ' ' << imu.is_g_sensitive << ' '
+       << imu.warms_up;
   return text.str();
 }
 

@@ -19,7 +19,9 @@ class Scenarios : public ::testing::TestWithParam<std::string> {
   static bool IsOnFoot(const std::string& name) {
     return name == "campus" || name == "hall" || name == "office";
   }
-  static bool IsOnRobot(const std::string& name) { return name == "mine" || name == "warehouse"; }
+  static bool IsOnRobot(const std::string& name) {
+    return name == "mine" || name == "warehouse" || name == "hedgerows";
+  }
 };
 
 TEST_P(Scenarios, BeginAtRestThenMoveWithinTheLimitsOfTheirCarrier) {
@@ -184,11 +186,12 @@ std::vector<std::string> Names() {
 INSTANTIATE_TEST_SUITE_P(All, Scenarios, ::testing::ValuesIn(Names()),
                          [](const auto& test) { return test.param; });
 
-TEST(Scenario, AllTwelveAreThere) {
+TEST(Scenario, AllThirteenAreThere) {
   const std::vector<std::string> names = Names();
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
-            (std::set<std::string>{"street", "loop", "suburb", "tunnel", "motorway", "garage",
-                                   "campus", "hall", "office", "mine", "warehouse", "parked"}));
+  EXPECT_EQ(
+      std::set<std::string>(names.begin(), names.end()),
+      (std::set<std::string>{"street", "loop", "suburb", "tunnel", "motorway", "garage", "campus",
+                             "hall", "office", "mine", "warehouse", "hedgerows", "parked"}));
 }
 
 TEST(Scenario, PlacesBuiltForOneCarrierRefuseOthers) {

@@ -26,8 +26,8 @@ import yaml
 from fleet_runs import ROOT, median_and_worst, run_fleet, scored_runs
 
 PLACES = {"street": 3, "suburb": 3, "campus": 3, "office": 3, "loop": 2, "garage": 2, "hall": 2,
-          "warehouse": 2, "mine": 1, "motorway": 1, "tunnel": 1, "parked": 1}
-CARRIED = ("warehouse", "mine")
+          "warehouse": 2, "mine": 1, "hedgerows": 1, "motorway": 1, "tunnel": 1, "parked": 1}
+CARRIED = ("warehouse", "mine", "hedgerows")
 CARRIERS = ("person", "robot", "drone")
 VARIANTS = ("gravity-removed", "in-g", "in-deg", "in-g-and-deg", "z-down", "turned")
 FAULTS = (

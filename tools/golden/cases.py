@@ -63,6 +63,7 @@ CASES = (
     # 30 s, not 10 to 20: by then the walk is on the second storey, which looks like the first.
     Case("office-vlp16", lio_sim("office", "vlp16", XSENS, 30)),
     Case("mine-vlp16", lio_sim("mine", "vlp16", CONSUMER, 14)),
+    Case("hedgerows-vlp16", lio_sim("hedgerows", "vlp16", XSENS, 14)),
     Case("warehouse-vlp16", lio_sim("warehouse", "vlp16", XSENS, 14)),
     Case("parked-vlp16", lio_sim("parked", "vlp16", XSENS, 12)),
     # starts in motion

@@ -110,7 +110,8 @@ void AddCarrier(CLI::App& app, Arguments& arguments) {
                                                         {"robot", sim::Carrier::kRobot},
                                                         {"drone", sim::Carrier::kDrone}};
   app.add_option("--carrier", arguments.carrier,
-                 "who carries the sensors through mine and warehouse: person, robot, drone")
+                 "who carries the sensors through mine, warehouse and hedgerows:\n"
+                 "person, robot, drone")
       ->transform(CLI::CheckedTransformer(carriers).description(""))
       ->type_name("NAME");
 }
@@ -140,7 +141,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->check(WholeNumberFromZero());
   app.add_option("--lidar", arguments.lidar,
                  "lidar model: hdl32e, vlp16, hdl64e, os1_64, rosette70 or a file like theirs\n"
-                 "(default: hdl32e, in office, mine and warehouse vlp16)");
+                 "(default: hdl32e, in office, mine, warehouse and hedgerows vlp16)");
   app.add_option("--imu", arguments.imu,
                  "IMU model: xsens_mti10, consumer_mems, ideal or a data file like theirs\n"
                  "(default: xsens_mti10)");

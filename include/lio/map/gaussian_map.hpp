@@ -23,7 +23,9 @@
 #include "lio/base/rotation.hpp"
 #include "lio/base/voxel_map.hpp"
 #include "lio/map/cell_beams.hpp"
+#include "lio/map/map_parameters.hpp"
 #include "lio/map/ndt_options.hpp"
+#include "lio/map/roughness.hpp"
 
 namespace lio {
 
@@ -33,16 +35,17 @@ struct alignas(64) SurfacePatch {
   // A plane constrains the pose along `normal`, which points to the side it was seen from. A
   // vertical structure constrains it in two horizontal directions: along `normal`, and along
   // tangent1_per_std, which is a direction over its standard deviation.
-  enum class Kind : std::int32_t { kPlane, kVertical } kind = Kind::kPlane;
+  enum class Kind : std::uint8_t { kPlane, kVertical } kind = Kind::kPlane;
+  // A plane whose normal may point to either side, since its points are those of a saved map.
+  // Points far off it are of another surface.
+  bool is_two_sided = false;
+  Roughness roughness;  // zero if nobody knows from where the plane was seen
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   float thickness_var = 0.f;  // variance along the normal, floored; 0: the cell does not count
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float num_points = 0.f;
   Eigen::Vector3f tangent1_per_std = Eigen::Vector3f::Zero();  // tangent / sqrt(its variance)
   Eigen::Vector3f tangent2_per_std = Eigen::Vector3f::Zero();
-  // A plane whose normal may point to either side, since its points are those of a saved map.
-  // Points far off it are of another surface.
-  bool is_two_sided = false;
 };
 
 class GaussianMap {
@@ -140,6 +143,8 @@ class GaussianMap {
   void UpdatePatch(std::int32_t cell);
   [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
+  // `variance`: of the points across the plane.
+  [[nodiscard]] Roughness RoughnessOf(double variance, float sine) const;
   bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
 
   NdtOptions options_;
@@ -147,6 +152,7 @@ class GaussianMap {
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
   double noise_var_ = 0.0;  // m^2, by which ranges are noisier than most lidars'
+  double range_std_m_ = GaussianMapParameters::kUsualRangeStd_m;
   VoxelMap<SurfacePatch, Sums, CellBeams> voxels_;
   // Insert() uses these as scratch.
   std::vector<Place> places_;

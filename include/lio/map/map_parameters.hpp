@@ -37,6 +37,10 @@ struct GaussianMapParameters {
   // A vertical structure's horizontal standard deviation counts as this at least [m]. Chosen: the
   // side from which a trunk is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
+  // A plane whose points lie across it within this standard deviation [m], besides the noise of
+  // their ranges, is smooth. Chosen: poses and beams err by some millimetres; grass and clods have
+  // 0.02 and more.
+  static constexpr double kEvenStd_m = 0.01;
   // So many points a cell remembers that shows no surface yet, so that the rings of a stop do not
   // hide what is seen while driving off. Measured against 2000: docs/experiments/narrow_places.md.
   static constexpr int kUnknownMemory_points = 100;

@@ -36,7 +36,8 @@ struct BeamRow {
   BeamAxes axes;           // the point's
   const CellBeams* cell;   // the plane's
   Eigen::Vector3f normal;  // the plane's
-  float residual_m = 0.f;  // from the plane to the point, which has had errors() taken off
+  float residual_m = 0.f;  // from the plane to the point, less errors() and relief() height_m
+  float height_m = 0.f;    // Roughness::HeightAt() of the point
   float weight = 0.f;      // 1 / m^2
   Vector6f jacobian;       // by the scan's pose
 };
@@ -63,6 +64,8 @@ class BeamCalibration {
 
   // Measured minus true. Unknown as long as no scan was kept, unless something was known before.
   [[nodiscard]] const BeamErrors& errors() const { return errors_; }
+  // Rough ground looks higher by this share of Roughness::HeightAt(), 0 to 1.
+  [[nodiscard]] float relief() const { return relief_; }
   // The errors with their standard deviations, which take a moment.
   [[nodiscard]] BeamKnowledge Found() const;
   // Is what was found of use elsewhere, or from the start on? Not where most scans were blind: in a
@@ -106,6 +109,7 @@ class BeamCalibration {
   std::vector<Term> terms_;                 // the row at hand has them
   Eigen::LDLT<Eigen::MatrixXd> posterior_;  // errors_ have it, with the prior
   BeamErrors errors_;
+  float relief_ = 0.f;
   int num_kept_ = 0;
   int num_blind_ = 0;  // kept scans that were blind
   bool is_frozen_ = false;

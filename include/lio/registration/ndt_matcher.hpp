@@ -56,6 +56,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
     Eigen::Vector3f from_mean = Eigen::Vector3f::Zero();  // mean to point, grid axes
+    float height_m = 0.f;  // so far the point may stand out from the plane (Roughness)
   };
   // Holds the rows that a point adds to the problem at the solution.
   struct PointScore {
@@ -94,7 +95,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     return count.count_number == count_number_ ? count.num_points : 1;
   }
   // `view` points along the beam, in grid axes, with any length.
-  Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical) const;
+  Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical,
+              float relief) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
                       std::span<PointScore> scores) const;

@@ -231,6 +231,9 @@ struct BeamCalibrationParameters {
   static constexpr double kEncoderStd_rad = 1.2e-4;
   // Chosen: ranges at grazing incidence are a few millimetres times the term too long.
   static constexpr double kGrazingStd_m = 0.01;
+  // The share of Roughness::HeightAt() by which rough ground looks higher. Theory: 0.3 to 0.6 for
+  // Gaussian surfaces.
+  static constexpr double kReliefStd = 0.5;
   // Errors that an earlier drive found have changed by so much since, with age and temperature:
   // each by itself, all of a kind together, and upper rings against lower ones.
   // Chosen: a fifth of what data sheets allow; no data sheet states it.

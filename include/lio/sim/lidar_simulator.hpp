@@ -37,7 +37,8 @@ struct LidarErrors {
   bool has_mixed_pixels = true;
   bool has_footprint = false;  // mixed pixels come from sub-rays, in both directions
   InBetween in_between;
-  bool has_glass = false;  // polished surfaces mirror, and glass lets light through
+  bool has_glass = false;   // polished surfaces mirror, and glass lets light through
+  bool has_relief = false;  // grass, soil and hedges are rough
   double laser_bias_std_m = 0.0;
   double grazing_bias_m = 0.0;  // times 1/cos(incidence) - 1, at most 4 cm
   RangeWalk range_walk;

@@ -43,14 +43,17 @@ enum class Material : std::uint8_t {
   kWood,
   kRoofTile,
   kCourt,
+  kSoil,   // tilled
+  kHedge,  // clipped
 };
-inline constexpr int kNumMaterials = 26;
+inline constexpr int kNumMaterials = 28;
 
 struct MaterialTraits {
   std::string_view name;
   double reflectivity = 0.3;      // a matt surface's at 905 nm, 0..1; above 1: retroreflective
   double specular = 0.0;          // share of the light that is reflected as by a mirror
   std::array<float, 3> colour{};  // used in pictures, 0..1
+  double relief_m = 0.0;          // tufts and clods rise and fall by up to this (relief.hpp)
 };
 [[nodiscard]] const MaterialTraits& TraitsOf(Material material);
 
