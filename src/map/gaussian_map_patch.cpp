@@ -29,13 +29,14 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
 
 void GaussianMap::SetRangeStd(double range_std_m) {
   constexpr double kUsual_m = GaussianMapParameters::kUsualRangeStd_m;
-  noise_var_ = std::max(0.0, range_std_m * range_std_m - kUsual_m * kUsual_m);
   range_std_m_ = range_std_m > 0.0 ? range_std_m : kUsual_m;
 }
 
 // The planes of a noisy lidar are thick, but no blob is a plane.
 bool GaussianMap::IsThin(double thickness_var, double width_var) const {
-  return thickness_var < GaussianMapParameters::kMaxThicknessRatio * width_var + noise_var_ &&
+  constexpr double kUsual_m = GaussianMapParameters::kUsualRangeStd_m;
+  const double noise_var = std::max(0.0, range_std_m_ * range_std_m_ - kUsual_m * kUsual_m);
+  return thickness_var < GaussianMapParameters::kMaxThicknessRatio * width_var + noise_var &&
          thickness_var < GaussianMapParameters::kMaxNoisyThicknessRatio * width_var;
 }
 
@@ -65,8 +66,9 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
   patch.kind = SurfacePatch::Kind::kPlane;
   patch.thickness_var = static_cast<float>(thickness);
   patch.normal = normal.dot(sums.view) > 0.f ? Eigen::Vector3f(-normal) : normal;
-  patch.roughness = {};
-  if (is_view_known) patch.roughness = RoughnessOf(variance[0], std::abs(normal.dot(sums.view)));
+  const bool is_beam_known = is_view_known && !sums.is_kept;  // a saved map has sides, not beams
+  patch.roughness =
+      is_beam_known ? RoughnessOf(variance[0], std::abs(normal.dot(sums.view))) : Roughness();
   patch.tangent1_per_std = (eigen.eigenvectors().col(1) / std::sqrt(variance[1])).cast<float>();
   patch.tangent2_per_std = (eigen.eigenvectors().col(2) / std::sqrt(variance[2])).cast<float>();
   return true;

@@ -45,14 +45,15 @@ std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_ra
   return points;
 }
 
-// Returns points of level ground whose heights differ by this standard deviation.
-std::vector<Vector3> Ground(const Vector3& centre, double height_std_m) {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> wide(-0.45, 0.45);
-  std::normal_distribution<double> height(0.0, height_std_m);
+// Returns points of a level plane through the middle of a voxel, with noise across it.
+std::vector<Vector3> ThickPlane(const Vector3& centre, double noise_m) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> along(-0.45, 0.45);
+  std::normal_distribution<double> across(0.0, noise_m);
   std::vector<Vector3> points;
-  for (int i = 0; i < 80; ++i) {
-    points.push_back(centre + Vector3(wide(random), wide(random), height(random)));
+  for (int i = 0; i < 200; ++i) {
+    points.push_back(
+        centre + Vector3(along(random), along(random), std::clamp(across(random), -0.49, 0.49)));
   }
   return points;
 }
@@ -61,7 +62,7 @@ Roughness RoughnessOfGround(double height_std_m, const Vector3& from_centre) {
   const Vector3 centre = CentreOf(10, 0, 0);
   GaussianMap map(TestOptions());
   map.SetRangeStd(0.02);
-  map.Insert(Ground(centre, height_std_m), centre + from_centre);
+  map.Insert(ThickPlane(centre, height_std_m), centre + from_centre);
   return PatchAt(map, centre).roughness;
 }
 
@@ -76,13 +77,18 @@ TEST(GaussianMapPatch, GroundIsRoughByWhatTheRangesNoiseDoesNotExplain) {
   EXPECT_TRUE(RoughnessOfGround(0.02, {0.0, 0.0, 5.0}).is_smooth()) << "the ranges' noise";
 }
 
+// It tells the side that a surface was seen from at best, which is no beam.
 TEST(GaussianMapPatch, ASavedMapDoesNotTellHowRoughItIs) {
   const Vector3 centre = CentreOf(10, 0, 0);
-  const std::vector<Vector3> points = Ground(centre, 0.03);
-  GaussianMap map(TestOptions());
-  map.InsertKept(points, std::vector<Eigen::Vector3f>(points.size(), Eigen::Vector3f::Zero()));
-  ASSERT_GT(PatchAt(map, centre).thickness_var, 0.f);
-  EXPECT_TRUE(PatchAt(map, centre).roughness.is_smooth());
+  const std::vector<Vector3> points = ThickPlane(centre, 0.03);
+  const Eigen::Vector3f unknown = Eigen::Vector3f::Zero();
+  const Eigen::Vector3f below = -Eigen::Vector3f::UnitZ();
+  for (const Eigen::Vector3f& side : {unknown, below}) {
+    GaussianMap map(TestOptions());
+    map.InsertKept(points, std::vector<Eigen::Vector3f>(points.size(), side));
+    ASSERT_GT(PatchAt(map, centre).thickness_var, 0.f);
+    EXPECT_TRUE(PatchAt(map, centre).roughness.is_smooth());
+  }
 }
 
 TEST(GaussianMapPatch, ARingThroughACrownIsNoPlane) {
@@ -127,19 +133,6 @@ TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   const Vector3 centre = CentreOf(0, 0, 0);
   map.Insert(PostPoints(centre, 0.4, 0.0), Vector3::Zero());
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
-}
-
-// Returns points of a level plane through the middle of a voxel, with noise across it.
-std::vector<Vector3> ThickPlane(const Vector3& centre, double noise_m) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> along(-0.45, 0.45);
-  std::normal_distribution<double> across(0.0, noise_m);
-  std::vector<Vector3> points;
-  for (int i = 0; i < 200; ++i) {
-    points.push_back(
-        centre + Vector3(along(random), along(random), std::clamp(across(random), -0.49, 0.49)));
-  }
-  return points;
 }
 
 bool IsPlane(double noise_m, double range_std_m) {

@@ -151,8 +151,7 @@ class GaussianMap {
   bool finds_vertical_;
   double inverse_voxel_;
   Vector3 up_map_ = Vector3::UnitZ();
-  double noise_var_ = 0.0;  // m^2, by which ranges are noisier than most lidars'
-  double range_std_m_ = GaussianMapParameters::kUsualRangeStd_m;
+  double range_std_m_ = GaussianMapParameters::kUsualRangeStd_m;  // noise of the ranges
   VoxelMap<SurfacePatch, Sums, CellBeams> voxels_;
   // Insert() uses these as scratch.
   std::vector<Place> places_;
