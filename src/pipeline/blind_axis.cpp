@@ -18,12 +18,17 @@ bool IsHeld(const MatchResult& match, const Vector6& weight) {
   return weight.dot(match.cov * weight) < 0.5 * kBlindVar_m2;
 }
 
+// Returns what the error of a direction adds to the covariance of a match.
+Matrix6 ErrorOf(const BlindDirection& blind, const Matrix6& prior_cov, int num_alike) {
+  return num_alike * blind.weight.dot(prior_cov * blind.weight) * blind.cov;
+}
+
 }  // namespace
 
 Matrix6 WithBlindErrors(const MatchResult& match, const Matrix6& prior_cov, int num_alike) {
   Matrix6 cov = match.cov;
   for (const BlindDirection& blind : match.blind_directions) {
-    cov += num_alike * blind.weight.dot(prior_cov * blind.weight) * blind.cov;
+    cov += ErrorOf(blind, prior_cov, num_alike);
   }
   return cov;
 }
@@ -32,9 +37,9 @@ BlindAxis::Answer BlindAxis::Judge(const MatchResult& match, const Matrix6& prio
   Transport(match.T_map_imu);
   const bool is_blind = match.degenerate_mask != 0;
   blind_share_ += kBlindAxis.share_rate * ((is_blind ? 1.0 : 0.0) - blind_share_);
-  ++num_blind_;
-  if (!is_blind && IsBlindByChance(match)) return {match.cov + BlindCov(), true};
-  if (!is_blind) num_blind_ = 0;
+  const bool is_by_chance = !is_blind && IsBlindByChance(match);
+  num_blind_ = is_blind || is_by_chance ? num_blind_ + 1 : 0;
+  if (is_by_chance) return {match.cov + BlindCov(), true};
   if (match.blind_directions.size() != 1 || match.blind_directions.front().cov.isZero(0.0)) {
     if (is_blind || blind_share_ < 0.5) mean_.reset();
     return {WithBlindErrors(match, prior_cov, num_blind_), is_blind};
@@ -42,8 +47,7 @@ BlindAxis::Answer BlindAxis::Judge(const MatchResult& match, const Matrix6& prio
   const BlindDirection& measured = match.blind_directions.front();
   Take(measured, match.observability.Ratio(measured.shift));
   if (IsHeld(match, measured.weight)) return {match.cov, true};
-  const double unseen_var = measured.weight.dot(prior_cov * measured.weight);
-  return {match.observable_cov + BlindCov() + num_blind_ * unseen_var * measured.cov, true};
+  return {match.observable_cov + BlindCov() + ErrorOf(measured, prior_cov, num_blind_), true};
 }
 
 void BlindAxis::Transport(const Pose& T_map_imu) {

@@ -10,8 +10,8 @@
 // long as they agree. It is a twist: one that slides along a straight or a circular tunnel stays
 // the same as the body moves and turns, where Ad(D^-1) takes it along by the motion D.
 //
-// What a direction is off by is the error of the cells around, which many scans share: n blind
-// matches tell no more of it than one. So a match that is the n-th blind one in a row has n times
+// The error of a direction is that of the cells around, which many scans share: n blind matches
+// tell no more of it than one. So a match that is the n-th blind one in a row has n times
 // the covariance of its direction, times the variance of the motion that nobody saw. Without that
 // a velocity that is off by metres a second is claimed to 0.1 m/s on rough ground between hedges
 // (docs/experiments/rough_ground.md).
