@@ -45,6 +45,10 @@ struct InitializingParameters {
   // start. Chosen: a way is lost for half of it before a start begins anew. The buffer holds more
   // even while sweeps wait, so that latency does not show.
   double max_turn_back_s = 6.0;
+  // A turn of which more is over before its first chunk comes, as where a log begins, is no scan to
+  // begin a map with. Chosen: a scan of a third of the turn was matched by those that followed, one
+  // of a sixth was not.
+  double max_share_before = 0.5;
   std::size_t min_scans_at_rest = 3;  // chosen: two steps between them say that it does not move
   int min_samples_at_rest = 3;        // chosen: fewer have no spread
   // The motion may be known after the first number of scans; lidar-only odometry begins anyway
@@ -72,6 +76,10 @@ class Initializing {
   Initializing(const ModeContext& context, Handover handover,
                std::optional<Timestamp> since = std::nullopt);
 
+  // Whether a map may begin with this sweep.
+  static bool MayBeginWith(const Sweep& sweep) {
+    return sweep.share_before <= kInitializing.max_share_before;
+  }
   // Index into context.sweeps of the sweep to match next; those before are looked back on.
   std::size_t next_sweep() const { return scans_.size(); }
   [[nodiscard]] MatchJob MakeJob(const SweepPtr& sweep);

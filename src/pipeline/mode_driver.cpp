@@ -96,6 +96,10 @@ ModeDriver::Next ModeDriver::Take(const SweepReady& event) {
   auto* tracking = As<Tracking>();
   if (tracking && context_.sweeps.empty()) tracking->AddSweep(*event.sweep);
   context_.sweeps.push_back(event.sweep);
+  if (As<Initializing>() && context_.sweeps.size() == 1 &&
+      !Initializing::MayBeginWith(*event.sweep)) {
+    context_.ForgetSweeps(1);
+  }
   context_.examiner.tally().AddSweep(event.sweep->end);
   return std::nullopt;
 }

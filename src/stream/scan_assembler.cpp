@@ -22,6 +22,13 @@ bool IsUsable(const ScanChunk& chunk) {
   return chunk.chunk_count > 0 && chunk.chunk_index >= 0 && chunk.chunk_index < chunk.chunk_count;
 }
 
+// Returns the share of the slots before the first one that is filled.
+double ShareBefore(const std::vector<ScanChunk>& chunks) {
+  const auto first = std::find_if(chunks.begin(), chunks.end(),
+                                  [](const ScanChunk& chunk) { return chunk.chunk_count != 0; });
+  return static_cast<double>(first - chunks.begin()) / static_cast<double>(chunks.size());
+}
+
 }  // namespace
 
 // The same number far away in time is another sweep, after a restart of the sender.
@@ -165,6 +172,7 @@ void ScanAssembler::Close(std::size_t at) {
   sweep.scan_seq = partial.name.scan_seq;
   sweep.decode_ns = partial.decode_ns;
   sweep.num_missing_chunks = static_cast<int>(partial.chunks.size()) - partial.num_received;
+  sweep.share_before = ShareBefore(partial.chunks);
   if (TellsWhatIsMissing(partial)) counters_->num_chunks_missing += sweep.num_missing_chunks;
   if (partial.num_received > 1) usual_count_ = static_cast<int>(partial.chunks.size());
   if (sweep.num_missing_chunks == 0) span_ = std::min(sweep.end - sweep.start, kSweep.max_span);

@@ -79,6 +79,23 @@ TEST(ModeDriver, SweepsOfTheStreamJoinTheQueue) {
   EXPECT_EQ(b.bench.sweeps.front()->start, StampAt(0.0));
 }
 
+// So does a log, or a new beginning, in the middle of a turn.
+TEST(ModeDriver, ATurnOfWhichMostIsOverBeginsNoMap) {
+  DriverBench b(Straight(0.0));
+  const auto feed = [&b](double start_s, double share_before) {
+    Sweep sweep = *b.bench.AddSweep(start_s);
+    b.bench.sweeps.pop_back();
+    sweep.share_before = share_before;
+    b.driver->Consume(SweepReady{std::make_shared<Sweep>(sweep)});
+  };
+  feed(0.0, 0.6);
+  EXPECT_TRUE(b.bench.sweeps.empty());
+  EXPECT_EQ(b.bench.counters.ledgers.scans.Of(ScanFate::kBeforeStart), 1);
+  feed(0.1, 0.4);
+  feed(0.2, 0.6);
+  EXPECT_EQ(b.bench.sweeps.size(), 2U) << "a later one is matched with what is there";
+}
+
 TEST(ModeDriver, ARestLeadsToTracking) {
   DriverBench b(Straight(0.0));
   ASSERT_TRUE(b.DriveUntil(ModeKind::kTracking));
