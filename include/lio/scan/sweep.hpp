@@ -25,7 +25,7 @@ struct Sweep {
   Duration clock_correction;  // in both stamps, by the estimated clock offset
   std::int32_t scan_seq = 0;
   int num_missing_chunks = 0;
-  double share_before = 0.0;       // of the turn's chunks, those before the first one that came
+  double share_before = 0.0;       // share of the turn's chunks before the first that came
   std::int64_t decode_ns = 0;      // CPU time of decoding its messages
   std::vector<LidarPoint> points;  // in the order of the chunks, offsets from `start`
 
