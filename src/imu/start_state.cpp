@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "lio/filter/pose_update.hpp"
+#include "lio/imu/rest_force.hpp"
 
 namespace lio {
 namespace {
@@ -35,27 +36,45 @@ void FreeTilt(Estimate& estimate, double std_rad) {
   estimate.cov.block<3, 3>(kRot, kRot) = R.transpose() * horizontal.asDiagonal() * R;
 }
 
-// Fuses the mean specific force at rest, f = -R^T g + accel bias. Its error is the noise of the
-// mean and, along the vertical, the uncertainty of gravity. Correlates tilt and the accelerometer's
-// bias.
-void FuseMeanForce(Estimate& estimate, const Vector3& mean_f, double noise_var,
-                   const Vector3& g_world) {
-  const Matrix3 R = estimate.state.T_world_imu.rotation.toRotationMatrix();
+// The means of a second of rest, and how far they err.
+struct RestMeans {
+  Vector3 rate_radps;
+  double rate_noise_var;  // white noise alone
+  double rate_var;        // and what may be a turn, (rad/s)^2
+  Vector3 gyro_bias;      // the one by which the force was turned
+  RestForce force;
+  double force_var;  // (m/s^2)^2
+};
+
+// Fuses the mean rate, w = gyro bias + noise, and the mean specific force, f = -R^T g + accel bias.
+// The force errs by its noise, along the vertical by the uncertainty of gravity, and by the turn
+// that the gyro's bias and noise make of it. A sample of noise at the time t of the span T turns
+// the forces before it, so that a mean turns by J m, m = 2 / T^2 times the integral of t n(t),
+// where the same constant bias would turn it by J: m has 4/3 of the variance of the mean noise,
+// and their covariance is the latter's variance. Correlates tilt and both biases.
+void FuseRestMeans(Estimate& estimate, const RestMeans& means, const Vector3& g_world) {
+  const NavState& state = estimate.state;
+  const Matrix3 R = state.T_world_imu.rotation.toRotationMatrix();
   const Vector3 predicted = -R.transpose() * g_world;
   const Vector3 up_imu = R.transpose() * Vector3::UnitZ();
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
-  H.middleCols<3>(kRot) = Hat(predicted);
-  H.middleCols<3>(kAccelBias) = Matrix3::Identity();
-  const Matrix3 noise = noise_var * Matrix3::Identity() + kRestStart.gravity_std_mps2 *
-                                                              kRestStart.gravity_std_mps2 * up_imu *
-                                                              up_imu.transpose();
-  FuseLinear(estimate, H, mean_f - predicted - estimate.state.accel_bias, noise);
-}
-
-void FuseMeanRate(Estimate& estimate, const Vector3& mean_w, double noise_var) {
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, kStateDim);
-  H.middleCols<3>(kGyroBias) = Matrix3::Identity();
-  FuseLinear(estimate, H, mean_w - estimate.state.gyro_bias, noise_var * Matrix3::Identity());
+  const Matrix3& J = means.force.by_gyro_bias;
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, kStateDim);
+  H.block<3, 3>(0, kGyroBias) = Matrix3::Identity();
+  H.block<3, 3>(3, kGyroBias) = -J;
+  H.block<3, 3>(3, kRot) = Hat(predicted);
+  H.block<3, 3>(3, kAccelBias) = Matrix3::Identity();
+  Vector6 residual;
+  residual << means.rate_radps - state.gyro_bias, means.force.mean_mps2 -
+                                                      J * (means.gyro_bias - state.gyro_bias) -
+                                                      predicted - state.accel_bias;
+  Matrix6 noise;
+  noise.topLeftCorner<3, 3>() = means.rate_var * Matrix3::Identity();
+  noise.bottomLeftCorner<3, 3>() = -means.rate_noise_var * J;
+  noise.topRightCorner<3, 3>() = -means.rate_noise_var * J.transpose();
+  noise.bottomRightCorner<3, 3>() =
+      means.force_var * Matrix3::Identity() + 4.0 / 3.0 * means.rate_noise_var * J * J.transpose() +
+      kRestStart.gravity_std_mps2 * kRestStart.gravity_std_mps2 * up_imu * up_imu.transpose();
+  FuseLinear(estimate, H, residual, noise);
 }
 
 // Returns the variance of a mean over the span: from the noise density, or from the measured spread
@@ -64,6 +83,12 @@ double MeanVariance(double density, double seen_std, const ImuStatistics& statis
   const double by_density = density * density / std::max(statistics.span_s, 1e-3);
   const double by_spread = seen_std * seen_std / std::max(1, statistics.num_samples);
   return std::max(by_density, by_spread);
+}
+
+// A body that stands on wheels is known not to turn, better than its gyro tells.
+bool Turns(std::span<const ImuSample> samples, double noise_angle_var, const ShownMotion& shown) {
+  return shown.turn_rad > 0.0 ||
+         TurnToAndFro(samples) > kRestStart.min_turn_sigmas * std::sqrt(noise_angle_var);
 }
 
 // Adds the uncertainty of the continued position, which includes `coasting_std_m`, and yaw. An
@@ -149,19 +174,33 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   StartState start;
   const double span_s = std::max(statistics.span_s, 1e-3);
   const double turn_std_radps = shown.turn_rad / span_s;
-  start.estimate =
-      PriorEstimate(stamp, rig, std::hypot(kRestStart.velocity_std_mps, shown.shift_m / span_s));
-  FuseMeanRate(start.estimate, statistics.mean_w_radps,
-               MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics) +
-                   turn_std_radps * turn_std_radps);
-  const double force_var =
-      MeanVariance(rig.imu.accel_noise_density, statistics.accel_std_mps2, statistics);
+  RestMeans means;
+  means.rate_radps = statistics.mean_w_radps;
+  means.rate_noise_var = rig.imu.gyro_noise_density * rig.imu.gyro_noise_density / span_s;
+  means.rate_var = MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics) +
+                   turn_std_radps * turn_std_radps;
+  const double bias_var = rig.imu.gyro_bias_std_radps * rig.imu.gyro_bias_std_radps;
+  means.gyro_bias = bias_var / (bias_var + means.rate_var) * means.rate_radps;
+  means.force = Turns(samples, means.rate_noise_var * span_s * span_s, shown)
+                    ? MeanForceAtRest(samples, stamp, means.gyro_bias)
+                    : MeanForceUnturned(samples, stamp);
+  means.force_var =
+      std::max(MeanVariance(rig.imu.accel_noise_density, statistics.accel_std_mps2, statistics),
+               means.force.scatter_var);
+  start.estimate = PriorEstimate(
+      stamp, rig,
+      Vector3(kRestStart.velocity_std_mps, shown.shift_m / span_s, means.force.velocity_mps.norm())
+          .norm());
   if (has_gravity) {
     start.g_world = Vector3(0, 0, -rig.gravity_mps2);
-    start.estimate.state.T_world_imu.rotation = LevelledRotation(statistics.mean_f_mps2);
+    start.estimate.state.T_world_imu.rotation = LevelledRotation(means.force.mean_mps2);
     FreeTilt(start.estimate, kRestStart.unknown_tilt_std_rad);
   }
-  FuseMeanForce(start.estimate, statistics.mean_f_mps2, force_var, start.g_world);
+  FuseRestMeans(start.estimate, means, start.g_world);
+  if (has_gravity) {  // yaw is zero by definition
+    Quaternion& rotation = start.estimate.state.T_world_imu.rotation;
+    rotation = LevelledRotation(rotation.conjugate() * Vector3::UnitZ());
+  }
   AnchorMap(start.estimate);
   start.how = DescribeStart("at rest", start.estimate, has_gravity);
   return start;

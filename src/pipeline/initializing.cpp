@@ -7,6 +7,7 @@
 
 #include "lio/filter/sample_lookup.hpp"
 #include "lio/imu/initialization_parameters.hpp"
+#include "lio/imu/rest_force.hpp"
 #include "pipeline/coarse_tracking.hpp"
 
 namespace lio {
@@ -116,7 +117,7 @@ void Initializing::AddScan(const MatchOutcome& outcome, InsertTask& insert) {
 // Known for the first time: then the scans are matched again.
 bool Initializing::IsMotionKnown(Timestamp sweep_end, const Estimate& estimate) const {
   return !seed_.motion && scans_.size() >= kInitializing.min_scans_for_motion &&
-         HasMovedSince(0, HasImu() && IsVeryCalm(sweep_end)) &&
+         HasMovedSince(0, HasImu() ? CalmOf(sweep_end) : Calm::kShaken) &&
          LargestStd(estimate, kVel) < kInitializing.motion_velocity_std_mps;
 }
 
@@ -124,25 +125,38 @@ bool Initializing::IsLastScan() const {
   return context_.stream.is_flushed() && scans_.size() == context_.sweeps.size();
 }
 
-bool Initializing::HasMovedSince(std::size_t first, bool is_calm) const {
+bool Initializing::HasMovedSince(std::size_t first, Calm calm) const {
   const MatchedPose& then = scans_[first].pose;
   const MatchedPose& now = scans_.back().pose;
-  if (is_calm) return ShownBetween(then, now).shift_m > kRest.at_start.max_shift_calm_m;
+  switch (calm) {
+    case Calm::kStill:
+      return ShownBetween(then, now).shift_m > kRest.at_start.max_shift_calm_m;
+    case Calm::kSways:
+      return ShownBetween(then, now).shift_m > kRest.at_start.max_shift_m;
+    case Calm::kShaken:
+      break;
+  }
   const Pose motion = then.T_any_imu.Inverse() * now.T_any_imu;
   return motion.translation.norm() > kRest.at_start.max_shift_m ||
          LogSo3(motion.rotation).norm() > kRest.at_start.max_turn_rad;
 }
 
 // A body that turns steadily does not shake either, but its rate is beyond a gyro's bias.
-bool Initializing::IsVeryCalm(Timestamp stamp) const {
+Initializing::Calm Initializing::CalmOf(Timestamp stamp) const {
   const ImuRig& imu = context_.options.rig.imu;
   const Timestamp begin = stamp - Duration::FromSeconds(context_.options.start.rest_s);
-  const ImuStatistics statistics = Summarise(context_.stream.imu().Between(begin, stamp));
+  const std::vector<ImuSample> samples = context_.stream.imu().Between(begin, stamp);
+  ImuStatistics statistics = Summarise(samples);
+  if (statistics.num_samples < kInitializing.min_samples_at_rest) return Calm::kShaken;
   const double max_rate_radps =
       kInitializationParameters.in_motion.max_bias_sigmas * imu.gyro_bias_std_radps;
-  return statistics.num_samples >= kInitializing.min_samples_at_rest &&
-         statistics.mean_w_radps.cwiseAbs().maxCoeff() < max_rate_radps &&
-         IsCalm(statistics, imu, kRest.at_start.calm);
+  if (statistics.mean_w_radps.cwiseAbs().maxCoeff() < max_rate_radps &&
+      IsCalm(statistics, imu, kRest.at_start.calm)) {
+    return Calm::kStill;
+  }
+  statistics.gyro_std_radps = 0.0;
+  statistics.accel_std_mps2 = SpreadOfTurnedForce(samples);
+  return IsCalm(statistics, imu, kRest.at_start.calm) ? Calm::kSways : Calm::kShaken;
 }
 
 void Initializing::ForgetOldestScan() {

@@ -32,6 +32,9 @@ struct InitializingParameters {
   // s. Shaken, but not moved for this long, counts as rest. Chosen: StartOptions::rest_s and four
   // sweeps; an idling truck shakes as much as a slow ride.
   double max_rest_wait_s = 1.4;
+  // m/s^2. A body that is shaken by more does not stand, whatever the scans show: it walks between
+  // hedges. Chosen: idling trucks and tractors stay below 1 m/s^2, walkers are beyond 2.
+  double max_shaken_mps2 = 1.5;
   // s. An initialization looks back this far at most; the inertial buffer holds more. Chosen: the
   // longest StartOptions::moving_window_s and half a second.
   double max_window_s = 3.5;
@@ -109,8 +112,14 @@ class Initializing {
   void AddScan(const MatchOutcome& outcome, InsertTask& insert);
   bool IsMotionKnown(Timestamp sweep_end, const Estimate& estimate) const;
   bool IsLastScan() const;
-  bool HasMovedSince(std::size_t first, bool is_calm) const;
-  bool IsVeryCalm(Timestamp stamp) const;
+  // How calm the IMU is tells how much the scans must show before the body counts as moved.
+  enum class Calm {
+    kStill,   // calmer than any ride
+    kSways,   // it turns, as in a hand, but nothing pushes it
+    kShaken,  // as on a ride
+  };
+  bool HasMovedSince(std::size_t first, Calm calm) const;
+  Calm CalmOf(Timestamp stamp) const;
   void ForgetOldestScan();
 
   // These are in initializing_convention.cpp.

@@ -11,6 +11,7 @@
 
 #include "lio/filter/filter_parameters.hpp"
 #include "lio/filter/preintegration.hpp"
+#include "lio/imu/rest_force.hpp"
 #include "lio/sensor/gap.hpp"
 #include "pipeline/estimate_report.hpp"
 #include "pipeline/initializing.hpp"
@@ -35,6 +36,11 @@ double UnmeasuredTurnStd_rad(std::span<const ImuSample> samples) {
   return std_rad;
 }
 
+bool ShowsTurn(const MatchedPose& pose) {
+  return pose.cov.diagonal().tail<3>().maxCoeff() <
+         kRest.at_start.max_turn_rad * kRest.at_start.max_turn_rad;
+}
+
 }  // namespace
 
 std::optional<Transition> Initializing::TryStart(Timestamp stamp) {
@@ -53,9 +59,9 @@ std::optional<Transition> Initializing::TryStart(Timestamp stamp) {
 }
 
 std::optional<Transition> Initializing::TryStartAsItMoves(Timestamp stamp) {
-  const bool is_calm = IsVeryCalm(stamp);
+  const Calm calm = CalmOf(stamp);
   std::size_t first_at_rest = scans_.size() - 1;
-  while (first_at_rest > 0 && !HasMovedSince(first_at_rest - 1, is_calm)) --first_at_rest;
+  while (first_at_rest > 0 && !HasMovedSince(first_at_rest - 1, calm)) --first_at_rest;
   const Timestamp rest_begin = context_.sweeps[first_at_rest]->start;
   if (SecondsBetween(rest_begin, stamp) >= context_.options.start.rest_s &&
       scans_.size() - first_at_rest >= kInitializing.min_scans_at_rest) {
@@ -72,6 +78,7 @@ std::optional<Transition> Initializing::TryStartAtRest(std::size_t first, Timest
   const StartOptions& limits = context_.options.start;
   const bool is_calm = statistics.gyro_std_radps < limits.max_gyro_std_radps &&
                        statistics.accel_std_mps2 < limits.max_accel_std_mps2;
+  if (SpreadOfTurnedForce(samples) > kInitializing.max_shaken_mps2) return TryStartInMotion(stamp);
   if (!is_calm && SecondsBetween(begin, stamp) < kInitializing.max_rest_wait_s) {
     context_.outputs.NotifyWaiting(
         stamp,
@@ -90,7 +97,12 @@ std::optional<Transition> Initializing::TryStartAtRest(std::size_t first, Timest
         found, fmt::format("at rest the gyro's noise is {:.2f}", RateNoise(samples)), stamp);
   }
   const std::size_t last = scans_.size() - 1;
-  const ShownMotion shown = ShownBetween(scans_[first].pose, scans_[last].pose);
+  ShownMotion shown = ShownBetween(scans_[first].pose, scans_[last].pose);
+  // A direction that a scan leaves open is not only a shift, so that it may not show the turn,
+  // either.
+  std::size_t seen = last;
+  while (seen > first + 1 && !ShowsTurn(scans_[seen].pose)) --seen;
+  shown.turn_rad = ShownBetween(scans_[first].pose, scans_[seen].pose).turn_rad;
   return StartFrom(StartAtRest(samples, context_.sweeps[last]->start, context_.options.rig, shown),
                    last, shown.shift_m < kRest.at_start.max_shift_m);
 }

@@ -71,13 +71,46 @@ TEST(InitializingStart, ShakenRestIsAwaitedForFourTenthsMore) {
   EXPECT_NEAR(SecondsOf(b.bench.sweeps.back()->end), 1.4, 0.1 + 1e-6);
 }
 
-TEST(InitializingStart, SteadyTurnIsNoRest) {
+// Sways in a hand by some degrees, in place.
+Motion Swaying() {
+  return [](double t_s) {
+    return Pose{ExpSo3(Vector3(0.06 * std::sin(2.0 * t_s), 0, 0)), Vector3::Zero()};
+  };
+}
+
+TEST(InitializingStart, SteadyTurnIsNoBias) {
   InitializingBench b;
   const auto transition = b.Drive(Turning(0.1), 0.0, 3.0);
   ASSERT_TRUE(transition);
   EXPECT_EQ(transition->trigger, Trigger::kStarted);
-  EXPECT_FALSE(transition->is_at_rest);
   EXPECT_NEAR(transition->start->estimate.state.gyro_bias.norm(), 0.0, 1e-3);
+}
+
+// Scans between hedges say nothing of the way along, so that only the IMU tells that it stands.
+TEST(InitializingStart, ABodyThatSwaysInPlaceStandsAndHasTheTiltOfTheEnd) {
+  InitializingBench b;
+  b.unseen_cov(0, 0) = 1e4;
+  b.unseen_cov(3, 3) = 1.0;  // a scan that leaves a shift open may leave a turn, too
+  const auto transition = b.Drive(Swaying(), 0.0, 3.0);
+  ASSERT_TRUE(transition);
+  ASSERT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_TRUE(transition->is_at_rest);
+  const Estimate& start = transition->start->estimate;
+  const double begin_s = SecondsOf(start.stamp);
+  EXPECT_LT(begin_s, 1.5);
+  EXPECT_NEAR((UpOf(start.state.T_world_imu) - UpOf(Swaying()(begin_s))).norm(), 0.0, 5e-3);
+  EXPECT_NEAR(start.state.v_world_imu.norm(), 0.0, 1e-3);
+}
+
+// So does one who walks between hedges.
+TEST(InitializingStart, AShakenBodyDoesNotStandBecauseScansDoNotSeeItMove) {
+  const Motion walking = [](double t_s) {
+    return Pose{Quaternion::Identity(), Vector3(0, 0, 0.02 * std::sin(12.0 * t_s))};
+  };
+  InitializingBench b;
+  b.unseen_cov(0, 0) =
+      DegeneracyParameters::kDegenerateStd_m * DegeneracyParameters::kDegenerateStd_m;
+  EXPECT_FALSE(b.Drive(walking, 0.0, 3.0));
 }
 
 // On bare ground matches say little of a level direction, and wander along it.

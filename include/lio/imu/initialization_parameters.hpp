@@ -17,6 +17,10 @@ struct RestStartParameters {
   // rad. Tilt is unknown by this before the mean force is fused, 1 sigma. Chosen: large against the
   // tilt that results.
   double unknown_tilt_std_rad = 1.0;
+  // The gyro shows that the body turns to and fro if its angle leaves so many of its own noise's
+  // standard deviations. Statistics: a walk that is tied at both ends has half a deviation in its
+  // middle, so that 3 are never reached by noise alone.
+  double min_turn_sigmas = 3.0;
   // m/s^2. Local gravity differs from the configured value by this, 1 sigma. Physics: 9.780 to
   // 9.832 m/s^2 from equator to poles.
   double gravity_std_mps2 = 0.02;
