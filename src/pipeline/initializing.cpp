@@ -128,6 +128,9 @@ bool Initializing::IsLastScan() const {
 bool Initializing::HasMovedSince(std::size_t first, Calm calm) const {
   const MatchedPose& then = scans_[first].pose;
   const MatchedPose& now = scans_.back().pose;
+  // Scans that matched nothing show nothing of a body that turns.
+  const bool sees = scans_.back().is_matched && (first == 0 || scans_[first].is_matched);
+  if (calm == Calm::kSways && !sees) calm = Calm::kShaken;
   switch (calm) {
     case Calm::kStill:
       return ShownBetween(then, now).shift_m > kRest.at_start.max_shift_calm_m;
