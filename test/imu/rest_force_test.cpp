@@ -24,6 +24,7 @@ constexpr int kNumSamples = 201;  // a second
 
 std::vector<ImuSample> SamplesAlong(const Motion& motion) {
   std::vector<ImuSample> samples;
+  samples.reserve(kNumSamples);
   for (int i = 0; i < kNumSamples; ++i) {
     samples.push_back(test::ExactSample(motion, kStep_s * i));
   }
