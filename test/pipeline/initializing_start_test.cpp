@@ -83,6 +83,20 @@ TEST(InitializingStart, SteadyTurnIsNoBias) {
   const auto transition = b.Drive(Turning(0.1), 0.0, 3.0);
   ASSERT_TRUE(transition);
   EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_TRUE(transition->is_at_rest) << "it turns in place";
+  EXPECT_NEAR(transition->start->estimate.state.gyro_bias.norm(), 0.0, 1e-3);
+}
+
+TEST(InitializingStart, SteadyTurnAboutAPointBesideItIsNoRest) {
+  const Motion circling = [](double t_s) {
+    const Quaternion R = ExpSo3(Vector3(0, 0, 0.3 * t_s));
+    return Pose{R, R * Vector3(0.5, 0, 0)};
+  };
+  InitializingBench b;
+  const auto transition = b.Drive(circling, 0.0, 3.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+  EXPECT_FALSE(transition->is_at_rest);
   EXPECT_NEAR(transition->start->estimate.state.gyro_bias.norm(), 0.0, 1e-3);
 }
 

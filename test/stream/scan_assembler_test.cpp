@@ -127,14 +127,13 @@ TEST(ScanAssembler, MissingChunkMakesASmallerCountedSweep) {
 
 TEST(ScanAssembler, SweepTellsHowMuchOfItsTurnWasOverBeforeItsFirstChunk) {
   Assembly a;
-  a.Add(MakeChunk(0, 3));
-  for (const int index : {1, 3}) a.Add(MakeChunk(1, index));
-  for (const int index : {0, 3}) a.Add(MakeChunk(2, index));
+  for (const int index : {1, 3}) a.Add(MakeChunk(0, index));
+  for (const int seq : {1, 2}) a.Add(MakeChunk(seq, seq == 1 ? 3 : 0));
   a.assembler.CloseAll();
   const std::vector<Sweep> sweeps = a.TakeAll();
   ASSERT_EQ(sweeps.size(), 3u);
-  EXPECT_EQ(sweeps[0].share_before, 0.75);
-  EXPECT_EQ(sweeps[1].share_before, 0.25);
+  EXPECT_EQ(sweeps[0].share_before, 0.25);
+  EXPECT_EQ(sweeps[1].share_before, 0.75);
   EXPECT_EQ(sweeps[2].share_before, 0.0);
 }
 
