@@ -29,8 +29,10 @@ void AddLeaves(Mesh& mesh, const Vector3& centre, const Vector3& radii, int num,
   for (int i = 0; i < num; ++i) {
     const double depth = std::cbrt(random.Uniform(0.15, 1.0));
     const Vector3 at = centre + depth * radii.cwiseProduct(RandomDirection(random));
-    const Vector3 u = size * random.Uniform(0.6, 1.4) * RandomDirection(random);
-    const Vector3 v = size * random.Uniform(0.6, 1.4) * RandomDirection(random);
+    const Vector3 u_direction = RandomDirection(random);
+    const Vector3 u = size * random.Uniform(0.6, 1.4) * u_direction;
+    const Vector3 v_direction = RandomDirection(random);
+    const Vector3 v = size * random.Uniform(0.6, 1.4) * v_direction;
     AddTriangle(mesh, at - 0.5 * u, at + 0.5 * u, at + v, Material::kFoliage);
   }
 }
@@ -80,7 +82,8 @@ Mesh MakeTree(double height_m, Random& random) {
   Mesh mesh;
   const double trunk = height_m * random.Uniform(0.32, 0.42);
   const double radius = 0.025 * height_m * random.Uniform(0.8, 1.2);
-  const Vector3 fork(0.15 * random.Gaussian(), 0.15 * random.Gaussian(), trunk);
+  const double fork_y = 0.15 * random.Gaussian();
+  const Vector3 fork(0.15 * random.Gaussian(), fork_y, trunk);
   AddBar(mesh, {0, 0, -0.3}, fork, 1.25 * radius, radius, 8, Material::kBark);
   const double crown = 0.5 * (height_m - trunk);
   const double width = crown * random.Uniform(0.75, 1.1);
@@ -101,8 +104,9 @@ Mesh MakeBush(const Vector3& size_m, Random& random) {
   Mesh mesh;
   const int num = 40 + static_cast<int>(60.0 * size_m.x() * size_m.y());
   for (int i = 0; i < num; ++i) {
-    const Vector3 at(random.Uniform(-0.5, 0.5) * size_m.x(), random.Uniform(-0.5, 0.5) * size_m.y(),
-                     random.Uniform(0.05, 1.0) * size_m.z());
+    const double z_share = random.Uniform(0.05, 1.0);
+    const double y_share = random.Uniform(-0.5, 0.5);
+    const Vector3 at = size_m.cwiseProduct(Vector3(random.Uniform(-0.5, 0.5), y_share, z_share));
     const Vector3 u = 0.22 * RandomDirection(random);
     AddTriangle(mesh, at, at + u, at + 0.22 * RandomDirection(random), Material::kFoliage);
   }

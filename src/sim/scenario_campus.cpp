@@ -72,7 +72,8 @@ void AddLawn(World& world, Town& town) {
   AddBar(basin, {0, 0, 0.5}, {0, 0, 2.2}, 0.5, 0.25, 12, Material::kConcrete);
   if (town.Reserve(middle, 0.0, {6.2, 6.2}, 1.0)) town.Place(basin, middle, 0.0);
   for (int i = 0; i < 26; ++i) {
-    const Vector2 p(random.Uniform(-26.0, 22.0), random.Uniform(5.0, kLawnWidth_m - 5.0));
+    const double y_m = random.Uniform(5.0, kLawnWidth_m - 5.0);
+    const Vector2 p(random.Uniform(-26.0, 22.0), y_m);
     const Mesh tree = MakeTree(random.Uniform(6.0, 11.0), random);
     const Mesh person = MakePerson(random);
     if (i % 3 == 0) {

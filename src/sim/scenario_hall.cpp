@@ -74,26 +74,27 @@ void AddFittings(Mesh& mesh, Random& random) {
     AddBox(mesh, At(kHalfHallLength_m - 0.04, -y, 0.0), {0.08, 1.2, 2.1}, Material::kCarPaintDark);
   }
   for (int i = 0; i < 5; ++i) {  // mats, boxes and a trolley
-    const Vector3 size(random.Uniform(0.8, 2.0), random.Uniform(0.6, 1.2),
-                       random.Uniform(0.3, 1.3));
-    AddBox(mesh,
-           UprightPose({random.Uniform(12.0, 19.0), random.Uniform(6.0, 11.0), 0.0},
-                       random.Uniform(0.0, std::numbers::pi)),
-           size, random.Chance(0.5) ? Material::kCloth : Material::kWood);
+    const double height_m = random.Uniform(0.3, 1.3);
+    const double width_m = random.Uniform(0.6, 1.2);
+    const Vector3 size(random.Uniform(0.8, 2.0), width_m, height_m);
+    const Material material = random.Chance(0.5) ? Material::kCloth : Material::kWood;
+    const double heading = random.Uniform(0.0, std::numbers::pi);
+    const Vector3 place = {random.Uniform(12.0, 19.0), random.Uniform(6.0, 11.0), 0.0};
+    AddBox(mesh, UprightPose(place, heading), size, material);
   }
   for (int i = 0; i < 14; ++i) {
+    const double x_m = random.Uniform(-14.0, 14.0);
+    const double y_m = -kHalfHallWidth_m + 5.1 - 0.85 * (i % 5);
     AddMesh(mesh, MakePerson(random),
-            UprightPose({random.Uniform(-14.0, 14.0), -kHalfHallWidth_m + 5.1 - 0.85 * (i % 5),
-                         0.42 * (i % 5 + 1)},
-                        0.5 * std::numbers::pi));
+            UprightPose({x_m, y_m, 0.42 * (i % 5 + 1)}, 0.5 * std::numbers::pi));
   }
 }
 
 // Adds players who run in rounds on the halves of the court.
 void AddPlayers(World& world, Random& random) {
   for (int i = 0; i < 6; ++i) {
-    const Vector2 middle((i % 2 == 0 ? -1.0 : 1.0) * random.Uniform(9.0, 13.0),
-                         random.Uniform(-1.0, 5.0));
+    const double y_m = random.Uniform(-1.0, 5.0);
+    const Vector2 middle((i % 2 == 0 ? -1.0 : 1.0) * random.Uniform(9.0, 13.0), y_m);
     const double radius_m = random.Uniform(2.0, 4.0);
     const double speed_mps = random.Uniform(1.5, 3.0);
     const double phase = random.Uniform(0.0, kTurn_rad);

@@ -64,7 +64,8 @@ void AddSide(Town& town, const Road& road, int character) {
 
 void AddCourtyard(Town& town) {
   for (int i = 0; i < 60; ++i) {
-    const Vector2 p(town.random().Uniform(-80.0, 80.0), -town.random().Uniform(30.0, 100.0));
+    const double y_m = -town.random().Uniform(30.0, 100.0);
+    const Vector2 p(town.random().Uniform(-80.0, 80.0), y_m);
     const Mesh tree = MakeTree(town.random().Uniform(6.0, 11.0), town.random());
     if (town.Reserve(p, 0.0, {3.0, 3.0}, 2.0)) town.Place(tree, p, 0.0);
   }

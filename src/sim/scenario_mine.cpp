@@ -31,8 +31,9 @@ class Roughness {
     constexpr int kWaves = 14;
     for (int i = 0; i < kWaves; ++i) {
       const double length_m = 0.5 * std::pow(10.0, static_cast<double>(i) / (kWaves - 1));
-      const Vector3 direction =
-          Vector3(random.Gaussian(), random.Gaussian(), random.Gaussian()).normalized();
+      const double z = random.Gaussian();
+      const double y = random.Gaussian();
+      const Vector3 direction = Vector3(random.Gaussian(), y, z).normalized();
       waves_.push_back({kTurn_rad / length_m * direction, 0.035 * std::pow(length_m, 0.7),
                         random.Uniform(0.0, kTurn_rad)});
     }

@@ -28,7 +28,8 @@ Path Carriageway(double length_m, Random& random) {
   path.AddStraight(kMotorwayBefore_m + 200.0);
   double turn = random.Chance(0.5) ? 1.0 : -1.0;
   while (path.length_m() < length_m + 2.0 * kMotorwayBefore_m) {
-    path.AddArc(random.Uniform(600.0, 900.0), turn * random.Uniform(0.15, 0.35));
+    const double angle = turn * random.Uniform(0.15, 0.35);
+    path.AddArc(random.Uniform(600.0, 900.0), angle);
     path.AddStraight(random.Uniform(80.0, 250.0));
     turn = -turn;
   }

@@ -17,7 +17,7 @@ std::vector<Vector3> SampleRotations() {
   std::vector<Vector3> samples = {Vector3::Zero(), Vector3(1e-8, 0, 0), Vector3(0, -1e-5, 2e-5),
                                   Vector3(0, 0, 3.14)};
   for (const double size : {1e-8, 1e-4, 0.009, 0.011, 1.0}) {
-    samples.push_back(size * Vector3(normal(random), normal(random), normal(random)).normalized());
+    samples.push_back(size * Vector3{normal(random), normal(random), normal(random)}.normalized());
   }
   return samples;
 }

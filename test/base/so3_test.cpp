@@ -21,7 +21,7 @@ std::vector<Vector3> RotationsForJets() {
   std::normal_distribution<double> normal;
   std::vector<Vector3> samples = {Vector3::Zero(), Vector3(0, 0, 3.1)};
   for (const double size : {1e-9, 1e-5, 1.1e-4, 0.009, 0.011, 0.3, 2.0}) {
-    samples.push_back(size * Vector3(normal(random), normal(random), normal(random)).normalized());
+    samples.push_back(size * Vector3{normal(random), normal(random), normal(random)}.normalized());
   }
   return samples;
 }

@@ -66,8 +66,8 @@ TEST_P(MatcherContract, RecoversOffsetsUpToAMetreAndFiveDegrees) {
   constexpr int kNumOffsets = 12;
   for (int i = 1; i <= kNumOffsets; ++i) {
     const double size = static_cast<double>(i) / kNumOffsets;
-    const Vector3 shift(uniform(random), uniform(random), 0.3 * uniform(random));
-    const Vector3 turn(0.3 * uniform(random), 0.3 * uniform(random), uniform(random));
+    const Vector3 shift = {uniform(random), uniform(random), 0.3 * uniform(random)};
+    const Vector3 turn = {0.3 * uniform(random), 0.3 * uniform(random), uniform(random)};
     Vector6 offset;
     offset << size * shift.normalized(), size * 5.0 * kDegree * turn.normalized();
     const MatchResult result =

@@ -23,7 +23,7 @@ RotationOffset OffsetOf(const Quaternion& turn, double noise_rad = 0) {
   const Trajectory estimate = test::Map(truth, [&](const Pose& p) {
     Pose moved = world * p;
     const Vector3 wobble =
-        noise_rad > 0 ? Vector3(noise(random), noise(random), noise(random)) : Vector3(0, 0, 0);
+        noise_rad > 0 ? Vector3{noise(random), noise(random), noise(random)} : Vector3(0, 0, 0);
     moved.rotation = moved.rotation * ExpSo3(wobble) * turn;
     return moved;
   });

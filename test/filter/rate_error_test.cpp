@@ -19,7 +19,7 @@ double RunTurns(RateError& error, double rate_radps, double ratio, int num_poses
                 std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const auto vector = [&] { return Vector3{normal(random), normal(random), normal(random)}; };
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < num_poses; ++i) {

@@ -45,15 +45,17 @@ std::vector<Vector3> RingThroughCrown(const Vector3& centre, double elevation_ra
   return points;
 }
 
-// Returns points of a level plane through the middle of a voxel, with noise across it.
+// Returns points of a level plane through the middle of a voxel, with noise across it. Each point
+// has one opposite it of the same height, so that the noise does not tilt the plane.
 std::vector<Vector3> ThickPlane(const Vector3& centre, double noise_m) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> along(-0.45, 0.45);
   std::normal_distribution<double> across(0.0, noise_m);
   std::vector<Vector3> points;
-  for (int i = 0; i < 200; ++i) {
-    points.push_back(
-        centre + Vector3(along(random), along(random), std::clamp(across(random), -0.49, 0.49)));
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 offset = {along(random), along(random), std::clamp(across(random), -0.49, 0.49)};
+    points.push_back(centre + offset);
+    points.push_back(centre + offset.cwiseProduct(Vector3(-1, -1, 1)));
   }
   return points;
 }

@@ -27,13 +27,13 @@ Vector3 PositionBy(const Vector3& lever_m, const Vector3& rotation_rad) {
 Matrix3 SampledPositionCov() {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
-  const auto draw = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const auto draw = [&] { return Vector3{normal(random), normal(random), normal(random)}; };
   Matrix3 cov = Matrix3::Zero();
   constexpr int kNumDraws = 20000;
   for (int i = 0; i < kNumDraws; ++i) {
-    const Vector3 off =
-        PositionBy(kStd.lever_m.cwiseProduct(draw()), kStd.rotation_rad.cwiseProduct(draw())) -
-        kNow.translation;
+    const Vector3 lever_m = kStd.lever_m.cwiseProduct(draw());
+    const Vector3 rotation_rad = kStd.rotation_rad.cwiseProduct(draw());
+    const Vector3 off = PositionBy(lever_m, rotation_rad) - kNow.translation;
     cov += off * off.transpose() / kNumDraws;
   }
   return cov;

@@ -259,7 +259,7 @@ float ReliefFoundWhereItIs(float truth, int num_scans) {
   for (int scan = 0; scan < num_scans; ++scan) {
     calibration.BeginScan(static_cast<float>(scan), 1);
     for (int i = 0; i < 200; ++i) {
-      const Eigen::Vector3f position(place(random), place(random), -1.f);
+      const Eigen::Vector3f position = {place(random), place(random), -1.f};
       const float height_m = 0.03f * normal(random);
       Vector6f jacobian = Vector6f::Zero();
       jacobian.tail<4>() << 1.f, position.y(), -position.x(), 0.f;

@@ -17,7 +17,7 @@ std::vector<Eigen::Vector3f> BoxAround(float half_m, unsigned seed = 1) {
   std::uniform_real_distribution<float> place(-half_m, half_m);
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 3000; ++i) {
-    Eigen::Vector3f point(place(random), place(random), place(random));
+    Eigen::Vector3f point = {place(random), place(random), place(random)};
     point[i % 3] = i % 2 == 0 ? half_m : -half_m;
     points.push_back(point);
   }

@@ -21,7 +21,7 @@ struct Room {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> place(-4.f, 4.f);
     for (int i = 0; i < 1500 && has_walls; ++i) {
-      Eigen::Vector3f point(place(random), place(random), place(random));
+      Eigen::Vector3f point = {place(random), place(random), place(random)};
       point[i % 3] = 5.f;
       points.push_back(point);
       tags.push_back({FeatureKind::kFlat, 0});

@@ -82,7 +82,7 @@ TEST(RingGrid, ClearForgetsEverything) {
 TEST(RingGrid, AgreesWithAPlainSearch) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> place(-4.f, 4.f);
-  const auto draw = [&] { return Eigen::Vector3f(place(random), place(random), place(random)); };
+  const auto draw = [&] { return Eigen::Vector3f{place(random), place(random), place(random)}; };
   std::vector<std::pair<Eigen::Vector3f, int>> points;
   for (int i = 0; i < 600; ++i) points.emplace_back(draw(), static_cast<int>(random() % 16));
   const RingGrid grid = Make(points);

@@ -68,12 +68,12 @@ TEST(RoadNetwork, PiecesOfALongRoadHideNoNearerSegment) {
   std::vector<Road> segments;
   for (int i = 0; i < 100; ++i) {
     const Vector2 from = road.line_m.back();
-    road.line_m.emplace_back(from + Vector2(random.Uniform(-9, 12), random.Uniform(-9, 12)));
+    road.line_m.emplace_back(from + Vector2{random.Uniform(-9, 12), random.Uniform(-9, 12)});
     segments.push_back({{from, road.line_m.back()}, 4.0});
   }
   const RoadNetwork whole({road});
   for (int i = 0; i < 500; ++i) {
-    const Vector2 p(random.Uniform(-100, 250), random.Uniform(-100, 250));
+    const Vector2 p = {random.Uniform(-100, 250), random.Uniform(-100, 250)};
     double nearest_m = 1e9;
     for (const Road& segment : segments) {
       nearest_m = std::min(nearest_m, RoadNetwork({segment}).SignedDistance(p));
@@ -100,7 +100,7 @@ class GroundTest : public ::testing::Test {
 TEST_F(GroundTest, FollowsTheTerrainWithKerbsBesideTheRoad) {
   const StillScene scene = Build(options_);
   for (int i = 0; i < 3000; ++i) {
-    const Vector2 p(random_.Uniform(2.0, 78.0), random_.Uniform(-30.0, 30.0));
+    const Vector2 p = {random_.Uniform(2.0, 78.0), random_.Uniform(-30.0, 30.0)};
     const double distance = network_.SignedDistance(p);
     double height_m = 0.0;
     const Hit hit = scene.Down(p, height_m);

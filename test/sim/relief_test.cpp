@@ -27,7 +27,7 @@ FirstHit BeamDown(double sine, Random& random) {
   FirstHit beam;
   const double cosine = std::sqrt(1.0 - sine * sine);
   const double heading = random.Uniform(0.0, 6.28);
-  beam.ray.origin_m = Vector3(random.Uniform(-50, 50), random.Uniform(-50, 50), 1.0).cast<float>();
+  beam.ray.origin_m = Vector3{random.Uniform(-50, 50), random.Uniform(-50, 50), 1.0}.cast<float>();
   beam.ray.direction =
       Vector3(cosine * std::cos(heading), cosine * std::sin(heading), -sine).cast<float>();
   beam.hit = {static_cast<float>(1.0 / sine), static_cast<float>(sine), Material::kSoil,
@@ -64,7 +64,7 @@ TEST(Relief, IsSmoothNoiseAboutTheMeshWithinItsHeight) {
   std::vector<double> heights_m;
   double steepest = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    const Vector3 p(random.Uniform(-90, 90), random.Uniform(-90, 90), random.Uniform(-9, 9));
+    const Vector3 p = {random.Uniform(-90, 90), random.Uniform(-90, 90), random.Uniform(-9, 9)};
     const double height_m = ReliefAt(Soil(), p);
     const double beside_m = ReliefAt(Soil(), p + 1e-3 * Vector3::UnitX());
     steepest = std::max(steepest, std::abs(beside_m - height_m) / 1e-3);

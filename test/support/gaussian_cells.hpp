@@ -38,7 +38,7 @@ inline std::vector<Vector3> PlanePoints(const Vector3& origin, const Vector3& no
   const Quaternion turn = Quaternion::FromTwoVectors(Vector3::UnitZ(), normal);
   std::vector<Vector3> points;
   while (static_cast<int>(points.size()) < num) {
-    const Vector3 offset = turn * Vector3(wide(random), wide(random), thick(random));
+    const Vector3 offset = turn * Vector3{wide(random), wide(random), thick(random)};
     if (offset.cwiseAbs().maxCoeff() < 0.49) points.push_back(origin + offset);
   }
   return points;

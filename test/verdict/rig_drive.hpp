@@ -31,7 +31,7 @@ inline Pose MatchedPose(const RigDrive& drive, const Motion& motion, double t_s,
                         std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const auto noise = [&](double std) {
-    return Vector3(std * normal(random), std * normal(random), std * normal(random));
+    return Vector3{std * normal(random), std * normal(random), std * normal(random)};
   };
   const Pose T =
       motion(t_s + drive.clock_offset_s) * drive.T_imu_lidar * drive.T_configured.Inverse();

@@ -19,7 +19,7 @@ void Fill(LoamSolver& solver, double s) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0.0, 1.0);
   const auto vector = [&](double size) -> Vector3 {
-    return size * Vector3(normal(random), normal(random), normal(random));
+    return size * Vector3{normal(random), normal(random), normal(random)};
   };
   const Pose truth{ExpSo3(Vector3(0.002, 0.001, -0.003)), Vector3(0.02, -0.01, 0.01)};
   for (int i = 0; i < kNumPlanes; ++i) {

@@ -50,7 +50,8 @@ enum class Purpose : std::uint64_t {
   kImuField
 };
 
-// Draws a sequence of numbers from one key.
+// Draws a sequence of numbers from one key. Each draw belongs in a statement of its own, or in
+// braces: the order in which arguments and operands are evaluated is the compiler's.
 class Random {
  public:
   Random(std::uint64_t seed, Purpose purpose, std::uint64_t stream = 0)
