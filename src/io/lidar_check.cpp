@@ -15,48 +15,17 @@
 namespace lio {
 namespace {
 
-// These are whole numbers of cells: 2 deg of azimuth and of elevation.
-constexpr int kNumAzimuths = 180;
-constexpr int kNumElevations = 90;
-constexpr float kNear_m = 2.5f;  // no farther does a vehicle reach that carries its lidar on top
 constexpr int kSampleEvery = 5;  // sweeps: half a second
 constexpr int kScansForRings = 100;
 constexpr std::size_t kMaxShares = 1000;
-// The vehicle itself is seen in nearly every sweep, at one range; what passes by is not.
-constexpr double kFixedShare = 0.9;
-constexpr double kFixedStd_m = 0.05;
-constexpr int kFewestSamples = 20;
 constexpr double kShortestPath_m = 20.0;
-constexpr int kFewestCells = 6;
-constexpr double kFullRing = 0.6;  // share of all azimuths at one elevation: a plain floor, too
-constexpr double kMargin_m = 0.05;
 constexpr double kOtherModel_rad = 1.0 / kDegPerRad;  // scatter of beams is a tenth of it
 constexpr double kOneTime = 0.2;                      // share of the time between sweeps
-
-std::size_t CellOf(const LidarPoint& point) {
-  const double azimuth = std::atan2(point.y_m, point.x_m) * kDegPerRad + 180.0;
-  const double elevation =
-      std::atan2(point.z_m, std::hypot(point.x_m, point.y_m)) * kDegPerRad + 90.0;
-  const int column = std::min(static_cast<int>(azimuth / 2.0), kNumAzimuths - 1);
-  const int row = std::min(static_cast<int>(elevation / 2.0), kNumElevations - 1);
-  return static_cast<std::size_t>(row * kNumAzimuths + column);
-}
-
-Vector3 PlaceOf(std::size_t cell, double range_m) {
-  const std::size_t column = cell % kNumAzimuths;
-  const std::size_t row = cell / kNumAzimuths;
-  const double azimuth = (2.0 * static_cast<double>(column) + 1.0 - 180.0) / kDegPerRad;
-  const double elevation = (2.0 * static_cast<double>(row) + 1.0 - 90.0) / kDegPerRad;
-  const double flat_m = range_m * std::cos(elevation);
-  return {flat_m * std::cos(azimuth), flat_m * std::sin(azimuth), range_m * std::sin(elevation)};
-}
 
 }  // namespace
 
 LidarCheck::LidarCheck(const Options& options)
-    : rig_(options.rig.lidar),
-      uses_imu_(options.pipeline.use_imu),
-      cells_(std::size_t{kNumAzimuths} * kNumElevations) {}
+    : rig_(options.rig.lidar), uses_imu_(options.pipeline.use_imu), own_vehicle_(rig_) {}
 
 void LidarCheck::BeginScan(const ScanChunk& chunk) {
   if (scan_begin_ && shares_.size() < kMaxShares) {
@@ -68,7 +37,7 @@ void LidarCheck::BeginScan(const ScanChunk& chunk) {
   scan_begin_ = chunk.stamp;
   span_s_ = 0.0;
   ++num_scans_;
-  if (num_scans_ % kSampleEvery == 0) ++num_sampled_;
+  if (num_scans_ % kSampleEvery == 0) own_vehicle_.BeginSweep();
 }
 
 void LidarCheck::Add(const ScanChunk& chunk) {
@@ -81,23 +50,7 @@ void LidarCheck::Add(const ScanChunk& chunk) {
     for (const LidarPoint& point : chunk.points) elevations_.Add(point);
   }
   if (num_scans_ % kSampleEvery != 0) return;
-  for (const LidarPoint& point : chunk.points) AddNear(chunk, point);
-}
-
-void LidarCheck::AddNear(const ScanChunk& chunk, const LidarPoint& point) {
-  const Vector3 p(point.x_m, point.y_m, point.z_m);
-  const double range_m = p.norm();
-  if (!(range_m < kNear_m) || range_m < rig_.min_range_m) return;
-  const auto& box = rig_.own_vehicle_box;
-  const bool is_in_box =
-      box && (p.array() >= box->min_m.array()).all() && (p.array() <= box->max_m.array()).all();
-  if (is_in_box) return;
-  Cell& cell = cells_[CellOf(point)];
-  if (cell.last_scan != chunk.scan_seq) ++cell.num_scans;
-  cell.last_scan = chunk.scan_seq;
-  ++cell.num_points;
-  cell.sum_m += range_m;
-  cell.sum_sq_m2 += range_m * range_m;
+  for (const LidarPoint& point : chunk.points) own_vehicle_.Add(point);
 }
 
 void LidarCheck::AddTo(Verdict& verdict) const {
@@ -149,39 +102,16 @@ std::optional<Cause> LidarCheck::FindPointTime() const {
                ""};
 }
 
-bool LidarCheck::IsFixed(const Cell& cell) const {
-  if (cell.num_scans < kFixedShare * num_sampled_) return false;
-  const double mean = cell.sum_m / cell.num_points;
-  const double variance = cell.sum_sq_m2 / cell.num_points - mean * mean;
-  return variance < kFixedStd_m * kFixedStd_m;
-}
-
 std::optional<Cause> LidarCheck::FindOwnVehicle() const {
-  if (num_sampled_ < kFewestSamples) return std::nullopt;
-  int num_fixed = 0;
-  Vector3 low = Vector3::Constant(kNear_m), high = -low;
-  for (int row = 0; row < kNumElevations; ++row) {
-    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(row) * kNumAzimuths;
-    const auto num = std::count_if(begin, begin + kNumAzimuths,
-                                   [this](const Cell& cell) { return IsFixed(cell); });
-    if (static_cast<double>(num) > kFullRing * kNumAzimuths) continue;
-    for (auto cell = begin; cell != begin + kNumAzimuths; ++cell) {
-      if (!IsFixed(*cell)) continue;
-      ++num_fixed;
-      const auto index = static_cast<std::size_t>(cell - cells_.begin());
-      const Vector3 place = PlaceOf(index, cell->sum_m / cell->num_points);
-      low = low.cwiseMin(place);
-      high = high.cwiseMax(place);
-    }
-  }
-  if (num_fixed < kFewestCells) return std::nullopt;
-  low.array() -= kMargin_m;
-  high.array() += kMargin_m;
+  const auto found = own_vehicle_.Find();
+  if (!found) return std::nullopt;
+  const Vector3& low = found->box.min_m;
+  const Vector3& high = found->box.max_m;
   return Cause{
       CauseKind::kOwnVehicle, Trust::kYes, 0.0,
       fmt::format("in {} directions of 2 deg there is a return at one range below {:.1f} m "
                   "in nearly every sweep, wherever the vehicle is: it sees itself",
-                  num_fixed, kNear_m),
+                  found->num_directions, OwnVehicleFinder::kFarthest_m),
       fmt::format("rig:\n  lidar:\n    own_vehicle_box:\n"
                   "      min_m: [{:.2f}, {:.2f}, {:.2f}]\n"
                   "      max_m: [{:.2f}, {:.2f}, {:.2f}]\n",

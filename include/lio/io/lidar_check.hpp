@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lio/io/lidar_guess.hpp"
+#include "lio/io/own_vehicle_finder.hpp"
 #include "lio/pipeline/options.hpp"
 #include "lio/sensor/scan_chunk.hpp"
 #include "lio/verdict/verdict.hpp"
@@ -28,31 +29,20 @@ class LidarCheck {
   [[nodiscard]] std::vector<Cause> Find(double path_m) const;
 
  private:
-  // Near returns in one direction, as the lidar sees it.
-  struct Cell {
-    std::int32_t last_scan = -1;
-    int num_scans = 0;  // in which it had a return
-    double sum_m = 0.0, sum_sq_m2 = 0.0;
-    int num_points = 0;
-  };
-
   void BeginScan(const ScanChunk& chunk);
-  void AddNear(const ScanChunk& chunk, const LidarPoint& point);
   [[nodiscard]] std::optional<Cause> FindModel() const;
   [[nodiscard]] std::optional<Cause> FindOwnVehicle() const;
   [[nodiscard]] std::optional<Cause> FindPointTime() const;
-  [[nodiscard]] bool IsFixed(const Cell& cell) const;
 
   LidarRig rig_;
   bool uses_imu_;
   RingElevations elevations_;
-  std::vector<Cell> cells_;
+  OwnVehicleFinder own_vehicle_;
   std::optional<std::int32_t> scan_;
   std::optional<Timestamp> scan_begin_;
   double span_s_ = 0.0;         // time from the first to the last point of the present sweep
   std::vector<double> shares_;  // share of the time between sweeps that each one's points span
   int num_scans_ = 0;
-  int num_sampled_ = 0;  // whose near returns were looked at
 };
 
 }  // namespace lio
