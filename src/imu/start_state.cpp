@@ -173,17 +173,19 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   const bool has_gravity = GravityPresent(statistics, rig);
   StartState start;
   const double span_s = std::max(statistics.span_s, 1e-3);
-  const double turn_std_radps = shown.turn_rad / span_s;
   RestMeans means;
   means.rate_radps = statistics.mean_w_radps;
   means.rate_noise_var = rig.imu.gyro_noise_density * rig.imu.gyro_noise_density / span_s;
+  const bool turns = Turns(samples, means.rate_noise_var * span_s * span_s, shown);
+  // A body that turns to and fro has also turned by what the scans cannot tell.
+  const double turn_std_radps =
+      (turns ? std::max(shown.turn_rad, shown.turn_std_rad) : shown.turn_rad) / span_s;
   means.rate_var = MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics) +
                    turn_std_radps * turn_std_radps;
   const double bias_var = rig.imu.gyro_bias_std_radps * rig.imu.gyro_bias_std_radps;
   means.gyro_bias = bias_var / (bias_var + means.rate_var) * means.rate_radps;
-  means.force = Turns(samples, means.rate_noise_var * span_s * span_s, shown)
-                    ? MeanForceAtRest(samples, stamp, means.gyro_bias)
-                    : MeanForceUnturned(samples, stamp);
+  means.force = turns ? MeanForceAtRest(samples, stamp, means.gyro_bias)
+                      : MeanForceUnturned(samples, stamp);
   means.force_var =
       std::max(MeanVariance(rig.imu.accel_noise_density, statistics.accel_std_mps2, statistics),
                means.force.scatter_var);

@@ -75,10 +75,12 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
 }
 
 // A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
-// It must be narrow: one that fills the cell is cut off by the cell's sides.
+// It must be narrow: one that fills the cell is cut off by the cell's sides. And it must be slender,
+// which grass, leaves and clutter are not.
 bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
-  if (up_map_.dot(cov * up_map_) < min_height * min_height) return false;
+  const double height_var = up_map_.dot(cov * up_map_);
+  if (height_var < min_height * min_height) return false;
   const Vector3 level1 = up_map_.unitOrthogonal();
   const Vector3 level2 = up_map_.cross(level1);
   Eigen::Matrix<double, 3, 2> level;
@@ -86,7 +88,10 @@ bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
   eigen.computeDirect(level.transpose() * cov * level);
   const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
-  if (eigen.eigenvalues()[1] > max_width * max_width) return false;
+  constexpr double kMinSlenderness = GaussianMapParameters::kMinVerticalSlenderness;
+  const double width_var = eigen.eigenvalues()[1];
+  if (width_var > max_width * max_width) return false;
+  if (width_var * kMinSlenderness * kMinSlenderness > height_var) return false;
   const Eigen::Vector2d variance = eigen.eigenvalues().cwiseMax(
       GaussianMapParameters::kMinVerticalStd_m * GaussianMapParameters::kMinVerticalStd_m);
   const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();

@@ -99,10 +99,14 @@ std::optional<Transition> Initializing::TryStartAtRest(std::size_t first, Timest
   const std::size_t last = scans_.size() - 1;
   ShownMotion shown = ShownBetween(scans_[first].pose, scans_[last].pose);
   // A direction that a scan leaves open is not only a shift, so that it may not show the turn,
-  // either.
+  // either. One that shows it tells how sure it is if it is of the second half.
   std::size_t seen = last;
   while (seen > first + 1 && !ShowsTurn(scans_[seen].pose)) --seen;
-  shown.turn_rad = ShownBetween(scans_[first].pose, scans_[seen].pose).turn_rad;
+  const ShownMotion by_seen = ShownBetween(scans_[first].pose, scans_[seen].pose);
+  shown.turn_rad = by_seen.turn_rad;
+  if (ShowsTurn(scans_[seen].pose) && seen - first > (last - first) / 2) {
+    shown.turn_std_rad = by_seen.turn_std_rad;
+  }
   return StartFrom(StartAtRest(samples, context_.sweeps[last]->start, context_.options.rig, shown),
                    last, shown.shift_m < kRest.at_start.max_shift_m);
 }

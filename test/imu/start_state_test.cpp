@@ -105,6 +105,34 @@ TEST(StartState, RestIsUnsureByTheMotionThatScansShowMeanwhile) {
   EXPECT_NEAR(turned(kVel, kVel), none(kVel, kVel), 1e-12);
 }
 
+// In a meadow scans cannot tell by how much a walker turned who sways while standing, and the mean
+// rate of that second is no bias of the gyro.
+TEST(StartState, ASwayingRestIsUnsureByTheTurnThatScansCannotTell) {
+  const Rig rig;
+  constexpr double kRate_radps = 0.02;
+  const test::Motion sway = [](double t_s) {
+    return Pose{ExpSo3(Vector3(kRate_radps * t_s, 0.02 * std::sin(2.0 * t_s), 0)), Vector3::Zero()};
+  };
+  std::vector<ImuSample> samples;
+  for (int i = 0; i <= 100; ++i) samples.push_back(test::ExactSample(sway, kSamplePeriod_s * i));
+  const auto sigmas_off = [&](const ShownMotion& shown) {
+    const Estimate estimate = StartAtRest(samples, StampAt(1.0), rig, shown).estimate;
+    return std::abs(estimate.state.gyro_bias.x()) / std::sqrt(estimate.cov(kGyroBias, kGyroBias));
+  };
+  EXPECT_LT(sigmas_off({.turn_std_rad = 0.03}), 1.0);
+  EXPECT_GT(sigmas_off({.turn_std_rad = 1e-4}), 5.0) << "the scans tell that it has not turned";
+}
+
+TEST(StartState, WhatScansCannotTellIsNoTurnOfABodyThatStands) {
+  std::mt19937_64 random(1);
+  const Rig rig;
+  const std::vector<ImuSample> samples = StandStill({}, rig, random);
+  const auto bias_var = [&](const ShownMotion& shown) {
+    return StartAtRest(samples, StampAt(1.0), rig, shown).estimate.cov(kGyroBias, kGyroBias);
+  };
+  EXPECT_EQ(bias_var({.turn_std_rad = 0.03}), bias_var({}));
+}
+
 TEST(StartState, UpsideDownAndOnItsSideAreLevelledToo) {
   std::mt19937_64 random(2);
   const Rig rig;

@@ -129,6 +129,16 @@ TEST(GaussianMapPatch, VerticalGoesByTheGivenDirection) {
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f) << "lies on its side";
 }
 
+// Grass and leaves are as high as wide, and a clump of them lies where the beams happen to meet it.
+TEST(GaussianMapPatch, ClumpsHardlyHigherThanWideAreNoPosts) {
+  for (const double radius_m : {0.15, 0.22}) {  // the height's standard deviation is 0.26 m
+    GaussianMap map(TestOptions());
+    const Vector3 centre = CentreOf(3, 4, 1);
+    map.Insert(PostPoints(centre, radius_m, 0.0), Vector3::Zero());
+    EXPECT_EQ(PatchAt(map, centre).thickness_var > 0.f, radius_m < 0.2) << radius_m;
+  }
+}
+
 // Points that fill the cell tell nothing of a place in it.
 TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   GaussianMap map(TestOptions());

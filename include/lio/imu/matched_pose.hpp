@@ -21,6 +21,7 @@ struct MatchedPose {
 struct ShownMotion {
   double shift_m = 0.0;
   double turn_rad = 0.0;
+  double turn_std_rad = 0.0;  // about the axis that the scans hold least
 };
 [[nodiscard]] ShownMotion ShownBetween(const MatchedPose& then, const MatchedPose& now);
 
