@@ -75,8 +75,8 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
 }
 
 // A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
-// It must be narrow: one that fills the cell is cut off by the cell's sides. And it must be slender,
-// which grass, leaves and clutter are not.
+// It must be narrow: one that fills the cell is cut off by the cell's sides. And it must be
+// slender, which grass, leaves and clutter are not.
 bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
   const double height_var = up_map_.dot(cov * up_map_);
