@@ -19,8 +19,8 @@ ShownMotion ShownBetween(const MatchedPose& then, const MatchedPose& now) {
     const double size = change.norm();
     return size > kRest.at_start.min_sigmas * std::sqrt(var) ? size : 0.0;
   };
-  const Matrix3 turn_cov = R_then_now.transpose() * then.cov.block<3, 3>(3, 3) * R_then_now +
-                           now.cov.block<3, 3>(3, 3);
+  const Matrix3 turn_cov =
+      R_then_now.transpose() * then.cov.block<3, 3>(3, 3) * R_then_now + now.cov.block<3, 3>(3, 3);
   return {shown(motion.translation, 0), shown(LogSo3(motion.rotation), 3),
           std::sqrt(turn_cov.operatorNorm())};
 }

@@ -184,8 +184,8 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
                    turn_std_radps * turn_std_radps;
   const double bias_var = rig.imu.gyro_bias_std_radps * rig.imu.gyro_bias_std_radps;
   means.gyro_bias = bias_var / (bias_var + means.rate_var) * means.rate_radps;
-  means.force = turns ? MeanForceAtRest(samples, stamp, means.gyro_bias)
-                      : MeanForceUnturned(samples, stamp);
+  means.force =
+      turns ? MeanForceAtRest(samples, stamp, means.gyro_bias) : MeanForceUnturned(samples, stamp);
   means.force_var =
       std::max(MeanVariance(rig.imu.accel_noise_density, statistics.accel_std_mps2, statistics),
                means.force.scatter_var);
