@@ -131,7 +131,7 @@ TEST(GaussianMapPatch, VerticalGoesByTheGivenDirection) {
 
 // Grass and leaves are as high as wide, and a clump of them lies where the beams happen to meet it.
 TEST(GaussianMapPatch, ClumpsHardlyHigherThanWideAreNoPosts) {
-  for (const double radius_m : {0.15, 0.22}) {  // the height's standard deviation is 0.26 m
+  for (const double radius_m : {0.15, 0.26}) {  // the height's standard deviation is 0.26 m
     GaussianMap map(TestOptions());
     const Vector3 centre = CentreOf(3, 4, 1);
     map.Insert(PostPoints(centre, radius_m, 0.0), Vector3::Zero());

@@ -37,7 +37,7 @@ struct GaussianMapParameters {
   // A vertical structure's standard deviation along the vertical over its larger horizontal one, at
   // least. Chosen: a blob has 1, the visible half of a trunk that fills a cell from below to above
   // and a third of it from side to side 2.
-  static constexpr double kMinVerticalSlenderness = 2.0;
+  static constexpr double kMinVerticalSlenderness = 1.5;
   // A vertical structure's horizontal standard deviation counts as this at least [m]. Chosen: the
   // side from which a trunk is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
