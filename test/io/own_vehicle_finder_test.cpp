@@ -13,7 +13,7 @@
 namespace lio {
 namespace {
 
-constexpr int kNumSweeps = 60;
+constexpr int kNumSweeps = 25;
 
 // A lidar of 16 beams in a lane along x; a wall on either side, at a distance and in a direction
 // that vary as the body sways and turns, and where it is told to a bonnet ahead. Ranges have a
@@ -33,8 +33,8 @@ class Recorder {
     finder.BeginSweep();
     sway_m_ = lane_.sway_m * normal_(random_);
     turn_rad_ = lane_.turn_deg / kDegPerRad * normal_(random_);
-    for (int step = 0; step < 720; ++step) {
-      for (int ring = 0; ring < 16; ++ring) Cast(0.5 * step, 2.0 * ring - 15.0, finder);
+    for (int step = 0; step < 360; ++step) {
+      for (int ring = 0; ring < 16; ++ring) Cast(step, 2.0 * ring - 15.0, finder);
     }
   }
 
