@@ -178,8 +178,8 @@ StartState StartAtRest(std::span<const ImuSample> samples, Timestamp stamp, cons
   means.rate_noise_var = rig.imu.gyro_noise_density * rig.imu.gyro_noise_density / span_s;
   const bool turns = Turns(samples, means.rate_noise_var * span_s * span_s, shown);
   // A body that turns to and fro has also turned by what the scans cannot tell.
-  const double turn_std_radps =
-      (turns ? std::max(shown.turn_rad, shown.turn_std_rad) : shown.turn_rad) / span_s;
+  const double turn_std_rad = turns ? std::max(shown.turn_rad, shown.turn_std_rad) : 0.0;
+  const double turn_std_radps = turn_std_rad / span_s;
   means.rate_var = MeanVariance(rig.imu.gyro_noise_density, statistics.gyro_std_radps, statistics) +
                    turn_std_radps * turn_std_radps;
   const double bias_var = rig.imu.gyro_bias_std_radps * rig.imu.gyro_bias_std_radps;

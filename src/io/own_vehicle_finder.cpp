@@ -138,10 +138,9 @@ void OwnVehicleFinder::Add(const LidarPoint& point) {
 
 bool OwnVehicleFinder::IsSteady(const Cell& cell) const {
   if (cell.num_sweeps < kSteadyShare * num_sweeps_) return false;
-  const double num = cell.num_sweeps - 1;
-  const double mean_m = cell.means_m / num;
+  const double mean_m = cell.Mean_m();
   const double std_m = kSteadyStd * mean_m;
-  return cell.means_sq_m2 / num - mean_m * mean_m < std_m * std_m;
+  return cell.means_sq_m2 / (cell.num_sweeps - 1) - mean_m * mean_m < std_m * std_m;
 }
 
 // Returns the mean range in each direction that surfaces are followed through, zero in the others.
@@ -150,7 +149,7 @@ std::vector<float> OwnVehicleFinder::FollowedRanges() const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.num_sweeps < kFollowedShare * num_sweeps_) continue;
-    ranges_m[i] = static_cast<float>(cell.means_m / (cell.num_sweeps - 1));
+    ranges_m[i] = static_cast<float>(cell.Mean_m());
   }
   return ranges_m;
 }

@@ -72,8 +72,8 @@ void AddParkedRow(Mesh& mesh, double y, double z, double heading, Random& random
   for (double x = 5.0; x < kStraight_m + 2.0; x += 2.6) {
     const VehicleKind kind = random.Chance(0.1) ? VehicleKind::kVan : VehicleKind::kCar;
     const Mesh car = MakeVehicle(kind, random);
-    const double turned =
-        heading + (random.Chance(0.4) ? std::numbers::pi : 0.0) + 0.02 * random.Gaussian();
+    const double nose = heading + (random.Chance(0.4) ? std::numbers::pi : 0.0);
+    const double turned = nose + 0.02 * random.Gaussian();
     const double in_bay = y + random.Uniform(-0.25, 0.25);
     if (std::fmod(x, 8.0) < 1.2 || !random.Chance(0.62))
       continue;  // a column stands here, or the place is free

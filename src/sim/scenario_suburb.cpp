@@ -20,7 +20,8 @@ Path WindingRoad(double length_m, Random& random) {
   path.AddStraight(kSuburbBefore_m + 35.0);
   double heading = 0.0;
   while (path.length_m() < length_m + 2.0 * kSuburbBefore_m) {
-    double turn = random.Uniform(0.35, 1.0) * (random.Chance(0.5) ? 1.0 : -1.0);
+    const double angle = random.Uniform(0.35, 1.0);
+    double turn = random.Chance(0.5) ? angle : -angle;
     if (std::abs(heading + turn) > 0.9) turn = -turn;  // the road never turns back on itself
     path.AddArc(random.Uniform(35.0, 80.0), turn);
     path.AddStraight(random.Uniform(15.0, 60.0));

@@ -22,6 +22,14 @@ TEST(ShownBetween, AMotionBeyondItsErrorsIsShownInFull) {
   const ShownMotion shown = ShownBetween(poses.then, poses.now);
   EXPECT_NEAR(shown.shift_m, 0.3, 1e-12);
   EXPECT_NEAR(shown.turn_rad, 0.5 * M_PI, 1e-12);
+  EXPECT_NEAR(shown.turn_std_rad, std::sqrt(2e-4), 1e-12);
+}
+
+TEST(ShownBetween, TheTurnIsAsUnsureAsAboutTheAxisThatIsHeldLeast) {
+  TwoPoses poses;
+  poses.then.cov(3, 3) = 0.04;  // about x of the first one, y of the second one
+  poses.now.cov(4, 4) = 0.05;
+  EXPECT_NEAR(ShownBetween(poses.then, poses.now).turn_std_rad, 0.3, 1e-12);
 }
 
 TEST(ShownBetween, AShiftAlongADirectionThatEitherScanLeavesOpenIsNone) {

@@ -6,7 +6,6 @@
 // of one surface belong together, and a surface that reaches beyond kFarthest_m is no vehicle.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -42,6 +41,8 @@ class OwnVehicleFinder {
     double sum_m = 0.0;  // in the last of them
     int num_points = 0;
     double means_m = 0.0, means_sq_m2 = 0.0;  // sums over those before it
+
+    double Mean_m() const { return means_m / (num_sweeps - 1); }
   };
 
   [[nodiscard]] bool IsSteady(const Cell& cell) const;
