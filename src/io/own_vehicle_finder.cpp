@@ -116,10 +116,7 @@ void OwnVehicleFinder::Add(const LidarPoint& point) {
   const Vector3 p(point.x_m, point.y_m, point.z_m);
   const double range_m = p.norm();
   if (!(range_m < kFollowed_m) || range_m < rig_.min_range_m) return;
-  const auto& box = rig_.own_vehicle_box;
-  const bool is_in_box =
-      box && (p.array() >= box->min_m.array()).all() && (p.array() <= box->max_m.array()).all();
-  if (is_in_box) return;
+  if (rig_.own_vehicle_box && rig_.own_vehicle_box->Contains(p)) return;
   Cell& cell = cells_[static_cast<std::size_t>(CellOf(point))];
   if (cell.last_sweep != num_sweeps_) {
     if (cell.num_points > 0) {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -116,6 +117,19 @@ class GaussianMap {
     std::int32_t num_passed = 0;     // rays since then
     bool is_known = false;           // the points show a plane or a vertical structure
     bool is_kept = false;
+
+    [[nodiscard]] Matrix3 Scatter() const {
+      return (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+    }
+    // Returns the covariance of the points of both. `offset`: of the other voxel's centre from
+    // this one's.
+    [[nodiscard]] Matrix3 JointCovariance(const Sums& other, const Vector3& offset) const;
+  };
+
+  // Holds how points are spread.
+  struct Spread {
+    Matrix3 cov;
+    std::int32_t num_points = 0;
   };
 
   Place PlaceOf(const Vector3& point_map) const;
@@ -142,10 +156,14 @@ class GaussianMap {
   // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
-  bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
+  // The plane is that of the spread, which may be of more points than the cell's.
+  bool FitPlane(const Spread& spread, const Sums& sums, SurfacePatch& patch) const;
   // `variance`: of the points across the plane.
   [[nodiscard]] Roughness RoughnessOf(double variance, float sine) const;
-  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
+  bool FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch& patch) const;
+  // Returns the spread of the cell's points together with those of a cell beside it, if both are
+  // not slender: of the one with the most points.
+  [[nodiscard]] std::optional<Spread> WiderBeside(std::int32_t cell) const;
 
   NdtOptions options_;
   bool finds_vertical_;

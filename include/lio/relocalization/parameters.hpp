@@ -65,8 +65,9 @@ struct PlaceSearchParameters {
 struct ShiftSearchParameters {
   float step_m = 0.25f;    // chosen: a cell of the view
   double min_std_m = 0.2;  // lower bound of a result's; chosen: about a cell's width
-  // A score that is lower by its chance is e^-6 as likely. Chosen with the starts of that page.
-  double log_odds = 6.0;
+  // A score that is lower by its chance is e^-1.5 as likely. Measured, as are 0.7 to 6:
+  // docs/experiments/starts_in_motion.md.
+  double log_odds = 1.5;
   double range_sigmas = 3.0;  // searched, of the prediction's, ... statistics: 99.7 %
   double min_range_m = 1.5;   // ... at least, ... chosen: six steps, so that a peak shows its sides
   double max_range_m = 5.0;   // ... at most; chosen by cost

@@ -33,9 +33,7 @@ class PointFilter {
   }
 
   bool IsOwnVehicle(const LidarPoint& point) const {
-    if (!box_) return false;
-    const Vector3 p(point.x_m, point.y_m, point.z_m);
-    return (p.array() >= box_->min_m.array()).all() && (p.array() <= box_->max_m.array()).all();
+    return box_ && box_->Contains(Vector3(point.x_m, point.y_m, point.z_m));
   }
 
  private:

@@ -17,6 +17,11 @@ namespace lio {
 struct OwnVehicleBox {
   Vector3 min_m = Vector3::Zero();
   Vector3 max_m = Vector3::Zero();
+
+  // Returns true on the sides, too. `point`: lidar frame, m.
+  [[nodiscard]] bool Contains(const Vector3& point) const {
+    return (point.array() >= min_m.array()).all() && (point.array() <= max_m.array()).all();
+  }
 };
 
 // The errors of the lidar's beams as an earlier drive found them (sensor/beam_errors.hpp), measured
