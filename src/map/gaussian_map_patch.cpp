@@ -76,9 +76,8 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   if (sums.num_points < GaussianMapParameters::kRefitGrowth * sums.fitted_at) return;
   sums.fitted_at = sums.num_points;
 
-  const Matrix3 cov = sums.Scatter() / (sums.num_points - 1);
-  sums.is_known = FitPlane({cov, sums.num_points}, sums, patch) ||
-                  (finds_vertical_ && FitUpright(cell, cov, patch));
+  sums.is_known =
+      FitPlane(sums, patch) || (finds_vertical_ && FitUpright(cell, sums.Covariance(), patch));
   if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
@@ -102,9 +101,9 @@ Roughness GaussianMap::RoughnessOf(double variance, float sine) const {
   return {static_cast<float>(std::sqrt(std::max(0.0, rough_var))), sine};
 }
 
-bool GaussianMap::FitPlane(const Spread& spread, const Sums& sums, SurfacePatch& patch) const {
+bool GaussianMap::FitPlane(const Sums& sums, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-  eigen.computeDirect(spread.cov);
+  eigen.computeDirect(sums.Covariance());
   const Vector3 variance = eigen.eigenvalues();  // ascending
   const double thickness =
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
@@ -113,8 +112,8 @@ bool GaussianMap::FitPlane(const Spread& spread, const Sums& sums, SurfacePatch&
   const bool is_view_known = !sums.view.isZero(0.f);
   const bool is_plane = variance[1] > min_width * min_width && IsThin(variance[0], variance[1]) &&
                         thickness < GaussianMapParameters::kMaxNormalStd_rad *
-                                        GaussianMapParameters::kMaxNormalStd_rad *
-                                        spread.num_points * variance[1] &&
+                                        GaussianMapParameters::kMaxNormalStd_rad * sums.num_points *
+                                        variance[1] &&
                         !(is_view_known && IsGrazing(normal, sums.view));
   if (!is_plane) return false;
   if (!sums.is_kept) patch.is_two_sided = !is_view_known;
@@ -129,9 +128,8 @@ bool GaussianMap::FitPlane(const Spread& spread, const Sums& sums, SurfacePatch&
   return true;
 }
 
-// What is upright and narrow is a vertical structure, or else a part of a wall that is wider in the
-// cell beside it: the cell's side cuts it off, or few beams meet it. That part has the wall's
-// plane.
+// What is upright and narrow is a vertical structure, or else a part of what is wider in the cell
+// beside it: the cell's side cuts it off, or few beams meet it.
 bool GaussianMap::FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch& patch) const {
   const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
   const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
@@ -139,8 +137,8 @@ bool GaussianMap::FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch
   if (upright.height_var < min_height * min_height) return false;
   if (upright.width_var[1] > max_width * max_width) return false;
   if (!upright.IsSlender()) return false;
-  if (const std::optional<Spread> wider = WiderBeside(cell)) {
-    return FitPlane(*wider, voxels_.Of<Sums>(cell), patch);
+  if (const std::int32_t beside = WiderBeside(cell); beside != kNoCell) {
+    return TakeNormal(beside, cov, upright.width_var[1], patch);
   }
   const Eigen::Vector2d variance = upright.width_var.cwiseMax(
       GaussianMapParameters::kMinVerticalStd_m * GaussianMapParameters::kMinVerticalStd_m);
@@ -152,21 +150,37 @@ bool GaussianMap::FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch
   return true;
 }
 
-std::optional<GaussianMap::Spread> GaussianMap::WiderBeside(std::int32_t cell) const {
+std::int32_t GaussianMap::WiderBeside(std::int32_t cell) const {
   const Sums& sums = voxels_.Of<Sums>(cell);
   const double min_points = GaussianMapParameters::kMinShareBeside * sums.num_points;
-  std::optional<Spread> wider;
+  std::int32_t wider = kNoCell;
+  std::int32_t most_points = 0;
   for (const VoxelCell& step : LevelSteps(up_map_)) {
     const std::int32_t next = voxels_.Find(Stepped(voxels_.key(cell), step));
     if (next == kNoCell) continue;
     const Sums& other = voxels_.Of<Sums>(next);
-    const std::int32_t num_points = sums.num_points + other.num_points;
-    if (other.num_points < min_points || (wider && wider->num_points >= num_points)) continue;
+    if (other.num_points < min_points || other.num_points <= most_points) continue;
     const Vector3 offset = options_.voxel_m * Vector3(step[0], step[1], step[2]);
-    const Matrix3 cov = sums.JointCovariance(other, offset);
-    if (!Upright(cov, up_map_).IsSlender()) wider = {cov, num_points};
+    if (Upright(sums.JointCovariance(other, offset), up_map_).IsSlender()) continue;
+    wider = next;
+    most_points = other.num_points;
   }
   return wider;
+}
+
+// The patch keeps its own mean: walls have steps, but few turns.
+bool GaussianMap::TakeNormal(std::int32_t beside, const Matrix3& cov, double width_var,
+                             SurfacePatch& patch) const {
+  const Sums& other = voxels_.Of<Sums>(beside);
+  SurfacePatch wall;
+  if (other.num_points < options_.min_cell_points || !FitPlane(other, wall)) return false;
+  const Vector3 normal = wall.normal.cast<double>();
+  if (!IsThin(normal.dot(cov * normal), width_var)) return false;
+  wall.mean = patch.mean;
+  wall.num_points = patch.num_points;
+  wall.is_two_sided = patch.is_two_sided;
+  patch = wall;
+  return true;
 }
 
 }  // namespace lio

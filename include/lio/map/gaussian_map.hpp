@@ -16,7 +16,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -118,18 +117,13 @@ class GaussianMap {
     bool is_known = false;           // the points show a plane or a vertical structure
     bool is_kept = false;
 
+    [[nodiscard]] Matrix3 Covariance() const { return Scatter() / (num_points - 1); }
     [[nodiscard]] Matrix3 Scatter() const {
       return (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
     }
     // Returns the covariance of the points of both. `offset`: of the other voxel's centre from
     // this one's.
     [[nodiscard]] Matrix3 JointCovariance(const Sums& other, const Vector3& offset) const;
-  };
-
-  // Holds how points are spread.
-  struct Spread {
-    Matrix3 cov;
-    std::int32_t num_points = 0;
   };
 
   Place PlaceOf(const Vector3& point_map) const;
@@ -156,14 +150,17 @@ class GaussianMap {
   // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
-  // The plane is that of the spread, which may be of more points than the cell's.
-  bool FitPlane(const Spread& spread, const Sums& sums, SurfacePatch& patch) const;
+  bool FitPlane(const Sums& sums, SurfacePatch& patch) const;
   // `variance`: of the points across the plane.
   [[nodiscard]] Roughness RoughnessOf(double variance, float sine) const;
   bool FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch& patch) const;
-  // Returns the spread of the cell's points together with those of a cell beside it, if both are
-  // not slender: of the one with the most points.
-  [[nodiscard]] std::optional<Spread> WiderBeside(std::int32_t cell) const;
+  // Returns the cell beside this one that is not slender together with it, the one with the most
+  // points; kNoCell if there is none.
+  [[nodiscard]] std::int32_t WiderBeside(std::int32_t cell) const;
+  // Gives the patch the plane of the cell beside it, if that has one and the patch's points, of
+  // this covariance and variance across, are thin along its normal.
+  bool TakeNormal(std::int32_t beside, const Matrix3& cov, double width_var,
+                  SurfacePatch& patch) const;
 
   NdtOptions options_;
   bool finds_vertical_;
