@@ -3,7 +3,6 @@
 // Turns the sums of a cell into its patch: a plane, a vertical structure, or neither.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lio/map/gaussian_map.hpp"
@@ -11,61 +10,6 @@
 #include "lio/map/map_parameters.hpp"
 
 namespace lio {
-namespace {
-
-// Splits the spread of points into that along the vertical and that across it.
-struct Upright {
-  Upright(const Matrix3& cov, const Vector3& up) : height_var(up.dot(cov * up)) {
-    Eigen::Matrix<double, 3, 2> level;
-    level.col(0) = up.unitOrthogonal();
-    level.col(1) = up.cross(level.col(0));
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-    eigen.computeDirect(level.transpose() * cov * level);
-    width_var = eigen.eigenvalues();
-    axes = level * eigen.eigenvectors();
-  }
-  [[nodiscard]] bool IsSlender() const {
-    constexpr double kMin = GaussianMapParameters::kMinVerticalSlenderness;
-    return width_var[1] * kMin * kMin <= height_var;
-  }
-
-  double height_var;
-  Eigen::Vector2d width_var;         // ascending
-  Eigen::Matrix<double, 3, 2> axes;  // their directions
-};
-
-// Returns the steps to the eight cells around one, on the grid's plane that is nearest to level.
-std::array<VoxelCell, 8> LevelSteps(const Vector3& up) {
-  Eigen::Index up_axis = 0;
-  up.cwiseAbs().maxCoeff(&up_axis);
-  const auto a = static_cast<std::size_t>((up_axis + 1) % 3);
-  const auto b = static_cast<std::size_t>((up_axis + 2) % 3);
-  std::array<VoxelCell, 8> steps{};
-  std::size_t num = 0;
-  for (const int step_a : {-1, 0, 1}) {
-    for (const int step_b : {-1, 0, 1}) {
-      if (step_a == 0 && step_b == 0) continue;
-      steps[num][a] = step_a;
-      steps[num++][b] = step_b;
-    }
-  }
-  return steps;
-}
-
-VoxelKey Stepped(VoxelKey key, const VoxelCell& step) {
-  const VoxelCell voxel = UnpackVoxel(key);
-  return PackVoxel(voxel[0] + step[0], voxel[1] + step[1], voxel[2] + step[2]);
-}
-
-}  // namespace
-
-Matrix3 GaussianMap::Sums::JointCovariance(const Sums& other, const Vector3& offset) const {
-  const double num = num_points + other.num_points;
-  const Vector3 apart = offset + other.mean - mean;
-  return (Scatter() + other.Scatter() +
-          num_points * other.num_points / num * apart * apart.transpose()) /
-         (num - 1);
-}
 
 void GaussianMap::UpdatePatch(std::int32_t cell) {
   Sums& sums = voxels_.Of<Sums>(cell);
@@ -76,8 +20,10 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   if (sums.num_points < GaussianMapParameters::kRefitGrowth * sums.fitted_at) return;
   sums.fitted_at = sums.num_points;
 
-  sums.is_known =
-      FitPlane(sums, patch) || (finds_vertical_ && FitUpright(cell, sums.Covariance(), patch));
+  Matrix3 cov;
+  cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
+  cov /= sums.num_points - 1;
+  sums.is_known = FitPlane(cov, sums, patch) || (finds_vertical_ && FitVertical(cov, patch));
   if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
@@ -101,9 +47,9 @@ Roughness GaussianMap::RoughnessOf(double variance, float sine) const {
   return {static_cast<float>(std::sqrt(std::max(0.0, rough_var))), sine};
 }
 
-bool GaussianMap::FitPlane(const Sums& sums, SurfacePatch& patch) const {
+bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-  eigen.computeDirect(sums.Covariance());
+  eigen.computeDirect(cov);
   const Vector3 variance = eigen.eigenvalues();  // ascending
   const double thickness =
       std::max(variance[0], options_.min_surface_std_m * options_.min_surface_std_m);
@@ -128,58 +74,32 @@ bool GaussianMap::FitPlane(const Sums& sums, SurfacePatch& patch) const {
   return true;
 }
 
-// What is upright and narrow is a vertical structure, or else a part of what is wider in the cell
-// beside it: the cell's side cuts it off, or few beams meet it.
-bool GaussianMap::FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch& patch) const {
+// A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
+// It must be narrow: one that fills the cell is cut off by the cell's sides. And it must be
+// slender, which grass, leaves and clutter are not.
+bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
   const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
+  const double height_var = up_map_.dot(cov * up_map_);
+  if (height_var < min_height * min_height) return false;
+  const Vector3 level1 = up_map_.unitOrthogonal();
+  const Vector3 level2 = up_map_.cross(level1);
+  Eigen::Matrix<double, 3, 2> level;
+  level << level1, level2;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(level.transpose() * cov * level);
   const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
-  const Upright upright(cov, up_map_);
-  if (upright.height_var < min_height * min_height) return false;
-  if (upright.width_var[1] > max_width * max_width) return false;
-  if (!upright.IsSlender()) return false;
-  if (const std::int32_t beside = WiderBeside(cell); beside != kNoCell) {
-    return TakeNormal(beside, cov, upright.width_var[1], patch);
-  }
-  const Eigen::Vector2d variance = upright.width_var.cwiseMax(
+  constexpr double kMinSlenderness = GaussianMapParameters::kMinVerticalSlenderness;
+  const double width_var = eigen.eigenvalues()[1];
+  if (width_var > max_width * max_width) return false;
+  if (width_var * kMinSlenderness * kMinSlenderness > height_var) return false;
+  const Eigen::Vector2d variance = eigen.eigenvalues().cwiseMax(
       GaussianMapParameters::kMinVerticalStd_m * GaussianMapParameters::kMinVerticalStd_m);
+  const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
   patch.kind = SurfacePatch::Kind::kVertical;
   patch.thickness_var = static_cast<float>(variance[0]);
-  patch.normal = upright.axes.col(0).cast<float>();
-  patch.tangent1_per_std = (upright.axes.col(1) / std::sqrt(variance[1])).cast<float>();
+  patch.normal = axes.col(0).cast<float>();
+  patch.tangent1_per_std = (axes.col(1) / std::sqrt(variance[1])).cast<float>();
   patch.tangent2_per_std.setZero();
-  return true;
-}
-
-std::int32_t GaussianMap::WiderBeside(std::int32_t cell) const {
-  const Sums& sums = voxels_.Of<Sums>(cell);
-  const double min_points = GaussianMapParameters::kMinShareBeside * sums.num_points;
-  std::int32_t wider = kNoCell;
-  std::int32_t most_points = 0;
-  for (const VoxelCell& step : LevelSteps(up_map_)) {
-    const std::int32_t next = voxels_.Find(Stepped(voxels_.key(cell), step));
-    if (next == kNoCell) continue;
-    const Sums& other = voxels_.Of<Sums>(next);
-    if (other.num_points < min_points || other.num_points <= most_points) continue;
-    const Vector3 offset = options_.voxel_m * Vector3(step[0], step[1], step[2]);
-    if (Upright(sums.JointCovariance(other, offset), up_map_).IsSlender()) continue;
-    wider = next;
-    most_points = other.num_points;
-  }
-  return wider;
-}
-
-// The patch keeps its own mean: walls have steps, but few turns.
-bool GaussianMap::TakeNormal(std::int32_t beside, const Matrix3& cov, double width_var,
-                             SurfacePatch& patch) const {
-  const Sums& other = voxels_.Of<Sums>(beside);
-  SurfacePatch wall;
-  if (other.num_points < options_.min_cell_points || !FitPlane(other, wall)) return false;
-  const Vector3 normal = wall.normal.cast<double>();
-  if (!IsThin(normal.dot(cov * normal), width_var)) return false;
-  wall.mean = patch.mean;
-  wall.num_points = patch.num_points;
-  wall.is_two_sided = patch.is_two_sided;
-  patch = wall;
   return true;
 }
 

@@ -22,7 +22,6 @@ class CommonRadius {
                            std::max(0.0, rotation_var) * kLever_m * kLever_m),
                  Parameters::kMaxStd_m));
   }
-  explicit CommonRadius(double std_m) { Set(std::min(std_m, Parameters::kMaxStd_m)); }
   [[nodiscard]] double std_m() const { return std_m_; }
   [[nodiscard]] float variance() const { return static_cast<float>(std_m_ * std_m_); }
   void Shrink() { Set(Parameters::kShrink * std_m_); }

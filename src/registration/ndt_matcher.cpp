@@ -272,7 +272,10 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
     if (scores_[i].num_rows > 0) ++result.by_level.counts[map_.LevelOf(pairs_[i].cell)];
   }
   result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
-  result.num_in_map = NumInMap();
+  result.num_in_map =
+      static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
+        return pair.cell != GaussianMap::kNoCell;
+      }));
   result.upright = UprightSupport();
   result.new_content_share = NewContentShare();
   if (sums.num_matched < MatchParameters::kMinMatched) {
@@ -293,24 +296,21 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
   return sums.weight_sum;
 }
 
-int NdtMatcher::NumInMap() const {
-  return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
-    return pair.cell != GaussianMap::kNoCell;
-  }));
-}
-
-NdtMatcher::Descent NdtMatcher::Descend(const MatchInput& input, const CommonRadius& radius,
-                                        BentScan& scan) {
+MatchResult NdtMatcher::Match(const MatchInput& input) {
+  MatchResult result;
+  result.T_map_imu = input.T_map_imu_guess;
+  if (map_.num_cells() == 0) return result;
+  counted_at_.reset();
+  width_.Add(input.points_imu, options_.voxel_m);
   const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
-  Descent descent;
-  descent.T_grid_imu = T_grid_guess;
-  descent.result.T_map_imu = input.T_map_imu_guess;
-  const auto step_at = [&](const Pose& pose, const CommonRadius& at) -> std::optional<Vector6> {
-    const MatchInput& bent = scan.At(T_grid_guess.Inverse() * pose);
-    Associate(bent, pose, at.std_m());
-    const MatchSums sums = Linearize(bent, pose, at.variance(), {});
-    descent.support = sums.weight_sum;
-    descent.share_matched = static_cast<double>(sums.num_matched) / std::max(1, NumInMap());
+  BentScan scan(input);
+  const auto scan_at = [&](const Pose& pose) -> const MatchInput& {
+    return scan.At(T_grid_guess.Inverse() * pose);
+  };
+  const auto step_at = [&](const Pose& pose, const CommonRadius& radius) -> std::optional<Vector6> {
+    const MatchInput& bent = scan_at(pose);
+    Associate(bent, pose, radius.std_m());
+    const MatchSums sums = Linearize(bent, pose, radius.variance(), {});
     if (sums.num_matched < MatchParameters::kMinMatched) return std::nullopt;
     if (input.solves_degenerate) {
       return StepTowardsGuess(sums.information.Full(), sums.gradient,
@@ -320,39 +320,13 @@ NdtMatcher::Descent NdtMatcher::Descend(const MatchInput& input, const CommonRad
   };
   const StopRule rule{options_.max_iterations, options_.converged_step_m,
                       options_.converged_step_rad};
-  counted_at_.reset();
-  descent.is_number = StepUntilStill(rule, radius, step_at, descent.T_grid_imu, descent.result);
-  return descent;
-}
-
-// A scan that is far from a guess which claims to be sure leaves many points beyond the surfaces
-// that they come to, and these pull no more. It is matched from a wide radius, too.
-NdtMatcher::Descent NdtMatcher::DescendFromGuess(const MatchInput& input, BentScan& scan) {
-  const CommonRadius radius(input.guess_cov);
-  const double wide_m = MultiResolutionParameters::kMaxOff_edges * options_.voxel_m;
-  Descent descent = Descend(input, radius, scan);
-  const bool is_caught = descent.share_matched >= NdtParameters::kMinShareMatched;
-  if (!descent.is_number || is_caught || radius.std_m() >= wide_m) return descent;
-  Descent wide = Descend(input, CommonRadius(wide_m), scan);
-  wide.result.iterations += descent.result.iterations;
-  return wide.is_number && wide.support > descent.support ? wide : descent;
-}
-
-MatchResult NdtMatcher::Match(const MatchInput& input) {
-  MatchResult nothing;
-  nothing.T_map_imu = input.T_map_imu_guess;
-  if (map_.num_cells() == 0) return nothing;
-  width_.Add(input.points_imu, options_.voxel_m);
-  BentScan scan(input);
-  Descent descent = DescendFromGuess(input, scan);
-  MatchResult& result = descent.result;
-  if (!descent.is_number) return result;
-  const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
-  const Pose T_guess_imu = T_grid_guess.Inverse() * descent.T_grid_imu;
-  const double support = Finish(scan.At(T_guess_imu), descent.T_grid_imu, result);
-  if (ContradictsGuess(result, input)) {
-    const MatchSums at_guess = SumsAt(scan.At(Pose{}), T_grid_guess, {});
-    result.support_at_guess = at_guess.weight_sum / support;
+  Pose T_grid_imu = T_grid_guess;
+  if (StepUntilStill(rule, CommonRadius(input.guess_cov), step_at, T_grid_imu, result)) {
+    const double support = Finish(scan_at(T_grid_imu), T_grid_imu, result);
+    if (ContradictsGuess(result, input)) {
+      const MatchSums at_guess = SumsAt(scan_at(T_grid_guess), T_grid_guess, {});
+      result.support_at_guess = at_guess.weight_sum / support;
+    }
   }
   return result;
 }

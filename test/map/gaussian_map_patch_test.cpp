@@ -121,62 +121,6 @@ TEST(GaussianMapPatch, PostsAreVerticalAndConstrainTwoHorizontalDirections) {
   EXPECT_NEAR(std::sqrt(patch.thickness_var), 0.1, 0.03);
 }
 
-// Returns points of a wall along x through `centre`, 1 cm thick, between these places.
-std::vector<Vector3> WallPoints(const Vector3& centre, double from_x_m, double to_x_m, int num) {
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> along(from_x_m, to_x_m);
-  std::normal_distribution<double> across(0.0, 0.01);
-  std::uniform_real_distribution<double> height(-0.45, 0.45);
-  std::vector<Vector3> points;
-  for (int i = 0; i < num; ++i) {
-    const Vector3 offset{along(random), across(random), height(random)};
-    points.push_back(centre + offset);
-  }
-  return points;
-}
-
-// A stroke of few beams, or the side of a cell, makes a narrow column of a part of a wall.
-TEST(GaussianMapPatch, APartOfAWallHasTheWallsPlane) {
-  const Vector3 centre = CentreOf(3, 4, 1);
-  std::vector<Vector3> points = WallPoints(centre, 0.3, 0.45, 14);
-  const std::vector<Vector3> beside = WallPoints(centre, 0.6, 1.4, 14);
-  const Vector3 sensor = centre + Vector3(0.0, -20.0, 0.0);
-  GaussianMap alone(TestOptions());
-  alone.Insert(points, sensor);
-  ASSERT_GT(PatchAt(alone, points.front()).thickness_var, 0.f);
-  EXPECT_EQ(PatchAt(alone, points.front()).kind, SurfacePatch::Kind::kVertical);
-
-  points.insert(points.end(), beside.begin(), beside.end());
-  GaussianMap map(TestOptions());
-  map.Insert(points, sensor);
-  const SurfacePatch& patch = PatchAt(map, points.front());
-  ASSERT_GT(patch.thickness_var, 0.f);
-  EXPECT_EQ(patch.kind, SurfacePatch::Kind::kPlane);
-  EXPECT_GT(std::abs(patch.normal.y()), 0.999f);
-  EXPECT_NEAR(patch.mean.y(), 0.f, 0.01f);
-}
-
-TEST(GaussianMapPatch, APostThatTheSideOfACellCutsStandsInBothCells) {
-  const Vector3 centre = CentreOf(3, 4, 1) + Vector3(0.5, 0.0, 0.0);
-  GaussianMap map(TestOptions());
-  map.Insert(PostPoints(centre, 0.15, 0.0), Vector3::Zero());
-  for (const double side_m : {-0.1, 0.1}) {
-    const SurfacePatch& patch = PatchAt(map, centre + Vector3(side_m, 0.0, 0.0));
-    ASSERT_GT(patch.thickness_var, 0.f) << side_m;
-    EXPECT_EQ(patch.kind, SurfacePatch::Kind::kVertical) << side_m;
-  }
-}
-
-TEST(GaussianMapPatch, StraysBesideAPostLeaveItAPost) {
-  const Vector3 centre = CentreOf(3, 4, 1);
-  std::vector<Vector3> points = PostPoints(centre, 0.15, 0.0);
-  const std::vector<Vector3> strays = WallPoints(centre, 0.6, 1.4, 10);
-  points.insert(points.end(), strays.begin(), strays.end());
-  GaussianMap map(TestOptions());
-  map.Insert(points, Vector3::Zero());
-  EXPECT_EQ(PatchAt(map, centre).kind, SurfacePatch::Kind::kVertical);
-}
-
 TEST(GaussianMapPatch, VerticalGoesByTheGivenDirection) {
   GaussianMap map(TestOptions());
   map.SetUp(Vector3::UnitX());

@@ -116,14 +116,6 @@ class GaussianMap {
     std::int32_t num_passed = 0;     // rays since then
     bool is_known = false;           // the points show a plane or a vertical structure
     bool is_kept = false;
-
-    [[nodiscard]] Matrix3 Covariance() const { return Scatter() / (num_points - 1); }
-    [[nodiscard]] Matrix3 Scatter() const {
-      return (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-    }
-    // Returns the covariance of the points of both. `offset`: of the other voxel's centre from
-    // this one's.
-    [[nodiscard]] Matrix3 JointCovariance(const Sums& other, const Vector3& offset) const;
   };
 
   Place PlaceOf(const Vector3& point_map) const;
@@ -150,17 +142,10 @@ class GaussianMap {
   // These are in gaussian_map_patch.cpp.
   void UpdatePatch(std::int32_t cell);
   [[nodiscard]] bool IsThin(double thickness_var, double width_var) const;
-  bool FitPlane(const Sums& sums, SurfacePatch& patch) const;
+  bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   // `variance`: of the points across the plane.
   [[nodiscard]] Roughness RoughnessOf(double variance, float sine) const;
-  bool FitUpright(std::int32_t cell, const Matrix3& cov, SurfacePatch& patch) const;
-  // Returns the cell beside this one that is not slender together with it, the one with the most
-  // points; kNoCell if there is none.
-  [[nodiscard]] std::int32_t WiderBeside(std::int32_t cell) const;
-  // Gives the patch the plane of the cell beside it, if that has one and the patch's points, of
-  // this covariance and variance across, are thin along its normal.
-  bool TakeNormal(std::int32_t beside, const Matrix3& cov, double width_var,
-                  SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
 
   NdtOptions options_;
   bool finds_vertical_;

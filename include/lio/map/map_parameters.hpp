@@ -38,10 +38,6 @@ struct GaussianMapParameters {
   // least. A blob has 1, a post of 0.3 m that ends in a cell of 1 m 1.5. Measured, as are 2 and 1:
   // docs/experiments/vertical_structures.md.
   static constexpr double kMinVerticalSlenderness = 1.5;
-  // What stands alone has fewer points than this share of its own in each cell beside it, or is
-  // slender together with them. Measured, as are 0.1 to 1: the same experiment. A wall has as
-  // many points in the next cell.
-  static constexpr double kMinShareBeside = 0.3;
   // A vertical structure's horizontal standard deviation counts as this at least [m]. Chosen: the
   // side from which a trunk is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;

@@ -36,8 +36,6 @@
 
 namespace lio {
 
-class BentScan;
-class CommonRadius;
 struct NdtTerm;
 
 class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
@@ -116,18 +114,6 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   std::vector<SeenBeam> BeamsOf(const ScanView& scan, const Eigen::Matrix3f& grid_from_lidar) const;
   // Shows the rows of the match, as they are in scores_, to the calibration of the beams.
   void Teach(const MatchInput& input, const Pose& T_grid_imu) const;
-  // Holds where the steps from a guess end.
-  struct Descent {
-    bool is_number = false;
-    Pose T_grid_imu;
-    double support = 0.0;        // sum of the robust weights at the last step, ...
-    double share_matched = 0.0;  // ... and matched points over those that come to a surface
-    MatchResult result;
-  };
-  // Returns how many points come to a surface, matched or not.
-  [[nodiscard]] int NumInMap() const;
-  Descent Descend(const MatchInput& input, const CommonRadius& radius, BentScan& scan);
-  Descent DescendFromGuess(const MatchInput& input, BentScan& scan);
   // Associates and linearises at the pose, with no correspondence radius.
   MatchSums SumsAt(const MatchInput& input, const Pose& T_grid_imu, std::span<PointScore> scores);
   // Fills the result at the pose, and returns the sum of the robust weights there.

@@ -85,9 +85,6 @@ struct WellConstrainedTranslationParameters {
 };
 
 struct NdtParameters {
-  // A scan of whose points less than this share lies on the surfaces that they come to is matched
-  // from a wide radius, too. Measured: as PlaceVerificationParameters::min_share.
-  static constexpr double kMinShareMatched = 0.9;
   // All points of a vertical structure share an error of this standard deviation [m], since the
   // visible part of a trunk depends on the side. Chosen: about half a trunk's width; used in
   // docs/experiments/vertical_structures.md.
