@@ -267,16 +267,7 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
   scores_.resize(input.points_imu.size());
   const MatchSums sums = SumsAt(input, T_grid_imu, scores_);
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
-  result.num_matched = sums.num_matched;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (scores_[i].num_rows > 0) ++result.by_level.counts[map_.LevelOf(pairs_[i].cell)];
-  }
-  result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
-  result.num_in_map =
-      static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
-        return pair.cell != GaussianMap::kNoCell;
-      }));
-  result.upright = UprightSupport();
+  CountSupport(result);
   result.new_content_share = NewContentShare();
   if (sums.num_matched < MatchParameters::kMinMatched) {
     result.status = MatchStatus::kTooFewPoints;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Tells of a match at its solution what its cost does not say: the covariance of the gradient, the
-// shares of new and of last content, the error of the turn rate, and the support of what stands.
+// shares of new and of last content, the error of the turn rate, and the support by kind of surface.
 #include <algorithm>
 
 #include "lio/registration/ndt_matcher.hpp"
@@ -73,18 +73,24 @@ TurnRate NdtMatcher::TurnRateError(std::span<const float> from_mid_sweep_s,
   return turn_.Solve(curvature_ratio);
 }
 
-Support NdtMatcher::UprightSupport() const {
+void NdtMatcher::CountSupport(MatchResult& result) const {
   const Eigen::Vector3f up = up_grid_.cast<float>();
-  Support support;
+  Support all;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (pairs_[i].cell == GaussianMap::kNoCell) continue;
-    const SurfacePatch& patch = map_.patch(pairs_[i].cell);
+    const std::int32_t cell = pairs_[i].cell;
+    if (cell == GaussianMap::kNoCell) continue;
+    const bool is_matched = scores_[i].num_rows > 0;
+    const SurfacePatch& patch = map_.patch(cell);
+    const bool is_vertical = patch.kind == SurfacePatch::Kind::kVertical;
     const float along_up = patch.normal.dot(up);
-    if (patch.kind == SurfacePatch::Kind::kPlane && along_up * along_up > 0.5f) continue;
-    ++support.num_in_map;
-    if (scores_[i].num_rows > 0) ++support.num_matched;
+    all.Add(is_matched);
+    if (is_vertical) result.on_vertical.Add(is_matched);
+    if (is_vertical || along_up * along_up <= 0.5f) result.upright.Add(is_matched);
+    if (is_matched) ++result.by_level.counts[map_.LevelOf(cell)];
   }
-  return support;
+  result.num_in_map = all.num_in_map;
+  result.num_matched = all.num_matched;
+  result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
 }
 
 }  // namespace lio

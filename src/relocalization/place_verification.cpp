@@ -16,6 +16,10 @@ bool Oscillates(const MatchResult& match) {
   return match.status == MatchStatus::kMaxIterations && match.num_in_map > 0;
 }
 
+Support operator-(const Support& all, const Support& part) {
+  return {all.num_in_map - part.num_in_map, all.num_matched - part.num_matched};
+}
+
 // Does at least this share of the last scan's share of points lie on surfaces?
 bool HasShareOf(const Support& now, const Support& last, double share) {
   return static_cast<double>(now.num_matched) * last.num_in_map >=
@@ -30,9 +34,10 @@ bool StandsAsBefore(const Support& now, const Support& last, double share) {
 }
 
 bool HasShare(const MatchResult& match, const MatchResult& last, double share) {
-  return HasShareOf({match.num_in_map, match.num_matched}, {last.num_in_map, last.num_matched},
-                    share) &&
-         StandsAsBefore(match.upright, last.upright, share);
+  const ComparableSupport now = ComparableTo(last, match);
+  const ComparableSupport before = ComparableTo(match, last);
+  return HasShareOf(now.all, before.all, share) &&
+         StandsAsBefore(now.upright, before.upright, share);
 }
 
 // No direction is degenerate unless the last scan had one.
@@ -42,8 +47,24 @@ bool IsAsObservable(const MatchResult& match, const MatchResult& last) {
 
 }  // namespace
 
+double ShareOf(const Support& support) {
+  return support.num_in_map == 0 ? 0.0
+                                 : static_cast<double>(support.num_matched) / support.num_in_map;
+}
+
 double ShareOf(const MatchResult& match) {
-  return match.num_in_map == 0 ? 0.0 : static_cast<double>(match.num_matched) / match.num_in_map;
+  return ShareOf(Support{match.num_in_map, match.num_matched});
+}
+
+ComparableSupport ComparableTo(const MatchResult& other, const MatchResult& match) {
+  const Support all{match.num_in_map, match.num_matched};
+  if (other.on_vertical.num_in_map > 0) return {all, match.upright};
+  return {all - match.on_vertical, match.upright - match.on_vertical};
+}
+
+bool HasNumber(const MatchResult& match, const MatchResult& last, double share) {
+  return ComparableTo(last, match).all.num_matched >=
+         share * ComparableTo(match, last).all.num_matched;
 }
 
 bool IsBeaten(double rival_residual, double residual, double least_residual) {
@@ -54,8 +75,7 @@ bool IsBeaten(double rival_residual, double residual, double least_residual) {
 bool IsVerified(const MatchResult& match, const MatchResult& last) {
   if (!match.IsUsable() && !Oscillates(match)) return false;
   if (last.num_matched == 0) return true;  // the last scan began the map
-  return HasShare(match, last, kVerify.min_share) &&
-         match.num_matched >= kVerify.min_number * last.num_matched;
+  return HasShare(match, last, kVerify.min_share) && HasNumber(match, last, kVerify.min_number);
 }
 
 bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last) {
@@ -63,12 +83,11 @@ bool IsVerifiedElsewhere(const MatchResult& match, const MatchResult& last) {
 }
 
 bool HasPlenty(const MatchResult& match, const MatchResult& last) {
-  return match.num_matched >= kVerify.plenty_number * last.num_matched;
+  return HasNumber(match, last, kVerify.plenty_number);
 }
 
 bool IsAsTheLast(const MatchResult& match, const MatchResult& last) {
-  return match.IsUsable() && IsVerified(match, last) &&
-         match.num_matched >= kVerify.same_number * last.num_matched;
+  return match.IsUsable() && IsVerified(match, last) && HasNumber(match, last, kVerify.same_number);
 }
 
 bool IsLikely(const MatchResult& match, const MatchResult& last) {
@@ -91,11 +110,13 @@ bool IsNearAlternative(const MatchResult& match, const Pose& prior, const Pose& 
 }
 
 bool IsClearlyWorse(const MatchResult& match, const MatchResult& other) {
-  return IsBeaten(1.0 - ShareOf(match), 1.0 - ShareOf(other), kRelocalization.rival.least_residual);
+  return IsBeaten(1.0 - ShareOf(ComparableTo(other, match).all),
+                  1.0 - ShareOf(ComparableTo(match, other).all),
+                  kRelocalization.rival.least_residual);
 }
 
 bool IsClearlyBetter(const MatchResult& match, const MatchResult& other) {
-  return match.num_matched > kVerify.clearly_more * other.num_matched;
+  return !HasNumber(other, match, 1.0 / kVerify.clearly_more);
 }
 
 }  // namespace lio

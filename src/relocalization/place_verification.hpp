@@ -10,7 +10,18 @@ namespace lio {
 
 // Returns the share of those points that lie on a surface, of all that come to one; 0 where none
 // does.
+[[nodiscard]] double ShareOf(const Support& support);
 [[nodiscard]] double ShareOf(const MatchResult& match);
+
+// The points of a match on such surfaces as another match has points on, too.
+struct ComparableSupport {
+  Support all;
+  Support upright;  // of them, on surfaces that stand
+};
+
+// Returns what of a match's support compares with that of `other`, which may have left vertical
+// structures out (MatchResult::on_vertical).
+[[nodiscard]] ComparableSupport ComparableTo(const MatchResult& other, const MatchResult& match);
 
 // Does the map contradict a clearly larger share of the points at a rival than at the place, of
 // which so many are taken to be contradicted at least?
@@ -19,6 +30,9 @@ namespace lio {
 // Does the scan lie on the map's surfaces there? Steps that oscillate around a pose count as a
 // match.
 [[nodiscard]] bool IsVerified(const MatchResult& match, const MatchResult& last);
+
+// Has it at least `share` times the points on surfaces that the last scan has?
+[[nodiscard]] bool HasNumber(const MatchResult& match, const MatchResult& last, double share);
 
 // Do nearly as many points lie on surfaces as of the last scan?
 [[nodiscard]] bool HasPlenty(const MatchResult& match, const MatchResult& last);

@@ -154,7 +154,7 @@ void Relocalizer::TakeBestPlace(const DeskewedScan& scan, const MotionPrior& pri
                                 const CandidateMatcher& matcher, Found& found) {
   const MatchResult& last = last_->match;
   TryPlaces(scan, prior, matcher, [&](const MatchResult& match) {
-    const bool is_more = match.num_matched > found.match.num_matched;
+    const bool is_more = !HasNumber(found.match, match, 1.0);
     if (!IsVerifiedElsewhere(match, last)) return false;
     if (IsVerifiedElsewhere(found.match, last) && !is_more) return false;
     found.match = match;

@@ -39,6 +39,21 @@ TEST(PlaceVerification, WhatStandsMustBeThereAsWell) {
   EXPECT_TRUE(IsVerified(match, last)) << "little stood before";
 }
 
+// Trunks and posts held the last scan, in part. The shift since then is known to centimetres, so
+// that this scan is matched without them.
+TEST(PlaceVerification, VerticalStructuresCountWhereBothMatchesHaveSome) {
+  MatchResult last = Matched(390, 400);
+  last.upright = {300, 295};
+  last.on_vertical = {230, 225};
+  MatchResult match = Matched(160, 165);
+  match.upright = {68, 66};
+  EXPECT_TRUE(IsAsTheLast(match, last)) << "165 points of last lie on planes";
+  EXPECT_FALSE(IsClearlyBetter(last, match));
+  match.on_vertical = {10, 10};
+  EXPECT_FALSE(HasPlenty(match, last)) << "now it was matched with them";
+  EXPECT_TRUE(IsClearlyBetter(last, match));
+}
+
 TEST(PlaceVerification, AFailedMatchIsNoPlaceUnlessItsStepsGoToAndFro) {
   const MatchResult last = Matched(980, 1000);
   MatchResult match = Matched(950, 1000);

@@ -104,7 +104,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   static void AddTerm(const NdtTerm& term, const SurfacePatch& patch, const Eigen::Vector3f& point,
                       float share, const Eigen::Matrix3f& to_imu, MatchSums& sums,
                       PointScore* score);
-  [[nodiscard]] Support UprightSupport() const;
+  // Fills the support in all, by level and kind of surface.
+  void CountSupport(MatchResult& result) const;
   double NewContentShare() const;
   // Along degenerate directions it is that of the mean point. `inverse`: SolvedSums.
   [[nodiscard]] Matrix6 ShareOfLastScan(const MatchSums& sums, const Matrix6& inverse) const;

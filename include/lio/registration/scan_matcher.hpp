@@ -80,6 +80,11 @@ struct MatchInput {
 struct Support {
   int num_in_map = 0;
   int num_matched = 0;
+
+  void Add(bool is_matched) {
+    ++num_in_map;
+    if (is_matched) ++num_matched;
+  }
 };
 
 // A degenerate direction, which the noise of the cells' normals turns a little in each match.
@@ -140,6 +145,9 @@ struct [[nodiscard]] MatchResult {
   int num_in_map = 0;
   // The same of surfaces that stand, by 45 deg or more: floors and ceilings fit anywhere.
   Support upright;
+  // The same of vertical structures that are no planes: a match leaves them out where the shift
+  // since the last scan is known to centimetres.
+  Support on_vertical;
   int iterations = 0;
   double residual_rms_m = 0.0;
   // The turn rate that the scan was deskewed by errs by this; given where asked for and the method
