@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The liod authors
 // SPDX-License-Identifier: MIT
 // Tells of a match at its solution what its cost does not say: the covariance of the gradient, the
-// shares of new and of last content, the error of the turn rate, and the support by kind of surface.
+// shares of new and of last content, the error of the turn rate, and the support by kind.
 #include <algorithm>
 
 #include "lio/registration/ndt_matcher.hpp"
