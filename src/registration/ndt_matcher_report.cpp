@@ -84,8 +84,8 @@ void NdtMatcher::CountSupport(MatchResult& result) const {
     const bool is_vertical = patch.kind == SurfacePatch::Kind::kVertical;
     const float along_up = patch.normal.dot(up);
     all.Add(is_matched);
-    if (is_vertical) result.on_vertical.Add(is_matched);
-    if (is_vertical || along_up * along_up <= 0.5f) result.upright.Add(is_matched);
+    if (is_vertical) result.upright.structures.Add(is_matched);
+    if (is_vertical || along_up * along_up <= 0.5f) result.upright.all.Add(is_matched);
     if (is_matched) ++result.by_level.counts[map_.LevelOf(cell)];
   }
   result.num_in_map = all.num_in_map;

@@ -58,8 +58,9 @@ double ShareOf(const MatchResult& match) {
 
 ComparableSupport ComparableTo(const MatchResult& other, const MatchResult& match) {
   const Support all{match.num_in_map, match.num_matched};
-  if (other.on_vertical.num_in_map > 0) return {all, match.upright};
-  return {all - match.on_vertical, match.upright - match.on_vertical};
+  const Support& structures = match.upright.structures;
+  if (other.upright.structures.num_in_map > 0) return {all, match.upright.all};
+  return {all - structures, match.upright.all - structures};
 }
 
 bool HasNumber(const MatchResult& match, const MatchResult& last, double share) {

@@ -13,14 +13,14 @@ namespace lio {
 [[nodiscard]] double ShareOf(const Support& support);
 [[nodiscard]] double ShareOf(const MatchResult& match);
 
-// The points of a match on such surfaces as another match has points on, too.
+// Counts the points of a match on such surfaces as another match has points on, too.
 struct ComparableSupport {
   Support all;
-  Support upright;  // of them, on surfaces that stand
+  Support upright;  // on surfaces that stand
 };
 
 // Returns what of a match's support compares with that of `other`, which may have left vertical
-// structures out (MatchResult::on_vertical).
+// structures out (UprightSupport::structures).
 [[nodiscard]] ComparableSupport ComparableTo(const MatchResult& other, const MatchResult& match);
 
 // Does the map contradict a clearly larger share of the points at a rival than at the place, of

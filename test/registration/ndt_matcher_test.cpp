@@ -78,9 +78,9 @@ TEST(NdtMatcher, PointsOnWhatStandsAreCountedApartFromTheRoads) {
   });
   const MatchResult result = street.Match(points, truth, 0.02);
   const auto num_standing = static_cast<int>(std::ssize(points) - num_on_road);
-  EXPECT_NEAR(result.upright.num_matched, num_standing, num_standing / 3);
-  EXPECT_GT(10 * result.upright.num_matched, 9 * result.upright.num_in_map);
-  EXPECT_LT(5 * result.upright.num_in_map, 4 * result.num_in_map);
+  EXPECT_NEAR(result.upright.all.num_matched, num_standing, num_standing / 3);
+  EXPECT_GT(10 * result.upright.all.num_matched, 9 * result.upright.all.num_in_map);
+  EXPECT_LT(5 * result.upright.all.num_in_map, 4 * result.num_in_map);
 }
 
 TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {

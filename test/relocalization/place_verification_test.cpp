@@ -27,15 +27,15 @@ TEST(PlaceVerification, TheShareOfPointsOnSurfacesDecides) {
 // A bay of a car park like the right one: floor and ceiling are where they should be.
 TEST(PlaceVerification, WhatStandsMustBeThereAsWell) {
   MatchResult last = Matched(980, 1000);
-  last.upright = {300, 290};
+  last.upright.all = {300, 290};
   MatchResult match = Matched(920, 1000);
-  match.upright = {300, 270};
+  match.upright.all = {300, 270};
   EXPECT_TRUE(IsVerified(match, last));
-  match.upright = {300, 220};
+  match.upright.all = {300, 220};
   EXPECT_FALSE(IsVerified(match, last)) << "a fourth of it contradicts";
-  match.upright = {40, 40};
+  match.upright.all = {40, 40};
   EXPECT_FALSE(IsVerified(match, last)) << "little of it is there";
-  last.upright = {45, 45};
+  last.upright.all = {45, 45};
   EXPECT_TRUE(IsVerified(match, last)) << "little stood before";
 }
 
@@ -43,13 +43,13 @@ TEST(PlaceVerification, WhatStandsMustBeThereAsWell) {
 // that this scan is matched without them.
 TEST(PlaceVerification, VerticalStructuresCountWhereBothMatchesHaveSome) {
   MatchResult last = Matched(390, 400);
-  last.upright = {300, 295};
-  last.on_vertical = {230, 225};
+  last.upright.all = {300, 295};
+  last.upright.structures = {230, 225};
   MatchResult match = Matched(160, 165);
-  match.upright = {68, 66};
+  match.upright.all = {68, 66};
   EXPECT_TRUE(IsAsTheLast(match, last)) << "165 points of last lie on planes";
   EXPECT_FALSE(IsClearlyBetter(last, match));
-  match.on_vertical = {10, 10};
+  match.upright.structures = {10, 10};
   EXPECT_FALSE(HasPlenty(match, last)) << "now it was matched with them";
   EXPECT_TRUE(IsClearlyBetter(last, match));
 }

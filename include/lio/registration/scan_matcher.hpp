@@ -87,6 +87,14 @@ struct Support {
   }
 };
 
+// Counts the points of surfaces that stand, by 45 deg or more.
+struct UprightSupport {
+  Support all;
+  // Those of vertical structures that are no planes. A match leaves them out where the shift since
+  // the last scan is known to centimetres.
+  Support structures;
+};
+
 // A degenerate direction, which the noise of the cells' normals turns a little in each match.
 struct BlindDirection {
   Vector6 shift = Vector6::Zero();   // right increment [translation (m); rotation (rad)] by a unit
@@ -143,11 +151,7 @@ struct [[nodiscard]] MatchResult {
   // So many points lie where the map has a surface, near or far from it; 0 where the method does
   // not tell.
   int num_in_map = 0;
-  // The same of surfaces that stand, by 45 deg or more: floors and ceilings fit anywhere.
-  Support upright;
-  // The same of vertical structures that are no planes: a match leaves them out where the shift
-  // since the last scan is known to centimetres.
-  Support on_vertical;
+  UprightSupport upright;  // floors and ceilings fit anywhere
   int iterations = 0;
   double residual_rms_m = 0.0;
   // The turn rate that the scan was deskewed by errs by this; given where asked for and the method
