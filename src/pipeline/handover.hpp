@@ -36,6 +36,8 @@ struct Handover {
   std::optional<Timestamp> last_fused;      // end of the last sweep that was fused
   std::optional<Timestamp> last_located;    // middle of the last sweep whose pose was found
   std::optional<Timestamp> last_published;  // at the IMU's rate
+  // When buildings contradicted a track: the next one may follow traffic that goes along, too.
+  std::optional<Timestamp> in_traffic;
   ClockStepDoubt clock_step;
   std::optional<ImuDoubt> imu_doubt;
 
@@ -46,7 +48,7 @@ struct Handover {
   }
   // The clock was set: all that is remembered is as long ago by the new one.
   void ShiftTimesBy(Duration by) {
-    for (std::optional<Timestamp>* stamp : {&last_fused, &last_located}) {
+    for (std::optional<Timestamp>* stamp : {&last_fused, &last_located, &in_traffic}) {
       if (*stamp) **stamp = **stamp + by;
     }
     last_fix.stamp = last_fix.stamp + by;

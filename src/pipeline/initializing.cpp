@@ -69,13 +69,13 @@ std::optional<Transition> Initializing::FinishJob(const MatchOutcome& outcome, I
   const bool has_imu = HasImu();
   if (IsMotionKnown(end, estimate)) {
     seed_.motion = estimate.state;
-    if (!has_imu) return GoLidarOnly();
+    if (!has_imu) return TryLidarOnly(end);
     scans_.clear();
     return std::nullopt;
   }
   if (!has_imu) {
     const bool is_enough = scans_.size() >= kInitializing.max_scans_for_motion || IsLastScan();
-    return is_enough ? std::optional(GoLidarOnly()) : std::nullopt;
+    return is_enough ? std::optional(TryLidarOnly(end)) : std::nullopt;
   }
   if (auto transition = JudgeConvention(end)) return transition;
   return TryStart(end);
@@ -89,6 +89,7 @@ void Initializing::FinishVelocitySearch(const MatchOutcome& outcome) {
     return;
   }
   seed_.v_imu_mps = outcome.v_map_imu_mps;  // the map's axes are those of the first sweep
+  by_buildings_ = {outcome.sweep->middle(), outcome.speed_by_buildings};
   has_velocity_seed_ = true;
   scans_.clear();
 }
@@ -208,6 +209,10 @@ void Initializing::TakeClockStep(const AmbiguousClockStep& step) {
 
 Transition Initializing::Retry() const {
   return {.trigger = Trigger::kRetry, .handover = handover_, .initializing_since = since_};
+}
+
+Transition Initializing::TryLidarOnly(Timestamp stamp) {
+  return MayFollowTraffic(stamp, false) ? RetryWithNextSweep() : GoLidarOnly();
 }
 
 Transition Initializing::GoLidarOnly() const {

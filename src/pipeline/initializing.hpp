@@ -67,6 +67,13 @@ struct InitializingParameters {
   // rad/s, 1 sigma. The bias of a gyro that was right before the way was lost may have jumped by
   // this. Chosen: 3 deg/s, beyond what shock or heat leave in one that still works.
   double jumped_gyro_bias_std_radps = 0.05;
+  // m/s^2. The speed may have changed by this since views from above told it. Chosen: a car that
+  // brakes hard.
+  double max_accel_mps2 = 4.0;
+  // s. Buildings that contradicted a track have to confirm one for so long. Chosen: a tenth of a
+  // kilometre and more, over which traffic and houses change.
+  double in_traffic_s = 20.0;
+  std::ptrdiff_t num_steps_of_speed = 5;  // the track's speed is over these; chosen: half a second
   // m. A scan whose place in the map is less sure would blur the map. Chosen: a third of a cell.
   double max_insert_std_m = 0.3;
 };
@@ -144,18 +151,42 @@ class Initializing {
   [[nodiscard]] std::optional<Transition> TryStartAtRest(std::size_t first, Timestamp stamp);
   [[nodiscard]] std::optional<Transition> TryStartInMotion(Timestamp stamp);
   [[nodiscard]] bool IsWayUnseen() const;
+  struct SpeedThen {
+    Timestamp stamp;
+    double mps = 0.0;
+  };
+  struct SpeedsThen {
+    Timestamp stamp;
+    std::optional<SpeedRange> speeds;
+  };
+  // Returns how fast the track was from that time on, or from its first scan on.
+  [[nodiscard]] SpeedThen SpeedOfTrackAt(Timestamp stamp) const;
+  // What is higher than any vehicle shows how fast the body was as the track began.
+  enum class BuildingsSay {
+    kNothing,    // nothing is so high, or it allows the track's speed and rest
+    kItMoves,    // as fast as the track
+    kOtherwise,  // at another speed than the track
+  };
+  [[nodiscard]] BuildingsSay WhatBuildingsSay() const;
+  // May the track follow traffic that goes along, and is most of what is seen? It does where
+  // buildings say otherwise; and it may where they did a while ago and do not confirm it, unless
+  // the body is calm.
+  [[nodiscard]] bool MayFollowTraffic(Timestamp stamp, bool is_calm);
+  [[nodiscard]] Transition RetryWithNextSweep();
   [[nodiscard]] std::optional<Transition> AlignInMotion(Timestamp begin, Timestamp stamp);
   [[nodiscard]] MovingStart Align(Timestamp begin, Timestamp stamp, bool has_gravity) const;
   void TurnByGyro(const Estimate& now, LastFix& earlier, YawDoubt& doubt) const;
   [[nodiscard]] Transition StartFrom(StartState start, std::size_t first_sweep, bool is_at_rest);
 
   [[nodiscard]] Transition Retry() const;
+  [[nodiscard]] Transition TryLidarOnly(Timestamp stamp);
   [[nodiscard]] Transition GoLidarOnly() const;
 
   ModeContext context_;
   Handover handover_;
   std::optional<Timestamp> since_;  // start of the first sweep that was tracked
   bool has_velocity_seed_ = false;  // the search for it is over
+  SpeedsThen by_buildings_;         // as the first scans show them
   MotionSeed seed_;
   std::optional<ConstantVelocityTracker> tracker_;
   std::vector<Scan> scans_;            // one each of the front ones of context.sweeps

@@ -107,6 +107,7 @@ std::optional<Transition> Initializing::TryStartAtRest(std::size_t first, Timest
   if (ShowsTurn(scans_[seen].pose) && seen - first > (last - first) / 2) {
     shown.turn_std_rad = by_seen.turn_std_rad;
   }
+  if (MayFollowTraffic(stamp, is_calm)) return RetryWithNextSweep();
   return StartFrom(StartAtRest(samples, context_.sweeps[last]->start, context_.options.rig, shown),
                    last, shown.shift_m < kRest.at_start.max_shift_m);
 }
@@ -171,6 +172,53 @@ bool Initializing::IsWayUnseen() const {
   return num_open > kInitializing.max_open_share * num_matched;
 }
 
+Initializing::SpeedThen Initializing::SpeedOfTrackAt(Timestamp stamp) const {
+  const auto is_before = [&](const Scan& scan) { return scan.pose.stamp < stamp; };
+  const auto last = std::prev(scans_.end());
+  const auto from = std::find_if_not(scans_.begin(), std::prev(last), is_before);
+  const auto to =
+      std::next(from, std::min(std::distance(from, last), kInitializing.num_steps_of_speed));
+  const double since_s = SecondsBetween(from->pose.stamp, to->pose.stamp);
+  const double way_m = (to->pose.T_any_imu.translation - from->pose.T_any_imu.translation).norm();
+  return {from->pose.stamp, way_m / since_s};
+}
+
+Initializing::BuildingsSay Initializing::WhatBuildingsSay() const {
+  const auto& [then, speeds] = by_buildings_;
+  if (!speeds || scans_.size() < 2) return BuildingsSay::kNothing;
+  const SpeedThen track = SpeedOfTrackAt(then);
+  const double allowance_mps =
+      kConstantVelocity.velocity_seed_std_mps +
+      kInitializing.max_accel_mps2 * std::abs(SecondsBetween(then, track.stamp));
+  const double least_mps = speeds->min_mps - allowance_mps;
+  if (track.mps < least_mps || track.mps > speeds->max_mps + allowance_mps) {
+    return BuildingsSay::kOtherwise;
+  }
+  return least_mps > 0.0 ? BuildingsSay::kItMoves : BuildingsSay::kNothing;
+}
+
+bool Initializing::MayFollowTraffic(Timestamp stamp, bool is_calm) {
+  const BuildingsSay say = WhatBuildingsSay();
+  const bool was_in_traffic = handover_.in_traffic && SecondsBetween(*handover_.in_traffic, stamp) <
+                                                          kInitializing.in_traffic_s;
+  if (say == BuildingsSay::kOtherwise) {
+    handover_.in_traffic = stamp;
+  } else if (say == BuildingsSay::kItMoves || is_calm || !was_in_traffic) {
+    handover_.in_traffic.reset();
+    return false;
+  }
+  context_.outputs.NotifyWaiting(
+      stamp,
+      "no start yet: what is higher than any vehicle moves otherwise than most of what is seen, so "
+      "that traffic may go along; the start waits until both agree, or for a stop");
+  return true;
+}
+
+Transition Initializing::RetryWithNextSweep() {
+  context_.ForgetSweeps(scans_.size());
+  return Retry();
+}
+
 std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp stamp) {
   if (IsWayUnseen()) {
     context_.outputs.NotifyWaiting(stamp,
@@ -190,13 +238,13 @@ std::optional<Transition> Initializing::AlignInMotion(Timestamp begin, Timestamp
   } else {
     moving = Align(begin, stamp, *has_gravity);
   }
+  if (moving.start && MayFollowTraffic(stamp, false)) return RetryWithNextSweep();
   if (moving.start) return StartFrom(*moving.start, 0, false);
   context_.outputs.NotifyWaiting(stamp, "no start in motion yet: " + moving.why_not);
   if (SecondsBetween(begin, stamp) < kInitializing.max_window_s) return std::nullopt;
   // Perhaps the tracker was misled by a gyro in wrong units or axes, or lost its way without one.
   context_.convention.TrustGyro(!context_.convention.trusts_gyro());
-  context_.ForgetSweeps(scans_.size());
-  return Retry();
+  return RetryWithNextSweep();
 }
 
 // Turns the earlier fix by the rotation since then, integrated from the samples of the last

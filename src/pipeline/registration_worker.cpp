@@ -76,8 +76,10 @@ void RegistrationWorker::ClearMap(const Vector3& up_map) {
 void RegistrationWorker::Do(const FindVelocity& /*task*/, ScanInWork& scan) {
   const MotionPrior& prior = scan.job.prior;
   MatchOutcome& outcome = scan.outcome;
-  outcome.v_map_imu_mps =
+  const auto found =
       relocalizer_.FindVelocity({scan.job.sweep->middle(), outcome.points_imu}, prior);
+  outcome.v_map_imu_mps = found.v_map_imu_mps;
+  outcome.speed_by_buildings = found.by_buildings;
   outcome.match.T_map_imu = prior.T_map_imu;
 }
 

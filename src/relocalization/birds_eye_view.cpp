@@ -85,11 +85,14 @@ int CountShifted(std::span<const Eigen::Vector2f> structures, const Eigen::Vecto
 }  // namespace
 
 BirdsEyeView::BirdsEyeView(std::span<const Eigen::Vector3f> points)
+    : BirdsEyeView(points, kView.min_height_m) {}
+
+BirdsEyeView::BirdsEyeView(std::span<const Eigen::Vector3f> points, float min_height_m)
     : near_(static_cast<std::size_t>(kSide) * kSide, 0),
       roughly_near_(static_cast<std::size_t>(kRoughSide) * kRoughSide, 0) {
   std::vector<Eigen::Vector2f> structures;
   for (const auto& [at, column] : ColumnsOf(points)) {
-    if (column.high - column.low < kView.min_height_m) continue;
+    if (column.high - column.low < min_height_m) continue;
     const Eigen::Vector2f structure = column.sum / static_cast<float>(column.num);
     structures.push_back(structure);
     const int x = CellOf(structure.x());

@@ -55,15 +55,22 @@ bool IsWithinConvergenceBasin(const Matrix6& prior_cov) {
          kBasin.max_prior_std_m * kBasin.max_prior_std_m;
 }
 
-std::optional<Vector3> Relocalizer::FindVelocity(const DeskewedScan& scan,
-                                                 const MotionPrior& prior) {
+Relocalizer::Velocity Relocalizer::FindVelocity(const DeskewedScan& scan,
+                                                const MotionPrior& prior) {
   const Quaternion R_level_map = LevelFromMap(prior.up_map);
   velocity_search_.Add(scan.stamp,
                        Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
   if (velocity_search_.num_scans() < kRelocalization.velocity.min_scans) return {};
-  const auto v_level = velocity_search_.Find();
-  if (!v_level) return {};
-  return R_level_map.conjugate() * Vector3(v_level->x(), v_level->y(), 0.0);
+  const SeenVelocity seen = velocity_search_.Find();
+  const bool may_buildings_tell =
+      seen.by_buildings && !seen.is_of_buildings &&
+      velocity_search_.num_scans() < kRelocalization.velocity.max_scans_of_buildings;
+  Velocity velocity{.v_map_imu_mps = {}, .by_buildings = seen.by_buildings};
+  if (seen.v_mps && !may_buildings_tell) {
+    velocity.v_map_imu_mps =
+        R_level_map.conjugate() * Vector3(seen.v_mps->x(), seen.v_mps->y(), 0.0);
+  }
+  return velocity;
 }
 
 MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prior) const {
@@ -73,10 +80,10 @@ MotionPrior Relocalizer::Align(const DeskewedScan& scan, const MotionPrior& prio
   search.Add(last_->stamp,
              Levelled(last_->points_imu, R_level_map * last_->match.T_map_imu.rotation));
   search.Add(scan.stamp, Levelled(scan.points_imu, R_level_map * prior.T_map_imu.rotation));
-  const auto v_level = search.Find();
-  if (!v_level) return prior;
+  const auto v_level_mps = search.Find().v_mps;
+  if (!v_level_mps) return prior;
   const double since_s = SecondsBetween(last_->stamp, scan.stamp);
-  const Vector3 shift_level = since_s * Vector3(v_level->x(), v_level->y(), 0.0);
+  const Vector3 shift_level = since_s * Vector3(v_level_mps->x(), v_level_mps->y(), 0.0);
   MotionPrior aligned = prior;
   aligned.T_map_imu.translation =
       last_->match.T_map_imu.translation + R_level_map.conjugate() * shift_level;

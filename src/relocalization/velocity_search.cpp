@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lio/relocalization/parameters.hpp"
@@ -21,14 +22,14 @@ Eigen::Vector2f VelocityOf(int x, int y) {
 
 }  // namespace
 
-void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> points) {
-  Scan scan{stamp, BirdsEyeView(points)};
-  if (!scan.view.HasEnoughStructures()) return;
+void VelocityVotes::Add(Timestamp stamp, BirdsEyeView view) {
+  if (!view.HasEnoughStructures()) return;
+  Scan scan{stamp, std::move(view)};
   for (const Scan& before : scans_) AddPair(before, scan);
   scans_.push_back(std::move(scan));
 }
 
-void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
+void VelocityVotes::AddPair(const Scan& before, const Scan& after) {
   scores_.resize(static_cast<std::size_t>(kNumSteps) * kNumSteps, 0);
   const auto dt_s = static_cast<float>(SecondsBetween(before.stamp, after.stamp));
   auto score = scores_.begin();
@@ -40,7 +41,7 @@ void VelocitySearch::AddPair(const Scan& before, const Scan& after) {
   }
 }
 
-std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
+std::optional<Eigen::Vector2f> VelocityVotes::Find() const {
   if (scans_.size() < 2) return {};
   const auto span_s = static_cast<float>(SecondsBetween(scans_.front().stamp, scans_.back().stamp));
   if (!(span_s > 0.f)) return {};
@@ -67,6 +68,34 @@ std::optional<Eigen::Vector2f> VelocitySearch::Find() const {
   }
   if (peak - rival < kVelocity.min_lead * std::sqrt(static_cast<double>(peak))) return {};
   return sum / static_cast<float>(num);
+}
+
+std::optional<SpeedRange> VelocityVotes::LikelySpeeds() const {
+  if (scores_.empty()) return {};
+  const double peak = *std::max_element(scores_.begin(), scores_.end());
+  const double least = peak - kVelocity.likely_sigmas * std::sqrt(peak);
+  SpeedRange range{std::numeric_limits<double>::max(), 0.0};
+  for (int i = 0; i < kNumSteps * kNumSteps; ++i) {
+    if (scores_[static_cast<std::size_t>(i)] < least) continue;
+    const double mps = static_cast<double>(VelocityOf(i % kNumSteps, i / kNumSteps).norm());
+    range.min_mps = std::min(range.min_mps, mps);
+    range.max_mps = std::max(range.max_mps, mps);
+  }
+  return range;
+}
+
+void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> points) {
+  of_all_.Add(stamp, BirdsEyeView(points));
+  of_buildings_.Add(stamp, BirdsEyeView(points, kVelocity.min_building_height_m));
+}
+
+SeenVelocity VelocitySearch::Find() const {
+  SeenVelocity seen;
+  if (of_buildings_.num_scans() == num_scans()) seen.by_buildings = of_buildings_.LikelySpeeds();
+  seen.v_mps = of_buildings_.Find();
+  seen.is_of_buildings = seen.v_mps.has_value();
+  if (!seen.v_mps) seen.v_mps = of_all_.Find();
+  return seen;
 }
 
 }  // namespace lio

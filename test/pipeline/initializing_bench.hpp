@@ -31,6 +31,7 @@ struct InitializingBench {
       InsertTask insert;
       MatchOutcome outcome = bench.Matched(job, motion);
       outcome.match.cov += unseen_cov;
+      outcome.speed_by_buildings = speed_by_buildings;
       if (auto transition = mode->FinishJob(outcome, insert)) return transition;
     }
     return std::nullopt;
@@ -47,7 +48,8 @@ struct InitializingBench {
     return std::nullopt;
   }
 
-  Matrix6 unseen_cov = Matrix6::Zero();  // adds to the matches', right error
+  std::optional<SpeedRange> speed_by_buildings;  // the search for a velocity finds this
+  Matrix6 unseen_cov = Matrix6::Zero();          // adds to the matches', right error
   ModeBench bench;
   std::unique_ptr<Initializing> mode;
 };

@@ -192,6 +192,49 @@ TEST(InitializingStart, NoStateIsMadeInMotionWhereTheWayIsUnseen) {
   EXPECT_EQ(started->trigger, Trigger::kStarted);
 }
 
+// The scans match traffic that goes along, and buildings say that the body moves.
+TEST(InitializingStart, NoStateIsMadeThatBuildingsContradict) {
+  InitializingBench moving;
+  moving.speed_by_buildings = {15.0, 20.0};
+  const auto in_motion = moving.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+  ASSERT_TRUE(in_motion);
+  EXPECT_EQ(in_motion->trigger, Trigger::kRetry);
+  EXPECT_TRUE(moving.bench.sweeps.empty());
+  EXPECT_TRUE(moving.bench.HasNotified(Notice::Severity::kInfo));
+
+  InitializingBench standing;
+  standing.speed_by_buildings = {3.0, 12.0};
+  const auto at_rest = standing.Drive(Leaning(), 0.0, 2.0);
+  ASSERT_TRUE(at_rest);
+  EXPECT_EQ(at_rest->trigger, Trigger::kRetry);
+}
+
+// Buildings that have contradicted a track have to confirm the next, or the body must be calm.
+TEST(InitializingStart, AmidTrafficAStateIsMadeThatBuildingsConfirmOrACalmBody) {
+  Handover amid_traffic;
+  amid_traffic.in_traffic = StampAt(kDriveFrom_s - 1.0);
+  const auto drive = [&](const std::optional<SpeedRange>& speeds) {
+    InitializingBench b({}, amid_traffic);
+    b.speed_by_buildings = speeds;
+    return b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+  };
+  EXPECT_EQ(drive({})->trigger, Trigger::kRetry);
+  EXPECT_EQ(drive(SpeedRange{0.0, 20.0})->trigger, Trigger::kRetry);
+  EXPECT_EQ(drive(SpeedRange{5.0, 12.0})->trigger, Trigger::kStarted);
+  InitializingBench calm({}, amid_traffic);
+  EXPECT_EQ(calm.Drive(Leaning(), kDriveFrom_s, kDriveFrom_s + 2.0)->trigger, Trigger::kStarted);
+  amid_traffic.in_traffic = StampAt(kDriveFrom_s - kInitializing.in_traffic_s);
+  EXPECT_EQ(drive({})->trigger, Trigger::kStarted) << "long ago";
+}
+
+TEST(InitializingStart, AStateIsMadeThatBuildingsConfirm) {
+  InitializingBench b;
+  b.speed_by_buildings = {5.0, 9.0};
+  const auto transition = b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kStarted);
+}
+
 TEST(InitializingStart, StateInMotionIsForTheFirstSweepOfTwoSeconds) {
   InitializingBench b;
   const auto transition = b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.5);

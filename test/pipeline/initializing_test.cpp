@@ -141,6 +141,15 @@ TEST(Initializing, WithoutAnImuTheMotionStartsLidarOnly) {
   EXPECT_NEAR((v_mps - Vector3(kSpeed_mps, 0, 0)).norm(), 0.0, 0.1);
 }
 
+TEST(Initializing, WithoutAnImuNothingStartsThatBuildingsContradict) {
+  InitializingBench b(WithoutImu());
+  b.speed_by_buildings = {2.0 * kSpeed_mps, 3.0 * kSpeed_mps};
+  const auto transition = b.Drive(Straight(kSpeed_mps), 0.0, 2.0);
+  ASSERT_TRUE(transition);
+  EXPECT_EQ(transition->trigger, Trigger::kRetry);
+  EXPECT_TRUE(transition->handover.in_traffic);
+}
+
 TEST(Initializing, WithoutAnImuAtRestLidarOnlyBeginsAfterEightScans) {
   InitializingBench b(WithoutImu());
   const auto transition = b.Drive(Straight(0.0), 0.0, 2.0);

@@ -48,6 +48,13 @@ TEST(BirdsEyeView, LeavesWallsOutWhereEnoughStandsAlone) {
   EXPECT_GE(view.structures().size(), 50u);
 }
 
+TEST(BirdsEyeView, OfWhatIsHighLeavesTheRestOut) {
+  Points points;
+  AddPost({7.f, 3.f}, {0.f, 0.f}, points);  // 2.1 m high
+  EXPECT_EQ(BirdsEyeView(points, 2.f).structures().size(), 1u);
+  EXPECT_TRUE(BirdsEyeView(points, 2.2f).structures().empty());
+}
+
 TEST(BirdsEyeView, SaysEnoughFromTwentyThings) {
   Points points;
   for (int i = 0; i < 19; ++i) AddPost({3.f * static_cast<float>(i), 8.f}, {0.f, 0.f}, points);

@@ -216,7 +216,8 @@ TEST_F(RelocalizerTest, AVelocityIsFoundFromThreeScans) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(found_mps.empty());
     const std::vector<Eigen::Vector3f> points = PostsSeenFrom(At(2.0 * i, 0.5 * i, 0.0));
-    const auto v_map_mps = relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{});
+    const auto v_map_mps =
+        relocalizer_.FindVelocity({StampAt(0.1 * i), points}, MotionPrior{}).v_map_imu_mps;
     if (v_map_mps) found_mps.push_back(*v_map_mps);
   }
   ASSERT_EQ(found_mps.size(), 1u);

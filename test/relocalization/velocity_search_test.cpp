@@ -52,7 +52,7 @@ VelocitySearch Drive(const Place& points_at, const Eigen::Vector2f& v_mps) {
 TEST(VelocitySearch, FindsFastMotionAmongThingsThatStand) {
   for (const Eigen::Vector2f& v_mps :
        {Eigen::Vector2f(28.f, -7.f), Eigen::Vector2f(-39.f, 2.f), Eigen::Vector2f(0.2f, 0.1f)}) {
-    const auto found = Drive(WoodOnTheGround, v_mps).Find();
+    const auto found = Drive(WoodOnTheGround, v_mps).Find().v_mps;
     ASSERT_TRUE(found);
     EXPECT_LT((*found - v_mps).norm(), 1.0f) << found->transpose() << " for " << v_mps.transpose();
   }
@@ -74,22 +74,63 @@ TEST(VelocitySearch, TellsVelocitiesApartByPairsOfDifferentSpacing) {
       AddPost(sensor + Eigen::Vector2f(12.f + 0.5f * static_cast<float>(i), -3.5f), sensor, points);
     return points;
   };
-  const auto found = Drive(motorway, {30.f, 0.f}).Find();
+  const auto found = Drive(motorway, {30.f, 0.f}).Find().v_mps;
   ASSERT_TRUE(found);
   EXPECT_LT((*found - Eigen::Vector2f(30.f, 0.f)).norm(), 1.5f) << found->transpose();
 }
 
+// Adds a tower of 9 m, as the beams of a sensor at `sensor` see it.
+void AddTower(const Eigen::Vector2f& place, const Eigen::Vector2f& sensor, Points& points) {
+  const Eigen::Vector2f seen = place - sensor;
+  for (int i = 0; i < 30; ++i) {
+    points.emplace_back(seen.x(), seen.y(), -1.8f + 0.3f * static_cast<float>(i));
+  }
+}
+
+// Forty vehicles go along, two thirds of what is seen.
+Points RoadFullOfTraffic(const Eigen::Vector2f& sensor, int num_towers) {
+  Points points;
+  AddRings(points);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<float> along(-40.f, 40.f);
+  for (int i = 0; i < 40; ++i) {
+    AddPost(sensor + Eigen::Vector2f(along(random), i % 2 == 0 ? 4.f : -4.f), sensor, points);
+  }
+  for (int i = 0; i < num_towers; ++i) {
+    AddTower({along(random), i % 2 == 0 ? 14.f : -14.f}, sensor, points);
+  }
+  return points;
+}
+
+TEST(VelocitySearch, WhatIsHigherThanAnyVehicleGoesBeforeTrafficThatGoesAlong) {
+  const auto road = [](const Eigen::Vector2f& sensor) { return RoadFullOfTraffic(sensor, 25); };
+  const SeenVelocity seen = Drive(road, {9.f, 0.f}).Find();
+  ASSERT_TRUE(seen.v_mps);
+  EXPECT_LT((*seen.v_mps - Eigen::Vector2f(9.f, 0.f)).norm(), 1.5f) << seen.v_mps->transpose();
+  ASSERT_TRUE(seen.by_buildings);
+  EXPECT_GT(seen.by_buildings->min_mps, 5.0);
+  EXPECT_LT(seen.by_buildings->max_mps, 13.0);
+}
+
+TEST(VelocitySearch, AFewTowersTellNothingOfTheirOwn) {
+  const auto road = [](const Eigen::Vector2f& sensor) { return RoadFullOfTraffic(sensor, 5); };
+  const SeenVelocity seen = Drive(road, {9.f, 0.f}).Find();
+  ASSERT_TRUE(seen.v_mps);
+  EXPECT_LT(seen.v_mps->norm(), 1.5f) << "that of the traffic";
+  EXPECT_FALSE(seen.by_buildings);
+}
+
 TEST(VelocitySearch, SaysNothingWhereTheWayLooksTheSameAllAlong) {
-  EXPECT_FALSE(Drive(Corridor, {15.f, 0.f}).Find());
+  EXPECT_FALSE(Drive(Corridor, {15.f, 0.f}).Find().v_mps);
 }
 
 TEST(VelocitySearch, SaysNothingOfBareGroundOrASingleScan) {
   Points points;
   AddRings(points);
-  EXPECT_FALSE(Drive([&](const Eigen::Vector2f&) { return points; }, {5.f, 0.f}).Find());
+  EXPECT_FALSE(Drive([&](const Eigen::Vector2f&) { return points; }, {5.f, 0.f}).Find().v_mps);
   VelocitySearch search;
   search.Add(Timestamp{0}, WoodOnTheGround({0.f, 0.f}));
-  EXPECT_FALSE(search.Find());
+  EXPECT_FALSE(search.Find().v_mps);
 }
 
 }  // namespace

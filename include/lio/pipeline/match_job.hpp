@@ -16,6 +16,7 @@
 #include "lio/registration/scan_matcher.hpp"
 #include "lio/relocalization/place_contest.hpp"
 #include "lio/relocalization/search_request.hpp"
+#include "lio/relocalization/velocity_search.hpp"
 #include "lio/scan/feature_tag.hpp"
 #include "lio/scan/loam_features.hpp"
 #include "lio/scan/sweep.hpp"
@@ -75,11 +76,12 @@ struct MatchOutcome {
   bool is_relocalized = false;           // located by the search, not near the prior
   bool is_clock_set = false;             // located near SearchRequest::T_map_imu_alternative
   std::optional<Vector3> v_map_imu_mps;  // answers FindVelocity; absent while no velocity is clear
-  std::optional<TurnRate> turn_rate;     // as the sweep itself shows it, with refines_deskew
-  std::optional<FoundPlace> place;       // the map's place in the initial map, with seeks_place
-  int num_matches = 0;                   // full matches of the scan against the map
-  int num_coarse_matches = 0;            // the same with a few hundred of its points
-  int num_used = 0;                      // points that are matched
+  std::optional<SpeedRange> speed_by_buildings;  // as SeenVelocity, with the same
+  std::optional<TurnRate> turn_rate;  // as the sweep itself shows it, with refines_deskew
+  std::optional<FoundPlace> place;    // the map's place in the initial map, with seeks_place
+  int num_matches = 0;                // full matches of the scan against the map
+  int num_coarse_matches = 0;         // the same with a few hundred of its points
+  int num_used = 0;                   // points that are matched
   int num_nonfinite = 0;
   bool is_repeated = false;                      // the sweep's points are those of the one before
   std::vector<Eigen::Vector3f> points_imu;       // deskewed, at the sweep's middle

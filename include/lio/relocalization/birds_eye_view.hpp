@@ -17,6 +17,8 @@ namespace lio {
 class BirdsEyeView {
  public:
   explicit BirdsEyeView(std::span<const Eigen::Vector3f> points);
+  // Shows those alone that are so high from their lowest point to their highest.
+  BirdsEyeView(std::span<const Eigen::Vector3f> points, float min_height_m);
 
   // Returns one point for each structure, at most a few hundred, evenly chosen. Structures in a
   // row, as of a wall or a rail, are left out unless there are few others.

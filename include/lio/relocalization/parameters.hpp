@@ -42,6 +42,15 @@ struct VelocitySearchParameters {
   // A velocity is believed from so many scans on. Measured: a single pair is ambiguous among
   // repeating structures (docs/experiments/starts_in_motion.md).
   std::size_t min_scans = 3;
+  // No vehicle is as high. Data sheet: 4.0 m are allowed in Europe and China, 4.3 m in most of the
+  // United States.
+  float min_building_height_m = 4.5f;
+  // ... and they exclude a velocity whose score is lower than the best one by so many roots of
+  // that.
+  double likely_sigmas = 3.0;  // statistics: 99.7 %
+  // Where buildings are seen, so many scans are awaited to make a velocity clear by them alone.
+  // Chosen: two fewer than a start may take.
+  std::size_t max_scans_of_buildings = 6;
 };
 
 // After E. Olson, "Real-Time Correlative Scan Matching", ICRA 2009: coarse grid, then fine grid.

@@ -53,10 +53,14 @@ class Relocalizer {
   // Forgets all scans: the map was cleared.
   void Clear() { *this = Relocalizer(); }
 
-  // The velocity is in the map's axes, from this and all scans that were given since Clear();
-  // absent while no velocity is clear. The prior gives only its rotation and its vertical.
-  [[nodiscard]] std::optional<Vector3> FindVelocity(const DeskewedScan& scan,
-                                                    const MotionPrior& prior);
+  // As SeenVelocity, in the map's axes.
+  struct Velocity {
+    std::optional<Vector3> v_map_imu_mps;
+    std::optional<SpeedRange> by_buildings;
+  };
+  // Returns what this and all scans that were given since Clear() show. The prior gives only its
+  // rotation and its vertical.
+  [[nodiscard]] Velocity FindVelocity(const DeskewedScan& scan, const MotionPrior& prior);
 
   // Returns the prior with its position by the shift since the last located scan, where that is
   // clear.

@@ -8,9 +8,11 @@
 // Only vertical structures count, since a spinning lidar's rings on the ground move with the sensor
 // and would agree best without any motion. A single pair of scans is often ambiguous (posts of a
 // rail, traffic that goes along); the sum over pairs of different spacing in time leaves one
-// velocity. Points are in metres, in axes whose z is up to about 10 deg and which do not turn
-// between the scans, with the origin at the sensor. All scans are skewed alike, which does little
-// harm. The velocity is taken as constant. A pair of scans costs about 15 ms.
+// velocity. What is higher than any vehicle goes before all else, where it tells a velocity, since
+// traffic that goes along may be most of what is seen. Points are in metres, in axes whose z is up
+// to about 10 deg and which do not turn between the scans, with the origin at the sensor. All scans
+// are skewed alike, which does little harm. The velocity is taken as constant. A pair of scans
+// costs about 15 ms, and as much again among buildings.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,14 +25,20 @@
 
 namespace lio {
 
-class VelocitySearch {
- public:
-  // `stamp` tells when the sensor was at the points' origin. Scans come in order of time.
-  void Add(Timestamp stamp, std::span<const Eigen::Vector3f> points);
+struct SpeedRange {
+  double min_mps = 0.0;
+  double max_mps = 0.0;
+};
 
-  // Returns the velocity in x and y [m/s]. Absent when none agrees clearly better than the rest:
-  // there are few structures, they look alike along the way, or there are fewer than two scans.
+// Lays views over each other.
+class VelocityVotes {
+ public:
+  // Takes a view that has enough structures.
+  void Add(Timestamp stamp, BirdsEyeView view);
+  // Returns the velocity at which they agree clearly better than at any other.
   [[nodiscard]] std::optional<Eigen::Vector2f> Find() const;
+  // Returns the speeds at which they do not agree clearly worse than at the best.
+  [[nodiscard]] std::optional<SpeedRange> LikelySpeeds() const;
   std::size_t num_scans() const { return scans_.size(); }
 
  private:
@@ -43,6 +51,29 @@ class VelocitySearch {
 
   std::vector<Scan> scans_;
   std::vector<int> scores_;  // by velocity; empty before the first pair
+};
+
+// Holds what views from above tell of the sensor's motion.
+struct SeenVelocity {
+  // In x and y [m/s]. Absent when none agrees clearly better than the rest: there are few
+  // structures, they look alike along the way, or there are fewer than two scans.
+  std::optional<Eigen::Vector2f> v_mps;
+  bool is_of_buildings = false;  // it is that of what is higher than any vehicle
+  // What is higher than any vehicle, and so stands, allows these alone. Absent where there is none.
+  std::optional<SpeedRange> by_buildings;
+};
+
+class VelocitySearch {
+ public:
+  // `stamp` tells when the sensor was at the points' origin. Scans come in order of time.
+  void Add(Timestamp stamp, std::span<const Eigen::Vector3f> points);
+
+  [[nodiscard]] SeenVelocity Find() const;
+  std::size_t num_scans() const { return of_all_.num_scans(); }
+
+ private:
+  VelocityVotes of_all_;
+  VelocityVotes of_buildings_;
 };
 
 }  // namespace lio
