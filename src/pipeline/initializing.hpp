@@ -161,7 +161,7 @@ class Initializing {
   };
   // Returns how fast the track was from that time on, or from its first scan on.
   [[nodiscard]] SpeedThen SpeedOfTrackAt(Timestamp stamp) const;
-  // What is higher than any vehicle shows how fast the body was as the track began.
+  // Things that are higher than any vehicle show how fast the body was as the track began.
   enum class BuildingsSay {
     kNothing,    // nothing is so high, or it allows the track's speed and rest
     kItMoves,    // as fast as the track

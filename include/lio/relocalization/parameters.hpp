@@ -48,7 +48,7 @@ struct VelocitySearchParameters {
   // ... and they exclude a velocity whose score is lower than the best one by so many roots of
   // that.
   double likely_sigmas = 3.0;  // statistics: 99.7 %
-  // Where buildings are seen, so many scans are awaited to make a velocity clear by them alone.
+  // So many scans are awaited for buildings, if any are seen, to tell a velocity by themselves.
   // Chosen: two fewer than a start may take.
   std::size_t max_scans_of_buildings = 6;
 };

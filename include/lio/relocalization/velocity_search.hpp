@@ -8,11 +8,11 @@
 // Only vertical structures count, since a spinning lidar's rings on the ground move with the sensor
 // and would agree best without any motion. A single pair of scans is often ambiguous (posts of a
 // rail, traffic that goes along); the sum over pairs of different spacing in time leaves one
-// velocity. What is higher than any vehicle goes before all else, where it tells a velocity, since
-// traffic that goes along may be most of what is seen. Points are in metres, in axes whose z is up
-// to about 10 deg and which do not turn between the scans, with the origin at the sensor. All scans
-// are skewed alike, which does little harm. The velocity is taken as constant. A pair of scans
-// costs about 15 ms, and as much again among buildings.
+// velocity. Traffic that goes along may be most of what is seen, so that things that are higher
+// than any vehicle go before all others. Points are in metres, in axes whose z is up to about 10
+// deg and which do not turn between the scans, with the origin at the sensor. All scans are skewed
+// alike, which does little harm. The velocity is taken as constant. A pair of scans costs about 15
+// ms, and as much again among buildings.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,8 +58,8 @@ struct SeenVelocity {
   // In x and y [m/s]. Absent when none agrees clearly better than the rest: there are few
   // structures, they look alike along the way, or there are fewer than two scans.
   std::optional<Eigen::Vector2f> v_mps;
-  bool is_of_buildings = false;  // it is that of what is higher than any vehicle
-  // What is higher than any vehicle, and so stands, allows these alone. Absent where there is none.
+  bool is_of_buildings = false;  // it is that of things that are higher than any vehicle
+  // Things that are higher than any vehicle, and so stand, allow these alone. Absent without them.
   std::optional<SpeedRange> by_buildings;
 };
 
