@@ -91,9 +91,11 @@ void VelocitySearch::Add(Timestamp stamp, std::span<const Eigen::Vector3f> point
 
 SeenVelocity VelocitySearch::Find() const {
   SeenVelocity seen;
-  if (of_buildings_.num_scans() == num_scans()) seen.by_buildings = of_buildings_.LikelySpeeds();
-  seen.v_mps = of_buildings_.Find();
-  seen.is_of_buildings = seen.v_mps.has_value();
+  if (of_buildings_.num_scans() == num_scans()) {
+    seen.by_buildings = of_buildings_.LikelySpeeds();
+    seen.v_mps = of_buildings_.Find();
+    seen.is_of_buildings = seen.v_mps.has_value();
+  }
   if (!seen.v_mps) seen.v_mps = of_all_.Find();
   return seen;
 }

@@ -120,6 +120,18 @@ TEST(VelocitySearch, AFewTowersTellNothingOfTheirOwn) {
   EXPECT_FALSE(seen.by_buildings);
 }
 
+// The first scan sees too few towers, so that two of three would have to tell the velocity.
+TEST(VelocitySearch, TowersCountWhereEveryScanSeesEnough) {
+  VelocitySearch search;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2f sensor(0.9f * static_cast<float>(i), 0.f);
+    search.Add(Timestamp{i * 100'000'000}, RoadFullOfTraffic(sensor, i == 0 ? 5 : 25));
+  }
+  const SeenVelocity seen = search.Find();
+  EXPECT_FALSE(seen.is_of_buildings);
+  EXPECT_FALSE(seen.by_buildings);
+}
+
 TEST(VelocitySearch, SaysNothingWhereTheWayLooksTheSameAllAlong) {
   EXPECT_FALSE(Drive(Corridor, {15.f, 0.f}).Find().v_mps);
 }
