@@ -36,7 +36,8 @@ def error_rows(figures):
     yield "path", f"{figures['path_length_m']:.1f} m in {figures['duration_s']:.1f} s"
     yield "position error (APE, SE3), rmse and max", (
         f"{ape['position_m']['rmse']:.3f} and {ape['position_m']['max']:.3f} m")
-    yield "rotation error, rmse", f"{ape['rotation_without_offset_deg']['rmse']:.3f} deg"
+    yield "rotation error without its mean, rmse", (
+        f"{ape['rotation_without_offset_deg']['rmse']:.3f} deg")
     if drift["translation_percent"] is not None:
         yield "drift", (f"{drift['translation_percent']:.3f} %, "
                         f"{drift['rotation_deg_per_100m']:.3f} deg/100 m")
