@@ -159,8 +159,9 @@ class Initializing {
     Timestamp stamp;
     std::optional<SpeedRange> speeds;
   };
-  // Returns how fast the track was from that time on, or from its first scan on.
-  [[nodiscard]] SpeedThen SpeedOfTrackAt(Timestamp stamp) const;
+  // Returns how fast the track was from that time on, or from its first scan on; nothing of fewer
+  // than two scans.
+  [[nodiscard]] std::optional<SpeedThen> SpeedOfTrackAt(Timestamp stamp) const;
   // Things that are higher than any vehicle show how fast the body was as the track began.
   enum class BuildingsSay {
     kNothing,    // nothing is so high, or it allows the track's speed and rest

@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -172,26 +174,28 @@ bool Initializing::IsWayUnseen() const {
   return num_open > kInitializing.max_open_share * num_matched;
 }
 
-Initializing::SpeedThen Initializing::SpeedOfTrackAt(Timestamp stamp) const {
+std::optional<Initializing::SpeedThen> Initializing::SpeedOfTrackAt(Timestamp stamp) const {
+  if (scans_.size() < 2) return {};
   const auto is_before = [&](const Scan& scan) { return scan.pose.stamp < stamp; };
   const auto last = std::prev(scans_.end());
   const auto from = std::find_if_not(scans_.begin(), std::prev(last), is_before);
   const auto to =
       std::next(from, std::min(std::distance(from, last), kInitializing.num_steps_of_speed));
   const double since_s = SecondsBetween(from->pose.stamp, to->pose.stamp);
+  if (!(since_s > 0.0)) return {};  // the clock was set back
   const double way_m = (to->pose.T_any_imu.translation - from->pose.T_any_imu.translation).norm();
-  return {from->pose.stamp, way_m / since_s};
+  return SpeedThen{from->pose.stamp, way_m / since_s};
 }
 
 Initializing::BuildingsSay Initializing::WhatBuildingsSay() const {
   const auto& [then, speeds] = by_buildings_;
-  if (!speeds || scans_.size() < 2) return BuildingsSay::kNothing;
-  const SpeedThen track = SpeedOfTrackAt(then);
+  const std::optional<SpeedThen> track = SpeedOfTrackAt(then);
+  if (!speeds || !track) return BuildingsSay::kNothing;
   const double allowance_mps =
       kConstantVelocity.velocity_seed_std_mps +
-      kInitializing.max_accel_mps2 * std::abs(SecondsBetween(then, track.stamp));
+      kInitializing.max_accel_mps2 * std::abs(SecondsBetween(then, track->stamp));
   const double least_mps = speeds->min_mps - allowance_mps;
-  if (track.mps < least_mps || track.mps > speeds->max_mps + allowance_mps) {
+  if (track->mps < least_mps || track->mps > speeds->max_mps + allowance_mps) {
     return BuildingsSay::kOtherwise;
   }
   return least_mps > 0.0 ? BuildingsSay::kItMoves : BuildingsSay::kNothing;
