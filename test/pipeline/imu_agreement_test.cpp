@@ -50,8 +50,11 @@ struct Bench {
   std::optional<ImuContradiction> Scan(const Spoil& spoil = {},
                                        const Vector3& jump = Vector3::Zero()) {
     const double t_s = 0.1 * num_scans++;
+    test::ImuErrors errors;
+    errors.gyro_density = 2e-4;
+    errors.accel_density = 2e-3;
     std::vector<ImuSample> samples =
-        test::ReadImu(motion, t_s - 0.12, t_s + 0.02, 100.0, {{}, {}, 2e-4, 2e-3}, random);
+        test::ReadImu(motion, t_s - 0.12, t_s + 0.02, 100.0, errors, random);
     if (spoil) std::ranges::for_each(samples, spoil);
     ImuAgreement::MatchedPose pose{.stamp = StampFromZero(t_s),
                                    .T_map_imu = motion.At(t_s).T_world_imu};
