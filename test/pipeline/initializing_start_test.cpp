@@ -209,14 +209,20 @@ TEST(InitializingStart, NoStateIsMadeThatBuildingsContradict) {
   EXPECT_EQ(at_rest->trigger, Trigger::kRetry);
 }
 
+// Drives at 8 m/s where buildings show these speeds.
+std::optional<Transition> DriveBesideBuildings(const std::optional<SpeedRange>& speeds,
+                                               const Handover& handover = {}) {
+  InitializingBench b({}, handover);
+  b.speed_by_buildings = speeds;
+  return b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+}
+
 // Buildings that have contradicted a track have to confirm the next, or the body must be calm.
 TEST(InitializingStart, AmidTrafficAStateIsMadeThatBuildingsConfirmOrACalmBody) {
   Handover amid_traffic;
   amid_traffic.in_traffic = StampAt(kDriveFrom_s - 1.0);
   const auto drive = [&](const std::optional<SpeedRange>& speeds) {
-    InitializingBench b({}, amid_traffic);
-    b.speed_by_buildings = speeds;
-    return b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+    return DriveBesideBuildings(speeds, amid_traffic);
   };
   EXPECT_EQ(drive({})->trigger, Trigger::kRetry);
   EXPECT_EQ(drive(SpeedRange{0.0, 20.0})->trigger, Trigger::kRetry);
@@ -228,9 +234,7 @@ TEST(InitializingStart, AmidTrafficAStateIsMadeThatBuildingsConfirmOrACalmBody) 
 }
 
 TEST(InitializingStart, AStateIsMadeThatBuildingsConfirm) {
-  InitializingBench b;
-  b.speed_by_buildings = {5.0, 9.0};
-  const auto transition = b.Drive(test::WindingDrive(0.0), kDriveFrom_s, kDriveFrom_s + 3.0);
+  const auto transition = DriveBesideBuildings(SpeedRange{5.0, 9.0});
   ASSERT_TRUE(transition);
   EXPECT_EQ(transition->trigger, Trigger::kStarted);
 }
