@@ -21,22 +21,21 @@ int ShareOfCells(int level, const NdtOptions& options) {
 
 }  // namespace
 
-MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer) {
+MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer, int num_coarser) {
   if (options.num_levels < 1 || options.num_levels > static_cast<int>(kMaxMapLevels)) {
     throw std::invalid_argument("MultiResolutionMap: num_levels out of range");
   }
-  const int num_levels = options.num_levels + num_finer;
-  for (int level = 0; level < num_levels; ++level) {
+  const int coarsest_option = num_finer + options.num_levels - 1;
+  for (int level = 0; level <= coarsest_option + num_coarser; ++level) {
     NdtOptions at_level = options;
-    at_level.voxel_m = std::ldexp(options.voxel_m, level + 1 - num_levels);
-    // A small cell's corner that a wall cuts off is as narrow and tall as a post.
-    const bool is_coarsest = level + 1 == num_levels;
+    at_level.voxel_m = std::ldexp(options.voxel_m, level - coarsest_option);
     at_level.max_cells = ShareOfCells(std::max(0, level - num_finer), options);
-    if (!is_coarsest) {
+    const bool is_fine = level < coarsest_option;
+    if (is_fine) {
       at_level.max_distance_m = std::min(
           options.max_distance_m, MultiResolutionParameters::kMaxDistance_edges * at_level.voxel_m);
     }
-    levels_.emplace_back(at_level, is_coarsest);
+    levels_.emplace_back(at_level, !is_fine);
     edges_m_.push_back(at_level.voxel_m);
   }
 }
@@ -68,19 +67,19 @@ void MultiResolutionMap::FindAll(std::span<const Vector3> points_map, const Leve
       search.index[i] = begin + i;
     }
     for (std::size_t level = levels.finest; level <= levels.coarsest; ++level) {
-      FindIn(level, search, hits);
+      FindIn(level, level == levels.coarsest, search, hits);
     }
   }
 }
 
-void MultiResolutionMap::FindIn(std::size_t level, Search& search,
+void MultiResolutionMap::FindIn(std::size_t level, bool is_coarsest, Search& search,
                                 std::span<GaussianMap::Hit> hits) const {
   levels_[level].FindAll({search.points.data(), search.num}, search.hits);
   std::size_t num_left = 0;
   for (std::size_t i = 0; i < search.num; ++i) {
     GaussianMap::Hit& hit = hits[search.index[i]];
     hit = search.hits[i];
-    if (ShowsSurface(level, hit.cell)) {
+    if (ShowsSurface(level, is_coarsest, hit.cell)) {
       hit.cell = Number(level, hit.cell);
       continue;
     }

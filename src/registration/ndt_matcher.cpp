@@ -32,6 +32,11 @@ Eigen::Matrix3f GridFromLidar(const Pose& T_grid_imu, const Pose& T_imu_lidar) {
   return (T_grid_imu.rotation * T_imu_lidar.rotation).toRotationMatrix().cast<float>();
 }
 
+MultiResolutionMap MakeMap(const NdtOptions& options) {
+  return MultiResolutionMap(options, static_cast<int>(kNumFinerLevels),
+                            static_cast<int>(kNumCoarserLevels));
+}
+
 bool HasMoved(const Pose& from, const Pose& to) {
   const Pose motion = from.Inverse() * to;
   return motion.translation.norm() + kLever_m * LogSo3(motion.rotation).norm() >
@@ -41,11 +46,12 @@ bool HasMoved(const Pose& from, const Pose& to) {
 }  // namespace
 
 NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
-    : options_(options), workers_(num_threads), map_(options, static_cast<int>(kNumFinerLevels)) {}
+    : options_(options), workers_(num_threads), map_(MakeMap(options)) {}
 
 void NdtMatcher::Clear() {
-  map_ = MultiResolutionMap(options_, static_cast<int>(kNumFinerLevels));
+  map_ = MakeMap(options_);
   width_ = {};
+  support_ = {};
   inserted_at_.reset();
 }
 
@@ -149,9 +155,9 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
 }
 
 MultiResolutionMap::Levels NdtMatcher::LevelsInUse() const {
-  const std::size_t coarsest = map_.num_levels() - 1;
-  return width_.is_narrow() ? MultiResolutionMap::Levels{0, coarsest - kNumFinerLevels}
-                            : MultiResolutionMap::Levels{kNumFinerLevels, coarsest};
+  const std::size_t coarsest = CoarsestOfOptions();
+  if (width_.is_narrow()) return {0, coarsest - kNumFinerLevels};
+  return {kNumFinerLevels, support_.is_sparse() ? map_.num_levels() - 1 : coarsest};
 }
 
 MultiResolutionMap::Levels NdtMatcher::LevelsFor(const MatchInput& input, double radius_m) const {
@@ -266,6 +272,7 @@ MatchSums NdtMatcher::SumsAt(const MatchInput& input, const Pose& T_grid_imu,
 double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   scores_.resize(input.points_imu.size());
   const MatchSums sums = SumsAt(input, T_grid_imu, scores_);
+  if (!input.is_far_off) support_.Add(ShareOnSurfaces());
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   CountSupport(result);
   result.new_content_share = NewContentShare();
@@ -291,9 +298,13 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   MatchResult result;
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
-  counted_at_.reset();
   width_.Add(input.points_imu, options_.voxel_m);
   const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
+  if (support_.is_unknown()) {
+    Associate(input, T_grid_guess, 0.0);
+    support_.Add(ShareOnSurfaces());
+  }
+  counted_at_.reset();
   BentScan scan(input);
   const auto scan_at = [&](const Pose& pose) -> const MatchInput& {
     return scan.At(T_grid_guess.Inverse() * pose);

@@ -93,4 +93,11 @@ void NdtMatcher::CountSupport(MatchResult& result) const {
   result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
 }
 
+double NdtMatcher::ShareOnSurfaces() const {
+  const auto num = std::ranges::count_if(pairs_, [&](const Pair& pair) {
+    return pair.cell != GaussianMap::kNoCell && map_.LevelOf(pair.cell) <= CoarsestOfOptions();
+  });
+  return pairs_.empty() ? 1.0 : static_cast<double>(num) / static_cast<double>(pairs_.size());
+}
+
 }  // namespace lio

@@ -137,7 +137,7 @@ TEST_F(RunWriterTest, ARowSaysHowManyMatchesItTookAndAtWhichLevels) {
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0],
               HasSubstr(",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
-                        "matched_level_3,matched_level_4,matches,coarse_matches,decode_ms,"));
+                        "matched_level_3,matched_level_4,matched_level_5,matches,coarse_matches,decode_ms,"));
   EXPECT_THAT(rows[1], HasSubstr(",0,700,30,5,2,3,13,0.000000,"));
 }
 

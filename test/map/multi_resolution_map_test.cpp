@@ -119,6 +119,30 @@ TEST(MultiResolutionMap, FindingAllIsFindingEach) {
   }
 }
 
+TEST(MultiResolutionMap, APostCountsAtTheCoarsestOfTheLevels) {
+  NdtOptions options = TwoLevels();
+  options.num_levels = 1;
+  MultiResolutionMap map(options, 0, 1);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> up(0.05, 0.95);
+  std::normal_distribution<double> across(0.5, 0.03);
+  std::vector<Vector3> post;
+  for (int i = 0; i < 60; ++i) {
+    const double x = across(random);
+    const double y = across(random);
+    post.emplace_back(x, y, up(random));
+  }
+  map.SetUp(Vector3::UnitZ());
+  map.Insert(post, kSensor);
+  const Vector3 point(0.5, 0.5, 0.5);
+  GaussianMap::Hit hit;
+  map.FindAll({&point, 1}, {0, 0}, {&hit, 1});
+  ASSERT_NE(hit.cell, MultiResolutionMap::kNoCell);
+  EXPECT_EQ(map.LevelOf(hit.cell), 0u);
+  map.FindAll({&point, 1}, {0, 1}, {&hit, 1});
+  EXPECT_TRUE(hit.cell == MultiResolutionMap::kNoCell || map.LevelOf(hit.cell) == 1u);
+}
+
 TEST(MultiResolutionMap, AGuessThatIsFarOffTakesLargeCells) {
   const MultiResolutionMap map(TwoLevels());
   EXPECT_EQ(map.LevelFor(0.0), 0u);

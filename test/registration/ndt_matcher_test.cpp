@@ -65,8 +65,6 @@ test::Scene Closet() {
            {Vector3(0, -1.3, 0), Vector3(1.8, 0.1, 3), 0.0}}};
 }
 
-// Levels are counted by the size of their cells, 0.25, 0.5 and 1 m, of which the last two are in
-// use where the place is wide.
 TEST(NdtMatcher, PointsOnWhatStandsAreCountedApartFromTheRoads) {
   NdtMatcherIn street(test::Street());
   street.matcher().SetUp(Vector3::UnitZ());
@@ -83,6 +81,8 @@ TEST(NdtMatcher, PointsOnWhatStandsAreCountedApartFromTheRoads) {
   EXPECT_LT(5 * result.upright.all.num_in_map, 4 * result.num_in_map);
 }
 
+// Levels are counted by the size of their cells, 0.25, 0.5, 1 and 2 m, of which the second and the
+// third are in use where the place is wide.
 TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {
   NdtMatcherIn street(test::Street());
   street.InsertRoad(0.0, 20.0);
@@ -94,6 +94,24 @@ TEST(NdtMatcher, InAStreetPointsAreMatchedInCellsOfHalfAndOfOneMetre) {
   EXPECT_GT(counts[2], 100);
   EXPECT_EQ(counts[1] + counts[2], result.num_matched);
   EXPECT_EQ(result.by_level.num_in_finest, counts[1]);
+}
+
+// Every eighth point of two scans leaves most cells without a surface: those of 2 m help.
+TEST(NdtMatcher, WhereFewPointsLieOnSurfacesCellsOfTwoMetresHelp) {
+  NdtMatcherIn street(test::Street());
+  const auto thinned = [&](double x_m) {
+    const Points all = street.See(OnRoad(x_m));
+    Points few;
+    for (std::size_t i = 0; i < all.size(); i += 8) few.push_back(all[i]);
+    return few;
+  };
+  for (const double x_m : {10.0, 12.0}) street.Insert(thinned(x_m), OnRoad(x_m));
+  const MatchResult result = street.Match(thinned(11.4), OnRoad(11.4), 0.02);
+  ASSERT_TRUE(result.IsUsable());
+  const LevelCounts& counts = result.by_level.counts;
+  EXPECT_GT(counts[3], counts[1] + counts[2]);
+  EXPECT_EQ(counts[1] + counts[2] + counts[3], result.num_matched);
+  EXPECT_LT(ErrorOf(result, OnRoad(11.4)).head<3>().norm(), 0.1);
 }
 
 TEST(NdtMatcher, InANarrowPlacePointsAreMatchedInCellsOfAQuarterAndOfHalfAMetre) {

@@ -114,6 +114,17 @@ struct PlaceWidthParameters {
   static constexpr std::size_t kMaxCounted = 500;
 };
 
+// Tells when a map of small cells has too few surfaces for a scan (sparse_support.hpp).
+struct SparseSupportParameters {
+  // The support becomes sparse where the mean scan has a smaller share of its points on surfaces
+  // than the first, and dense again where it has more than the second. Measured:
+  // docs/experiments/large_cells.md.
+  static constexpr double kSparseBelow = 0.2;
+  static constexpr double kDenseAbove = 0.3;
+  // A new scan has this share in the mean. Chosen as for PlaceWidthParameters.
+  static constexpr double kRate = 0.1;
+};
+
 // Tells the two sheets of slabs and walls apart in a cloud without viewpoints.
 struct SurfaceSidesParameters {
   // Neighbours of a point count up to there [m]. Chosen: floors of buildings are 0.2 to 0.4 m

@@ -28,12 +28,14 @@ class MultiResolutionMap {
     std::size_t coarsest = 0;
   };
 
-  // Has the options' levels and so many finer ones. Throws std::invalid_argument when an option is
-  // out of its range.
-  explicit MultiResolutionMap(const NdtOptions& options, int num_finer = 0);
+  // Has the options' levels and so many finer and coarser ones. Throws std::invalid_argument when
+  // an option is out of its range.
+  explicit MultiResolutionMap(const NdtOptions& options, int num_finer = 0, int num_coarser = 0);
 
   // hits[i] is that of points_map[i] in the finest cell that shows a surface, among the levels;
-  // kNoCell where none does. Cells are numbered across all levels.
+  // kNoCell where none does. Vertical structures count at the coarsest of the levels alone: a part
+  // of a wall that a small cell's side cuts off is as narrow and tall. Cells are numbered across
+  // all levels.
   void FindAll(std::span<const Vector3> points_map, const Levels& levels,
                std::span<GaussianMap::Hit> hits) const;
   const SurfacePatch& patch(std::int32_t cell) const {
@@ -75,9 +77,14 @@ class MultiResolutionMap {
 
  private:
   struct Search;
-  void FindIn(std::size_t level, Search& search, std::span<GaussianMap::Hit> hits) const;
-  [[nodiscard]] bool ShowsSurface(std::size_t level, std::int32_t in_level) const {
-    return in_level != kNoCell && levels_[level].patch(in_level).thickness_var > 0.f;
+  void FindIn(std::size_t level, bool is_coarsest, Search& search,
+              std::span<GaussianMap::Hit> hits) const;
+  [[nodiscard]] bool ShowsSurface(std::size_t level, bool is_coarsest,
+                                  std::int32_t in_level) const {
+    if (in_level == kNoCell) return false;
+    const SurfacePatch& patch = levels_[level].patch(in_level);
+    return patch.thickness_var > 0.f &&
+           (is_coarsest || patch.kind != SurfacePatch::Kind::kVertical);
   }
   [[nodiscard]] std::int32_t Number(std::size_t level, std::int32_t in_level) const {
     return in_level * static_cast<std::int32_t>(levels_.size()) + static_cast<std::int32_t>(level);

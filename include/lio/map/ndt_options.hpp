@@ -15,6 +15,10 @@ inline constexpr std::size_t kMaxMapLevels = 4;
 // docs/experiments/narrow_places.md.
 inline constexpr std::size_t kNumFinerLevels = 1;
 
+// ... and so many more, of larger cells, for scans that find few surfaces in the others. Measured:
+// docs/experiments/large_cells.md.
+inline constexpr std::size_t kNumCoarserLevels = 1;
+
 struct NdtOptions {
   // The largest cells have this edge; larger ones catch from farther, smaller ones hold two
   // surfaces less often. Chosen with num_levels: docs/experiments/narrow_places.md.

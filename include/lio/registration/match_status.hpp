@@ -20,7 +20,7 @@ enum class MatchStatus : std::int8_t {
 };
 
 // Counts for each level of NdtMatcher's map, finest first, whichever are in use: cells of level i
-// have an edge of voxel_m / 2^(num_levels - i), by default 0.25, 0.5 and 1 m.
-using LevelCounts = std::array<int, kMaxMapLevels + kNumFinerLevels>;
+// have an edge of voxel_m / 2^(num_levels - i), by default 0.25, 0.5, 1 and 2 m.
+using LevelCounts = std::array<int, kMaxMapLevels + kNumFinerLevels + kNumCoarserLevels>;
 
 }  // namespace lio
