@@ -13,10 +13,10 @@ namespace lio {
 namespace {
 
 // Cells of half the size are four times as many on the same surfaces.
-int ShareOfCells(int level, const NdtOptions& options) {
+int ShareOfCells(int level, int num_levels, int max_cells) {
   double sum = 0.0;
-  for (int i = 0; i < options.num_levels; ++i) sum += std::ldexp(1.0, -2 * i);
-  return std::max(1, static_cast<int>(options.max_cells * std::ldexp(1.0, -2 * level) / sum));
+  for (int i = 0; i < num_levels; ++i) sum += std::ldexp(1.0, -2 * i);
+  return std::max(1, static_cast<int>(max_cells * std::ldexp(1.0, -2 * level) / sum));
 }
 
 }  // namespace
@@ -29,7 +29,8 @@ MultiResolutionMap::MultiResolutionMap(const NdtOptions& options, int num_finer,
   for (int level = 0; level <= coarsest_option + num_coarser; ++level) {
     NdtOptions at_level = options;
     at_level.voxel_m = std::ldexp(options.voxel_m, level - coarsest_option);
-    at_level.max_cells = ShareOfCells(std::max(0, level - num_finer), options);
+    at_level.max_cells = ShareOfCells(std::max(0, level - num_finer),
+                                      options.num_levels + num_coarser, options.max_cells);
     const bool is_fine = level < coarsest_option;
     if (is_fine) {
       at_level.max_distance_m = std::min(

@@ -162,7 +162,7 @@ MultiResolutionMap::Levels NdtMatcher::LevelsInUse() const {
 
 MultiResolutionMap::Levels NdtMatcher::LevelsFor(const MatchInput& input, double radius_m) const {
   const auto [finest, coarsest] = LevelsInUse();
-  if (input.is_far_off) return {coarsest, coarsest};
+  if (input.is_far_off) return {std::min(CoarsestOfOptions(), coarsest), coarsest};
   return {std::clamp(map_.LevelFor(radius_m), finest, coarsest), coarsest};
 }
 
