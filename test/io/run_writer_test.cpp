@@ -131,14 +131,16 @@ TEST_F(RunWriterTest, ARowSaysHowManyMatchesItTookAndAtWhichLevels) {
   ScanOutput scan = Scan(kRowStamp);
   scan.scan.num_matches = 3;
   scan.scan.num_coarse_matches = 13;
-  scan.scan.num_matched_at = {0, 700, 30, 5, 2};
+  scan.scan.num_matched_at = {0, 700, 30, 5, 2, 1};
   WriteRun(scan);
   const auto rows = LinesOfFile(out_ / "registration.csv");
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_THAT(rows[0],
-              HasSubstr(",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
-                        "matched_level_3,matched_level_4,matched_level_5,matches,coarse_matches,decode_ms,"));
-  EXPECT_THAT(rows[1], HasSubstr(",0,700,30,5,2,3,13,0.000000,"));
+  EXPECT_THAT(
+      rows[0],
+      HasSubstr(
+          ",information_eigenvalue_5,matched_level_0,matched_level_1,matched_level_2,"
+          "matched_level_3,matched_level_4,matched_level_5,matches,coarse_matches,decode_ms,"));
+  EXPECT_THAT(rows[1], HasSubstr(",0,700,30,5,2,1,3,13,0.000000,"));
 }
 
 TEST_F(RunWriterTest, RowsThatAreNotLaterAreCountedNotWritten) {
