@@ -76,9 +76,9 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     std::int32_t count_number = 0;
   };
 
-  // The map has kNumFinerLevels and kNumCoarserLevels more than the options say. Where the place is
-  // wide, those of the options are in use, and the coarser ones if the support is sparse; where it
-  // is narrow, the finer ones take the place of the coarsest.
+  // The map has kNumFinerLevels and kNumCoarserLevels more than the options say. Those of the
+  // options are in use in wide places, and the coarser ones besides while the support is sparse; in
+  // narrow places the finer ones take the place of the coarsest.
   [[nodiscard]] MultiResolutionMap::Levels LevelsInUse() const;
   [[nodiscard]] std::size_t CoarsestOfOptions() const {
     return map_.num_levels() - 1 - kNumCoarserLevels;
