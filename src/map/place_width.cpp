@@ -24,12 +24,8 @@ double NumCells(std::span<const Eigen::Vector3f> points, double edge_m) {
 
 void PlaceWidth::Add(std::span<const Eigen::Vector3f> points_imu, double edge_m) {
   if (points_imu.size() < PlaceWidthParameters::kMaxCounted) return;
-  const double num_cells = NumCells(points_imu, edge_m);
-  mean_cells_ = mean_cells_
-                    ? *mean_cells_ + PlaceWidthParameters::kRate * (num_cells - *mean_cells_)
-                    : num_cells;
-  if (*mean_cells_ < PlaceWidthParameters::kNarrowBelow) is_narrow_ = true;
-  if (*mean_cells_ > PlaceWidthParameters::kWideAbove) is_narrow_ = false;
+  mean_cells_.Add(NumCells(points_imu, edge_m), PlaceWidthParameters::kNarrowBelow,
+                  PlaceWidthParameters::kWideAbove);
 }
 
 }  // namespace lio

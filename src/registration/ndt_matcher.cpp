@@ -51,7 +51,7 @@ NdtMatcher::NdtMatcher(const NdtOptions& options, int num_threads)
 void NdtMatcher::Clear() {
   map_ = MakeMap(options_);
   width_ = {};
-  support_ = {};
+  share_on_surfaces_ = {};
   inserted_at_.reset();
 }
 
@@ -157,7 +157,7 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
 MultiResolutionMap::Levels NdtMatcher::LevelsInUse() const {
   const std::size_t coarsest = CoarsestOfOptions();
   if (width_.is_narrow()) return {0, coarsest - kNumFinerLevels};
-  return {kNumFinerLevels, support_.is_sparse() ? map_.num_levels() - 1 : coarsest};
+  return {kNumFinerLevels, share_on_surfaces_.is_low() ? map_.num_levels() - 1 : coarsest};
 }
 
 MultiResolutionMap::Levels NdtMatcher::LevelsFor(const MatchInput& input, double radius_m) const {
@@ -272,7 +272,7 @@ MatchSums NdtMatcher::SumsAt(const MatchInput& input, const Pose& T_grid_imu,
 double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, MatchResult& result) {
   scores_.resize(input.points_imu.size());
   const MatchSums sums = SumsAt(input, T_grid_imu, scores_);
-  if (!input.is_far_off) support_.Add(ShareOnSurfaces());
+  if (!input.is_far_off) AddShareOnSurfaces();
   result.T_map_imu = GridFromMap().Inverse() * T_grid_imu;
   CountSupport(result);
   result.new_content_share = NewContentShare();
@@ -300,9 +300,9 @@ MatchResult NdtMatcher::Match(const MatchInput& input) {
   if (map_.num_cells() == 0) return result;
   width_.Add(input.points_imu, options_.voxel_m);
   const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
-  if (support_.is_unknown()) {
+  if (share_on_surfaces_.is_unknown()) {
     Associate(input, T_grid_guess, 0.0);
-    support_.Add(ShareOnSurfaces());
+    AddShareOnSurfaces();
   }
   counted_at_.reset();
   BentScan scan(input);

@@ -4,6 +4,7 @@
 // shares of new and of last content, the error of the turn rate, and the support by kind.
 #include <algorithm>
 
+#include "lio/map/map_parameters.hpp"
 #include "lio/registration/ndt_matcher.hpp"
 #include "lio/registration/registration_parameters.hpp"
 
@@ -93,11 +94,14 @@ void NdtMatcher::CountSupport(MatchResult& result) const {
   result.by_level.num_in_finest = result.by_level.counts[LevelsInUse().finest];
 }
 
-double NdtMatcher::ShareOnSurfaces() const {
+void NdtMatcher::AddShareOnSurfaces() {
+  if (pairs_.empty()) return;
   const auto num = std::ranges::count_if(pairs_, [&](const Pair& pair) {
     return pair.cell != GaussianMap::kNoCell && map_.LevelOf(pair.cell) <= CoarsestOfOptions();
   });
-  return pairs_.empty() ? 1.0 : static_cast<double>(num) / static_cast<double>(pairs_.size());
+  share_on_surfaces_.Add(static_cast<double>(num) / static_cast<double>(pairs_.size()),
+                         SparseSupportParameters::kSparseBelow,
+                         SparseSupportParameters::kDenseAbove);
 }
 
 }  // namespace lio

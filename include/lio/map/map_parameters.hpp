@@ -99,6 +99,12 @@ struct GrazingIncidenceParameters {
   static constexpr float kMinSine = 0.06f;
 };
 
+// Tells how fast the mean over scans follows (low_mean.hpp).
+struct LowMeanParameters {
+  // A new scan has this share in the mean. Chosen: ten scans; views change within a second.
+  static constexpr double kRate = 0.1;
+};
+
 // Tells when a place is narrow (place_width.hpp).
 struct PlaceWidthParameters {
   // A place becomes narrow where the mean scan lies in fewer of the map's largest cells than the
@@ -107,22 +113,19 @@ struct PlaceWidthParameters {
   // street in 1400 (docs/experiments/narrow_views.md).
   static constexpr double kNarrowBelow = 150.0;
   static constexpr double kWideAbove = 220.0;
-  // A new scan has this share in the mean. Chosen: ten scans; views change within a second.
-  static constexpr double kRate = 0.1;
   // More cells than this count as so many, and scans of fewer points tell nothing. Chosen: it is
   // far above both limits, and counting costs little in a wide place.
   static constexpr std::size_t kMaxCounted = 500;
 };
 
-// Tells when a map of small cells has too few surfaces for a scan (sparse_support.hpp).
+// Tells when a map of small cells has too few surfaces for a scan: beams that are far apart leave
+// most small cells with a single ring, which shows none, so that larger cells must help.
 struct SparseSupportParameters {
   // The support becomes sparse where the mean scan has a smaller share of its points on surfaces
   // than the first, and dense again where it has more than the second. Measured:
   // docs/experiments/large_cells.md.
   static constexpr double kSparseBelow = 0.2;
   static constexpr double kDenseAbove = 0.3;
-  // A new scan has this share in the mean. Chosen as for PlaceWidthParameters.
-  static constexpr double kRate = 0.1;
 };
 
 // Tells the two sheets of slabs and walls apart in a cloud without viewpoints.

@@ -4,10 +4,10 @@
 // the pose? A lidar that looks at a wall from a metre sees some square metres of it.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "lio/base/rotation.hpp"
+#include "lio/map/low_mean.hpp"
 
 namespace lio {
 
@@ -17,12 +17,11 @@ class PlaceWidth {
   // nothing: many points in few cells make a place narrow.
   void Add(std::span<const Eigen::Vector3f> points_imu, double edge_m);
   // Nothing was added yet.
-  [[nodiscard]] bool is_unknown() const { return !mean_cells_; }
-  [[nodiscard]] bool is_narrow() const { return is_narrow_; }
+  [[nodiscard]] bool is_unknown() const { return mean_cells_.is_unknown(); }
+  [[nodiscard]] bool is_narrow() const { return mean_cells_.is_low(); }
 
  private:
-  std::optional<double> mean_cells_;  // an exponential mean over scans
-  bool is_narrow_ = false;
+  LowMean mean_cells_;
 };
 
 }  // namespace lio

@@ -26,10 +26,10 @@
 #include <optional>
 
 #include "lio/base/parallel.hpp"
+#include "lio/map/low_mean.hpp"
 #include "lio/map/multi_resolution_map.hpp"
 #include "lio/map/ndt_options.hpp"
 #include "lio/map/place_width.hpp"
-#include "lio/map/sparse_support.hpp"
 #include "lio/registration/intra_sweep_rate_estimator.hpp"
 #include "lio/registration/match_diagnostics.hpp"
 #include "lio/registration/match_summary.hpp"
@@ -83,8 +83,8 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   [[nodiscard]] std::size_t CoarsestOfOptions() const {
     return map_.num_levels() - 1 - kNumCoarserLevels;
   }
-  // Returns the share of points that have a surface among the levels of the options.
-  [[nodiscard]] double ShareOnSurfaces() const;
+  // Adds the share of points that have a surface among the levels of the options.
+  void AddShareOnSurfaces();
   // Returns the levels for a correspondence radius. A guess that may be far off is followed by
   // large cells to the end: small ones hold points that are half a cell off elsewhere, and a place
   // is then not found again.
@@ -132,7 +132,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MultiResolutionMap map_;
   Vector3 up_grid_ = Vector3::Zero();  // not known yet: everything stands
   PlaceWidth width_;
-  SparseSupport support_;
+  LowMean share_on_surfaces_;
   std::optional<Vector3> inserted_at_;   // the last scan's place in the map
   float path_m_ = 0.f;                   // the way over all scans that were inserted
   std::vector<Pair> pairs_;              // in the current iteration, one a point
