@@ -80,8 +80,7 @@ bool GaussianMap::HasShifted(const LevelSpread& spread, const Sums& sums) {
   const double num_last = sums.num_points - sums.num_before;
   if (sums.is_kept || num_before <= 0.0 || num_last <= 0.0) return false;
   const Vector3 mean_shift = sums.mean - sums.mean_before.cast<double>();
-  const Eigen::Array2d shift =
-      spread.axes.transpose() * mean_shift * (sums.num_points / num_last);
+  const Eigen::Array2d shift = spread.axes.transpose() * mean_shift * (sums.num_points / num_last);
   constexpr double kSigmas = GaussianMapParameters::kShift_sigmas;
   constexpr double kShift_m = GaussianMapParameters::kMaxShift_m;
   const Eigen::Array2d noise_var = spread.variance.array() * (1.0 / num_before + 1.0 / num_last);

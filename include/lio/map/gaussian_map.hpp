@@ -109,9 +109,9 @@ class GaussianMap {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
-    std::int32_t fitted_at = 0;      // num_points when the patch was last computed
-    std::uint32_t touched = 0;       // number of the last scan that added to it
-    std::int32_t num_before = 0;     // points before that scan, and their mean
+    std::int32_t fitted_at = 0;   // num_points when the patch was last computed
+    std::uint32_t touched = 0;    // number of the last scan that added to it
+    std::int32_t num_before = 0;  // points before that scan, and their mean
     Eigen::Vector3f mean_before = Eigen::Vector3f::Zero();
     std::uint32_t listed = 0;        // ... when the cell was put last in the order of age
     std::uint32_t passed_since = 0;  // `touched` when rays began to pass through
@@ -150,7 +150,7 @@ class GaussianMap {
   bool FitVertical(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   struct LevelSpread {
     Eigen::Matrix<double, 3, 2> axes;  // level, orthonormal
-    Eigen::Vector2d variance;          // of the points along them, ascending [m^2]
+    Eigen::Vector2d variance;          // the points' along them, ascending [m^2]
   };
   [[nodiscard]] LevelSpread LevelSpreadOf(const Matrix3& cov) const;
   [[nodiscard]] static bool HasShifted(const LevelSpread& spread, const Sums& sums);
