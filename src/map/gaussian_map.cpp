@@ -193,6 +193,7 @@ void GaussianMap::AddPoints(const ViewOf& view_of, const SeenBeams& beams) {
       if (sums.touched == 0) sums.listed = scan_number_;
       sums.touched = scan_number_;
       sums.num_before = sums.num_points;
+      sums.mean_before = sums.mean.cast<float>();
       if (!is_frozen) touched_cells_.push_back(cell);
     }
     if (is_frozen) continue;

@@ -23,7 +23,7 @@ void GaussianMap::UpdatePatch(std::int32_t cell) {
   Matrix3 cov;
   cov << sums.xx, sums.xy, sums.xz, sums.xy, sums.yy, sums.yz, sums.xz, sums.yz, sums.zz;
   cov /= sums.num_points - 1;
-  sums.is_known = FitPlane(cov, sums, patch) || (finds_vertical_ && FitVertical(cov, patch));
+  sums.is_known = FitPlane(cov, sums, patch) || (finds_vertical_ && FitVertical(cov, sums, patch));
   if (!sums.is_known) patch.thickness_var = 0.f;
 }
 
@@ -74,31 +74,65 @@ bool GaussianMap::FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& p
   return true;
 }
 
-// A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
+// Tells whether the last scan's points lie farther off those before it than noise explains.
+bool GaussianMap::HasShifted(const LevelSpread& spread, const Sums& sums) {
+  const double num_before = sums.num_before;
+  const double num_last = sums.num_points - sums.num_before;
+  if (sums.is_kept || num_before <= 0.0 || num_last <= 0.0) return false;
+  const Vector3 mean_shift = sums.mean - sums.mean_before.cast<double>();
+  const Eigen::Array2d shift = spread.axes.transpose() * mean_shift * (sums.num_points / num_last);
+  constexpr double kSigmas = GaussianMapParameters::kShift_sigmas;
+  constexpr double kShift_m = GaussianMapParameters::kMaxShift_m;
+  const Eigen::Array2d noise_var = spread.variance.array() * (1.0 / num_before + 1.0 / num_last);
+  return (shift.square() > kSigmas * kSigmas * noise_var + kShift_m * kShift_m).any();
+}
+
+GaussianMap::LevelSpread GaussianMap::LevelSpreadOf(const Matrix3& cov) const {
+  const Vector3 level1 = up_map_.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> level;
+  level << level1, up_map_.cross(level1);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(level.transpose() * cov * level);
+  return {level * eigen.eigenvectors(), eigen.eigenvalues()};
+}
+
 // It must be narrow: one that fills the cell is cut off by the cell's sides. And it must be
-// slender, which grass, leaves and clutter are not.
-bool GaussianMap::FitVertical(const Matrix3& cov, SurfacePatch& patch) const {
+// slender.
+bool GaussianMap::IsPost(const LevelSpread& spread, double height_var) const {
+  const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
+  constexpr double kMinSlenderness = GaussianMapParameters::kMinVerticalSlenderness;
+  const double width_var = spread.variance[1];
+  return width_var <= max_width * max_width &&
+         width_var * kMinSlenderness * kMinSlenderness <= height_var;
+}
+
+// Points that fill the cell evenly stay where they are when the clump moves, and tell nothing: the
+// variance grows beyond bounds as they come near to that.
+std::optional<Eigen::Vector2d> GaussianMap::ClumpVariance(const LevelSpread& spread,
+                                                          int num_points) const {
+  const double even_var = options_.voxel_m * options_.voxel_m / 12.0;
+  if (num_points < GaussianMapParameters::kMinClumpPoints || spread.variance[1] >= even_var)
+    return std::nullopt;
+  return spread.variance.array() / (1.0 - spread.variance.array() / even_var);
+}
+
+// A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
+// It holds still: what each scan sees farther on is a thing that moves.
+bool GaussianMap::FitVertical(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {
   const double min_height = GaussianMapParameters::kMinHeightPerVoxel * options_.voxel_m;
   const double height_var = up_map_.dot(cov * up_map_);
   if (height_var < min_height * min_height) return false;
-  const Vector3 level1 = up_map_.unitOrthogonal();
-  const Vector3 level2 = up_map_.cross(level1);
-  Eigen::Matrix<double, 3, 2> level;
-  level << level1, level2;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-  eigen.computeDirect(level.transpose() * cov * level);
-  const double max_width = GaussianMapParameters::kMaxVerticalWidthPerVoxel * options_.voxel_m;
-  constexpr double kMinSlenderness = GaussianMapParameters::kMinVerticalSlenderness;
-  const double width_var = eigen.eigenvalues()[1];
-  if (width_var > max_width * max_width) return false;
-  if (width_var * kMinSlenderness * kMinSlenderness > height_var) return false;
-  const Eigen::Vector2d variance = eigen.eigenvalues().cwiseMax(
-      GaussianMapParameters::kMinVerticalStd_m * GaussianMapParameters::kMinVerticalStd_m);
-  const Eigen::Matrix<double, 3, 2> axes = level * eigen.eigenvectors();
+  const LevelSpread spread = LevelSpreadOf(cov);
+  if (HasShifted(spread, sums)) return false;
+  std::optional<Eigen::Vector2d> variance = spread.variance;
+  if (!IsPost(spread, height_var)) variance = ClumpVariance(spread, sums.num_points);
+  if (!variance) return false;
+  *variance = variance->cwiseMax(GaussianMapParameters::kMinVerticalStd_m *
+                                 GaussianMapParameters::kMinVerticalStd_m);
   patch.kind = SurfacePatch::Kind::kVertical;
-  patch.thickness_var = static_cast<float>(variance[0]);
-  patch.normal = axes.col(0).cast<float>();
-  patch.tangent1_per_std = (axes.col(1) / std::sqrt(variance[1])).cast<float>();
+  patch.thickness_var = static_cast<float>((*variance)[0]);
+  patch.normal = spread.axes.col(0).cast<float>();
+  patch.tangent1_per_std = (spread.axes.col(1) / std::sqrt((*variance)[1])).cast<float>();
   patch.tangent2_per_std.setZero();
   return true;
 }

@@ -131,7 +131,6 @@ bool NdtMatcher::InsertKept(std::span<const Eigen::Vector3f> points_map) {
 
 void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, double radius_m) {
   const std::span<const Eigen::Vector3f> points = input.points_imu;
-  const bool with_vertical = !IsTranslationWellConstrained(input);
   const MultiResolutionMap::Levels levels = LevelsFor(input, radius_m);
   const float relief = input.calibration == nullptr ? 0.f : input.calibration->relief();
   pairs_.resize(points.size());
@@ -148,7 +147,7 @@ void NdtMatcher::Associate(const MatchInput& input, const Pose& T_grid_imu, doub
     map_.FindAll({points_grid.data(), count}, levels, hits);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f view = (points_grid[i] - sensor_grid).cast<float>();
-      pairs_[block.begin + i] = PairOf(hits[i], view, with_vertical, relief);
+      pairs_[block.begin + i] = PairOf(hits[i], view, relief);
     }
   });
   if (!counted_at_ || HasMoved(*counted_at_, T_grid_imu)) CountByCell();
@@ -179,11 +178,11 @@ void NdtMatcher::CountByCell() {
 }
 
 NdtMatcher::Pair NdtMatcher::PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view,
-                                    bool with_vertical, float relief) const {
+                                    float relief) const {
   if (hit.cell == GaussianMap::kNoCell) return {};
   const SurfacePatch& patch = map_.patch(hit.cell);
   if (patch.kind == SurfacePatch::Kind::kVertical) {
-    if (!with_vertical) return {};
+    if (!matches_vertical_) return {};
   } else if (!patch.is_two_sided && IsFromBehind(patch.normal, view)) {
     return {};
   }
@@ -256,7 +255,7 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
     const NdtRow& row = term.rows[i];
     const Vector6f jacobian = share * JacobianRow(point, to_imu * row.direction);
     if (patch.kind == SurfacePatch::Kind::kVertical)
-      sums.sure_information.Add(jacobian, row.weight);
+      sums.sure_information.Add(jacobian, row.sure_weight);
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
     if (score != nullptr) score->rows[i] = {gradient, jacobian, row.distance, row.weight};
   }
@@ -295,10 +294,20 @@ double NdtMatcher::Finish(const MatchInput& input, const Pose& T_grid_imu, Match
 }
 
 MatchResult NdtMatcher::Match(const MatchInput& input) {
+  if (map_.num_cells() > 0) width_.Add(input.points_imu, options_.voxel_m);
+  matches_vertical_ = !IsShiftKnownAsAtRest(input);
+  MatchResult result = MatchFromGuess(input);
+  if (matches_vertical_ && IsTranslationWellConstrained(input) && ContradictsGuess(result, input)) {
+    matches_vertical_ = false;
+    result = MatchFromGuess(input);
+  }
+  return result;
+}
+
+MatchResult NdtMatcher::MatchFromGuess(const MatchInput& input) {
   MatchResult result;
   result.T_map_imu = input.T_map_imu_guess;
   if (map_.num_cells() == 0) return result;
-  width_.Add(input.points_imu, options_.voxel_m);
   const Pose T_grid_guess = GridFromMap() * input.T_map_imu_guess;
   if (share_on_surfaces_.is_unknown()) {
     Associate(input, T_grid_guess, 0.0);

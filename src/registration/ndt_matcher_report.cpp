@@ -97,7 +97,8 @@ void NdtMatcher::CountSupport(MatchResult& result) const {
 void NdtMatcher::AddShareOnSurfaces() {
   if (pairs_.empty()) return;
   const auto num = std::ranges::count_if(pairs_, [&](const Pair& pair) {
-    return pair.cell != GaussianMap::kNoCell && map_.LevelOf(pair.cell) <= CoarsestOfOptions();
+    return pair.cell != GaussianMap::kNoCell && map_.LevelOf(pair.cell) <= CoarsestOfOptions() &&
+           map_.patch(pair.cell).kind == SurfacePatch::Kind::kPlane;
   });
   share_on_surfaces_.Add(static_cast<double>(num) / static_cast<double>(pairs_.size()),
                          SparseSupportParameters::kSparseBelow,

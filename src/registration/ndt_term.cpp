@@ -43,7 +43,12 @@ NdtTerm TermOfVertical(const SurfacePatch& patch, const Eigen::Vector3f& from_me
     term.distance_sq += row.distance * row.distance / variance[i];
   }
   term.kernel = RobustKernel(term.distance_sq);
-  for (std::size_t i = 0; i < 2; ++i) term.rows[i].weight = term.kernel.weight() / variance[i];
+  constexpr double kShared_m = NdtParameters::kSharedInWeightsStd_m;
+  constexpr auto kSharedVar_m2 = static_cast<float>(kShared_m * kShared_m);
+  for (std::size_t i = 0; i < 2; ++i) {
+    term.rows[i].weight = term.kernel.weight() / (variance[i] + num_here * kSharedVar_m2);
+    term.rows[i].sure_weight = term.kernel.weight() / variance[i];
+  }
   return term;
 }
 

@@ -15,6 +15,7 @@ struct NdtRow {
   Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // axes of the patch
   float distance = 0.f;                                 // m
   float weight = 0.f;                                   // 1 / m^2
+  float sure_weight = 0.f;  // a vertical structure's, without the error its points share [1 / m^2]
 };
 
 // Has one row for a plane, two for a vertical structure.

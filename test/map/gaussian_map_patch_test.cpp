@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "lio/map/gaussian_map.hpp"
@@ -129,17 +130,48 @@ TEST(GaussianMapPatch, VerticalGoesByTheGivenDirection) {
   EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f) << "lies on its side";
 }
 
-// Grass and leaves are as high as wide, and a clump of them lies where the beams happen to meet it.
-TEST(GaussianMapPatch, ClumpsHardlyHigherThanWideAreNoPosts) {
-  for (const double radius_m : {0.15, 0.26}) {  // the height's standard deviation is 0.26 m
+// Returns the standard deviation that a thing of this radius has in the map, over its points' own.
+double ClumpStdRatio(double radius_m) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 4, 1);
+  map.Insert(PostPoints(centre, radius_m, 0.0), Vector3::Zero());
+  const SurfacePatch& patch = PatchAt(map, centre);
+  EXPECT_EQ(patch.kind, SurfacePatch::Kind::kVertical);
+  return std::sqrt(static_cast<double>(patch.thickness_var)) / (radius_m / std::numbers::sqrt2);
+}
+
+// The wider a clump is, the more of a shift the cell's sides hide. The height's standard deviation
+// is 0.26 m, so that the first one is a post.
+TEST(GaussianMapPatch, ClumpsTellLessTheMoreOfTheCellTheyFill) {
+  EXPECT_NEAR(ClumpStdRatio(0.15), 1.0, 0.15);  // the draw of 60 points
+  EXPECT_NEAR(ClumpStdRatio(0.26), 1.0 / std::sqrt(1.0 - 12.0 * 0.26 * 0.26 / 2.0), 0.2);
+  EXPECT_GT(ClumpStdRatio(0.34), 1.35);
+}
+
+TEST(GaussianMapPatch, AClumpOfFewPointsDoesNotCount) {
+  const Vector3 centre = CentreOf(3, 4, 1);
+  const std::vector<Vector3> points = PostPoints(centre, 0.3, 0.0);
+  GaussianMap map(TestOptions());
+  std::vector<Vector3> some;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / 12) some.push_back(points[i]);
+  ASSERT_LT(static_cast<int>(some.size()), GaussianMapParameters::kMinClumpPoints);
+  map.Insert(some, Vector3::Zero());
+  EXPECT_EQ(PatchAt(map, centre).thickness_var, 0.f);
+}
+
+// A thing that walks fills the cell from one side; one that stands is seen where it was.
+TEST(GaussianMapPatch, AThingThatMovesIsNoVerticalStructure) {
+  for (const double step_m : {0.02, 0.2}) {
     GaussianMap map(TestOptions());
     const Vector3 centre = CentreOf(3, 4, 1);
-    map.Insert(PostPoints(centre, radius_m, 0.0), Vector3::Zero());
-    EXPECT_EQ(PatchAt(map, centre).thickness_var > 0.f, radius_m < 0.2) << radius_m;
+    for (const double x_m : {0.0, step_m}) {
+      map.Insert(PostPoints(centre + Vector3(x_m, 0.0, 0.0), 0.1, 0.0), Vector3::Zero());
+    }
+    EXPECT_EQ(PatchAt(map, centre).thickness_var > 0.f, step_m < 0.1) << step_m;
   }
 }
 
-// Points that fill the cell tell nothing of a place in it.
+// Points that fill the cell's middle and are cut off by its sides tell little of a place in it.
 TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   GaussianMap map(TestOptions());
   const Vector3 centre = CentreOf(0, 0, 0);
@@ -151,7 +183,8 @@ bool IsPlane(double noise_m, double range_std_m) {
   GaussianMap map(TestOptions());
   map.SetRangeStd(range_std_m);
   map.Insert(ThickPlane(CentreOf(0, 0, 0), noise_m), CentreOf(0, 0, 9));
-  return PatchAt(map, CentreOf(0, 0, 0)).thickness_var > 0.f;
+  const SurfacePatch& patch = PatchAt(map, CentreOf(0, 0, 0));
+  return patch.thickness_var > 0.f && patch.kind == SurfacePatch::Kind::kPlane;
 }
 
 TEST(GaussianMapPatch, PlanesOfANoisyLidarAreThick) {

@@ -62,6 +62,19 @@ TEST(NdtMatcher, PostsHoldAlongAnOpenRoadWhereTheShiftIsUnknown) {
   EXPECT_NE(result_with(0.0).degenerate_mask, 0u);
 }
 
+// All that stands went along with the vehicle, by 0.3 m, as cars do at a green light.
+TEST(NdtMatcher, ThingsThatContradictAKnownShiftAreLeftOut) {
+  const auto error_along_m = [](double shift_std_m) {
+    NdtMatcherIn road(test::RoadWithPosts());
+    road.shift_std_m = shift_std_m;
+    road.InsertRoad(0.0, 20.0);
+    const MatchResult result = road.MatchFrom(OnRoad(12.4), 0.3 * Vector6::Unit(0), 0.02);
+    return std::abs((OnRoad(12.4).Inverse() * result.T_map_imu).translation.x());
+  };
+  EXPECT_LT(error_along_m(1.0), 0.05);
+  EXPECT_NEAR(error_along_m(0.01), 0.3, 0.05);
+}
+
 TEST(NdtMatcher, CorridorHasOneDegenerateDirectionAlongItsAxis) {
   NdtMatcherIn corridor(test::Corridor());
   for (double x = 0.0; x <= 10.0; x += 1.0) corridor.InsertFrom({ExpSo3({0, 0, 0.3}), {x, 0, 0}});

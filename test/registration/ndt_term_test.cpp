@@ -78,8 +78,16 @@ TEST(NdtTerm, AVerticalStructureConstrainsTwoHorizontalDirections) {
 TEST(NdtTerm, APostsMeanHasAnErrorOfItsOwn) {
   const NdtTerm sure = MakeNdtTerm(Post(), {0, 0, 0}, 0.f, 0.f);
   const NdtTerm shared = MakeNdtTerm(Post(), {0, 0, 0}, 40.f, 0.f);  // as many as the map has
-  EXPECT_FLOAT_EQ(shared.rows[0].weight, 0.5f * sure.rows[0].weight);
-  EXPECT_FLOAT_EQ(shared.rows[1].weight, 0.5f * sure.rows[1].weight);
+  EXPECT_FLOAT_EQ(shared.rows[0].sure_weight, 0.5f * sure.rows[0].sure_weight);
+  EXPECT_FLOAT_EQ(shared.rows[1].sure_weight, 0.5f * sure.rows[1].sure_weight);
+}
+
+// Its points are seen from one side: however many they are, they tell no more than one does.
+TEST(NdtTerm, APostsPointsShareAnError) {
+  constexpr auto kShared_m = static_cast<float>(NdtParameters::kSharedInWeightsStd_m);
+  const NdtTerm term = MakeNdtTerm(Post(), {0, 0, 0}, 40.f, 0.f);
+  EXPECT_FLOAT_EQ(term.rows[0].weight, 1.f / (2.f * 0.0004f + 40.f * kShared_m * kShared_m));
+  EXPECT_FLOAT_EQ(term.rows[1].weight, 1.f / (2.f * 0.0025f + 40.f * kShared_m * kShared_m));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Holds a bounded map of surface patches, the normal-distributions transform of the scans: hashed
 // voxels, each with the running mean and covariance of the points that fell into it, and from them,
-// where they show one, a plane or a thin vertical structure: a pole, a trunk, a bush.
+// where they show one, a plane or a vertical structure: a post, a trunk, a clump of leaves.
 //
 // A cell whose points show neither is rank-deficient and does not count: cells filled from a
 // standing vehicle hold single scan rings, which look like lines and hold the vehicle back by
@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -108,9 +109,10 @@ class GaussianMap {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // sums over deviations from the mean
     Eigen::Vector3f view = Eigen::Vector3f::Zero();         // mean direction from the sensor
     std::int32_t num_points = 0;
-    std::int32_t fitted_at = 0;      // num_points when the patch was last computed
-    std::uint32_t touched = 0;       // number of the last scan that added to it
-    std::int32_t num_before = 0;     // points before that scan
+    std::int32_t fitted_at = 0;   // num_points when the patch was last computed
+    std::uint32_t touched = 0;    // number of the last scan that added to it
+    std::int32_t num_before = 0;  // points before that scan, and their mean
+    Eigen::Vector3f mean_before = Eigen::Vector3f::Zero();
     std::uint32_t listed = 0;        // ... when the cell was put last in the order of age
     std::uint32_t passed_since = 0;  // `touched` when rays began to pass through
     std::int32_t num_passed = 0;     // rays since then
@@ -145,7 +147,16 @@ class GaussianMap {
   bool FitPlane(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
   // `variance`: of the points across the plane.
   [[nodiscard]] Roughness RoughnessOf(double variance, float sine) const;
-  bool FitVertical(const Matrix3& cov, SurfacePatch& patch) const;
+  bool FitVertical(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const;
+  struct LevelSpread {
+    Eigen::Matrix<double, 3, 2> axes;  // level, orthonormal
+    Eigen::Vector2d variance;          // the points' along them, ascending [m^2]
+  };
+  [[nodiscard]] LevelSpread LevelSpreadOf(const Matrix3& cov) const;
+  [[nodiscard]] static bool HasShifted(const LevelSpread& spread, const Sums& sums);
+  [[nodiscard]] bool IsPost(const LevelSpread& spread, double height_var) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> ClumpVariance(const LevelSpread& spread,
+                                                             int num_points) const;
 
   NdtOptions options_;
   bool finds_vertical_;

@@ -9,8 +9,7 @@
 
 namespace lio {
 
-// A cell of GaussianMap counts as a plane or as a thin vertical structure only when its points
-// show one.
+// A cell of GaussianMap counts as a plane or as a vertical structure only when its points show one.
 struct GaussianMapParameters {
   // A plane's variance along its normal is at most this share of that along its narrower tangent.
   // Chosen: 3 cm of noise on the narrowest plane have 0.06, the crown of a bush 1.
@@ -31,16 +30,25 @@ struct GaussianMapParameters {
   // voxel's edge: half of an evenly filled cell's. It is used in
   // docs/experiments/vertical_structures.md; chosen.
   static constexpr double kMinHeightPerVoxel = 0.15;
-  // A vertical structure's larger horizontal standard deviation over the voxel's edge, at most: a
-  // wider one is cut off by the cell's sides. It is used in the same experiment; chosen.
+  // A post's larger horizontal standard deviation over the voxel's edge, at most: a wider one is
+  // cut off by the cell's sides. It is used in the same experiment; chosen.
   static constexpr double kMaxVerticalWidthPerVoxel = 0.2;
-  // A vertical structure's standard deviation along the vertical over its larger horizontal one, at
-  // least. A blob has 1, a post of 0.3 m that ends in a cell of 1 m 1.5. Measured, as are 2 and 1:
+  // A post's standard deviation along the vertical over its larger horizontal one, at least. A blob
+  // has 1, a post of 0.3 m that ends in a cell of 1 m 1.5. Measured, as are 2 and 1:
   // docs/experiments/vertical_structures.md.
   static constexpr double kMinVerticalSlenderness = 1.5;
   // A vertical structure's horizontal standard deviation counts as this at least [m]. Chosen: the
   // side from which a trunk is seen moves its mean by about that much.
   static constexpr double kMinVerticalStd_m = 0.06;
+  // A vertical structure that is no post is a clump of leaves if it has so many points. Measured
+  // against 8 and against no clumps: docs/experiments/vertical_structures.md.
+  static constexpr int kMinClumpPoints = 15;
+  // The points that the last scan brought lie this far [m] off those before at most, along any
+  // level direction, besides so many standard deviations of the two means' difference. Chosen: a
+  // thing looks different from each side by a few centimetres, and one that walks is 0.1 m farther
+  // on in the next scan; 99.7 % of a normal distribution.
+  static constexpr double kMaxShift_m = 0.1;
+  static constexpr double kShift_sigmas = 3.0;
   // A plane whose points lie across it within this standard deviation [m], besides the noise of
   // their ranges, is smooth. Chosen: poses and beams err by some millimetres; grass and clods have
   // 0.02 and more.

@@ -14,6 +14,13 @@
 // points of one cell share its errors (cluster_scores.hpp,
 // docs/experiments/covariance_of_a_match.md).
 //
+// A vertical structure has two such terms, along its two level axes, with its variances there in
+// place of s, and its points share an error that depends on the side from which they are seen:
+// m times a variance is added for it, and the covariance has it once a cell. Planes alone are
+// matched where the shift since the last scan is known as at rest, and where it is known to
+// centimetres and the match contradicts its guess: then the things that stand have moved, as cars
+// do that set off together with the vehicle.
+//
 // The map's voxel grid is rotated against the map's frame by a fixed odd rotation: a floor or a
 // wall that lay on a voxel face would be split between two cells by its noise. Sources: Biber,
 // Strasser, "The Normal Distributions Transform", IROS 2003; Magnusson, "The Three-Dimensional
@@ -53,6 +60,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   MapSize map_size() const override { return {map_.num_cells(), map_.memory_bytes()}; }
 
  private:
+  [[nodiscard]] MatchResult MatchFromGuess(const MatchInput& input);
   // Holds the patch that a point is matched to.
   struct Pair {
     std::int32_t cell = GaussianMap::kNoCell;             // kNoCell: none
@@ -83,7 +91,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   [[nodiscard]] std::size_t CoarsestOfOptions() const {
     return map_.num_levels() - 1 - kNumCoarserLevels;
   }
-  // Adds the share of points that have a surface among the levels of the options.
+  // Adds the share of points that have a plane among the levels of the options.
   void AddShareOnSurfaces();
   // Returns the levels for a correspondence radius. A guess that may be far off is followed by
   // large cells to the end: small ones hold points that are half a cell off elsewhere, and a place
@@ -102,8 +110,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
     return count.count_number == count_number_ ? count.num_points : 1;
   }
   // `view` points along the beam, in grid axes, with any length.
-  Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, bool with_vertical,
-              float relief) const;
+  Pair PairOf(const GaussianMap::Hit& hit, const Eigen::Vector3f& view, float relief) const;
   NdtTerm TermOf(const Pair& pair, float radius_var) const;
   MatchSums Linearize(const MatchInput& input, const Pose& T_grid_imu, float radius_var,
                       std::span<PointScore> scores) const;
@@ -133,6 +140,7 @@ class NdtMatcher final : public ScanMatcher, public MatchDiagnostics {
   Vector3 up_grid_ = Vector3::Zero();  // not known yet: everything stands
   PlaceWidth width_;
   LowMean share_on_surfaces_;
+  bool matches_vertical_ = true;         // else planes alone
   std::optional<Vector3> inserted_at_;   // the last scan's place in the map
   float path_m_ = 0.f;                   // the way over all scans that were inserted
   std::vector<Pair> pairs_;              // in the current iteration, one a point

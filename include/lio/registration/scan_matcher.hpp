@@ -50,7 +50,7 @@ struct MatchInput {
   std::span<const Eigen::Vector3f> scan_points_imu = {};  // the whole scan, to fit normals in
   // The guessed translation since the last scan has this standard deviation. Things that look
   // different from each side (trunks, bushes) are left out where it is known better than they can
-  // tell.
+  // tell (WellConstrainedTranslationParameters).
   double shift_std_m = 1.0;
   // Each of points_imu has its time here; given only where the rate within the sweep is asked for.
   std::span<const float> from_mid_sweep_s = {};
@@ -90,8 +90,8 @@ struct Support {
 // Counts the points of surfaces that stand, by 45 deg or more.
 struct UprightSupport {
   Support all;
-  // Those of vertical structures that are no planes. A match leaves them out where the shift since
-  // the last scan is known to centimetres.
+  // Those of vertical structures that are no planes. A match may leave them out where the shift
+  // since the last scan is known to centimetres.
   Support structures;
 };
 
