@@ -110,6 +110,8 @@ class Tracking {
   // These are in tracking_imu.cpp.
   [[nodiscard]] bool has_followed() const { return followed_s_ >= kImuAgreement.min_followed_s; }
   [[nodiscard]] std::optional<ImuContradiction> CompareWithImu(const MatchedScan& scan);
+  void CountFollowed(bool is_contradicted, const ImuAgreement::Belief& belief, Timestamp from,
+                     Timestamp to);
   [[nodiscard]] std::optional<Transition> DoubtImu(const MatchedScan& scan);
   [[nodiscard]] Transition LeaveStuckImu(const StuckImuDetector::Stuck& stuck, Timestamp end) const;
   [[nodiscard]] Transition LeaveImu(const ImuContradiction& found, const MatchedScan& scan) const;

@@ -26,19 +26,28 @@ std::optional<ImuContradiction> Tracking::CompareWithImu(const MatchedScan& scan
   imu_agreement_.Add({scan.middle(), outcome.match.T_map_imu, outcome.match.cov},
                      context_.stream.imu(), belief);
   auto found = imu_agreement_.Find(belief);
-  if (outcome.match.HasSlid()) found.reset();
+  CountFollowed(found.has_value(), belief, last, scan.middle());
+  // A match that has slid is no witness against the samples.
+  if (!found || outcome.match.HasSlid()) return std::nullopt;
+  if (has_followed()) return found;
+  if (!has_jumped_ || !IsRigKnown()) return std::nullopt;
+  return imu_agreement_.FindAfterJump(belief);
+}
+
+// Counts the time for which the samples follow the scans, until it is long enough.
+void Tracking::CountFollowed(bool is_contradicted, const ImuAgreement::Belief& belief,
+                             Timestamp from, Timestamp to) {
   if (imu_agreement_.HasJumped(belief)) {
     has_jumped_ = has_jumped_ || has_followed();
     followed_s_ = 0.0;
   }
   if (has_followed()) {
     has_jumped_ = false;
-    return found;
+  } else if (is_contradicted) {
+    followed_s_ = 0.0;
+  } else if (imu_agreement_.HasMoved()) {
+    followed_s_ += SecondsBetween(from, to);
   }
-  const bool has_moved = imu_agreement_.HasMoved();
-  followed_s_ = found ? 0.0 : followed_s_ + (has_moved ? SecondsBetween(last, scan.middle()) : 0.0);
-  if (!found || !has_jumped_ || !IsRigKnown()) return std::nullopt;
-  return imu_agreement_.FindAfterJump(belief);
 }
 
 std::optional<Transition> Tracking::DoubtImu(const MatchedScan& scan) {

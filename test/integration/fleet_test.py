@@ -191,7 +191,7 @@ class Fleet(unittest.TestCase):
                         "     keep: logs}\n"
                         "  - {name: gone, sim: --scenario street --duration 3 --lidar vlp16}\n"
                         "configurations:\n"
-                        "  - {name: ndt}\n"
+                        "  - {name: ndt, words: --passes 1}\n"
                         "  - {name: late, program: lio-replay, words: --match-lag 9, drives: k*}\n")
         done = fleet(file, out)
         self.assertEqual(done.returncode, 0, done.stderr)
