@@ -168,6 +168,14 @@ void GaussianMap::Add(std::span<const Vector3> points_map, const ViewOf& view_of
   workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) UpdatePatch(touched_cells_[i]);
   });
+  if (!finds_vertical_) return;
+  workers.ForEachBlock(touched_cells_.size(), [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      SurfacePatch& patch = voxels_.Of<SurfacePatch>(touched_cells_[i]);
+      if (patch.kind != SurfacePatch::Kind::kVertical) continue;
+      patch.tangent2_per_std = WallNormalOf(touched_cells_[i]);
+    }
+  });
 }
 
 // Fetches the sums that AddPoints() will change.

@@ -116,6 +116,35 @@ std::optional<Eigen::Vector2d> GaussianMap::ClumpVariance(const LevelSpread& spr
   return spread.variance.array() / (1.0 - spread.variance.array() / even_var);
 }
 
+// Where a cell's side cuts off a part of a wall, or where few rings cross a wall, the points are as
+// narrow and tall as a post's; but beside the cell the wall goes on. Returns that wall's normal, or
+// zero.
+Eigen::Vector3f GaussianMap::WallNormalOf(std::int32_t cell) const {
+  const SurfacePatch& post = patch(cell);
+  if (post.thickness_var <= 0.f) return Eigen::Vector3f::Zero();
+  const Vector3 across = options_.voxel_m * post.normal.cast<double>();
+  const Vector3 along = options_.voxel_m * post.tangent1_per_std.normalized().cast<double>();
+  for (const Vector3& to_beside : {across, Vector3(-across), along, Vector3(-along)}) {
+    if (const auto normal = WallBeside(cell, to_beside)) return *normal;
+  }
+  return Eigen::Vector3f::Zero();
+}
+
+// Returns the normal of the plane beside the cell if it stands and the cell's points lie on it.
+std::optional<Eigen::Vector3f> GaussianMap::WallBeside(std::int32_t cell,
+                                                       const Vector3& to_beside) const {
+  const Vector3 mean = CentreOf(voxels_.key(cell)) + patch(cell).mean.cast<double>();
+  const Hit beside = Find(mean + to_beside);
+  if (beside.cell == kNoCell || beside.cell == cell) return std::nullopt;
+  const SurfacePatch& wall = patch(beside.cell);
+  if (wall.thickness_var <= 0.f || wall.kind != SurfacePatch::Kind::kPlane) return std::nullopt;
+  const float sine = std::abs(wall.normal.dot(up_map_.cast<float>()));
+  if (sine > GaussianMapParameters::kMaxWallSine) return std::nullopt;
+  const Eigen::Vector3f from_wall = beside.local - to_beside.cast<float>() - wall.mean;
+  const bool is_on = std::abs(wall.normal.dot(from_wall)) < GaussianMapParameters::kMaxOffWall_m;
+  return is_on ? std::optional(wall.normal) : std::nullopt;
+}
+
 // A vertical structure is seen in the same place from everywhere, as rings on the ground are not.
 // It holds still: what each scan sees farther on is a thing that moves.
 bool GaussianMap::FitVertical(const Matrix3& cov, const Sums& sums, SurfacePatch& patch) const {

@@ -254,8 +254,10 @@ void NdtMatcher::AddTerm(const NdtTerm& term, const SurfacePatch& patch,
   for (std::size_t i = 0; i < static_cast<std::size_t>(term.num_rows); ++i) {
     const NdtRow& row = term.rows[i];
     const Vector6f jacobian = share * JacobianRow(point, to_imu * row.direction);
-    if (patch.kind == SurfacePatch::Kind::kVertical)
-      sums.sure_information.Add(jacobian, row.sure_weight);
+    if (patch.kind == SurfacePatch::Kind::kVertical) {
+      const Vector6f sure = share * JacobianRow(point, to_imu * row.sure_direction);
+      sums.sure_information.Add(sure, row.sure_weight);
+    }
     const Vector6f gradient = sums.AddRow(jacobian, row.distance, row.weight, term.kernel);
     if (score != nullptr) score->rows[i] = {gradient, jacobian, row.distance, row.weight};
   }

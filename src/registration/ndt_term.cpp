@@ -27,6 +27,13 @@ NdtTerm TermOfPlane(const SurfacePatch& patch, const Eigen::Vector3f& from_mean,
   return term;
 }
 
+// A part of a wall tells nothing of a motion along it: the cell's side and the rings decide where
+// its points end.
+Eigen::Vector3f SurePartOf(const Eigen::Vector3f& direction, const SurfacePatch& patch) {
+  const Eigen::Vector3f& normal = patch.wall_normal();
+  return normal.isZero(0.f) ? direction : Eigen::Vector3f(direction.dot(normal) * normal);
+}
+
 NdtTerm TermOfVertical(const SurfacePatch& patch, const Eigen::Vector3f& from_mean, float num_here,
                        float radius_var) {
   const float shared = 1.f + num_here / patch.num_points;  // the mean's own error
@@ -48,6 +55,7 @@ NdtTerm TermOfVertical(const SurfacePatch& patch, const Eigen::Vector3f& from_me
   for (std::size_t i = 0; i < 2; ++i) {
     term.rows[i].weight = term.kernel.weight() / (variance[i] + num_here * kSharedVar_m2);
     term.rows[i].sure_weight = term.kernel.weight() / variance[i];
+    term.rows[i].sure_direction = SurePartOf(term.rows[i].direction, patch);
   }
   return term;
 }

@@ -15,7 +15,10 @@ struct NdtRow {
   Eigen::Vector3f direction = Eigen::Vector3f::Zero();  // axes of the patch
   float distance = 0.f;                                 // m
   float weight = 0.f;                                   // 1 / m^2
-  float sure_weight = 0.f;  // a vertical structure's, without the error its points share [1 / m^2]
+  // A vertical structure's: without the error that its points share [1 / m^2], and without the part
+  // of the direction along which nothing is sure.
+  float sure_weight = 0.f;
+  Eigen::Vector3f sure_direction = Eigen::Vector3f::Zero();
 };
 
 // Has one row for a plane, two for a vertical structure.

@@ -171,6 +171,52 @@ TEST(GaussianMapPatch, AThingThatMovesIsNoVerticalStructure) {
   }
 }
 
+// Returns points of a wall along x, of which the cell around `centre` has the last 15 cm.
+std::vector<Vector3> WallPoints(const Vector3& centre) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> along(0.35, 1.45);
+  std::uniform_real_distribution<double> height(-0.45, 0.45);
+  std::normal_distribution<double> across(0.0, 0.01);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 600; ++i) {
+    points.push_back(centre + Vector3(along(random), across(random), height(random)));
+  }
+  return points;
+}
+
+TEST(GaussianMapPatch, AnEndOfAWallIsNoPost) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 4, 1);
+  map.Insert(WallPoints(centre), Vector3::Zero());
+  ASSERT_EQ(PatchAt(map, centre + Vector3(1, 0, 0)).kind, SurfacePatch::Kind::kPlane);
+  ASSERT_EQ(PatchAt(map, centre).kind, SurfacePatch::Kind::kVertical);
+  EXPECT_NEAR(std::abs(PatchAt(map, centre).wall_normal().y()), 1.f, 0.01f);
+}
+
+TEST(GaussianMapPatch, APostBeforeAWallIsNoPartOfIt) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 4, 1);
+  const Vector3 post = centre - Vector3(0, 0.3, 0);
+  map.Insert(PostPoints(post, 0.05, 0.0), Vector3::Zero());
+  map.Insert(WallPoints(centre + Vector3(0.2, 0.1, 0)), Vector3::Zero());
+  ASSERT_EQ(PatchAt(map, centre + Vector3(1, 0, 0)).kind, SurfacePatch::Kind::kPlane);
+  ASSERT_EQ(PatchAt(map, post).kind, SurfacePatch::Kind::kVertical);
+  EXPECT_TRUE(PatchAt(map, post).wall_normal().isZero(0.f));
+}
+
+TEST(GaussianMapPatch, APostThatStandsAloneIsNoPartOfAWall) {
+  GaussianMap map(TestOptions());
+  const Vector3 centre = CentreOf(3, 4, 1);
+  map.Insert(PostPoints(centre, 0.1, 0.0), Vector3::Zero());
+  std::vector<Vector3> ground = ThickPlane(CentreOf(4, 4, 1), 0.01);
+  for (Vector3& point : ground) point.z() -= 0.3;
+  map.Insert(ground, CentreOf(4, 4, 5));
+  ASSERT_EQ(PatchAt(map, CentreOf(4, 4, 1)).kind, SurfacePatch::Kind::kPlane);
+  ASSERT_EQ(PatchAt(map, centre).kind, SurfacePatch::Kind::kVertical);
+  EXPECT_TRUE(PatchAt(map, centre).wall_normal().isZero(0.f))
+      << "the ground beside it does not stand";
+}
+
 // Points that fill the cell's middle and are cut off by its sides tell little of a place in it.
 TEST(GaussianMapPatch, BushesWiderThanTheCellDoNotCount) {
   GaussianMap map(TestOptions());

@@ -27,6 +27,7 @@ SurfacePatch Post() {
   patch.kind = SurfacePatch::Kind::kVertical;
   patch.normal = {1, 0, 0};
   patch.tangent1_per_std = {0, 20, 0};
+  patch.tangent2_per_std.setZero();
   return patch;
 }
 
@@ -88,6 +89,21 @@ TEST(NdtTerm, APostsPointsShareAnError) {
   const NdtTerm term = MakeNdtTerm(Post(), {0, 0, 0}, 40.f, 0.f);
   EXPECT_FLOAT_EQ(term.rows[0].weight, 1.f / (2.f * 0.0004f + 40.f * kShared_m * kShared_m));
   EXPECT_FLOAT_EQ(term.rows[1].weight, 1.f / (2.f * 0.0025f + 40.f * kShared_m * kShared_m));
+}
+
+TEST(NdtTerm, APartOfAWallIsSureOnlyAcrossTheWall) {
+  const NdtTerm post = MakeNdtTerm(Post(), {0.02f, 0.05f, 0}, 1.f, 0.f);
+  SurfacePatch end_of_wall = Post();
+  end_of_wall.tangent2_per_std = Eigen::Vector3f(0.6f, 0.8f, 0);
+  const NdtTerm part = MakeNdtTerm(end_of_wall, {0.02f, 0.05f, 0}, 1.f, 0.f);
+  const Eigen::Vector3f along_wall(-0.8f, 0.6f, 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(post.rows[i].sure_direction, post.rows[i].direction);
+    EXPECT_FLOAT_EQ(part.rows[i].weight, post.rows[i].weight);
+    EXPECT_NEAR(part.rows[i].sure_direction.dot(along_wall), 0.f, 1e-6f);
+    EXPECT_NEAR(part.rows[i].sure_direction.dot(end_of_wall.wall_normal()),
+                post.rows[i].direction.dot(end_of_wall.wall_normal()), 1e-6f);
+  }
 }
 
 }  // namespace

@@ -46,7 +46,11 @@ struct alignas(64) SurfacePatch {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float num_points = 0.f;
   Eigen::Vector3f tangent1_per_std = Eigen::Vector3f::Zero();  // tangent / sqrt(its variance)
+  // Of a vertical structure: the unit normal of the wall that it is a part of, zero where it is
+  // none.
   Eigen::Vector3f tangent2_per_std = Eigen::Vector3f::Zero();
+
+  [[nodiscard]] const Eigen::Vector3f& wall_normal() const { return tangent2_per_std; }
 };
 
 class GaussianMap {
@@ -157,6 +161,9 @@ class GaussianMap {
   [[nodiscard]] bool IsPost(const LevelSpread& spread, double height_var) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> ClumpVariance(const LevelSpread& spread,
                                                              int num_points) const;
+  [[nodiscard]] Eigen::Vector3f WallNormalOf(std::int32_t cell) const;
+  [[nodiscard]] std::optional<Eigen::Vector3f> WallBeside(std::int32_t cell,
+                                                          const Vector3& to_beside) const;
 
   NdtOptions options_;
   bool finds_vertical_;

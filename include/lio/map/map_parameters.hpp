@@ -43,6 +43,12 @@ struct GaussianMapParameters {
   // A vertical structure that is no post is a clump of leaves if it has so many points. Measured
   // against 8 and against no clumps: docs/experiments/vertical_structures.md.
   static constexpr int kMinClumpPoints = 15;
+  // A vertical structure whose mean lies so near to the plane of a cell beside it [m] is a part of
+  // it. Arithmetic: over 1 m a tunnel's wall of 5 m radius bends by as much.
+  static constexpr float kMaxOffWall_m = 0.1f;
+  // A plane stands if its normal and the horizontal form at most the angle of this sine. Chosen: 45
+  // deg.
+  static constexpr float kMaxWallSine = 0.7f;
   // The points that the last scan brought lie this far [m] off those before at most, along any
   // level direction, besides so many standard deviations of the two means' difference. Chosen: a
   // thing looks different from each side by a few centimetres, and one that walks is 0.1 m farther
