@@ -74,6 +74,7 @@ FilterReport MakeFilterReport(const Estimate& estimate, const ScanReport& report
                               const ReportContext& context) {
   FilterReport filter;
   filter.nav = MakeNav(estimate, context);
+  filter.is_inertial = context.imu != nullptr;
   const MapVelocity velocity = VelocityInMap(estimate);
   filter.v_map_imu_mps = velocity.v_map_imu;
   filter.map_velocity_cov = velocity.cov;
@@ -104,6 +105,7 @@ PoseRow MakePoseRow(const FilterReport& filter) {
   row.rotation_cov = nav.pose_cov.bottomRightCorner<3, 3>();
   row.R_world_imu = nav.T_world_imu.rotation;
   row.imu_noise = filter.imu_noise;
+  row.is_guessed = !filter.is_inertial && nav.status == TrackingStatus::kDegenerate;
   return row;
 }
 

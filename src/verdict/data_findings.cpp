@@ -104,6 +104,16 @@ void FindLost(const Counters& counters, std::vector<Cause>& causes) {
                     ""});
 }
 
+void FindGuessed(const RunTally& tally, std::vector<Cause>& causes) {
+  if (tally.Guessed_s() <= kDataFindings.max_guessed_s) return;
+  causes.push_back(
+      {CauseKind::kWayGuessed, Trust::kDoubtful, 0.0,
+       fmt::format("for {:.1f} s in a row scans showed no motion along some direction, "
+                   "as in a plain tunnel, and no IMU told it: the path there is a guess",
+                   tally.Guessed_s()),
+       ""});
+}
+
 }  // namespace
 
 std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tally,
@@ -128,6 +138,7 @@ std::vector<Cause> FindDataFaults(const Counters& counters, const RunTally& tall
   }
   FindBroken(counters, causes);
   FindLost(counters, causes);
+  FindGuessed(tally, causes);
   if (imu != nullptr) FindNoise(tally.MedianNoise(), *imu, causes);
   // Nobody knows what the body did while it had no poses.
   const bool is_watched = tally.Coverage() >= kRigExaminer.doubtful_coverage;

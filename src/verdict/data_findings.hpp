@@ -22,6 +22,9 @@ struct DataFindingParameters {
   // s. A sensor is missing at the end. Chosen: lidar-only odometry began a second before
   // (kImuGap.segment).
   double max_without_s = 2.0;
+  // s. The motion along a direction was guessed for so long. Physics: a body that accelerates by 1
+  // m/s^2 is then 2 m from where a constant velocity would have led it.
+  double max_guessed_s = 2.0;
   // The IMU's noise over the rig's. Measured: engines and roads in the simulator and KITTI give up
   // to 16 (docs/experiments/verdict.md); two powers of two above.
   double max_noise_ratio = 64.0;

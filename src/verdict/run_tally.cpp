@@ -52,6 +52,8 @@ void RunTally::AddRow(const PoseRow& row) {
   if (last_row_) {
     const double step_s = SecondsBetween(last_row_->stamp, row.stamp);
     if (row.is_located && step_s > 0.0) covered_s_ += std::min(step_s, kRunTally.max_step_s);
+    guess_s_ = row.is_guessed ? guess_s_ + std::clamp(step_s, 0.0, kRunTally.max_step_s) : 0.0;
+    longest_guess_s_ = std::max(longest_guess_s_, guess_s_);
     path_m_ += (row.T_map_imu.translation - last_row_->T_map_imu.translation).norm();
   }
   last_row_ = row;

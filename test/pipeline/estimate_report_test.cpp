@@ -270,5 +270,17 @@ TEST_F(EstimateReportTest, OnlyAMatchedScanIsLocatedForTheVerdict) {
   }
 }
 
+TEST_F(EstimateReportTest, OnlyWithoutAnImuIsTheMotionAlongABlindDirectionAGuess) {
+  FilterReport report = MakeFilterReport(estimate_, {}, Context());
+  for (const bool is_inertial : {false, true}) {
+    for (const auto status : {TrackingStatus::kOk, TrackingStatus::kDegenerate}) {
+      report.is_inertial = is_inertial;
+      report.nav.status = status;
+      EXPECT_EQ(MakePoseRow(report).is_guessed,
+                !is_inertial && status == TrackingStatus::kDegenerate);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lio

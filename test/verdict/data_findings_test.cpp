@@ -97,6 +97,24 @@ RunTally RunWithNoise(const ImuNoiseRatios& noise) {
   return tally;
 }
 
+// A body that stays blind for long may have stopped or driven on.
+TEST(DataFindings, AWayThatWasGuessedForLongLeavesDoubt) {
+  for (const int num_guessed : {15, 25}) {
+    RunTally tally = MovingRun();
+    for (int i = 100; i < 100 + num_guessed; ++i) {
+      PoseRow row;
+      row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
+      row.is_guessed = true;
+      tally.AddRow(row);
+    }
+    const std::vector<Cause> causes = FindDataFaults(CleanRun(), tally, nullptr);
+    ASSERT_EQ(causes.size(), num_guessed > 20 ? 1U : 0U);
+    if (causes.empty()) continue;
+    EXPECT_EQ(causes[0].kind, CauseKind::kWayGuessed);
+    EXPECT_EQ(causes[0].leaves, Trust::kDoubtful);
+  }
+}
+
 TEST(DataFindings, NoiseFarAboveTheRigIsNamedWhereItIsTooMuchToBeOfUse) {
   ImuRig tactical;
   tactical.gyro_noise_density = 1e-5;

@@ -65,6 +65,17 @@ TEST(RunTally, MedianNoiseIsKnownToAFactorOfTwo) {
   EXPECT_EQ(RunTally().MedianNoise().gyro, 0.0);
 }
 
+TEST(RunTally, TellsTheLongestTimeForWhichTheWayWasGuessed) {
+  RunTally tally;
+  for (int i = 0; i <= 100; ++i) {
+    PoseRow row;
+    row.stamp = At(0.1 * i);
+    row.is_guessed = (i >= 10 && i < 25) || (i >= 40 && i < 45);
+    tally.AddRow(row);
+  }
+  EXPECT_NEAR(tally.Guessed_s(), 1.5, 1e-6);
+}
+
 TEST(RunTally, TellsHowLongASensorIsMissingAtTheEnd) {
   RunTally tally = Drive(0.0, 20.0);
   for (int i = 0; i <= 50; ++i) tally.AddImu(At(20.0 + 0.1 * i));

@@ -61,6 +61,7 @@ struct NavOutput {
 // bias, accel bias, then the right error of T_map_imu [translation; rotation].
 struct FilterReport {
   NavOutput nav;
+  bool is_inertial = false;  // an IMU tells the motion between scans
   Vector3 v_map_imu_mps = Vector3::Zero();
   Matrix3 map_velocity_cov = Matrix3::Zero();  // in map
   Matrix6 map_as_world_cov = Matrix6::Zero();  // mean square error of T_map_imu as one in world

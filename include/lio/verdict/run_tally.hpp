@@ -44,6 +44,7 @@ struct PoseRow {
   Matrix3 rotation_cov = Matrix3::Zero();  // rad^2, right error of a level pose
   Quaternion R_world_imu = Quaternion::Identity();
   ImuNoiseRatios imu_noise;
+  bool is_guessed = false;  // the motion along a direction, which neither scan nor IMU has told
 };
 
 class RunTally {
@@ -64,6 +65,8 @@ class RunTally {
   // How long the input goes on after the last sweep, and after the last inertial sample, s.
   [[nodiscard]] double WithoutSweeps_s() const;
   [[nodiscard]] double WithoutImu_s() const;
+  // The longest time in a row for which all poses were guessed along a direction, s.
+  [[nodiscard]] double Guessed_s() const { return longest_guess_s_; }
   // The noise over the rig's that half of all rows exceed, to a factor of two; 0 without rows.
   [[nodiscard]] ImuNoiseRatios MedianNoise() const;
   [[nodiscard]] std::int64_t num_rows() const { return num_rows_; }
@@ -80,6 +83,8 @@ class RunTally {
   double covered_s_ = 0.0;
   double path_m_ = 0.0;
   double turned_rad_ = 0.0;
+  double guess_s_ = 0.0;  // since the last pose that was not guessed
+  double longest_guess_s_ = 0.0;
   std::int64_t num_rows_ = 0;
   NoiseBins gyro_noise_{};
   NoiseBins accel_noise_{};
