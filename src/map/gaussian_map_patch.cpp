@@ -116,9 +116,8 @@ std::optional<Eigen::Vector2d> GaussianMap::ClumpVariance(const LevelSpread& spr
   return spread.variance.array() / (1.0 - spread.variance.array() / even_var);
 }
 
-// Where a cell's side cuts off a part of a wall, or where few rings cross a wall, the points are as
-// narrow and tall as a post's; but beside the cell the wall goes on. Returns that wall's normal, or
-// zero.
+// A part of a wall that a cell's side cuts off, or that few rings cross, is as narrow and tall as a
+// post; but beside the cell the wall goes on. Returns that wall's normal, or zero.
 Eigen::Vector3f GaussianMap::WallNormalOf(std::int32_t cell) const {
   const SurfacePatch& post = patch(cell);
   if (post.thickness_var <= 0.f) return Eigen::Vector3f::Zero();

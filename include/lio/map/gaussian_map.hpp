@@ -46,8 +46,7 @@ struct alignas(64) SurfacePatch {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float num_points = 0.f;
   Eigen::Vector3f tangent1_per_std = Eigen::Vector3f::Zero();  // tangent / sqrt(its variance)
-  // Of a vertical structure: the unit normal of the wall that it is a part of, zero where it is
-  // none.
+  // A vertical structure has here the unit normal of the wall that it is a part of, or zero.
   Eigen::Vector3f tangent2_per_std = Eigen::Vector3f::Zero();
 
   [[nodiscard]] const Eigen::Vector3f& wall_normal() const { return tangent2_per_std; }
