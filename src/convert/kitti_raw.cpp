@@ -225,6 +225,9 @@ KittiRawReport ConvertKittiRaw(const KittiRawOptions& options) {
   return report;
 }
 
+// The synchronised release has 10 Hz. Chosen: between that and the slowest units.
+constexpr double kUsefulImuRate_hz = 20.0;
+
 std::string FormatReport(const KittiRawReport& report, const KittiRawOptions& options) {
   std::string text;
   const auto add = [&](std::string_view name, const std::string& value) {
@@ -246,6 +249,11 @@ std::string FormatReport(const KittiRawReport& report, const KittiRawOptions& op
   add("imu", fmt::format("{} samples at {:.2f} Hz{}", report.imu.num(), report.imu.rate_hz(),
                          options.imu_rate_hz ? ", interpolated linearly" : ""));
   if (report.imu.num() > 0) add("", span(report.imu));
+  if (!options.imu_rate_hz && report.imu.rate_hz() < kUsefulImuRate_hz) {
+    add("",
+        "too slow to tell the motion between: --imu-rate 100 interpolates, or run by the lidar "
+        "alone, with pipeline.use_imu: false");
+  }
   add("", fmt::format("mean |accel| {:.3f}, in the quietest second {:.3f}: {}",
                       report.accelerometer.mean_mps2(), report.accelerometer.quiet_mean_mps2(),
                       report.accelerometer.Suggestion()));

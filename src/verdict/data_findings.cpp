@@ -34,6 +34,13 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       "no inertial sample came: the path is the lidar's alone",
                       "pipeline:\n  use_imu: false\n"});
+  } else if (uses_imu && tally.IsImuSlow()) {
+    causes.push_back({CauseKind::kImuSlow, Trust::kDoubtful, 0.0,
+                      fmt::format("most inertial samples come {:.0f} ms and more after the one "
+                                  "before, and do not tell the motion between: 100 Hz and more "
+                                  "would; without them the path is the lidar's alone",
+                                  1e3 * kRunTally.slow_imu_s),
+                      "pipeline:\n  use_imu: false\n"});
   } else if (uses_imu && tally.WithoutImu_s() > kDataFindings.max_without_s) {
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       fmt::format("sweeps go on for {:.1f} s after the last inertial sample",

@@ -37,6 +37,14 @@ void RunTally::Include(Timestamp stamp) {
   newest_ = stamp;
 }
 
+void RunTally::AddImu(Timestamp stamp) {
+  const bool is_slow = last_imu_ && SecondsBetween(*last_imu_, stamp) > kRunTally.slow_imu_s;
+  num_slow_imu_ += is_slow ? 1 : 0;
+  ++num_imu_;
+  last_imu_ = stamp;
+  Include(stamp);
+}
+
 void RunTally::AddSweep(Timestamp end) {
   last_sweep_ = end;
   Include(end);

@@ -27,7 +27,7 @@ RunTally RunAt(double speed_mps, int num_rows = 100) {
     row.stamp = Timestamp{} + Duration::FromSeconds(0.1 * i);
     row.is_located = true;
     row.T_map_imu.translation.x() = 0.1 * speed_mps * i;
-    tally.AddImu(row.stamp);
+    for (int k = 0; k < 10; ++k) tally.AddImu(row.stamp + Duration::FromSeconds(0.01 * k));
     tally.AddSweep(row.stamp);
     if (i < num_rows) tally.AddRow(row);
   }
@@ -95,6 +95,18 @@ RunTally RunWithNoise(const ImuNoiseRatios& noise) {
     tally.AddRow(row);
   }
   return tally;
+}
+
+TEST(DataFindings, SlowInertialSamplesAreNamedAndDoneWithout) {
+  RunTally tally;
+  for (int i = 0; i < 100; ++i) {
+    tally.AddImu(Timestamp{} + Duration::FromSeconds(0.1 * i));
+    tally.AddSweep(Timestamp{} + Duration::FromSeconds(0.1 * i));
+  }
+  const std::vector<Cause> causes = FindDataFaults(CleanRun(), tally, &kImu);
+  ASSERT_EQ(causes.size(), 1U);
+  EXPECT_EQ(causes[0].kind, CauseKind::kImuSlow);
+  EXPECT_NE(causes[0].fix.find("use_imu: false"), std::string::npos);
 }
 
 // A body that stays blind for long may have stopped or driven on.

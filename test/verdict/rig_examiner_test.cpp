@@ -21,7 +21,7 @@ void AddRows(double posed_s, RigExaminer& examiner, double position_std_m = 0.0)
   const Motion motion = WindingDrive(0.0);
   for (int i = 0; i <= 400; ++i) {
     const double t_s = 0.1 * i;
-    examiner.tally().AddImu(StampAt(t_s));
+    for (int k = 0; k < 10; ++k) examiner.tally().AddImu(StampAt(t_s + 0.01 * k));
     examiner.tally().AddSweep(StampAt(t_s));
     if (t_s > posed_s) continue;
     PoseRow row;

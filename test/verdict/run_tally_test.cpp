@@ -65,6 +65,14 @@ TEST(RunTally, MedianNoiseIsKnownToAFactorOfTwo) {
   EXPECT_EQ(RunTally().MedianNoise().gyro, 0.0);
 }
 
+TEST(RunTally, AnImuOfTenHertzIsSlow) {
+  for (const double rate_hz : {10.0, 20.0}) {
+    RunTally tally;
+    for (int i = 0; i < 50; ++i) tally.AddImu(At(i / rate_hz));
+    EXPECT_EQ(tally.IsImuSlow(), rate_hz < 15.0) << rate_hz;
+  }
+}
+
 TEST(RunTally, TellsTheLongestTimeForWhichTheWayWasGuessed) {
   RunTally tally;
   for (int i = 0; i <= 100; ++i) {

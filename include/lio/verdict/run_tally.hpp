@@ -28,6 +28,9 @@ struct RunTallyParameters {
   // m. A shorter path says nothing of drift per 100 m. Chosen: on it the start's uncertainty alone
   // would be told.
   double min_path_m = 10.0;
+  // s. Inertial samples that come more seldom are slow. Chosen: from three quarters of
+  // kImuGap.unmeasured on, with stamps that jitter, starts wait in vain; 20 Hz suffice.
+  double slow_imu_s = 0.75 * kImuGap.unmeasured.Seconds();
   // Bins of the IMU's noise over the rig's, by powers of two. Chosen: up to 32 768, wider than any
   // unit's.
   static constexpr std::size_t kNumNoiseBins = 16;
@@ -49,10 +52,7 @@ struct PoseRow {
 
 class RunTally {
  public:
-  void AddImu(Timestamp stamp) {
-    last_imu_ = stamp;
-    Include(stamp);
-  }
+  void AddImu(Timestamp stamp);
   void AddSweep(Timestamp end);
   void AddRow(const PoseRow& row);
 
@@ -65,6 +65,8 @@ class RunTally {
   // How long the input goes on after the last sweep, and after the last inertial sample, s.
   [[nodiscard]] double WithoutSweeps_s() const;
   [[nodiscard]] double WithoutImu_s() const;
+  // Is the time between most inertial samples so long that the filter takes them for missing?
+  [[nodiscard]] bool IsImuSlow() const { return 2 * num_slow_imu_ > num_imu_; }
   // The longest time in a row for which all poses were guessed along a direction, s.
   [[nodiscard]] double Guessed_s() const { return longest_guess_s_; }
   // The noise over the rig's that half of all rows exceed, to a factor of two; 0 without rows.
@@ -86,6 +88,8 @@ class RunTally {
   double guess_s_ = 0.0;  // since the last pose that was not guessed
   double longest_guess_s_ = 0.0;
   std::int64_t num_rows_ = 0;
+  std::int64_t num_imu_ = 0;
+  std::int64_t num_slow_imu_ = 0;  // so long after the one before
   NoiseBins gyro_noise_{};
   NoiseBins accel_noise_{};
 };

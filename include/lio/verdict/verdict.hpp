@@ -24,6 +24,7 @@ enum class CauseKind : std::int8_t {
   kImuUnits,
   kImuGravity,
   kImuNoise,
+  kImuSlow,
   kLidarModel,
   kPointTime,
   kOwnVehicle,
@@ -41,12 +42,12 @@ enum class CauseKind : std::int8_t {
 
 // In the order of the enumerators; verdict.json has these words.
 inline constexpr std::array<std::string_view, 3> kTrustNames = {"yes", "doubtful", "no"};
-inline constexpr std::array<std::string_view, 21> kCauseNames = {
-    "clock_offset", "lever_arm",     "extrinsic_rotation", "extrinsic_inverted", "imu_axes",
-    "imu_units",    "imu_gravity",   "imu_noise",          "lidar_model",        "point_time",
-    "own_vehicle",  "saturation",    "imu_broken",         "lidar_repeats",      "way_lost",
-    "way_guessed",  "place_unknown", "two_senders",        "no_motion",          "no_scans",
-    "no_imu"};
+inline constexpr std::array<std::string_view, 22> kCauseNames = {
+    "clock_offset", "lever_arm",   "extrinsic_rotation", "extrinsic_inverted", "imu_axes",
+    "imu_units",    "imu_gravity", "imu_noise",          "imu_slow",           "lidar_model",
+    "point_time",   "own_vehicle", "saturation",         "imu_broken",         "lidar_repeats",
+    "way_lost",     "way_guessed", "place_unknown",      "two_senders",        "no_motion",
+    "no_scans",     "no_imu"};
 
 [[nodiscard]] constexpr std::string_view Name(Trust trust) {
   return kTrustNames[static_cast<std::size_t>(trust)];
