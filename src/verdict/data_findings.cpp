@@ -13,6 +13,8 @@
 namespace lio {
 namespace {
 
+constexpr const char* kWithoutImuYaml = "pipeline:\n  use_imu: false\n";
+
 double Share(std::int64_t part, std::int64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -32,15 +34,14 @@ void FindMissing(const Counters& counters, const RunTally& tally, bool uses_imu,
   }
   if (uses_imu && counters.num_imu == 0) {
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
-                      "no inertial sample came: the path is the lidar's alone",
-                      "pipeline:\n  use_imu: false\n"});
+                      "no inertial sample came: the path is the lidar's alone", kWithoutImuYaml});
   } else if (uses_imu && tally.IsImuSlow()) {
     causes.push_back({CauseKind::kImuSlow, Trust::kDoubtful, 0.0,
                       fmt::format("most inertial samples come {:.0f} ms and more after the one "
                                   "before, and do not tell the motion between: 100 Hz and more "
                                   "would; without them the path is the lidar's alone",
                                   1e3 * kRunTally.slow_imu_s),
-                      "pipeline:\n  use_imu: false\n"});
+                      kWithoutImuYaml});
   } else if (uses_imu && tally.WithoutImu_s() > kDataFindings.max_without_s) {
     causes.push_back({CauseKind::kNoImu, Trust::kDoubtful, 0.0,
                       fmt::format("sweeps go on for {:.1f} s after the last inertial sample",
